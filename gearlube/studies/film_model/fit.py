@@ -192,7 +192,8 @@ def domain_of(box: Box, groups: Array) -> tuple[Array, Array]:
     # groups that follow from the others: down to what was met, up to their limit
     for name, most in (("heat", math.log(MOST_HEAT)), ("thickness", DOMAIN.most_thickness)):
         n = FilmGroups._fields.index(name)
-        low[n], high[n] = groups[:, n].min(), most
+        least = groups[:, n].min()
+        low[n], high[n] = least - _BORDER * (most - least), most
     low[0] += math.log(DOMAIN.least_pressure / TRAINED.least_pressure)
     return low, high
 

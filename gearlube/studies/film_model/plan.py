@@ -29,7 +29,7 @@ class FilmTask(NamedTuple):
     """One film to solve."""
 
     kind: str  # box, axle: training; calibration, fresh: kept apart
-    index: int  # of the contact in its set
+    number: int  # of the contact in its set
     nodes: tuple[int, int]
     contact: FilmContact
 
@@ -55,19 +55,19 @@ class FilmPlan:
 
     Examples
     --------
-    >>> FilmPlan(box=8, axle=4, calibration=4, fresh=4, fine_box=2, fine_axle=1).solves
-    23
+    >>> FilmPlan(box=100, fine_box=10).solves  # calibration, fresh and fine_axle as they are
+    1014
     """
 
     oils: tuple[str, ...] = ("mohammadpour_2015", "karagiannis_2012")
     mesh_table: str = "mohammadpour_2015"
-    box: int = 1024
+    box: int = 760
     axle: int = 300
-    calibration: int = 300
-    fresh: int = 320
-    fine_box: int = 80
+    calibration: int = 250
+    fresh: int = 304
+    fine_box: int = 60
     fine_axle: int = 30
-    fine_fresh: int = 0
+    fine_fresh: int = 20
     seed: int = 20
 
     def __post_init__(self) -> None:

@@ -70,7 +70,7 @@ def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmPro
     shift, scale = x.mean(axis=0), x.std(axis=0)
     scale = np.where(scale > 1e-9 * np.abs(shift), scale, 1.0)
     x = (x - shift) / scale
-    straight = np.linalg.lstsq(_lines(x), values, rcond=None)[0]
+    straight = np.asarray(np.linalg.lstsq(_lines(x), values, rcond=None)[0], dtype=np.float64)
     rest = values - _lines(x) @ straight
     spread = float(rest.std())
     kernel = ConstantKernel(4.0, (1e-2, 1e5)) * RBF(np.full(x.shape[1], 5.0), _LENGTHS)

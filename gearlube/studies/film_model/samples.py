@@ -189,7 +189,7 @@ def axle_contacts(
         side = 1.0 if rng.random() < 0.75 else -1.0
         most = 400.0 if side > 0.0 else 100.0
         torque = math.exp(rng.uniform(math.log(5.0), math.log(most)))
-        oil = oils[rng.integers(len(oils))]
+        oil = oils[int(rng.integers(len(oils)))]
         temperature = rng.uniform(*oil_temperatures(oil))
         tau0 = 1e6 * math.exp(rng.uniform(0.0, math.log(10.0)))
         factor = rng.uniform(0.8, 1.2)

@@ -33,7 +33,7 @@ class SolveRow(NamedTuple):
 
 def row_key(task: FilmTask) -> str:
     """Return the key of a task in the table."""
-    return f"{task.kind}-{task.index}-{task.nodes[0]}x{task.nodes[1]}"
+    return f"{task.kind}-{task.number}-{task.nodes[0]}x{task.nodes[1]}"
 
 
 @dataclass(slots=True)
@@ -87,7 +87,7 @@ class SolveTable:
             task = result.task
             numbers = (*task.contact, *result.solved)
             texts = (repr(float(value)) for value in numbers)
-            writer.writerow([task.kind, task.index, *task.nodes, *texts, result.failure])
+            writer.writerow([task.kind, task.number, *task.nodes, *texts, result.failure])
 
 
 def _row(cells: list[str]) -> SolveRow | None:

@@ -22,7 +22,7 @@ from gearlube_core.film_model.reference_friction import reference_friction
 
 # of second order in the spacing: the finer grid's distance to the limit is a third of that between
 # the grids, and the coarser one's four thirds
-_TO_LIMIT = 4.0 / 3.0
+TO_LIMIT = 4.0 / 3.0
 
 
 class Targets(NamedTuple):
@@ -71,7 +71,7 @@ def solved_rows(rows: Sequence[SolveRow], *kinds: str, fine: bool = False) -> li
     """Return the rows of some kinds on one grid that did not fail, by kind and index."""
     nodes = FINE if fine else COARSE
     found = [r for r in rows if r.task.kind in kinds and r.task.nodes == nodes and not r.failure]
-    return sorted(found, key=lambda row: (row.task.kind, row.task.index))
+    return sorted(found, key=lambda row: (row.task.kind, row.task.number))
 
 
 def grid_corrections(rows: Sequence[SolveRow], *kinds: str) -> tuple[Targets, Array]:
@@ -79,8 +79,8 @@ def grid_corrections(rows: Sequence[SolveRow], *kinds: str) -> tuple[Targets, Ar
 
     The second is (n, 2): of ln h, and of ln(mu/mu_ref(h)).
     """
-    fine = {(r.task.kind, r.task.index): r for r in solved_rows(rows, *kinds, fine=True)}
-    coarse = [r for r in solved_rows(rows, *kinds) if (r.task.kind, r.task.index) in fine]
-    finer = [fine[row.task.kind, row.task.index] for row in coarse]
+    fine = {(r.task.kind, r.task.number): r for r in solved_rows(rows, *kinds, fine=True)}
+    coarse = [r for r in solved_rows(rows, *kinds) if (r.task.kind, r.task.number) in fine]
+    finer = [fine[row.task.kind, row.task.number] for row in coarse]
     on_coarse, on_fine = targets_of(coarse), targets_of(finer)
-    return on_coarse, _TO_LIMIT * (on_fine.values - on_coarse.values)
+    return on_coarse, TO_LIMIT * (on_fine.values - on_coarse.values)

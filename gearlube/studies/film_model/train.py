@@ -10,6 +10,7 @@ from pathlib import Path
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.solve import Solved, solve_contact
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
+from gearlube_core.checks import check_address
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_text
@@ -19,7 +20,8 @@ from gearlube_core.storage.resumable import resumable_results
 logger = logging.getLogger("gearlube")
 
 PLAN, SOLVES = "plan.json", "solves.csv"
-_NOTHING = Solved(*[math.nan] * 6, 0.0, 0.0)
+_NAN = math.nan
+_NOTHING = Solved(_NAN, _NAN, _NAN, _NAN, _NAN, _NAN, 0.0, 0.0)
 
 
 def train(
@@ -116,3 +118,29 @@ def failed_row(task: FilmTask, error: Exception) -> SolveRow:
     reason = " ".join(f"{type(error).__name__}: {error}".split())
     logger.debug("%s: %s", row_key(task), reason)
     return SolveRow(task, _NOTHING, reason[:200])
+
+
+def pool_of(jobs: int | None, scheduler: str | None) -> Pool:
+    """Return local processes, or the workers of a Dask cluster.
+
+    Raises
+    ------
+    ParameterError
+        Both are given, or the address is none.
+    """
+    if scheduler is None:
+        return ProcessPool(jobs=jobs)
+    if jobs is not None:
+        raise ParameterError("--jobs must be left out beside --scheduler. Workers do the work.")
+    from gearlube_core.storage.dask_pool import DaskPool, NamedPlugin
+
+    plugin = NamedPlugin()
+    plugin.name = "gearlube-film-model"
+    return DaskPool(check_address(scheduler), plugin)
+
+
+def failures_in_words(table: SolveTable) -> list[str]:
+    """Return which films failed and why, at most ten."""
+    failed = [row for row in table.rows.values() if row.failure]
+    lines = [f"{row_key(row.task)}: {row.failure}" for row in failed[:10]]
+    return [f"{len(failed)} of {len(table.rows)} films failed.", *lines] if failed else []
