@@ -49,13 +49,14 @@ _AS_PINION = "as the pinion's"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CarAxle:
-    """An axle in its car, as an axle file gives them.
+    """An axle and its car, as `read_axle` returns them from an axle file.
 
     Parameters
     ----------
     name, source : str
-        Of the file.
+        Name and source in the file.
     axle : HypoidAxleParameters
+        Parameters of the axle model.
     driveline : DrivelineParameters
         The car from the crankshaft to the road; its final drive has the teeth of the mesh table.
     inputs : tuple of InputNote
@@ -95,8 +96,8 @@ class AxleFile(InputFile):
     package: ClassVar[str] = "drivetrain.axle_file"
     title: ClassVar[str] = "axle file"
 
-    name: Text = Field(default="axle", description="What reports call the axle")
-    source: Text | None = Field(default=None, description="Where the numbers are from")
+    name: Text = Field(default="axle", description="Name of the axle in reports")
+    source: Text | None = Field(default=None, description="Where the numbers come from")
     gear_set: GearSet = Field(default={}, validate_default=True)  # type: ignore[arg-type]
     pinion: Member = Member()
     gear: Member = Member()
@@ -111,7 +112,7 @@ class AxleFile(InputFile):
     engine: EngineSection = EngineSection()
     driveline: DrivelineSection = DrivelineSection()
     tolerances: Tolerances = Field(
-        default={}, description="How fields scatter from part to part, by their dotted names"
+        default={}, description="Scatter of fields from part to part, by their dotted names"
     )
 
     @model_validator(mode="after")

@@ -38,41 +38,44 @@ class GearSet(ModelSection):
 
     mesh_table: Text | None = Field(
         default=None,
-        description="Shipped mesh table, or a file (.nc) of `gearlube contact`, its path relative "
-        "to the axle file; this or gear_file",
+        description="Name of a shipped mesh table, or a file (.nc) written by `gearlube "
+        "contact`, its path relative to the axle file; give this or gear_file",
     )
     gear_file: Text | None = Field(
         default=None,
-        description="Gear file (.toml) of a hypoid pair, its path relative to the axle file: its "
-        "loaded contact is analysed once, and kept beside it",
+        description="Gear file (.toml) of a hypoid pair, its path relative to the axle file; "
+        "its loaded contact is analysed once and kept beside it",
     )
     contact_torques_n_m: Torques | None = Field(
         default=None,
-        description="Pinion torques at which the gears of gear_file are analysed, rising, used on "
-        "either flank; absent: 5, 10, 20, 50, 100, 200, 300, 400",
+        description="Pinion torques at which the gears of gear_file are analysed, rising, for "
+        "both flanks; left out: 5, 10, 20, 50, 100, 200, 300, 400",
     )
     backlash_um: Backlash | None = Field(
         default=None, description="Total backlash, along the line of action"
     )
     roughness_rms_um: Roughness | None = Field(
-        default=None, description="Composite root mean square of both flanks"
+        default=None, description="Composite RMS roughness of both flanks"
     )
     asperity_table: Text | None = Field(
         default=None,
-        description="File (.nc) of `gearlube roughness flow-factors`, its path relative to the "
-        "axle file: Greenwood and Tripp's law is fitted to it; absent: finished gear flanks",
+        description="File (.nc) written by `gearlube roughness flow-factors`, its path relative "
+        "to the axle file; Greenwood and Tripp's law is fitted to it; left out: finished gear "
+        "flanks",
     )
     radii: Literal["consistent", "paper", "mean"] | None = Field(
-        default=None, description="Radii on which the mesh force acts"
+        default=None, description="Radii at which the mesh force acts"
     )
     mesh_stiffness: Literal["tangent", "secant"] | None = Field(
-        default=None, description="Spring of the mesh: tangent at its load, or secant"
+        default=None,
+        description="Stiffness of the mesh under load: tangent or secant of its force over "
+        "deflection",
     )
     mesh_damping: Literal["hysteretic", "modal"] | None = Field(
         default=None, description="Law of the mesh damping"
     )
     modal_loss_factor: LossFactor | None = Field(
-        default=None, description="Twice the damping ratio of the mesh, for modal damping"
+        default=None, description="Only for modal damping: twice the damping ratio of the mesh"
     )
     hysteretic_loss: Hysteresis | None = Field(
         default=None, description="Coefficient of the hysteretic damping"
@@ -146,24 +149,28 @@ class ModelOptions(ModelSection):
     renamed: ClassVar[Mapping[str, str]] = {"flank_rolling": "rolling"}
 
     equations: Literal["consistent", "as_printed"] | None = Field(
-        default=None, description="Equations of motion: with corrected misprints, or as printed"
+        default=None,
+        description="Equations of motion: consistent with misprints of the paper corrected, or "
+        "as printed in it",
     )
     friction: Friction | None = Field(
         default=None,
-        description="Friction law of the flanks; zhou_hoeprich_1991: as consistent, but asperities "
-        "carry a share of the load that goes to 1 without a film",
+        description="Friction law of the flanks; zhou_hoeprich_1991: as consistent, but the "
+        "asperities carry all load when there is no film",
     )
     flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
         default=None, description="Rolling loss of the flanks"
     )
     bearing_torque_loss: TorqueLoss | None = Field(
         default=None,
-        description="Drag torque of the bearings; palmgren: under the preload; palmgren_loaded, "
-        "skf_2013: under the forces of each bearing; others: of raceways, ribs and oil, under the "
+        description="Drag torque of the bearings. palmgren: under the preload; palmgren_loaded, "
+        "skf_2013: under the forces on each bearing; others: raceways, ribs and oil, under the "
         "load of each roller",
     )
     bearing_approach: Literal["full", "as_printed"] | None = Field(
-        default=None, description="Roller approach under shaft displacement: full, or halved"
+        default=None,
+        description="Approach of a roller to the races under a shaft displacement: all of it, "
+        "or half",
     )
     steps_per_mesh_period: Annotated[int, Field(ge=16, le=4096)] | None = Field(
         default=None, description="Integration steps in one mesh period"

@@ -37,24 +37,26 @@ class OilSection(ModelSection):
     """A shipped oil, or what differs from it."""
 
     name: Text | None = Field(
-        default=None, description="Name of a shipped oil; absent fields are taken from it"
+        default=None,
+        description="Name of a shipped oil; fields that are left out are taken from it",
     )
     file: Text | None = Field(
         default=None,
-        description="Oil file (.toml), its path relative to the axle file, in place of all others",
+        description="Oil file (.toml), its path relative to the axle file; give it alone, "
+        "without any other field of this section",
     )
     viscosity_40_degc_mm2_s: Viscosity | None = Field(
-        default=None, description="Kinematic viscosity at 40 degC; give that at 100 degC too"
+        default=None, description="Kinematic viscosity at 40 degC; give also that at 100 degC"
     )
     viscosity_100_degc_mm2_s: Viscosity | None = Field(
         default=None, description="Kinematic viscosity at 100 degC"
     )
     walther_a: WaltherA | None = Field(
         default=None,
-        description="A of log log(nu + 0.7) = A - B log T, nu in mm2/s, T in K; with walther_b, in "
-        "place of the two viscosities",
+        description="A of Walther's equation log log(nu + 0.7) = A - B log T, nu in mm2/s, T in "
+        "K; with walther_b, instead of the two viscosities",
     )
-    walther_b: WaltherB | None = Field(default=None, description="B of the equation of walther_a")
+    walther_b: WaltherB | None = Field(default=None, description="B of Walther's equation")
     density_kg_m3: Density | None = Field(
         default=None, description="Density, taken as constant at all temperatures"
     )
@@ -62,22 +64,25 @@ class OilSection(ModelSection):
         default=None, description="Pressure-viscosity coefficient at low pressure"
     )
     alpha_temperature_degc: Temperature | None = Field(
-        default=None, description="Temperature at which alpha holds"
+        default=None, description="Temperature to which alpha belongs"
     )
     eyring_stress_mpa: Stress | None = Field(
         default=None, description="Shear stress at which shear thinning begins (Eyring)"
     )
     limiting_shear_stress_mpa: Strength | None = Field(
-        default=None, description="Shear strength of boundary junctions at zero pressure"
+        default=None,
+        description="Shear strength of the boundary layer between asperities, at zero pressure",
     )
     boundary_friction: Share | None = Field(
-        default=None, description="Increase of limiting_shear_stress_mpa per unit of pressure"
+        default=None,
+        description="Friction coefficient of the boundary layer: how much its shear strength "
+        "rises per pressure",
     )
     conductivity_w_m_k: Conductivity | None = Field(
         default=None, description="Thermal conductivity"
     )
     conductivity_temperature_degc: Temperature | None = Field(
-        default=None, description="Temperature at which conductivity_w_m_k holds"
+        default=None, description="Temperature to which conductivity_w_m_k belongs"
     )
     conductivity_slope_w_m_k2: Slope | None = Field(
         default=None, description="Change of the conductivity with temperature"

@@ -24,15 +24,16 @@ _QUICK = ("sweep", "helical", "contact", "resonance")
 
 
 def point_study(name: str, file: str | None = None, *, quick: bool = False) -> PointStudy:
-    """Return a study of a file, or of the shipped one.
+    """Return a study that `run_variation` can run at many points, of a file or of the shipped one.
 
     Parameters
     ----------
     name : {"map", "sweep", "cycle", "bearing", "helical", "contact", "resonance"}
     file : str, optional
-        Axle, bearing or gear file, of resonance a mesh table; or the name of a shipped one.
+        Axle, bearing or gear file, or a mesh table for resonance; or the name of a shipped one.
     quick : bool
-        Short records of the sweep; coarse teeth, few positions or frequencies of gear pairs.
+        True: short records of the sweep; coarse teeth and few positions or frequencies of gear
+        pairs.
 
     Examples
     --------

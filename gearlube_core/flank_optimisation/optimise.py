@@ -27,22 +27,23 @@ EVALUATIONS, POSITIONS = "evaluations", "positions"  # folders of what is kept
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OptimiseSettings:
-    """What is computed, and how finely.
+    """What `run_optimise` computes, and how finely.
 
     Parameters
     ----------
     search : SearchSettings
     check : CheckSettings
     checks : int
-        Searches at most: after each the plain analysis checks the limits, and those that it finds
-        broken are tightened in the next.
+        Largest number of searches. After each one the full analysis checks the limits; limits that
+        are not kept are tightened for the next search.
     front : int
-        Points of the front of whine against loss; 0: none.
+        Number of points on the front of whine against loss; 0: none.
     nominal : bool
         Whether the best pair without errors is searched too, for comparison.
     body : ToothBodySettings
-        Of a hypoid pair's teeth.
+        Elastic teeth of a hypoid pair.
     helical_body : HelicalBodySettings
+        Elastic teeth of a helical pair.
 
     Examples
     --------

@@ -21,12 +21,14 @@ from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactSettings:
-    """Loads and positions of an analysis, and the elastic bodies.
+    """Loads, positions and elastic teeth of a contact analysis, for `run_contact`.
 
     Parameters
     ----------
     cycle : CycleSettings
+        Torques and mesh positions.
     body : ToothBodySettings
+        Elastic teeth.
 
     Examples
     --------

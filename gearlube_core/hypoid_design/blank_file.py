@@ -38,7 +38,7 @@ _OWN = "this package's choice"
 
 
 class BlankFile(InputFile):
-    """Teeth, offset, size, spiral angle and cutter of a pair that is to be designed.
+    """Blank file of a hypoid or bevel pair to be designed: teeth, offset, size, spiral, cutter.
 
     References
     ----------
@@ -57,8 +57,8 @@ class BlankFile(InputFile):
     name: Text = Field(description="Name of the pair in reports and in the designed gear file")
     method: Method | None = Field(
         None,
-        description="Method of ISO 23509 for the pitch cones; absent: the one that the given "
-        "diameter and spiral angle belong to",
+        description="Method of ISO 23509 for the pitch cones; left out: the method to which the "
+        "given diameter and spiral angle belong",
     )
     pair: BlankPair
     cutter: BlankCutter

@@ -120,7 +120,7 @@ def skewness_kurtosis(height: Array) -> tuple[float, float]:
 
 
 def profile_statistics(profile: Profile) -> ProfileStatistics:
-    """Return the statistics of a levelled, filtered profile.
+    """Return height and slope statistics (Ra, Rq, ...) of a levelled, filtered profile.
 
     Raises
     ------
@@ -160,7 +160,7 @@ def profile_statistics(profile: Profile) -> ProfileStatistics:
 
 
 def map_statistics(surface: HeightMap) -> MapStatistics:
-    """Return the statistics of a levelled, filtered map.
+    """Return height and slope statistics (Sa, Sq, ...) of a levelled, filtered map.
 
     Raises
     ------

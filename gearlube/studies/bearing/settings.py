@@ -19,18 +19,18 @@ MOST_POINTS = 50_000  # conditions times laws
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BearingSettings:
-    """Speeds, loads and temperatures of a study, all combined, and its laws.
+    """Speeds, loads, temperatures and laws of a bearing study; all are combined.
 
     Parameters
     ----------
     speeds : tuple of float
-        Of the shaft [rad/s].
+        Speeds of the shaft [rad/s].
     axial_loads, radial_loads : tuple of float
-        Of the bearing [N].
+        Loads on the bearing [N].
     temperatures : tuple of float
-        Of the oil at the bearing [K].
+        Temperatures of the oil in the bearing [K].
     models : tuple of LossModel
-        The laws; the first is the one whose parts are drawn.
+        Friction laws; figures show the parts of the first one.
 
     Examples
     --------

@@ -45,21 +45,21 @@ def run_contact(
     progress: Progress = no_progress,
     command_line: str = "",
 ) -> ContactResults:
-    """Return the tooth contact of a gear file, unloaded and loaded.
+    """Return the tooth contact of a hypoid gear file, without and under load, and its mesh table.
 
     Parameters
     ----------
     file : HypoidGearFile
     settings : ContactSettings
     folder : Path, optional
-        Gets contact.nc, report.html, figures/ and the mesh table as NAME.nc. Finished positions
-        are kept there in `positions`: the same call goes on after a stop.
+        Folder for contact.nc, report.html, figures/ and the mesh table NAME.nc. Finished positions
+        are kept in its folder `positions`: after a stop the same call continues.
     jobs : int, optional
-        Processes; default: all processors.
+        Number of processes; default: all processors.
     progress : callable, optional
         Called with the share of positions that is done [-] and a sentence on what runs.
     command_line : str
-        Kept in the report.
+        Command that the report shows.
 
     Raises
     ------
@@ -68,7 +68,8 @@ def run_contact(
     ConvergenceError
         A position finds no equilibrium.
     TableError
-        More tooth pairs carry than a mesh table holds, at any torque. All else is written before.
+        At some torque more tooth pairs carry load than a mesh table can hold. All other results are
+        written before.
 
     Examples
     --------

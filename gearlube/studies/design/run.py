@@ -48,24 +48,24 @@ def run_design(
     progress: Progress = no_progress,
     command_line: str = "",
 ) -> DesignResults:
-    """Return the pair that a blank file asks for, with its unloaded contact.
+    """Return the hypoid or bevel pair designed from a blank file, with its unloaded contact.
 
     Parameters
     ----------
     file : BlankFile
     folder : Path, optional
-        Gets the results as `write_design` writes them, once all is found.
+        Folder for the results of `write_design`, which are written at the end.
     jobs : int, optional
         Processes for the elastic teeth, which the relief needs; None: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
     command_line : str
-        For the report.
+        Command that the report shows.
 
     Raises
     ------
     ParameterError
-        The blank cannot exist, or no settings were found with which the flanks touch as asked.
+        The blank cannot exist, or no settings were found with which the flanks touch as wanted.
 
     Examples
     --------

@@ -37,7 +37,8 @@ def run_cycle(
     settings
         Car, cycle, temperatures, brakes, heat.
     folder
-        Where drive_cycle.nc, drive_cycle.csv, summary.csv and figures are written; None: nowhere.
+        Folder for drive_cycle.nc, drive_cycle.csv, summary.csv and figures; None: nothing is
+        written.
     progress
         Called with the share that is done and a sentence.
 
@@ -46,17 +47,17 @@ def run_cycle(
     xr.Dataset
         Over the steps of the trace torques, speeds and `loss` by source [W]; at its rows
         `oil_temperature` [degC]; `energy_in`, `energy_lost` by source [kJ], `efficiency`, and the
-        bounds of 95 % of the draws.
+        bounds of 95 % of the samples.
 
     Raises
     ------
     ParameterError
-        Torque or temperature is out of range; torque before anything has been computed.
+        Torque or temperature is out of range; for torque before anything has been computed.
 
     Notes
     -----
-    Each step loses what the axle loses in steady running at the torque, speed and oil temperature
-    of its middle. Standing still loses nothing.
+    The loss in each step is that of steady running at the torque, speed and oil temperature in the
+    middle of the step. At standstill nothing is lost.
 
     Examples
     --------

@@ -25,21 +25,24 @@ _STEEPEST = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveCycle:
-    """Speed over time of a vehicle, or speed and torque of its pinion.
+    """A drive cycle: vehicle speed over time, or pinion speed and torque as measured.
 
-    Between two rows all quantities are straight lines.
+    All quantities are linear between two rows.
 
     Parameters
     ----------
     name : str
     time : ndarray of shape (n,)
-        Rising [s]. No step is longer than 5 s or, above 2 s, than ten usual steps.
+        Times [s], rising. No step is longer than 5 s, or longer than ten usual steps if it is above
+        2 s.
     speed : ndarray of shape (n,), optional
-        Of the vehicle, 0 to 90 [m/s]. It gains at most 8 and loses at most 12 m/s2.
+        Vehicle speed, 0 to 90 [m/s]. It rises by at most 8 m/s2 and falls by at most 12 m/s2.
     grade : ndarray of shape (n,), optional
-        Rise over horizontal distance [-], -0.5 to 0.5. Default: that of the vehicle.
+        Slope of the road, rise over horizontal distance [-], -0.5 to 0.5. Default: that of the
+        vehicle.
     pinion_speed, pinion_torque : ndarray of shape (n,), optional
-        As measured, in the place of speed and grade [rad/s], [N.m]; torque below 0: coast.
+        Measured pinion speed and torque, instead of speed and grade [rad/s], [N.m]; torque below 0:
+        coast.
 
     Raises
     ------

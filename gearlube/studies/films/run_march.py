@@ -17,7 +17,7 @@ from gearlube.studies.films.datasets.helical_cycle import (
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished, step_file, write_film_results
-from gearlube.studies.films.run_steady import warn_of_ends, warn_of_grid
+from gearlube.studies.films.run_steady import note_roughness, warn_of_ends, warn_of_grid
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
@@ -33,17 +33,17 @@ MOST_STEPS = 100_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarchSteps:
-    """Steps of the meshing cycle that a march covers.
+    """Steps of the meshing cycle that `run_helical_march` covers, and what it keeps of them.
 
     Parameters
     ----------
     first, last
         First and last step; `last` None: that of the cycle. The film is steady at the first.
     snapshots
-        Steps whose whole film is written, beside that of the line at rest there. They need a
-        folder.
+        Steps whose whole film is written, together with the steady film of the same line. They need
+        a folder.
     record_every
-        Steps from one record of the march to the next. A stopped march goes on from its last
+        Number of steps between two records of the march. A stopped march continues from its last
         record.
 
     Examples
@@ -82,19 +82,19 @@ def run_helical_march(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the film of a contact line over the steps of its meshing cycle, with squeeze.
+    """Return the film of a helical pair's contact line through its meshing cycle, with squeeze.
 
     Parameters
     ----------
     case
-        Gear pair, operation, oil and grid; its `step` and `position` have no meaning here.
+        Gear pair, operation, oil and grid; its `step` and `position` are not used.
     steps
-        Of the march; the whole cycle if left out.
+        Steps of the march; default: the whole cycle.
     folder
-        Where cycle.nc, figures, snapshots and records of the march are written. A march goes on
-        from its record in `folder` if there is one. None: nothing is written.
+        Folder for cycle.nc, figures, snapshots and records of the march. If there is a record, the
+        march continues from it. None: nothing is written.
     progress
-        Called with the share done and what is done now.
+        Called with the share done and a sentence on what runs.
 
     Returns
     -------
@@ -163,6 +163,7 @@ def run_helical_march(
             _finish_snapshot(folder, step, key, steady[step])
     curves = cycle_dataset(film, cycle, lines, start=start, repeated=steps.repeat, **names)
     dataset = with_steady_points(curves, steady)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress, films / (films + 1))
 

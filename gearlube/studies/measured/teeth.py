@@ -62,7 +62,9 @@ def run_tooth_errors(
     jobs: int | None = None,
     progress: Progress = no_progress,
 ) -> ToothErrorResults:
-    """Return what the teeth of a measured pair add to its mesh table.
+    """Return a mesh table that includes the measured differences from tooth to tooth.
+
+    These are pitch errors, eccentricity and waves.
 
     Parameters
     ----------
@@ -71,21 +73,22 @@ def run_tooth_errors(
     table : str or Path
         Mesh table of the measured flanks, from `gearlube contact`.
     positions : int
-        In a mesh period; orders are kept up to a quarter of them times the teeth.
+        Number of positions in a mesh period; orders are kept up to a quarter of this number times
+        the teeth.
     body : ToothBodySettings, optional
-        Elastic teeth; those of `gearlube contact` by default.
+        Elastic teeth; default: those of `gearlube contact`.
     folder : Path, optional
-        Gets the mesh table NAME.nc, tooth_errors.nc and tooth_errors.png; finished positions are
-        kept in `positions`, so that the same call goes on after a stop.
+        Folder for the mesh table NAME.nc, tooth_errors.nc and tooth_errors.png. Finished positions
+        are kept in its folder `positions`: after a stop the same call continues.
     jobs, progress
         As in `run_contact`.
 
     Raises
     ------
     ParameterError
-        A file is wrong, all teeth are alike, or waves are too many for the positions.
+        A file is wrong, all teeth are equal, or there are too many waves for the positions.
     ConvergenceError
-        Errors of single teeth are too large beside the deflection.
+        Errors of single teeth are too large compared with the deflection.
 
     Examples
     --------

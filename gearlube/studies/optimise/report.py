@@ -14,13 +14,13 @@ from gearlube.report.file_inputs import file_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
 from gearlube.studies.optimise.dataset import measures_of
+from gearlube.studies.optimise.figures import NAMES, error_words
 from gearlube.studies.optimise.findings import findings, numbers
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 _MICRO = 1e6
 _MOST_FIELDS = 8  # that a table of the front shows
-_NAMES = {"before": "before", "better": "better", "nominal": "best without errors"}
 _UNITS = {"um": "µm", "deg": "°", "urad": "µrad", "1": ""}
 _LIMITS = (
     "Mesh orders are those of the static loaded transmission error, not at a resonance.",
@@ -125,7 +125,7 @@ def _error_chart(dataset: xr.Dataset) -> Any:
         for number, design in enumerate(dataset["design"].values):
             part = dataset["transmission_error"].sel(torque=torque, design=design).isel(error=0)
             values = _MICRO * (part.values - part.values.mean())
-            name = _NAMES[str(design)]
+            name = NAMES[str(design)]
             line = Line(name=name, x=phase, y=np.append(values, values[0]))
             add_line(figure, line, number, x, y, row=row, col=1)
             figure.data[-1].update(legendgroup=name, showlegend=row == 1)
@@ -140,7 +140,7 @@ def _order_chart(dataset: xr.Dataset) -> Any:
     for row, torque in enumerate(dataset["torque"].values, 1):
         for number, design in enumerate(dataset["design"].values):
             part = dataset["amplitude"].sel(torque=torque, design=design).isel(error=0)
-            name = _NAMES[str(design)]
+            name = NAMES[str(design)]
             figure.add_bar(
                 x=orders,
                 y=_MICRO * part.values,
@@ -158,12 +158,12 @@ def _order_chart(dataset: xr.Dataset) -> Any:
 
 
 def _scatter_chart(dataset: xr.Dataset) -> Any:
-    names = [str(one).replace("_", " ").replace(" um", " µm") for one in dataset["error"].values]
+    names = [error_words(str(one)) for one in dataset["error"].values]
     x, y = Axis("all orders", "µrad"), Axis("")
     figure = _torque_panels(dataset, x, y, height=120 + 24 * len(names))
     for row, torque in enumerate(dataset["torque"].values, 1):
         for number, design in enumerate(dataset["design"].values):
-            name = _NAMES[str(design)]
+            name = NAMES[str(design)]
             figure.add_scatter(
                 x=_MICRO * dataset["whine"].sel(torque=torque, design=design).values,
                 y=names,
@@ -245,7 +245,7 @@ def _error_tables(dataset: xr.Dataset) -> list[Table]:
             for error in dataset["error"].values
         ]
         columns = [Column("torque", "N·m"), Column("error")]
-        columns += [Column(_NAMES[one], "µrad") for one in names]
+        columns += [Column(NAMES[one], "µrad") for one in names]
         title = "With errors and without"
         found.append(Table(title=title, columns=columns, rows=rows, folded=True))
     if "front_whine" in dataset:

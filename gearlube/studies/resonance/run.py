@@ -48,13 +48,13 @@ def run_resonance(
 ) -> ResonanceResults:
     """Return response curves, motions and flank contacts of the torsional pair.
 
-    On KeyboardInterrupt, returns what was found until then.
+    After KeyboardInterrupt it returns what it has found so far.
 
     Parameters
     ----------
     settings : ResonanceSettings
     folder : Path, optional
-        Gets the results as `write_resonance` writes them.
+        Folder for the results of `write_resonance`.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
 
@@ -63,7 +63,7 @@ def run_resonance(
     ConvergenceError
         No periodic motion was found at an end of the range.
     StepError
-        A time sweep was no longer finite.
+        A time sweep became infinite or not a number.
 
     Examples
     --------

@@ -53,7 +53,7 @@ _LIMITS = (
 def write_sweep_report(
     dataset: xr.Dataset, directory: Path | str, entries: Sequence[Entry] = CATALOGUE
 ) -> Path:
-    """Write report.html and figures/*.png into `directory`; return the path of the report.
+    """Write report.html and figures/*.png of a sweep into `directory`; return the report's path.
 
     Examples
     --------

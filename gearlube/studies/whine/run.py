@@ -40,7 +40,7 @@ _SHIPPED = karagiannis_2012_pair()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WhineSettings:
-    """Where whine is computed, and by what it is differentiated.
+    """Speeds and orders of a whine study, and the parameters by which it differentiates.
 
     Parameters
     ----------
@@ -49,11 +49,11 @@ class WhineSettings:
     speeds : tuple of float
         Mean pinion speeds [rad/s], rising, 1 to 5000.
     orders : tuple of int
-        Of the mesh.
+        Mesh orders.
     pinion_inertia, gear_inertia : float
-        About the members' axes [kg m2]; by default those of the shipped pair.
+        Moments of inertia about the members' axes [kg m2]; default: those of the shipped pair.
     damping_ratio : float
-        Of the mesh mode [-], 0.001 to 0.5.
+        Damping ratio of the mesh mode [-], 0.001 to 0.5.
 
     Examples
     --------
@@ -102,21 +102,22 @@ def run_whine(
     jobs: int | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the whine orders of a hypoid pair over its speed, and their rates by settings.
+    """Return the whine orders of a hypoid pair over speed, and how each setting changes them.
 
-    The drive flanks' loaded contact and its derivatives become a mesh table with derivatives; the
-    torsional pair's periodic motions on it give amplitudes of transmission error and mesh force.
+    The drive flanks' loaded contact and its derivatives become a mesh table with derivatives. The
+    periodic motions of the torsional pair on it give the amplitudes of transmission error and mesh
+    force.
 
     Parameters
     ----------
     file : HypoidGearFile
     settings : WhineSettings, optional
-        Torque, parameters, speeds; absent: 50 N.m, all parameters.
+        Torque, parameters, speeds; default: 50 N.m, all parameters.
     folder : Path, optional
-        Gets whine.nc, whine.csv and figures/whine.png. Finished positions are kept there: the
-        same call goes on after a stop.
+        Folder for whine.nc, whine.csv and figures/whine.png. Finished positions are kept there:
+        after a stop the same call continues.
     jobs : int, optional
-        Processes; default: all processors.
+        Number of processes; default: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
 
@@ -129,8 +130,9 @@ def run_whine(
 
     Notes
     -----
-    No flank friction, shafts and bearings rigid. A speed without periodic motion of the mesh
-    period is NaN; `stable` is 0 where such a motion is not stable.
+    The model has no flank friction, and shafts and bearings are rigid. At a speed without a
+    periodic motion of the mesh period the results are NaN; `stable` is 0 if this motion is not
+    stable.
 
     Examples
     --------

@@ -41,21 +41,23 @@ def helical_pair_parameters(
     mesh: LineMesh | None = None,
     pair: HelicalPair | None = None,
 ) -> HelicalPairParameters:
-    """Return the vibrating pair of a gear file, with linear contact.
+    """Return the parameters of a helical pair from its gear file, for `periodic_response`.
+
+    The contact of the teeth is linear.
 
     Parameters
     ----------
     file
-        With bearings, and one damping ratio for translation and tilt.
+        Gear file with bearings, and with one damping ratio for translation and tilt.
     pinion_torque
-        [N.m]
+        Torque on the pinion [N.m].
     mu
         Constant coefficient of friction [-].
     mesh
         Contact lines of the pair with their stiffness; by default that of ISO 6336-1 at the
         torque, see `iso_mesh`.
     pair
-        Another geometry with the same bodies and bearings.
+        Another geometry, to be used with the same bodies and bearings.
 
     Raises
     ------

@@ -69,7 +69,9 @@ def torque_limits(parameters: HypoidAxleParameters) -> TorqueLimits:
 
 
 class HypoidAxle(SteppedModel[StepControl]):
-    """Lubricated hypoid axle: 8 DOF, dynamic tapered roller bearings, three flanks.
+    """Lubricated hypoid axle in motion: give it torques, step it in time, read its outputs.
+
+    The model has 8 degrees of freedom, dynamic tapered roller bearings and three lubricated flanks.
 
     Parameters
     ----------
@@ -77,8 +79,9 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     Notes
     -----
-    Integrated by fixed-step RK4 tied to the mesh period and the highest mode. Same input, same
-    bits. Instances share nothing.
+    Equations of motion are integrated by RK4 with a fixed step, which follows from the mesh period
+    and the highest natural frequency. The same input gives the same output to the bit. Instances
+    share nothing.
 
     References
     ----------

@@ -46,16 +46,17 @@ _FORMAT = 1  # raise with every change of the model that changes results
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeriesSettings:
-    """What the mesh table is differentiated by, and where.
+    """Parameters by which the mesh table is differentiated in `run_whine`, and at which load.
 
     Parameters
     ----------
     parameters : tuple of str
         As in `SensitivitySettings`; empty: all misalignments, settings and reliefs of the file.
     torque : float
-        On the pinion [N.m], 0.01 to 1e5.
+        Torque on the pinion [N.m], 0.01 to 1e5.
     positions : int
-        Mesh phases in a period, 4 to 400; the series keep orders as `orders_kept`.
+        Number of mesh phases in a period, 4 to 400; `orders_kept` tells how many orders the series
+        then have.
     misalignment : Misalignment
     loaded : LoadedSettings
     body : ToothBodySettings

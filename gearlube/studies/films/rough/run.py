@@ -37,37 +37,39 @@ def run_rough(
     threads: int = 1,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the statistics of a contact that becomes rough, step by step.
+    """Return the statistics of a contact that becomes rough, step by step in time.
 
     Parameters
     ----------
     case
         Contact, surfaces, time steps, grid.
     steps
-        To march; None: all of the case. A later call in the same folder goes on.
+        Number of steps to compute now; None: all steps of the case. A later call with the same
+        folder continues.
     folder
-        Where rough.nc, summary.csv, figures, kept films and the record of the march are written.
-        A march goes on from its record there, to the bit as if it had not stopped. None: nothing
-        is written.
+        Folder for rough.nc, summary.csv, figures, kept films and the record of the march. A march
+        continues from its record there, with the same results to the bit as without a stop. None:
+        nothing is written.
     threads
-        That share the work on rows, 1 to 64; results do not depend on it, to the bit.
+        Number of threads that share the work on rows, 1 to 64; results do not depend on it, to the
+        bit.
     progress
-        Called with the share done and what is done now.
+        Called with the share done and a sentence on what runs.
 
     Returns
     -------
     xr.Dataset
-        Of `RoughFilmStatistics`, with the work of every step; `converged` is 0 if any step did
-        not converge.
+        Results of `RoughFilmStatistics`, and the work of every step; `converged` is 0 if any step
+        did not converge.
 
     Raises
     ------
     ParameterError
-        The disk has too little space, or the record is of another case or damaged.
+        There is too little disk space, or the record is damaged or of another case.
     ConvergenceError
-        Ten steps in turn did not converge, or a film is not finite; the last record stays.
+        Ten steps in turn did not converge, or a film is not finite; the last record is kept.
     FileError
-        A file could not be written; the last record stays.
+        A file could not be written; the last record is kept.
 
     Examples
     --------
