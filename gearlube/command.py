@@ -157,6 +157,12 @@ COMMANDS = (
         panel=_PARTS,
     ),
     LazyCommand(
+        name="film-model",
+        target="gearlube.studies.film_model.command:film_model",
+        summary="Train, fit, show and audit a surrogate of solved films.",
+        panel=_PARTS,
+    ),
+    LazyCommand(
         name="bearing",
         target="gearlube.studies.bearing.command:bearing",
         summary="Friction of a tapered roller bearing: torque and power loss.",

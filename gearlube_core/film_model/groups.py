@@ -6,13 +6,14 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
-from gearlube_core.film.chittenden_1985 import film_geometry
+from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 
 LEAST_LOAD = 1e-3  # N, film and pressure of an unloaded contact are those at this load
 LEAST_SPEED = 1e-6  # m/s, the same of a resting one
 _TINY = 1e-300  # m/s, of sliding
+_STEEPEST = 1e-3  # least cos(psi)
 
 
 class FilmContact(NamedTuple):
@@ -62,6 +63,7 @@ class FilmGroups(NamedTuple):
     conductivity: float  # ln(k oil/k solids)
     capacity: float  # ln(rho c oil/rho c solids)
     heat: float  # ln(beta eta0 u^2/k) of the oil
+    thickness: float  # [h R_x/a_x^2]^(1/2): reference film over what the solids flatten
 
 
 N_GROUPS = len(FilmGroups._fields)
@@ -145,8 +147,9 @@ class FilmPlace(NamedTuple):
     side_flow: float  # factor of the reference film [-]
     pressure_coefficient: float  # mean Hertz pressure over load^(1/3) [Pa/N^(1/3)]
     psi: float  # entrainment from the minor axis [rad]
-    cos_psi: float
+    cos_psi: float  # not below 1e-3
     delta: float  # sliding from entrainment, -pi/2 to pi/2 [rad]
+    ellipticity: float  # a_y/a_x
     ellipse: float  # ln(a_y/a_x)
     rate: float  # ln[kappa/(E* R_x)], u in m/s
     peclet: float  # ln(R_x rho c/k) of the solids, u in m/s
@@ -158,9 +161,12 @@ class FilmInlet(NamedTuple):
     contact_modulus: float  # E* [Pa]
     eta0: float  # [Pa s]
     alpha: float  # [1/Pa]
+    beta: float  # [1/K]
     tau0: float  # [Pa]
     limiting_stress: float  # [Pa]
     limiting_slope: float  # [-]
+    oil_conductivity: float  # [W/(m K)]
+    effusivity: float  # (k rho c)^(1/2) of the solids [W s^(1/2)/(m2 K)]
     Z: float  # of Roelands
     viscosity: float  # as in `FilmGroups`, and so on
     exponent: float
@@ -193,8 +199,9 @@ def film_place(
         film_geometry(R_x, R_y, 0.0)[1],
         pressure_coefficient,
         psi,
-        abs(math.cos(psi)),
+        max(abs(math.cos(psi)), _STEEPEST),
         delta - math.pi * math.floor(delta / math.pi + 0.5),
+        ellipticity,
         math.log(ellipticity),
         math.log(ROELANDS_KAPPA / (contact_modulus * R_x)),
         math.log(R_x * solid_heat_capacity / solid_conductivity),
@@ -232,9 +239,12 @@ def film_inlet(
         contact_modulus,
         eta0,
         alpha,
+        beta,
         tau0,
         limiting_stress,
         limiting_slope,
+        conductivity,
+        math.sqrt(solid_conductivity * solid_heat_capacity),
         Z,
         ratio,
         math.log(Z),
@@ -280,13 +290,53 @@ def contact_parts(contact: FilmContact) -> tuple[FilmPlace, FilmInlet]:
 
 
 @kernel
+def reference_film(load: float, speed: float, place: FilmPlace, inlet: FilmInlet) -> float:
+    """Return the central film that the model corrects [m].
+
+    Chittenden et al. 1985 at psi = 0 with the component u cos(psi)
+
+    Parameters
+    ----------
+    load, speed
+        Above zero [N], [m/s].
+    place, inlet
+        From `film_place` and `film_inlet`.
+    """
+    return central_film_thickness(
+        place.R_x,
+        place.side_flow,
+        inlet.eta0,
+        inlet.alpha,
+        speed * place.cos_psi,
+        load,
+        2.0 * inlet.contact_modulus,
+    )
+
+
+@kernel
+def semi_minor_axis(load: float, p: float, place: FilmPlace) -> float:
+    """Return the dry semi-axis along the minor axis [m] at load [N] and mean pressure p [Pa]."""
+    return math.sqrt(load / (math.pi * p * place.ellipticity))
+
+
+@kernel
 def film_groups(
-    p: float, speed: float, slip: float, place: FilmPlace, inlet: FilmInlet
+    film: float,
+    load: float,
+    p: float,
+    speed: float,
+    slip: float,
+    place: FilmPlace,
+    inlet: FilmInlet,
 ) -> FilmGroups:
     """Return the groups of a contact.
 
     Parameters
     ----------
+    film
+        `reference_film` [m].
+    load
+        Above zero [N].
     p
         Mean Hertz pressure, above zero [Pa].
     speed, slip
@@ -315,6 +365,7 @@ def film_groups(
         inlet.conductivity,
         inlet.capacity,
         inlet.heat + 2.0 * log_speed,
+        math.sqrt(film * place.R_x) / semi_minor_axis(load, p, place),
     )
 
 
@@ -322,6 +373,8 @@ def film_groups(
 def contact_groups(contact: FilmContact) -> FilmGroups:
     """Return the groups of a contact."""
     place, inlet = contact_parts(contact)
-    p = place.pressure_coefficient * math.exp(math.log(max(contact.load, LEAST_LOAD)) / 3.0)
+    load = max(contact.load, LEAST_LOAD)
+    p = place.pressure_coefficient * math.exp(math.log(load) / 3.0)
     speed = max(contact.entrainment_speed, LEAST_SPEED)
-    return film_groups(p, speed, contact.sliding_speed, place, inlet)
+    film = reference_film(load, speed, place, inlet)
+    return film_groups(film, load, p, speed, contact.sliding_speed, place, inlet)

@@ -10,7 +10,6 @@ import math
 
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.groups import N_GROUPS, FilmGroups
-from gearlube_core.kernels.inlining import inlined
 from gearlube_core.kernels.jit import kernel
 
 WIDTH = 24  # units of a hidden layer
@@ -61,6 +60,7 @@ def take_groups(numbers: Array, g: FilmGroups) -> None:
     numbers[SCRATCH + 12] = g.conductivity
     numbers[SCRATCH + 13] = g.capacity
     numbers[SCRATCH + 14] = g.heat
+    numbers[SCRATCH + 15] = g.thickness
 
 
 @kernel
@@ -85,38 +85,6 @@ def share_outside(numbers: Array) -> float:
     return 1.0 - inside
 
 
-@inlined
-def _layer(numbers: Array, weights: int, offsets: int, inputs: int, n: int, units: int) -> None:
-    """Write the units of a layer over `n` inputs; all given by their places.
-
-    Eight sums at a time stay in registers, which is faster than sums in the array.
-    """
-    for block in range(0, WIDTH, 8):
-        at = offsets + block
-        a, b, c, d = numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]
-        e, f, g, h = numbers[at + 4], numbers[at + 5], numbers[at + 6], numbers[at + 7]
-        for i in range(n):
-            x = numbers[inputs + i]
-            at = weights + i * WIDTH + block
-            a += numbers[at] * x
-            b += numbers[at + 1] * x
-            c += numbers[at + 2] * x
-            d += numbers[at + 3] * x
-            e += numbers[at + 4] * x
-            f += numbers[at + 5] * x
-            g += numbers[at + 6] * x
-            h += numbers[at + 7] * x
-        at = units + block
-        numbers[at] = a / math.sqrt(1.0 + a * a)
-        numbers[at + 1] = b / math.sqrt(1.0 + b * b)
-        numbers[at + 2] = c / math.sqrt(1.0 + c * c)
-        numbers[at + 3] = d / math.sqrt(1.0 + d * d)
-        numbers[at + 4] = e / math.sqrt(1.0 + e * e)
-        numbers[at + 5] = f / math.sqrt(1.0 + f * f)
-        numbers[at + 6] = g / math.sqrt(1.0 + g * g)
-        numbers[at + 7] = h / math.sqrt(1.0 + h * h)
-
-
 @kernel
 def net_outputs(numbers: Array) -> tuple[float, float]:
     """Return both outputs of the net for the groups in the scratch.
@@ -124,21 +92,32 @@ def net_outputs(numbers: Array) -> tuple[float, float]:
     Parameters
     ----------
     numbers : ndarray, shape (N_ARRAY,)
-        Weights, and behind them the scratch, whose groups and rows of units this call overwrites.
+        Weights, and behind them the scratch, whose rows of units this call overwrites.
     """
     first = SCRATCH + N_GROUPS
     second = first + WIDTH
+    for j in range(WIDTH):
+        numbers[first + j] = numbers[FIRST_OFFSET + j]
+        numbers[second + j] = numbers[SECOND_OFFSET + j]
     y_0, y_1 = numbers[LAST_OFFSET], numbers[LAST_OFFSET + 1]
     for i in range(N_GROUPS):
         x = (numbers[SCRATCH + i] - numbers[SHIFT + i]) * numbers[SCALE + i]
-        numbers[SCRATCH + i] = x
         y_0 += numbers[STRAIGHT + i] * x
         y_1 += numbers[STRAIGHT + N_GROUPS + i] * x
-    _layer(numbers, FIRST, FIRST_OFFSET, SCRATCH, N_GROUPS, first)
-    _layer(numbers, SECOND, SECOND_OFFSET, first, WIDTH, second)
-    z_0 = 0.0
-    z_1 = 0.0
+        row = FIRST + i * WIDTH
+        for j in range(WIDTH):
+            numbers[first + j] += numbers[row + j] * x
     for j in range(WIDTH):
-        z_0 += numbers[LAST + j] * numbers[second + j]
-        z_1 += numbers[LAST + WIDTH + j] * numbers[second + j]
-    return y_0 + z_0, y_1 + z_1
+        a = numbers[first + j]
+        numbers[first + j] = a / math.sqrt(1.0 + a * a)
+    for i in range(WIDTH):
+        x = numbers[first + i]
+        row = SECOND + i * WIDTH
+        for j in range(WIDTH):
+            numbers[second + j] += numbers[row + j] * x
+    for j in range(WIDTH):
+        a = numbers[second + j]
+        b = a / math.sqrt(1.0 + a * a)
+        y_0 += numbers[LAST + j] * b
+        y_1 += numbers[LAST + WIDTH + j] * b
+    return y_0, y_1

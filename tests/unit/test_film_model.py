@@ -7,12 +7,20 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
 from gearlube_core.errors import FileError
 from gearlube_core.film_model import net
-from gearlube_core.film_model.groups import FilmContact, FilmGroups, contact_groups, film_contact
+from gearlube_core.film_model.groups import (
+    FilmContact,
+    FilmGroups,
+    contact_groups,
+    contact_parts,
+    film_contact,
+)
 from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.reference_friction import reference_friction
 from gearlube_core.film_model.solved_film import solved_film
 
 E_STAR = 210e9 / (2.0 * (1.0 - 0.3**2))
@@ -47,6 +55,26 @@ def contact(**changes: float) -> FilmContact:
     return one._replace(**changes)
 
 
+def chittenden_film() -> float:
+    """Of that contact, with u cos(psi) along the minor axis; side flow is 1 at R_y/R_x = 70."""
+    E = 2.0 * E_STAR
+    U = 0.03 * 3.0 * math.cos(math.radians(48.0)) / (E * 0.02)
+    return 4.31 * 0.02 * U**0.68 * (1.8e-8 * E) ** 0.49 * (1000.0 / (E * 0.02**2)) ** -0.073
+
+
+def heated_stress(one: FilmContact, film: float, p: float, resistance: float) -> float:
+    """Stress of an Eyring film heated by itself at one pressure, by bisection [Pa]."""
+    log_ratio = math.log(one.eta0 / 63.15e-6)
+    growth = (1.0 + 5.1e-9 * p) ** (one.alpha / (5.1e-9 * log_ratio))
+    cold = 63.15e-6 * math.exp(log_ratio * growth) * one.sliding_speed / (film * one.tau0)
+
+    def excess(stress: float) -> float:
+        rise = stress * one.sliding_speed * resistance
+        return stress - one.tau0 * math.asinh(cold * math.exp(-one.beta * growth * rise))
+
+    return float(brentq(excess, 0.0, one.tau0 * math.asinh(cold)))
+
+
 @pytest.fixture(scope="module")
 def model() -> FilmModel:
     return FilmModel.named("hypoid_flank")
@@ -71,6 +99,8 @@ def test_groups_are_those_of_a_hand_calculation():
         conductivity=math.log(0.13 / 46.0),
         capacity=math.log(1.74 / 3.6895),
         heat=math.log(0.031 * 0.03 * 9.0 / 0.13),
+        # by Chittenden's formula, and Hertz's ellipse: W = p pi a_x^2 (a_y/a_x)
+        thickness=math.sqrt(chittenden_film() * 0.02 * p * math.pi * ellipticity(70.0) / 1000.0),
     )
     assert g == pytest.approx(by_hand, abs=2e-6)  # the digits given by hand
 
@@ -92,23 +122,35 @@ def test_a_film_is_the_same_with_axes_or_sliding_turned_round(model):
         assert turned == pytest.approx(first, rel=1e-12)  # rounding
 
 
+def test_reference_friction_is_the_mean_stress_over_hertz_pressures():
+    one = contact()
+    film, p = 0.4e-6, one.pressure_coefficient * 10.0
+    a_x = math.sqrt(one.load / (math.pi * p * one.ellipticity))
+    across = 3.0 * math.cos(one.entrainment_angle)
+    surfaces = 0.3665 * math.sqrt(a_x / (46.0 * 7850.0 * 470.0 * across))
+    resistance = film / (8.0 * one.conductivity) + surfaces
+    # area is even in s = (p'/p_max)^2
+    shares = np.sqrt((np.arange(400) + 0.5) / 400)
+    stress = [heated_stress(one, film, 1.5 * p * t, resistance) for t in shares]
+    found = reference_friction(film, p, across, 2.0, a_x, contact_parts(one)[1])
+    # three points instead of 400: 0.5 %; one Newton step instead of all: as much
+    assert found == pytest.approx(float(np.mean(stress)) / p, rel=0.01)
+
+
 def test_kernel_agrees_with_a_plain_evaluation(model):
     one, n = contact(), model.copied_numbers()
     w, g = model.blocks, np.array(contact_groups(one))
     x = (g - w["shift"]) * w["scale"]
-    bend = lambda a: a / np.sqrt(1.0 + a * a)  # noqa: E731
+
+    def bend(a: np.ndarray) -> np.ndarray:
+        return a / np.sqrt(1.0 + a * a)
+
     hidden = bend(bend(x @ w["first"] + w["first_offset"]) @ w["second"] + w["second_offset"])
     y = w["straight"] @ x + w["last"] @ hidden + w["last_offset"]
-    # Chittenden with u cos(psi) along the minor axis; side flow is 1 at R_y/R_x = 70
-    U = one.eta0 * 3.0 * math.cos(one.entrainment_angle) / (2.0 * E_STAR * one.R_x)
-    W = one.load / (2.0 * E_STAR * one.R_x**2)
-    film = 4.31 * one.R_x * U**0.68 * (one.alpha * 2.0 * E_STAR) ** 0.49 * W**-0.073
-    film *= math.exp(y[0])
-    p = one.pressure_coefficient * 10.0
-    log_ratio = math.log(one.eta0 / 63.15e-6)
-    Z = one.alpha / (5.1e-9 * log_ratio)
-    eta = 63.15e-6 * math.exp(log_ratio * (1.0 + 5.1e-9 * p) ** Z)
-    friction = one.tau0 / p * math.asinh(eta * 2.0 / (film * one.tau0)) * math.exp(y[1])
+    film, p = chittenden_film() * math.exp(y[0]), one.pressure_coefficient * 10.0
+    a_x = math.sqrt(one.load / (math.pi * p * one.ellipticity))
+    across, inlet = 3.0 * math.cos(one.entrainment_angle), contact_parts(one)[1]
+    friction = reference_friction(film, p, across, 2.0, a_x, inlet) * math.exp(y[1])
     found = solved_film(n, one)
     assert found.central_film == pytest.approx(film, rel=1e-9)  # rounding of the powers
     assert found.friction_coefficient == pytest.approx(friction, rel=1e-9)
