@@ -295,6 +295,8 @@ class AxleFile(InputFile):
         notes += self.seals.seal_notes("seals.", axle)
         notes += self.model.notes("model.", axle, _MODEL)
         notes += self.film.notes("film.", axle, _MODEL)
+        if axle.film == "solved":
+            notes += self.oil.rheology_notes("oil.", axle.oil)
         if self.model.bearing_approach is None:
             value = TaperedRollerBearing.mohammadpour_2015().approach
             notes.append(InputNote("model.bearing_approach", value, "", "assumed", _MODEL))

@@ -8,7 +8,6 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.elliptical_hertz import ellipticity
-from gearlube_core.film.chittenden_1985 import film_geometry
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_rolling import rolling_geometry
 from gearlube_core.friction.thermal_eyring_data import circular_pressure_coefficient
@@ -24,9 +23,9 @@ PACKED_SERIES = ("k_m", "R_p", "R_g", "n_x", "n_y", "n_z", "e")
 SHARE, R_E, SIDE_FLOW, PRESSURE, ENTRAIN, ARM_P, ARM_G, XI_X, XI_Y, XI_Z = range(10)
 # of the line that rolls: its radius, its length over load^(1/3), and the entrainment across it
 LINE_RADIUS, LINE_LENGTH, ROLL = range(10, 13)
-# for a film model: side-flow factor of a film entrained along the minor axis, entrainment from the
-# minor axis, sliding from the entrainment, logarithm of the ellipticity
-ACROSS_FLOW, PSI, DELTA, LOG_ELLIPTICITY = range(13, 17)
+# of the ellipse: its other radius, major over minor semi-axis, entrainment from the minor axis, and
+# sliding from the entrainment
+R_Y, ELLIPTICITY, PSI, DELTA = range(13, 17)
 N_CHANNELS = 17
 _SAMPLES_PER_ORDER = 8  # of the period, where a quotient of series is made a series again
 
@@ -123,10 +122,10 @@ def pack_mesh(
                 data["xi_z"][level, node],
                 *rolling_geometry(R_x, R_y, contact_modulus),
                 data["entrainment_arm"][level, node] * np.cos(psi),
-                film_geometry(R_x, R_y, 0.0)[1],
+                R_y,
+                ellipticity(max(R_x, R_y) / min(R_x, R_y)),
                 psi,
                 sliding[level, node] - psi,
-                np.log(ellipticity(max(R_x, R_y) / min(R_x, R_y))),
             )
     windows[:, nodes] = windows[:, 0]
     return PackedMesh(

@@ -1,4 +1,4 @@
-"""A flank contact in the words of the film model."""
+"""Film and friction of a flank contact by the film model."""
 
 from __future__ import annotations
 
@@ -9,19 +9,20 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model import net
-from gearlube_core.film_model.groups import FilmInlet, FilmPlace, film_inlet
+from gearlube_core.film_model.groups import FilmInlet, film_inlet, film_place
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.friction.flank_bound import FlankEllipse
+from gearlube_core.film_model.solved_film import solved_film_at
+from gearlube_core.friction.flank_bound import FlankEllipse, ModelFilm
 from gearlube_core.friction.flank_data import ContactGeometry
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
-from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA
 
 # behind the numbers of the model: the oil that the numbers behind it belong to, and these
 _OIL = net.N_ARRAY
 _INLET = _OIL + count_floats(LubricantState) + 1
 N_FLANK_MODEL = _INLET + count_floats(FilmInlet)
+_LEAST_FRICTION = 1e-12  # so that there is a logarithm without sliding
 
 
 def flank_film_model(model: FilmModel) -> Array:
@@ -33,59 +34,10 @@ def flank_film_model(model: FilmModel) -> Array:
 
 
 @kernel
-def reference_place(geometry: ContactGeometry, ellipse: FlankEllipse) -> FilmPlace:
-    """Return of a position of mesh what the references of the film model take of it."""
-    return FilmPlace(
-        ellipse.R_x,
-        ellipse.side_flow,
-        geometry.pressure_coefficient,
-        0.0,
-        ellipse.cos_psi,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    )
-
-
-@kernel
-def flank_film_place(
-    geometry: ContactGeometry, ellipse: FlankEllipse, solid: SolidParameters
-) -> FilmPlace:
-    """Return a position of mesh as the film model takes it, without what `film_place` costs."""
-    R_x = ellipse.R_x
-    volume_heat = solid.density * solid.heat_capacity
-    return FilmPlace(
-        R_x,
-        ellipse.side_flow,
-        geometry.pressure_coefficient,
-        ellipse.psi,
-        ellipse.cos_psi,
-        ellipse.delta - math.pi * math.floor(ellipse.delta / math.pi + 0.5),
-        ellipse.log_ellipticity,
-        math.log(ROELANDS_KAPPA / (solid.contact_modulus * R_x)),
-        math.log(R_x * volume_heat / solid.conductivity),
-    )
-
-
-@kernel
-def flank_film_inlet(
-    lubricant: LubricantState,
-    solid: SolidParameters,
-    limiting_slope: float,
-    film_model: Array,
+def _inlet(
+    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float, film_model: Array
 ) -> FilmInlet:
-    """Return oil and solids as the film model takes them.
-
-    Parameters
-    ----------
-    lubricant, solid
-        Of one gear pair.
-    limiting_slope
-        Limiting stress over pressure [-]; 0: no limit.
-    film_model : ndarray, shape (N_FLANK_MODEL,)
-        It keeps the result until the oil changes.
-    """
+    """Return oil and solids as the film model takes them; kept until the oil changes."""
     oil = film_model[_OIL:_INLET]
     known = oil[len(lubricant)] == limiting_slope
     for i in range(len(lubricant)):
@@ -109,3 +61,50 @@ def flank_film_inlet(
         tuple_to_array(lubricant, oil)
         oil[len(lubricant)] = limiting_slope
     return tuple_from_array(film_model[_INLET:], FilmInlet)
+
+
+@kernel
+def flank_model_film(
+    load: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    geometry: ContactGeometry,
+    ellipse: FlankEllipse,
+    lubricant: LubricantState,
+    solid: SolidParameters,
+    limiting_slope: float,
+    film_model: Array,
+) -> ModelFilm:
+    """Return what the film model says of a flank contact.
+
+    Parameters
+    ----------
+    load, entrainment_speed, sliding_speed, geometry, lubricant, solid
+        As in `flank.flank_friction`.
+    ellipse
+        The rest of the contact's geometry.
+    limiting_slope
+        Limiting shear stress of the film over pressure [-]; 0: none.
+    film_model : ndarray, shape (N_FLANK_MODEL,)
+        Of `flank_film_model`; written into.
+    """
+    place = film_place(
+        ellipse.R_x,
+        ellipse.R_y,
+        ellipse.psi,
+        ellipse.delta,
+        ellipse.ellipticity,
+        geometry.pressure_coefficient,
+        solid.contact_modulus,
+        solid.conductivity,
+        solid.density * solid.heat_capacity,
+    )
+    inlet = _inlet(lubricant, solid, limiting_slope, film_model)
+    found = solved_film_at(
+        film_model, load, abs(entrainment_speed), abs(sliding_speed), place, inlet
+    )
+    return ModelFilm(
+        math.log(found.central_film),
+        math.log(max(found.friction_coefficient, _LEAST_FRICTION)),
+        found.outside,
+    )

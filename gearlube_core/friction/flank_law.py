@@ -12,7 +12,12 @@ from typing import Protocol
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse
+from gearlube_core.friction.flank_bound import (
+    NO_MODEL_FILM,
+    BoundedFlank,
+    FlankEllipse,
+    ModelFilm,
+)
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.jit import kernel
@@ -47,7 +52,7 @@ flank_state = by_class()(FlankLaw.flank_state)
 
 
 @kernel
-def _unbounded(
+def _no_film(
     law: FlankLaw,
     load: float,
     entrainment_speed: float,
@@ -56,9 +61,47 @@ def _unbounded(
     ellipse: FlankEllipse,
     oil: LubricantState,
     film_model: Array,
-    angle: float,
-    asked: float,
-    kept: Array,
+) -> ModelFilm:
+    return NO_MODEL_FILM
+
+
+@by_class(_no_film)
+def model_film(
+    law: FlankLaw,
+    load: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    geometry: ContactGeometry,
+    ellipse: FlankEllipse,
+    oil: LubricantState,
+    film_model: Array,
+) -> ModelFilm:
+    """Return what a film model says of a flank; a law without this kernel has no such model.
+
+    Parameters
+    ----------
+    law
+        The law of friction.
+    load, entrainment_speed, sliding_speed, geometry, oil
+        As in `FlankLaw.flank_state`.
+    ellipse
+        The rest of the contact's geometry.
+    film_model : ndarray
+        Of `flank_film.flank_film_model`; written into.
+    """
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
+
+
+@kernel
+def _unbounded(
+    law: FlankLaw,
+    load: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    geometry: ContactGeometry,
+    film: ModelFilm,
+    oil: LubricantState,
+    film_model: Array,
 ) -> BoundedFlank:
     state = flank_state(law, load, entrainment_speed, sliding_speed, geometry, oil)
     return BoundedFlank(state, 0.0, 0.0, 0.0)
@@ -71,30 +114,17 @@ def bounded_flank(
     entrainment_speed: float,
     sliding_speed: float,
     geometry: ContactGeometry,
-    ellipse: FlankEllipse,
+    film: ModelFilm,
     oil: LubricantState,
     film_model: Array,
-    angle: float,
-    asked: float,
-    kept: Array,
 ) -> BoundedFlank:
     """Return the state of a flank with its bounds; a law without this kernel has no bounds.
 
     Parameters
     ----------
-    law
-        The law of friction.
-    load, entrainment_speed, sliding_speed, geometry, oil
-        As in `FlankLaw.flank_state`.
-    ellipse
-        The rest of the contact's geometry at this position.
-    film_model : ndarray
-        Numbers of the film model; empty where none is in use.
-    angle
-        Of the pinion [rad].
-    asked
-        How a film model is asked, see `flank_bound`.
-    kept : ndarray, shape (N_KEPT,)
-        What is kept of it between calls, see `kept_corrections`.
+    law, load, entrainment_speed, sliding_speed, geometry, oil, film_model
+        As in `model_film`.
+    film
+        Of `model_film`, at this contact or interpolated.
     """
     raise NotImplementedError  # never run: it is the declaration of the kernels of that name

@@ -9,7 +9,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.friction.flank import flank_friction
-from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse
+from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse, ModelFilm
 from gearlube_core.friction.flank_data import (
     AS_PRINTED,
     CONSISTENT,
@@ -18,6 +18,7 @@ from gearlube_core.friction.flank_data import (
     ContactGeometry,
     FlankState,
 )
+from gearlube_core.friction.flank_film import flank_model_film
 from gearlube_core.friction.flank_law import FlankLawMaker
 from gearlube_core.friction.solved_flank import solved_flank_friction
 from gearlube_core.kernels.jit import kernel
@@ -62,7 +63,7 @@ class MixedFlankFriction(NamedTuple):
         )
 
     @kernel
-    def bounded_flank(
+    def model_film(
         self,
         load: float,
         entrainment_speed: float,
@@ -71,9 +72,30 @@ class MixedFlankFriction(NamedTuple):
         ellipse: FlankEllipse,
         oil: LubricantState,
         film_model: Array,
-        angle: float,
-        asked: float,
-        kept: Array,
+    ) -> ModelFilm:
+        """Return what the film model says of one flank."""
+        return flank_model_film(
+            load,
+            entrainment_speed,
+            sliding_speed,
+            geometry,
+            ellipse,
+            oil,
+            self.solid,
+            self.limiting_slope,
+            film_model,
+        )
+
+    @kernel
+    def bounded_flank(
+        self,
+        load: float,
+        entrainment_speed: float,
+        sliding_speed: float,
+        geometry: ContactGeometry,
+        film: ModelFilm,
+        oil: LubricantState,
+        film_model: Array,
     ) -> BoundedFlank:
         """Return film, friction and temperature of one flank with bounds."""
         if self.film == SOLVED:
@@ -82,16 +104,12 @@ class MixedFlankFriction(NamedTuple):
                 entrainment_speed,
                 sliding_speed,
                 geometry,
-                ellipse,
+                film,
                 oil,
                 self.surface,
                 self.solid,
                 int(self.form),
-                self.limiting_slope,
                 film_model,
-                angle,
-                asked,
-                kept,
             )
         state = flank_friction(
             load,

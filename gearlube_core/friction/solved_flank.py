@@ -7,23 +7,11 @@ import math
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.film_model.solved_film import corrected_film, film_corrections
+from gearlube_core.film_model import net
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
 from gearlube_core.friction.flank import LOAD_FLOOR, flank_friction
-from gearlube_core.friction.flank_bound import AGAIN, CARRIED, BoundedFlank, FlankEllipse
+from gearlube_core.friction.flank_bound import BoundedFlank, ModelFilm
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
-from gearlube_core.friction.flank_film import (
-    flank_film_inlet,
-    flank_film_place,
-    reference_place,
-)
-from gearlube_core.friction.kept_corrections import (
-    can_carry,
-    carried_corrections,
-    keep_bound,
-    keep_corrections,
-    kept_bound,
-)
 from gearlube_core.friction.mixed_friction import (
     SPEED_FLOOR,
     asperity_contact,
@@ -45,16 +33,12 @@ def solved_flank_friction(
     entrainment_speed: float,
     sliding_speed: float,
     geometry: ContactGeometry,
-    ellipse: FlankEllipse,
+    film: ModelFilm,
     lubricant: LubricantState,
     surface: SurfaceParameters,
     solid: SolidParameters,
     form: int,
-    limiting_slope: float,
     film_model: Array,
-    angle: float,
-    asked: float,
-    kept: Array,
 ) -> BoundedFlank:
     """Return film, friction and temperature of one flank contact by a film model, with bounds.
 
@@ -64,18 +48,10 @@ def solved_flank_friction(
     ----------
     load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
         As in `flank.flank_friction`; the form decides about asperities alone.
-    ellipse
-        The rest of the contact's geometry.
-    limiting_slope
-        Limiting shear stress of the oil's film over pressure [-]; 0: none.
+    film
+        What the film model says of the contact.
     film_model : ndarray
-        Of `flank_film_model`; its scratch is overwritten.
-    angle
-        Of the pinion [rad].
-    asked
-        ALONE, AGAIN or CARRIED: how the model is asked, see `flank_bound`.
-    kept : ndarray, shape (N_KEPT,)
-        Corrections of this contact, see `kept_corrections`.
+        Numbers of the film model, for its bounds.
 
     Returns
     -------
@@ -89,36 +65,25 @@ def solved_flank_friction(
     friction, plus what asperities change where the film is thinner by its bound: a thinner film
     raises their load.
     """
-    F = max(load, 0.0)
-    F_film = max(F, LOAD_FLOOR)
-    speed = max(abs(entrainment_speed), SPEED_FLOOR)
-    slip = abs(sliding_speed)
-    inlet = flank_film_inlet(lubricant, solid, limiting_slope, film_model)
-    fresh = asked != CARRIED or not can_carry(kept)
-    if fresh:
-        place = flank_film_place(geometry, ellipse, solid)
-        corrections = film_corrections(film_model, F_film, speed, slip, place, inlet)
-        keep_corrections(kept, corrections, angle, asked == AGAIN)
-    else:
-        corrections = carried_corrections(kept, angle)
-    place = reference_place(geometry, ellipse)
-    found = corrected_film(film_model, F_film, speed, slip, place, inlet, corrections)
-    w = found.outside
+    w = film.outside
     formula = FlankState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if w > 0.0:
         formula = flank_friction(
             load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
         )
         if w >= 1.0:
-            keep_bound(kept, FORMULA_FRICTION_BOUND)
             return BoundedFlank(formula, 1.0, FORMULA_FILM_BOUND, FORMULA_FRICTION_BOUND)
+    F = max(load, 0.0)
+    F_film = max(F, LOAD_FLOOR)
+    speed = max(abs(entrainment_speed), SPEED_FLOOR)
+    slip = abs(sliding_speed)
     v = 1.0 - w
-    h = found.central_film
+    h = math.exp(film.log_film)
     p = geometry.pressure_coefficient * math.exp(math.log(F_film) / 3.0)
     effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity
     modulus = 2.0 * solid.contact_modulus
     solved = friction_with_asperities(
-        found.friction_coefficient,
+        math.exp(film.log_friction),
         F,
         F_film,
         p,
@@ -131,16 +96,15 @@ def solved_flank_friction(
         solid,
         form,
     )
+    model_bound = film_model[net.BOUNDS]
+    W_a, A_a = asperity_contact(
+        F, F / p, h * (1.0 - model_bound) / surface.sigma, surface, solid, form
+    )
+    more = boundary_friction(W_a, A_a, slip, lubricant) - solved.boundary_friction
+    doubt = v * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
+    doubt += w * FORMULA_FRICTION_BOUND * (formula.viscous_friction + formula.boundary_friction)
     f_v = v * solved.viscous_friction + w * formula.viscous_friction
     f_b = v * solved.boundary_friction + w * formula.boundary_friction
-    if fresh:
-        thinnest = h * (1.0 - found.film_bound) / surface.sigma
-        W_a, A_a = asperity_contact(F, F / p, thinnest, surface, solid, form)
-        more = boundary_friction(W_a, A_a, slip, lubricant) - solved.boundary_friction
-        doubt = v * (found.friction_bound * solved.viscous_friction + max(more, 0.0))
-        of_formula = formula.viscous_friction + formula.boundary_friction
-        doubt += w * FORMULA_FRICTION_BOUND * of_formula
-        keep_bound(kept, doubt / (f_v + f_b) if doubt > 0.0 else 0.0)
     h = v * h + w * formula.film_thickness
     state = FlankState(
         h,
@@ -151,5 +115,9 @@ def solved_flank_friction(
         v * solved.temperature_rise + w * formula.temperature_rise,
         p,
     )
-    film_bound = v * found.film_bound + w * FORMULA_FILM_BOUND
-    return BoundedFlank(state, w, film_bound, kept_bound(kept))
+    return BoundedFlank(
+        state,
+        w,
+        v * model_bound + w * FORMULA_FILM_BOUND,
+        doubt / (f_v + f_b) if doubt > 0.0 else 0.0,
+    )

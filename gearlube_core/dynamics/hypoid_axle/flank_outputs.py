@@ -5,14 +5,21 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.flanks import kept_of, pair_friction, sliding_speed
+from gearlube_core.dynamics.hypoid_axle.film_nodes import node_films
+from gearlube_core.dynamics.hypoid_axle.flanks import (
+    EXACT,
+    film_between_nodes,
+    pair_film,
+    pair_friction,
+    sliding_speed,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_P
 from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, SHARE
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_moes_groups
 from gearlube_core.friction.evans_johnson_1986 import traction_map_number
-from gearlube_core.friction.flank_bound import ALONE, CARRIED
+from gearlube_core.friction.flank_bound import NO_MODEL_FILM
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
@@ -62,7 +69,8 @@ def write_flanks(
     oil: LubricantState,
     p: AxleParameters,
     film_model: Array,
-    friction: Array,
+    refresh: float,
+    films: Array,
     first: int,
     first_bound: int,
     channels: Array,
@@ -72,7 +80,8 @@ def write_flanks(
 
     Their outputs begin at `first`, those of their bounds at `first_bound`. A flank without load has
     no film: zeros, and the temperature of the oil. Returns the flank that carries most, for the
-    ranges of the formulas. `friction` is what `flank_sum` has kept of this very state.
+    ranges of the formulas. `refresh` and `films` say how a film model is asked, as in
+    `flank_sum`, and what it keeps.
     """
     most = 0.0
     total = 0.0
@@ -91,17 +100,14 @@ def write_flanks(
         out[bounds] = 0.0
         out[bounds + 1] = 0.0
         if load > 0.0:
-            bounded = pair_friction(
-                s,
-                load,
-                sliding_speed(s, channels),
-                channels,
-                oil,
-                p,
-                film_model,
-                CARRIED if p.friction != 0.0 else ALONE,
-                kept_of(friction, pair),
-            )
+            sliding = sliding_speed(s, channels)
+            film = NO_MODEL_FILM
+            if film_model.size > 0 and refresh == EXACT:
+                film = pair_film(s, load, sliding, channels, oil, p, film_model)
+            elif film_model.size > 0:
+                kept = node_films(films, pair)
+                film = film_between_nodes(pair, s, force, window, n_nodes, oil, p, film_model, kept)
+            bounded = pair_friction(s, load, sliding, channels, oil, p, film, film_model)
             flank = bounded.state
             total += load
             beyond += bounded.outside * load

@@ -5,21 +5,33 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.film_nodes import (
+    N_FILMS,
+    NEXT,
+    SAME,
+    film_between,
+    forget_films,
+    keep_film,
+    node_films,
+    nodes_on,
+    start_films,
+    take_next,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import (
-    ACROSS_FLOW,
     ARM_G,
     ARM_P,
     DELTA,
+    ELLIPTICITY,
     ENTRAIN,
     LINE_LENGTH,
     LINE_RADIUS,
-    LOG_ELLIPTICITY,
     N_CHANNELS,
     PRESSURE,
     PSI,
     R_E,
+    R_Y,
     ROLL,
     SHARE,
     SIDE_FLOW,
@@ -27,29 +39,29 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Y,
     XI_Z,
 )
-from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse
+from gearlube_core.friction.flank_bound import (
+    NO_MODEL_FILM,
+    BoundedFlank,
+    FlankEllipse,
+    ModelFilm,
+)
 from gearlube_core.friction.flank_data import ContactGeometry
-from gearlube_core.friction.flank_law import bounded_flank
+from gearlube_core.friction.flank_law import bounded_flank, model_film
 from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
-from gearlube_core.friction.kept_corrections import N_KEPT, forget
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import pair_channels
+from gearlube_core.mesh_table.kernels import pair_channels, pair_node
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant_state import LubricantState
 
 _PAIRS = PAIRS
+# how film and traction of the flanks are evaluated: a film model at the contact itself, or
+# interpolated between the nodes of the mesh table
+EXACT, BETWEEN_NODES = 1.0, 2.0
 # places of what `flank_sum` keeps
 BOUND = 3 * PAIRS  # of the friction coefficient of each pair
 BOUND_POWER = 4 * PAIRS  # of the power lost in friction
-KEPT = BOUND_POWER + 1  # corrections of the film model, of each pair
-N_FRICTION = KEPT + PAIRS * N_KEPT
-
-
-@kernel
-def kept_of(friction: Array, pair: int) -> Array:
-    """Return the corrections of the film model of one pair in what `flank_sum` keeps."""
-    first = KEPT + pair * N_KEPT
-    return friction[first : first + N_KEPT]
+FILMS = BOUND_POWER + 1  # `film_nodes` of each pair
+N_FRICTION = FILMS + N_FILMS
 
 
 class FlankSum(NamedTuple):
@@ -82,7 +94,13 @@ def sliding_speed(s: Array, channels: Array) -> float:
 
 
 @kernel
-def pair_friction(
+def contact_of(channels: Array) -> ContactGeometry:
+    """Return the geometry of a contact from the channels of the mesh table."""
+    return ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE])
+
+
+@kernel
+def pair_film(
     s: Array,
     load: float,
     sliding: float,
@@ -90,33 +108,100 @@ def pair_friction(
     oil: LubricantState,
     p: AxleParameters,
     film_model: Array,
-    asked: float,
-    kept: Array,
+) -> ModelFilm:
+    """Return what the film model says of one flank; arguments as in `pair_friction`."""
+    return model_film(
+        p.flank_law,
+        load,
+        channels[ENTRAIN] * s[W_P],
+        sliding,
+        contact_of(channels),
+        FlankEllipse(
+            channels[LINE_RADIUS],
+            channels[R_Y],
+            channels[ELLIPTICITY],
+            channels[PSI],
+            channels[DELTA],
+        ),
+        oil,
+        film_model,
+    )
+
+
+@kernel
+def pair_friction(
+    s: Array,
+    load: float,
+    sliding: float,
+    channels: Array,
+    oil: LubricantState,
+    p: AxleParameters,
+    film: ModelFilm,
+    film_model: Array,
 ) -> BoundedFlank:
     """Return the state of one flank under `load` [N] that slides at `sliding` [m/s].
 
-    The last three are those of `bounded_flank`.
+    `film` is what a film model says of it, and `film_model` its numbers, empty without one.
     """
     return bounded_flank(
         p.flank_law,
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,
-        ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE]),
-        FlankEllipse(
-            channels[LINE_RADIUS],
-            channels[ACROSS_FLOW],
-            abs(channels[ROLL] / channels[ENTRAIN]),
-            channels[PSI],
-            channels[DELTA],
-            channels[LOG_ELLIPTICITY],
-        ),
+        contact_of(channels),
+        film,
         oil,
         film_model,
-        s[PHI_P],
-        asked,
-        kept,
     )
+
+
+@kernel
+def _film_at_node(
+    node: int,
+    s: Array,
+    force: float,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    p: AxleParameters,
+    film_model: Array,
+) -> ModelFilm:
+    first = (node % n_nodes) * N_CHANNELS
+    channels = window[first : first + N_CHANNELS]
+    load = abs(force) * channels[SHARE]
+    return pair_film(s, load, sliding_speed(s, channels), channels, oil, p, film_model)
+
+
+@kernel
+def film_between_nodes(
+    pair: int,
+    s: Array,
+    force: float,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    p: AxleParameters,
+    film_model: Array,
+    kept: Array,
+) -> ModelFilm:
+    """Return what the film model says of one flank, linear between the nodes of the mesh table.
+
+    As all data of the table are. It is evaluated at a node when the pair comes before it, and
+    anew when the mesh force or the speed has changed much since; `kept`, shape (N_NODE_FILM,),
+    holds it in between. Others as in `flank_sum`.
+    """
+    node, t = pair_node(n_nodes, p.mesh.z_p, s[PHI_P], pair)
+    step = nodes_on(kept, node, n_nodes, force, s[W_P])
+    if step == SAME:
+        pass
+    elif step == NEXT:
+        take_next(kept, node)
+        keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, p, film_model))
+    else:
+        start_films(kept, node, force, s[W_P])
+        keep_film(kept, 0, _film_at_node(node, s, force, window, n_nodes, oil, p, film_model))
+        keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, p, film_model))
+    return film_between(kept, t)
 
 
 @kernel
@@ -166,12 +251,12 @@ def flank_sum(
     p : AxleParameters
     refresh : float
         0: keep the coefficients in `friction`, with the loads, arms and directions of this state;
-        else evaluate film and traction anew, a film model as ALONE, AGAIN or CARRIED says, see
-        `flank_bound`.
+        else evaluate film and traction anew, a film model as EXACT or BETWEEN_NODES says.
     friction : ndarray of shape (N_FRICTION,)
         Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
         of the friction over load [-], that of the power lost in friction, always anew [W], and
-        `kept_of` each pair.
+        `film_nodes` of
+        all pairs.
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
     film_model : ndarray
@@ -203,16 +288,23 @@ def flank_sum(
                 sliding = sliding_speed(s, channels)
                 if p.friction != 0.0:
                     if refresh != 0.0:
+                        film = NO_MODEL_FILM
+                        if film_model.size > 0 and refresh == EXACT:
+                            film = pair_film(s, load, sliding, channels, oil, p, film_model)
+                        elif film_model.size > 0:
+                            film = film_between_nodes(
+                                pair,
+                                s,
+                                force,
+                                window,
+                                n_nodes,
+                                oil,
+                                p,
+                                film_model,
+                                node_films(friction[FILMS:], pair),
+                            )
                         bounded = pair_friction(
-                            s,
-                            load,
-                            sliding,
-                            channels,
-                            oil,
-                            p,
-                            film_model,
-                            refresh,
-                            kept_of(friction, pair),
+                            s, load, sliding, channels, oil, p, film, film_model
                         )
                         flank = bounded.state
                         friction[2 * pair] = flank.viscous_friction / load
@@ -251,12 +343,12 @@ def flank_sum(
                 friction[2 * pair + 1] = 0.0
                 friction[2 * _PAIRS + pair] = 0.0
                 friction[BOUND + pair] = 0.0
-                forget(kept_of(friction, pair))
+                forget_films(node_films(friction[FILMS:], pair))
     elif refresh != 0.0:
         # teeth may touch before the next refresh: what stands here is then used
         for i in range(BOUND_POWER):
             friction[i] = 0.0
         for pair in range(_PAIRS):
-            forget(kept_of(friction, pair))
+            forget_films(node_films(friction[FILMS:], pair))
     friction[BOUND_POWER] = doubt
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary, rolled)

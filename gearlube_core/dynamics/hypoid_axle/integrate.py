@@ -9,7 +9,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.drag.churning import churning_torque
 from gearlube_core.drag.seals import seal_drag
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, BearingDrag, bearing_drag
-from gearlube_core.dynamics.hypoid_axle.flanks import BOUND_POWER
+from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
+from gearlube_core.dynamics.hypoid_axle.flanks import BETWEEN_NODES, BOUND_POWER, FILMS
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -22,6 +23,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
+    FILM_NODES,
     FRICTION_BOUND,
     LOAD_TORQUE,
     MICRO,
@@ -42,7 +44,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
-from gearlube_core.friction.flank_bound import AGAIN, ALONE, CARRIED
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
@@ -115,8 +116,6 @@ def rk4_step(
     stages until the next such step; with `first`, at the first stage. Tractions are evaluated at
     the first middle and the last stage, with `first` also at the first; the stages after these
     keep them, which lie within O(h^2) of them. Everything else is evaluated at every stage.
-    A film model is evaluated at the first middle stage alone, with `first` also at the first; at
-    the last stage its corrections are carried on.
 
     Parameters
     ----------
@@ -128,11 +127,11 @@ def rk4_step(
     trial = stages[0:N_STATE]
     slope = stages[N_STATE : N_STATE + N_ODE]
     total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
-    axle_rhs(s, inputs, mesh, oil, p, first, first, scratch, slope)
+    axle_rhs(s, inputs, mesh, oil, p, BETWEEN_NODES * first, first, scratch, slope)
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, AGAIN, expand, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, BETWEEN_NODES, expand, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
@@ -140,7 +139,7 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, CARRIED, 0.0, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, BETWEEN_NODES, 0.0, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
@@ -268,6 +267,8 @@ def advance(
         s[WORK_MARK + i] = s[PINION_WORK + i]
     s[TIME_IN_STEP] = duration
     s[FRICTION_BOUND] = 0.0
+    for i in range(N_FILMS):
+        scratch[FILMS + i] = s[FILM_NODES + i]
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
     expanded_at = displacements(s, 0.0)
     age = 0
@@ -287,7 +288,7 @@ def advance(
         rk4_step(
             s,
             h,
-            ALONE if k == 0 else 0.0,
+            1.0 if k == 0 else 0.0,
             expand,
             inputs,
             mesh,
@@ -301,6 +302,8 @@ def advance(
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
         if table.levels[0] < 0.0:
             follow_flank(s, table, p.mesh, mesh)
+    for i in range(N_FILMS):
+        s[FILM_NODES + i] = scratch[FILMS + i]
     total = 0.0
     for i in range(N_ODE):
         total += abs(s[i])

@@ -18,12 +18,19 @@ from gearlube_core.dynamics.hypoid_axle.continuous import (
     write_event_indicators,
     write_rates,
 )
+from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
     FLANK_BOUNDS,
     FLANK_OUTPUTS,
     write_flanks,
 )
-from gearlube_core.dynamics.hypoid_axle.flanks import BOUND_POWER, N_FRICTION
+from gearlube_core.dynamics.hypoid_axle.flanks import (
+    BETWEEN_NODES,
+    BOUND_POWER,
+    EXACT,
+    FILMS,
+    N_FRICTION,
+)
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
@@ -52,6 +59,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
     CAGE_P,
     CHURNING,
+    FILM_NODES,
     FRICTION_BOUND,
     LOAD_TORQUE,
     MESH_DAMPING,
@@ -333,6 +341,20 @@ def write_derivatives(
     The right-hand side is exact: films, tractions and bearing forces are evaluated at `s`, and
     nothing is kept between calls. Arguments as in `write_outputs`.
     """
+    _write_rates(s, torques, oil_temperature, table, p, EXACT, work, out)
+
+
+@kernel
+def _write_rates(
+    s: Array,
+    torques: tuple[float, float],
+    oil_temperature: float,
+    table: MeshLevels,
+    p: AxleParameters,
+    asked: float,
+    work: Array,
+    out: Array,
+) -> None:
     at_series = N_ODE + SCRATCH
     at_window = at_series + series_size(table)
     rates = work[0:N_ODE]
@@ -340,7 +362,10 @@ def write_derivatives(
     oil = lubricant_state(p.oil, oil_temperature)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     inputs = step_inputs(s, torques[0], torques[1], oil, p)
-    axle_rhs(s, inputs, data, oil, p, 1.0, 1.0, work[N_ODE:at_series], rates)
+    scratch = work[N_ODE:at_series]
+    for i in range(N_FILMS):
+        scratch[FILMS + i] = s[FILM_NODES + i]
+    axle_rhs(s, inputs, data, oil, p, asked, 1.0, scratch, rates)
     write_rates(s, rates, torques[0], out[RATES:EVENTS])
     write_event_indicators(s, table, data, p.mesh, out[EVENTS:])
 
@@ -366,7 +391,9 @@ def write_outputs(
     scratch = work[N_ODE:at_series]
     data = place_at_load(table, work[at_series:at_window], work[at_window:])
     oil = lubricant_state(p.oil, oil_temperature)
-    write_derivatives(s, torques, oil_temperature, table, p, work, out)
+    # after a step a film model is taken as the step has taken it
+    asked = BETWEEN_NODES if s[TIME_IN_STEP] > 0.0 else EXACT
+    _write_rates(s, torques, oil_temperature, table, p, asked, work, out)
     mesh = write_motion(s, rates, scratch[BOUND_POWER], data.series, data.n_orders, p, out)
     out[PINION_ACCELERATION] = rates[W_P]
     out[WHEEL_ACCELERATION] = rates[W_G]
@@ -380,7 +407,8 @@ def write_outputs(
         oil,
         p,
         data.film_model,
-        scratch[0:N_FRICTION],
+        asked,
+        scratch[FILMS:N_FRICTION],
         FLANKS,
         FIRST_FLANK_BOUND,
         channels,

@@ -120,7 +120,7 @@ def axle_rhs(
     p : AxleParameters
     tractions, bearings : float
         Not 0: evaluate films and tractions, see `flank_sum`, and expand the bearing forces about
-        this state; with ALONE and 1 the right-hand side is exact. At 0 friction coefficients are
+        this state; with EXACT and 1 the right-hand side is exact. At 0 friction coefficients are
         kept from the last time, and bearing forces are linear about the state of then. (Floats,
         because numba would compile the kernel anew for each literal integer.)
     scratch : ndarray of shape (SCRATCH,)
