@@ -12,6 +12,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
@@ -86,6 +87,9 @@ def whine(
     derivatives. Writes whine.nc, whine.csv, a figure and report.html. Finished positions are kept
     in OUT: run the same command again to go on after a stop.
     """
+    if example:
+        print_example("gearlube_core.hypoid_geometry.gear_file:HypoidGearFile", gear)
+        return
     from gearlube.studies.whine.findings import findings
     from gearlube.studies.whine.report import write_whine_report
     from gearlube.studies.whine.run import WhineSettings, run_whine, whine_rows
@@ -95,9 +99,6 @@ def whine(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
-        if example:
-            typer.echo(HypoidGearFile.shipped_text(gear), nl=False)
-            return
         file = HypoidGearFile.given(gear)
         check_within("--positions", positions, 7, 400, "", "Three mesh orders need seven.")
         rpm = numbers_from(
