@@ -67,8 +67,8 @@ def filtered(
 ) -> Filtered[S]:
     """Return roughness and waviness of a surface, separated by Gaussian filters with two cut-offs.
 
-    Along periodic sides the filter is applied to the waves themselves. A map is filtered along x and
-    y in turn, which is the areal filter, because the Gaussian is a product.
+    Along periodic sides the filter is applied to the waves themselves. A map is filtered along x
+    and y in turn, which is the areal filter, because the Gaussian is a product.
 
     Parameters
     ----------
