@@ -92,7 +92,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
         When the blank cannot exist, the contact lies outside of the mesh, or no settings were
         found with which both flanks touch; the sentence says how near it came.
     """
-    progress(0.0, "blank")
+    progress(0.0, "pitch cones and blank")
     designed = DesignedBlank.from_file(file)
     warnings = check_blank(designed)
     start = start_pair(designed)
@@ -118,7 +118,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
             turns[side] += 1
     best = min(attempts, key=_missed)
     found = named_file(designed, best.fit.file)
-    progress(1.0, "checks")
+    progress(1.0, "checking teeth and contact")
     _check(found, best.fit, file.machine.denied)
     return Design(
         designed=designed,

@@ -142,17 +142,17 @@ class MeshTable:
         if np.any(self.torque == 0.0) or self.torque[-1] < 0.0:
             raise TableError(
                 f"{self.name}: torque must have a level above 0 N.m and none at 0 N.m, got "
-                f"{self.torque}. Load the drive flanks with about 5 N.m in place of none."
+                f"{self.torque}. Give the drive flanks about 5 N.m instead of no load."
             )
         if min(self.pinion_teeth, self.gear_teeth) < 1:
             raise TableError(
                 f"{self.name}: numbers of teeth must be at least 1, got {self.pinion_teeth} and "
-                f"{self.gear_teeth}. Count the teeth of the gear pair."
+                f"{self.gear_teeth}. Give the numbers of teeth of the gear pair."
             )
         if not 1.0 <= self.contact_ratio <= PAIRS:
             raise TableError(
                 f"{self.name}: contact_ratio must be within 1 to {PAIRS}, got "
-                f"{self.contact_ratio:g}. More simultaneous pairs need a longer window."
+                f"{self.contact_ratio:g}. A mesh table cannot hold more tooth pairs in contact."
             )
         self._check("series", self.series, SERIES_UNITS, 3)
         self._check("windows", self.windows, WINDOW_UNITS, 2)

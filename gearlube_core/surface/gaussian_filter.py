@@ -134,7 +134,7 @@ def _check_cutoffs(surface: Surface, long: float | None, short: float | None) ->
                 raise ParameterError(
                     f"{name} must be at most half the length of {surface.name}, "
                     f"{0.5 * length / MICROMETRE:.4g} um, got {cutoff / MICROMETRE:.4g} um. "
-                    "Measure farther or take a shorter cut-off."
+                    "Measure a longer profile or take a shorter cut-off."
                 )
         if short is not None and short < 2.0 * spacing:
             raise ParameterError(
@@ -145,7 +145,7 @@ def _check_cutoffs(surface: Surface, long: float | None, short: float | None) ->
     if long is not None and short is not None and long <= short:
         raise ParameterError(
             f"cutoff_long must exceed cutoff_short, {short / MICROMETRE:.4g} um, got "
-            f"{long / MICROMETRE:.4g} um. Usual are 800 and 2.5 um."
+            f"{long / MICROMETRE:.4g} um. Typical values are 800 and 2.5 um."
         )
 
 

@@ -69,7 +69,7 @@ def run_design(
     >>> found.design.file.pinion.machine.tilt_angle_deg  # doctest: +SKIP
     """
     design = design_pair(file, lambda share, sentence: progress(_SHARE * share, sentence))
-    progress(_SHARE, "teeth")
+    progress(_SHARE, "form of the teeth")
     forms = {
         "pinion": tooth_form(design.file, "pinion"),
         "gear": tooth_form(design.file, "gear"),
@@ -77,7 +77,7 @@ def run_design(
     progress(_SHARE + 0.05, "ease-off and contact pattern")
     results = DesignResults(design=design, forms=forms, dataset=design_dataset(design, forms))
     if folder is not None:
-        progress(0.95, "figures")
+        progress(0.95, "writing report and figures")
         write_design(results, folder, command_line)
     return results
 
