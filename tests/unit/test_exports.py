@@ -3,6 +3,7 @@
 import logging
 import sys
 
+import asammdf
 import meshio
 import numpy as np
 import pandas as pd
@@ -115,6 +116,40 @@ def test_uff58_refuses_what_it_cannot_hold(run, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyuff", None)
     with pytest.raises(gl.GearLubeError, match=r"gearlube\[sound\]"):
         gl.export_results(run / "small.nc", "uff58", out)
+    assert [path.name for path in tmp_path.iterdir()] == ["run"]
+
+
+def test_mdf4_holds_each_history_with_unit_and_meaning(run, tmp_path):
+    gap = DATASET.copy(deep=True)
+    gap["dte"][3] = np.nan
+    gap.to_netcdf(run / "small.nc")
+    gl.export_results(run, "mdf4", tmp_path / "small.mf4")
+    with asammdf.MDF(tmp_path / "small.mf4") as file:
+        assert file.version == "4.10"
+        channels = set(file.channels_db) - {"time"}
+        assert len(channels) == 5
+        force = file.get("bearing_force.gear.radial 1")
+        values = DATASET["bearing_force"].sel(bearing="gear", direction="radial 1")
+        assert force.samples.dtype == np.float32
+        assert np.array_equal(force.samples, values)
+        assert np.array_equal(force.timestamps, DATASET["time"])
+        assert (force.unit, force.comment) == ("N", "force on the shaft")
+        error = file.get("dte")  # without the value that is not there
+        assert np.array_equal(error.samples, np.delete(DATASET["dte"].values, 3))
+        assert np.array_equal(error.timestamps, np.delete(DATASET["time"].values, 3))
+
+
+def test_mdf4_refuses_what_it_cannot_hold(run, tmp_path, monkeypatch):
+    out = tmp_path / "out.mf4"
+    with pytest.raises(gl.ParameterError, match="time histories, got dte_spectrum"):
+        gl.export_results(run, "mdf4", out, variables=["dte_spectrum"])
+    falling = DATASET.isel(time=slice(None, None, -1))
+    falling.to_netcdf(run / "falling.nc")
+    with pytest.raises(gl.ParameterError, match="must rise, got time"):
+        gl.export_results(run / "falling.nc", "mdf4", out)
+    monkeypatch.setitem(sys.modules, "asammdf", None)
+    with pytest.raises(gl.GearLubeError, match=r"gearlube\[export\]"):
+        gl.export_results(run / "small.nc", "mdf4", out)
     assert [path.name for path in tmp_path.iterdir()] == ["run"]
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from gearlube.output.exports.mat import write_dataset_mat
+from gearlube.output.exports.mdf4 import write_mdf4
 from gearlube.output.exports.source import Span, chosen, dataset_file, read_dataset, without_unit
 from gearlube.output.exports.tables import write_tables
 from gearlube.output.exports.uff58 import write_uff58
@@ -28,6 +29,7 @@ FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], list[Path]]]] = {
     "csv": ("_csv", write_tables),
     "mat": (".mat", _mat),
     "uff58": (".uff", write_uff58),
+    "mdf4": (".mf4", write_mdf4),
     "vtk": ("_vtk", write_vtk),
 }
 
@@ -48,7 +50,7 @@ def export_results(
     run : str or Path
         Folder of results with one NetCDF file, or a NetCDF file.
     to : str
-        csv, mat, uff58 or vtk.
+        csv, mat, uff58, mdf4 or vtk.
     out : str or Path, optional
         File to write; with csv and vtk a folder. Default: the name of the dataset, in this folder.
     variables : iterable of str

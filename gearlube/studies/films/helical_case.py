@@ -51,6 +51,8 @@ class HelicalLineCase:
         file.
     spacing
         Spacing of the nodes across the line, "uniform" or "exit"; None: that of the file.
+    roughness_um
+        Composite rms roughness of both flanks [um], for the film ratio; None: not known.
 
     Raises
     ------
@@ -76,6 +78,7 @@ class HelicalLineCase:
     convention: str = "normal"
     nodes: tuple[int | None, int | None] = (None, None)
     spacing: str | None = None
+    roughness_um: float | None = None
 
     @property
     def mesh(self) -> tuple[tuple[int, int], str]:
@@ -95,6 +98,8 @@ class HelicalLineCase:
         for name, count in (("across", across), ("along", along)):
             check_within(f"nodes {name} the line", count, 17, 2049)
         check_option("spacing", spacing, tuple(GRADINGS))
+        if self.roughness_um is not None:
+            check_within("roughness_um", self.roughness_um, 1e-3, 20.0, "um")
         return HelicalFilm(
             modified=modified,
             steps=meshing_steps(modified, _STEP, _SMALLEST_SHARE)

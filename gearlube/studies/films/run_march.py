@@ -17,7 +17,7 @@ from gearlube.studies.films.datasets.helical_cycle import (
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished, step_file, write_film_results
-from gearlube.studies.films.run_steady import warn_of_ends, warn_of_grid
+from gearlube.studies.films.run_steady import note_roughness, warn_of_ends, warn_of_grid
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
@@ -165,6 +165,7 @@ def run_helical_march(
             _finish_snapshot(folder, step, key, steady[step])
     curves = cycle_dataset(film, cycle, lines, start=start, repeated=steps.repeat, **names)
     dataset = with_steady_points(curves, steady)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress, films / (films + 1))
 

@@ -11,6 +11,7 @@ import xarray as xr
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.datasets.line import line_dataset
 from gearlube.studies.films.datasets.point import point_dataset
+from gearlube.studies.films.film_ratios import ROUGHNESS
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
@@ -78,6 +79,7 @@ def run_line(
     )
     seconds = time.monotonic() - began
     dataset = line_dataset(solution, name=case.name, source=case.source, seconds=seconds)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress)
 
@@ -117,6 +119,7 @@ def run_point(
         else solve_point_contact(problem, settings, film_error=film_error, throw=False)
     )
     dataset = point_dataset(solution, sliding=case.sliding, name=case.name, source=case.source)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress)
 
@@ -162,8 +165,15 @@ def run_helical_line(
     # the settings of a march, so that both give one film where nothing moves
     solution = solve_helical_line(film, step, MARCH_SETTINGS, film_error=film_error, throw=False)
     dataset = helical_dataset(film, step, solution, name=case.file.name, source=case.file.source)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress)
+
+
+def note_roughness(dataset: xr.Dataset, roughness_um: float | None) -> None:
+    """Keep the composite rms roughness with the film, in m, where it was given."""
+    if roughness_um is not None:
+        dataset.attrs[ROUGHNESS] = 1e-6 * roughness_um
 
 
 def warn_of_ends(film: HelicalFilm) -> None:

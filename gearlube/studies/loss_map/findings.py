@@ -6,13 +6,13 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
+from gearlube.report.film_ratio import MIXED, film_ratio_level
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube_core.arrays import Array
 
 _NAMED = 3  # sources of loss and uncertain inputs that are told one by one
 _LEAST_SHARE = 0.005  # of the loss, of a source that is told
-_FULL_FILM, _MIXED = 3.0, 1.0  # film ratios between full film, mixed and mostly dry contact
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -204,15 +204,14 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
         return []
     worst = _at(dataset, ratio, least=True)
     least = float(worst["film_ratio"])
-    mixed = 100.0 * float((ratio < _MIXED).sum() / np.isfinite(ratio.values).sum())
-    level = GOOD if least >= _FULL_FILM else NOTE if least >= _MIXED else WARNING
+    mixed = 100.0 * float((ratio < MIXED).sum() / np.isfinite(ratio.values).sum())
     return [
         Finding(
-            level,
+            film_ratio_level(least),
             f"The smallest film ratio λ of a flank is {quantity_text(least, '', 2)}, at "
             f"{words_of(worst)}.",
-            f"It is below 1, where asperities carry much of the load, at {mixed:.0f} % of the "
-            "points.",
+            f"It is below {MIXED:g}, where asperities carry much of the load, at {mixed:.0f} % of "
+            "the points.",
         )
     ]
 

@@ -41,7 +41,14 @@ PartLength = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
 LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]
+Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
 Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
+
+
+_ROUGHNESS = (
+    "Composite rms roughness of both surfaces, for the film ratio in the report; the film itself "
+    "is solved for the surfaces of this case"
+)
 
 
 class ContactCase(FilmCase):
@@ -150,6 +157,7 @@ class LineCase(ContactCase):
         description="isothermal: the oil stays at its inlet temperature; thermal: the energy "
         "balance of oil and bodies is solved too",
     )
+    roughness_um: Roughness | None = Field(default=None, description=_ROUGHNESS)
     domain: LineDomain | None = None
     profile: ProfileFile | None = None
     solver: LineSolver = LineSolver()
@@ -247,6 +255,7 @@ class PointCase(ContactCase):
         description="isothermal: the oil stays at its inlet temperature; thermal: the energy "
         "balance of oil and bodies is solved too",
     )
+    roughness_um: Roughness | None = Field(default=None, description=_ROUGHNESS)
     domain: PointDomain = PointDomain()
     height_map: MapFile | None = None
     ridge: RidgeShape | None = None

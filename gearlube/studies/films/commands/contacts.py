@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
+from gearlube.cli.options import CaseArgument, ExampleOption, FilmRoughnessOption, OverwriteOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
 from gearlube_core.checks import check_finite
@@ -57,6 +57,7 @@ def line(
     ] = None,
     cavitation: _Cavitation = None,
     temperature: _Temperature = None,
+    roughness_um: FilmRoughnessOption = None,
     film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
     overwrite: OverwriteOption = False,
@@ -78,6 +79,7 @@ def line(
             "solver.nodes": nodes,
             "solver.stencil": stencil,
             "solver.cavitation": cavitation,
+            "roughness_um": roughness_um,
             "temperature": temperature,
         }
         file = _changed(LineCase.given(case), changes, entrainment, slide_roll)
@@ -107,6 +109,7 @@ def point(
         ),
     ] = None,
     cavitation: _Cavitation = None,
+    roughness_um: FilmRoughnessOption = None,
     film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
     overwrite: OverwriteOption = False,
@@ -130,6 +133,7 @@ def point(
             "solver.nodes_y": nodes,
             "solver.wedge": wedge,
             "solver.cavitation": cavitation,
+            "roughness_um": roughness_um,
         }
         file = _changed(PointCase.given(case), changes, entrainment, slide_roll)
         goal = film_error_of(film_error)

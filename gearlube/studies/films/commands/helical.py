@@ -10,6 +10,7 @@ import typer
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import (
     ExampleOption,
+    FilmRoughnessOption,
     HelicalGearArgument,
     OverwriteOption,
     SpeedOfFileOption,
@@ -101,6 +102,7 @@ def helical(
             metavar="uniform|exit",
         ),
     ] = None,
+    roughness_um: FilmRoughnessOption = None,
     film_error: FilmErrorOption = None,
     time_error: Annotated[
         str,
@@ -157,6 +159,7 @@ def helical(
             convention=load_sharing,
             nodes=(nodes_across, nodes_along),
             spacing=spacing,
+            roughness_um=roughness_um,
         )
         if march is None:
             solve_and_show(

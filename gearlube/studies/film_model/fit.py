@@ -1,0 +1,293 @@
+"""From solved films to a frozen model: processes, grid correction, net, calibration, test."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gearlube.studies.film_model.calibration import CONFIDENCE, Misses, conformal_bounds
+from gearlube.studies.film_model.net_fit import fit_net
+from gearlube.studies.film_model.plan import COARSE, FINE, FilmPlan
+from gearlube.studies.film_model.process import FilmProcess, fit_process
+from gearlube.studies.film_model.samples import (
+    DOMAIN,
+    MOST_HEAT,
+    TRAINED,
+    Box,
+    axle_contacts,
+    box_contact,
+    box_contacts,
+    widened_box,
+)
+from gearlube.studies.film_model.solves import SolveRow
+from gearlube.studies.film_model.targets import (
+    Targets,
+    expected_friction,
+    grid_corrections,
+    solved_rows,
+    targets_of,
+)
+from gearlube_core import __version__
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.groups import FilmContact, FilmGroups, contact_groups
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.solved_film import solved_film
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.oil.oil_file import read_oil
+from gearlube_core.progress import Progress, no_progress
+
+_BORDER = 0.1  # of a group's range, where the model fades
+_FEWEST = {"box": 100, "axle": 20, "calibration": 39, "fresh": 20}
+_FEWEST_PAIRS = 20
+_PAIR_NOISE = 0.1  # first guess, of the corrections' variance
+_AXLE_SHARE = 0.3  # of the points that the net learns from
+_TRAINED_WEIGHT = 4.0  # of a solved contact over a point of the process
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FitSettings:
+    """How a net is made of the processes.
+
+    Parameters
+    ----------
+    points
+        Of the processes that the net learns from.
+    steps
+        Most iterations.
+    seed
+        Of points and first weights.
+    """
+
+    points: int = 12_000
+    steps: int = 3000
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        check_within("points", self.points, 500, 1_000_000)
+        check_within("steps", self.steps, 10, 1_000_000)
+
+
+class Fitted(NamedTuple):
+    """A model with what judges it."""
+
+    model: FilmModel
+    calibration: Misses
+    fresh: Misses
+    predicted: dict[str, Array]  # kind: (n, 2) film [m] and friction [-] of the model
+    solved: dict[str, Array]  # kind: the same, solved and led to the limit of the grid
+
+
+def fit_model(
+    rows: Sequence[SolveRow],
+    plan: FilmPlan,
+    settings: FitSettings | None = None,
+    *,
+    name: str = "",
+    state: str = "final",
+    progress: Progress = no_progress,
+) -> Fitted:
+    """Return the frozen model of a training set.
+
+    Parameters
+    ----------
+    rows
+        Of `SolveTable`.
+    plan
+        That they were solved for.
+    settings
+        Of the net.
+    name
+        Of the model, for its provenance.
+    state
+        "final", or "first" of a trial.
+    progress
+        Called with the share done and a sentence.
+
+    Raises
+    ------
+    ParameterError
+        There are too few rows.
+    GearLubeError
+        scikit-learn is not installed.
+
+    Notes
+    -----
+    Two Gaussian processes learn the logarithms of film and friction over their references on the
+    coarse grid, two more what leads to the limit of fine grids. A net learns both sums at many
+    points. Bounds: split conformal, the quantile of the errors at contacts drawn from the domain
+    that nothing has learnt from, joined in quadrature with twice the error of the grid's
+    correction. They hold for 95 % of contacts drawn so [vovk_2005].
+    """
+    settings = settings or FitSettings()
+    check_rows(rows)
+    progress(0.02, "processes")
+    trained = targets_of(solved_rows(rows, "box", "axle"))
+    processes = [fit_process(trained.groups, trained.values[:, n]) for n in range(2)]
+    progress(0.3, "grid")
+    pairs, steps = grid_corrections(rows, "box", "axle")
+    corrections = [fit_process(pairs.groups, steps[:, n], noise=_PAIR_NOISE) for n in range(2)]
+    grid_left = [_rms(one.left_out()) for one in corrections]
+    progress(0.4, "points of the net")
+    oils = tuple(read_oil(oil).lubricant for oil in plan.oils)
+    box = widened_box(oils)
+    mesh = shipped_mesh_table(plan.mesh_table)
+    on_axle = int(_AXLE_SHARE * settings.points)
+    drawn = [
+        *box_contacts(box, settings.points - on_axle, 1000 + settings.seed),
+        *axle_contacts(on_axle, 2000 + settings.seed, mesh, oils, TRAINED),
+    ]
+    groups = np.array([contact_groups(one) for one in drawn])
+    low, high = domain_of(box, groups)
+    points = np.vstack([groups, trained.groups])
+    corrected = trained.values + _at(corrections, trained.groups)
+    values = np.vstack([_at(processes, groups) + _at(corrections, groups), corrected])
+    weights = np.ones_like(values)
+    weights[len(groups) :] = _TRAINED_WEIGHT
+    progress(0.45, "net")
+    blocks = _net(points, values, weights, low, high, settings)
+    modulus = drawn[0].contact_modulus
+    model = FilmModel.of_blocks(
+        {**blocks, **_frame(low, high, modulus), "bounds": np.array([1.0, 1.0])}, {}
+    )
+    progress(0.95, "calibration")
+    kept = {kind: targets_of(solved_rows(rows, kind)) for kind in ("calibration", "fresh")}
+    limits = {kind: at_limit(one, corrections) for kind, one in kept.items()}
+    found = {kind: evaluated(model, one.contacts) for kind, one in kept.items()}
+    misses = {kind: Misses(found[kind] / limits[kind] - 1.0) for kind in kept}
+    spread = conformal_bounds(misses["calibration"].values)
+    bounds = tuple(math.hypot(b, 2.0 * g) for b, g in zip(spread, grid_left, strict=True))
+    provenance = _provenance(rows, plan, settings, (name, state), misses, bounds, grid_left, box)
+    model = FilmModel.of_blocks({**model.blocks, "bounds": np.array(bounds)}, provenance)
+    return Fitted(model, misses["calibration"], misses["fresh"], found, limits)
+
+
+def check_rows(rows: Sequence[SolveRow]) -> None:
+    """Refuse a training set that is too small."""
+    for kind, least in _FEWEST.items():
+        count = len(solved_rows(rows, kind))
+        if count < least:
+            raise ParameterError(
+                f"A fit needs at least {least} solved contacts of the kind {kind}, got {count}. "
+                "Let `gearlube film-model train` go on."
+            )
+    pairs = len(grid_corrections(rows, "box", "axle")[0].contacts)
+    if pairs < _FEWEST_PAIRS:
+        raise ParameterError(
+            f"A fit needs at least {_FEWEST_PAIRS} contacts solved on both grids, got {pairs}. "
+            "Let `gearlube film-model train` go on."
+        )
+
+
+def domain_of(box: Box, groups: Array) -> tuple[Array, Array]:
+    """Return the lowest and highest value of each group in the domain."""
+    corners = [contact_groups(box_contact(box, np.full(len(box), t))) for t in (0.0, 1.0)]
+    low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+    # groups that follow from the others: down to what was met, up to their limit
+    for name, most in (("heat", math.log(MOST_HEAT)), ("thickness", DOMAIN.most_thickness)):
+        n = FilmGroups._fields.index(name)
+        least = groups[:, n].min()
+        low[n], high[n] = least - _BORDER * (most - least), most
+    low[0] += math.log(DOMAIN.least_pressure / TRAINED.least_pressure)
+    return low, high
+
+
+def evaluated(model: FilmModel, contacts: Sequence[FilmContact]) -> Array:
+    """Return film [m] and friction [-] of a model, (n, 2)."""
+    numbers = model.copied_numbers()
+    return np.array([solved_film(numbers, one)[:2] for one in contacts])
+
+
+def at_limit(targets: Targets, corrections: Sequence[FilmProcess]) -> Array:
+    """Return film and friction of coarse solutions, led to the limit of fine grids, (n, 2)."""
+    step = _at(corrections, targets.groups)
+    film = targets.film * np.exp(step[:, 0])
+    # the correction of friction is that over its reference, which follows the film
+    values = targets.values + step
+    expected = [expected_friction(*one) for one in zip(targets.contacts, film, strict=True)]
+    return np.stack([film, np.array(expected) * np.exp(values[:, 1])], axis=1)
+
+
+def _at(processes: Sequence[FilmProcess], groups: Array) -> Array:
+    return np.stack([one(groups) for one in processes], axis=1)
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt((values**2).mean()))
+
+
+def _frame(low: Array, high: Array, modulus: float) -> dict[str, Array]:
+    return {
+        "domain_low": low,
+        "domain_high": high,
+        "shift": 0.5 * (low + high),
+        "scale": 2.0 / (high - low),
+        "border": np.array([_BORDER]),
+        "contact_modulus": np.array([modulus]),
+    }
+
+
+def _net(
+    points: Array, values: Array, weights: Array, low: Array, high: Array, settings: FitSettings
+) -> dict[str, Array]:
+    """Return the weights of the net that learns values (n, 2) at points (n, N_GROUPS)."""
+    inputs = (points - 0.5 * (low + high)) * 2.0 / (high - low)
+    spread = values.std(axis=0)
+    blocks = fit_net(
+        inputs, values / spread, weights, seed=settings.seed, steps=settings.steps, decay=1e-9
+    )
+    for name in ("straight", "last"):
+        blocks[name] = blocks[name] * spread[:, None]
+    blocks["last_offset"] = blocks["last_offset"] * spread
+    return blocks
+
+
+def _provenance(
+    rows: Sequence[SolveRow],
+    plan: FilmPlan,
+    settings: FitSettings,
+    name: tuple[str, str],
+    misses: dict[str, Misses],
+    bounds: tuple[float, ...],
+    grid_left: list[float],
+    box: Box,
+) -> dict[str, Any]:
+    counts = {
+        kind: len(solved_rows(rows, kind)) for kind in ("box", "axle", "calibration", "fresh")
+    }
+    fine = len(solved_rows(rows, "box", "axle", fine=True))
+    over = misses["fresh"].violations((bounds[0], bounds[1]))
+    return {
+        "name": name[0],
+        "state": name[1],
+        "contact": "elliptical, entrainment and sliding at angles: hypoid flank",
+        "physics": "steady thermal Eyring film, fully flooded, smooth, bulk at the oil's "
+        "temperature; Roelands and Houpert, Dowson and Higginson, no limiting stress; steel",
+        "oils_of_the_axle": list(plan.oils),
+        "mesh_table": plan.mesh_table,
+        "grid": f"{COARSE[0]} x {COARSE[1]} led to the limit by {fine} films on "
+        f"{FINE[0]} x {FINE[1]}",
+        "solves": counts,
+        "fine_solves": fine,
+        "failed": sum(bool(row.failure) for row in rows),
+        "seed": plan.seed,
+        "fit": {"points": settings.points, "steps": settings.steps, "seed": settings.seed},
+        "date": datetime.now(UTC).date().isoformat(),
+        "gearlube": __version__,
+        "box": {key: [low, high, scale] for key, (low, high, scale) in box.items()},
+        "bounds": {
+            "confidence": CONFIDENCE,
+            "film_percent": round(100.0 * bounds[0], 4),
+            "friction_percent": round(100.0 * bounds[1], 4),
+            "fresh_violations": list(over),
+        },
+        "grid_error_left_percent": [round(100.0 * one, 4) for one in grid_left],
+        "errors_box": misses["calibration"].summary(),
+        "errors_fresh_axle": misses["fresh"].summary(),
+    }
