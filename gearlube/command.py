@@ -75,7 +75,7 @@ COMMANDS = (
     LazyCommand(
         name="whine",
         target="gearlube.studies.whine.command:whine",
-        summary="Whine orders of a hypoid pair against its settings.",
+        summary="Whine orders of a gear pair against its settings and reliefs.",
         panel=_GEARS,
         command_class="WhineCommand",
     ),

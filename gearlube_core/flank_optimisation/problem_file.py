@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
@@ -181,7 +182,10 @@ class OptimisationFile(InputFile):
     title: ClassVar[str] = "problem file"
 
     name: Text = Field(description="Name of the optimised pair")
-    gear: Text = Field(description="Name of a shipped gear pair, or a gear file (.toml)")
+    gear: Text = Field(
+        description="Name of a shipped gear pair, or a gear file (.toml); a path is relative to "
+        "this file, or else to the working folder"
+    )
     torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)] = Field(
         description="Operating torques of the pinion, all with the same weight"
     )
@@ -207,6 +211,13 @@ class OptimisationFile(InputFile):
     settings: Settings | None = None
     errors: Errors = Errors()
     limits: Limits = Limits()
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Return the file at a path; its gear file may lie beside it."""
+        found = super().from_toml(path)
+        beside = Path(path).parent / found.gear
+        return found.model_copy(update={"gear": str(beside)}) if beside.is_file() else found
 
     @model_validator(mode="after")
     def _check_relations(self) -> OptimisationFile:

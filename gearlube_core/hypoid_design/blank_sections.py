@@ -19,6 +19,7 @@ PathAngle = Annotated[float, Field(ge=1.0, le=179.0, allow_inf_nan=False)]
 Place = Annotated[float, Field(ge=0.2, le=0.8, allow_inf_nan=False)]
 EllipseLength = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False)]
 Removal = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
+Torque = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
 Clearance = Annotated[float, Field(gt=0.0, le=0.5, allow_inf_nan=False)]
 
 
@@ -125,20 +126,28 @@ class WantedContact(Section):
 class BlankRelief(Section):
     """Relief of the designed flanks; sharp edges would carry from small torques on."""
 
-    tip_relief_um: Removal = Field(
-        default=20.0,
-        description="Material removed at the tips of pinion and gear, on both flanks; 0: none",
+    torque_n_m: Torque | None = Field(
+        default=None,
+        description="Pinion torque up to which no edge carries, for reliefs that are chosen; "
+        "absent: a gear torque of 0.2 N/mm2 times the cube of the gear's outer diameter",
+    )
+    tip_relief_um: Removal | None = Field(
+        default=None,
+        description="Material removed at the tips of pinion and gear, on both flanks; 0: none; "
+        "absent: chosen for torque_n_m, 20 or more",
     )
     tip_relief_share: Share = Field(
         default=0.25, description="Share of the tooth height over which tip relief falls to 0"
     )
-    end_relief_um: Removal = Field(
-        default=30.0,
-        description="Material removed at toe and heel of the pinion, on both flanks; 0: none",
+    end_relief_um: Removal | None = Field(
+        default=None,
+        description="Material removed at toe and heel of the pinion, on both flanks; 0: none; "
+        "absent: chosen for torque_n_m, 30 or more",
     )
     end_relief_share: Share = Field(
         default=0.15,
-        description="Share of the pinion's face width over which each end relief falls to 0",
+        description="Share of the gear's face width over which each end relief falls to 0; the "
+        "part of the pinion beyond the gear's end is added",
     )
 
 

@@ -40,13 +40,23 @@ RELIEFS = (  # amount and extent of the relief of each edge
     ("toe_relief_um", "toe_relief_length_mm"),
     ("heel_relief_um", "heel_relief_length_mm"),
 )
-UNMODELLED = {  # words in fields that neither gear files nor blank files have
-    "duplex": "both flanks of the pinion are cut in one set-up, with helical motion as in duplex "
-    "helical; duplex taper is not modelled",
-    "taper": "teeth are equally deep from toe to heel; tapered depth is not modelled",
-    "shaft_angle": "the axes stand at 90 deg; other angles are not modelled",
+_UNIFORM = (
+    "teeth are equally deep from toe to heel, so pitch, face and root cones are parallel; tapered "
+    "depth is not modelled. Leave it out: the depth at mid-face counts for the whole tooth"
+)
+UNMODELLED = {  # words in fields that neither gear files nor blank files have, and the cure
+    "duplex": "both flanks of the pinion are cut in one set-up; duplex taper is not modelled. "
+    "Leave it out, and for duplex helical give the pinion's machine helical motion",
+    "completing": "both flanks of the pinion are always cut in one set-up (completing). Leave it "
+    "out; set-ups of their own for convex and concave flanks are not modelled",
+    "taper": _UNIFORM,
+    "dedendum_angle": _UNIFORM,
+    "addendum_angle": _UNIFORM,
+    "face_angle": _UNIFORM,
+    ".root_angle": _UNIFORM,
+    "shaft_angle": "the axes stand at 90 deg; other angles are not modelled. Leave it out",
     "hand": 'the hand is pair.pinion_hand, "left" or "right"',
-    "thickness": "teeth and slots are equally wide at the middle of the working depth",
+    "thickness": "teeth and slots are equally wide at the middle of the working depth: no field",
 }
 _LEAST_RELIEF, _MOST_RELIEF = 0.5, 500.0  # um
 _STEEPEST = 0.1  # amount over extent: the removal stays along the normal

@@ -90,7 +90,9 @@ def tooth_widths(dataset: xr.Dataset) -> Any:
                     color=colour,
                     label=member,
                 )
-            ax.set(xlim=(0.0, 1.0), xlabel="toe  -  face width  -  heel", ylabel="mm")
+            ax.set(
+                xlim=(0.0, 1.0), xlabel="toe  -  face width  -  heel", ylabel="normal width [mm]"
+            )
             ax.set_ylim(bottom=0.0)
             ax.set_title("topland" if name == "topland" else "slot at the root")
             ax.legend()

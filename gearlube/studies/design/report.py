@@ -67,7 +67,7 @@ def design_report(dataset: xr.Dataset, figures: Path, command_line: str = "") ->
         ],
         limits=_LIMITS,
         facts=[("command", command_line)] if command_line else [],
-        files=(f"{attributes['name']}.toml", "axle.toml", "design.nc", "figures/"),
+        files=(f"{attributes['name']}.toml", "axle.toml", "problem.toml", "design.nc", "figures/"),
     )
 
 

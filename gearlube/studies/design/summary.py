@@ -20,6 +20,7 @@ PATH_LIMIT = 2.0 * DEGREE
 CENTRE_LIMIT = 0.5 * MILLIMETRE
 LENGTH_LIMIT = 0.25
 _MICRO = 1e-6
+_TORQUE = "0.2 N/mm2 times the cube of the gear's outer diameter, on the gear"
 _PATH = "44 deg from across the lines of contact; 30 or 15 where that fails"
 
 
@@ -119,7 +120,7 @@ def design_warnings(design: Design, forms: dict[str, ToothForm]) -> dict[str, li
         for one in pair_warnings(design.file)
         if not any(one.startswith(reason) for reason in said)
     ]
-    contact = unmet_targets(design)
+    contact = unmet_targets(design) + design.relief.warnings()
     return {"blank": list(design.warnings), "contact": contact, "pair": pair, "teeth": teeth}
 
 
@@ -136,7 +137,22 @@ def design_inputs(design: Design) -> list[InputNote]:
     ):
         if f"contact.{key}" not in named:
             notes.append(InputNote(f"contact.{key}", value, unit, "assumed", why))
-    return notes
+    return notes + _relief_notes(design, named)
+
+
+def _relief_notes(design: Design, named: set[str]) -> list[InputNote]:
+    chosen = design.relief
+    found = [InputNote("relief.torque_n_m", chosen.torque, "N.m", "assumed", _TORQUE)]
+    why = f"no edge carries at {chosen.torque:g} N.m"
+    for key, edges in (
+        ("tip_relief_um", ("pinion tip", "gear tip")),
+        ("end_relief_um", ("ends",)),
+    ):
+        amounts = [chosen.amounts[side][edge] for side in SIDES for edge in edges]
+        low, high = min(amounts), max(amounts)
+        text = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+        found.append(InputNote(f"relief.{key}", text, "um", "assumed", why))
+    return [one for one in found if one.field not in named]
 
 
 def design_settings(design: Design) -> list[tuple[str, str, str]]:

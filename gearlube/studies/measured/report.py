@@ -144,14 +144,17 @@ def tooth_report(teeth: xr.Dataset) -> Report:
             ),
             *(_turn(teeth, member) for member in members_of(teeth)),
         ],
-        tables=[_order_table(teeth, member) for member in members_of(teeth)],
+        tables=[
+            *(_order_table(teeth, member) for member in members_of(teeth)),
+            *_hunting_table(teeth),
+        ],
         inputs=[
             Input("torques", torques, "N·m"),
             Input("positions of a mesh period", str(teeth.sizes["phase"])),
         ],
         limits=(
             "Quasi-static: the mesh table carries these errors into the dynamics.",
-            "What repeats with the hunting turn alone is not in the mesh table.",
+            "What repeats with the hunting turn alone is not in the mesh table; a table shows it.",
             "Orders above a quarter of the positions times the teeth are not kept.",
         ),
         files=(f"{attributes['name']}.nc", "tooth_errors.nc", "tooth_errors.png"),
@@ -220,3 +223,31 @@ def _order_table(teeth: xr.Dataset, member: str) -> Table:
         ],
         folded=True,
     )
+
+
+def _hunting_table(teeth: xr.Dataset) -> list[Table]:
+    """Return the table of the orders of the hunting turn alone; nothing where there are none."""
+    if not teeth.sizes.get("hunting_order"):
+        return []
+    amplitude = _MICRO * teeth["hunting_amplitude"]
+    ratio = teeth.attrs["gear_teeth"] / teeth.attrs["pinion_teeth"]
+    return [
+        Table(
+            title="Orders of the hunting turn alone",
+            caption="The largest of those that repeat only when the same teeth meet again. They "
+            "are whole orders of neither member, and are not in the mesh table.",
+            columns=[
+                Column("order of the pinion"),
+                Column("order of the gear"),
+                *(Column(f"{one:g} N·m", "µm") for one in teeth["torque"].values[:10]),
+            ],
+            rows=[
+                [
+                    f"{float(order):.4f}",
+                    f"{float(order) * ratio:.4f}",
+                    *(float(one) for one in amplitude.values[:10, k]),
+                ]
+                for k, order in enumerate(teeth["hunting_order"].values)
+            ],
+        )
+    ]

@@ -147,7 +147,14 @@ def tooth_error_dataset(cycle: ToothErrorCycle, name: str = "") -> xr.Dataset:
             np.hypot(orders[..., 0], orders[..., 1]),
             {"units": "m", "long_name": f"amplitude by order of the {member}'s turn"},
         )
+    hunting, amplitudes = cycle.hunting_orders()
+    data["hunting_amplitude"] = (
+        ("torque", "hunting_order"),
+        amplitudes,
+        {"units": "m", "long_name": "largest orders of the hunting turn alone, not in the table"},
+    )
     coords = {
+        "hunting_order": ("hunting_order", hunting, {"units": "1", "long_name": "pinion's turn"}),
         "torque": ("torque", cycle.torque, {"units": "N.m", "long_name": "pinion torque"}),
         "phase": ("phase", cycle.phases, {"units": "1", "long_name": "mesh phase"}),
         **{

@@ -15,6 +15,7 @@ from gearlube.report.page import write_report
 from gearlube.report.parts import Column, Figure, Input, Report, Table
 from gearlube.studies.whine.figures import most_moving, order_changes
 from gearlube.studies.whine.findings import findings, movers, numbers
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import rads_to_rpm
 
@@ -45,7 +46,10 @@ def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
     """Return the report of a whine study."""
     attributes = dataset.attrs
     speed = _RPM * dataset["pinion_speed"].values
-    file = HypoidGearFile.model_validate_json(attributes["gear_file"])
+    kind = attributes.get("kind", "hypoid")
+    model = HypoidGearFile if kind == "hypoid" else HelicalGearFile
+    file = model.model_validate_json(attributes["gear_file"])
+    moved = "settings, reliefs and misalignments" if kind == "hypoid" else "reliefs and slopes"
     settings = [
         Input("pinion torque", f"{attributes['torque']:g}", "N·m"),
         Input("pinion speeds", f"{speed[0]:.0f} to {speed[-1]:.0f}, {speed.size} of them", "rpm"),
@@ -53,10 +57,10 @@ def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
     ]
     return Report(
         study="whine",
-        title=f"Whine of the hypoid pair {attributes['name']}",
+        title=f"Whine of the {kind} pair {attributes['name']}",
         subtitle=f"Mesh orders of the torsional pair at {attributes['torque']:g} N·m on the pinion "
         f"from {speed[0]:.0f} to {speed[-1]:.0f} rpm, and what {dataset.sizes['parameter']} "
-        "settings, reliefs and misalignments change of them.",
+        f"{moved} change of them.",
         findings=findings(dataset),
         numbers=numbers(dataset),
         figures=_figures(dataset),
