@@ -135,7 +135,11 @@ def test_a_path_shorter_than_a_pitch_is_a_warning():
 
 def test_relief_is_told_with_its_torque_and_pressure_where_that_is_known():
     relief = told(design(), "At 300 N·m")
-    assert "1.50 GPa (drive) and 1.60 GPa (coast)" in relief.headline
+    assert "1.50 GPa (drive) and 1.60 GPa (coast), and no edge carries." in relief.headline
+    carried = told(
+        design(contact=["At 300 N.m edges of the drive flanks carry: heel 3 GPa."]), "1.50"
+    )
+    assert (carried.level, "no edge" in carried.headline) == (NOTE, False)
     assert "drive: pinion tip 20 µm, gear tip 32 µm, ends 30 µm" in relief.detail
     unknown = findings(design(pressure=(np.nan, np.nan)))
     assert not any("300 N·m" in one.headline for one in unknown)

@@ -35,7 +35,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     said = json.loads(dataset.attrs["warnings"])
     return [
         *(_contact(dataset.sel(side=side), side) for side in SIDES),
-        *_relief(dataset),
+        *_relief(dataset, sound=not any("flanks carry" in one for one in said["contact"])),
         *_sentences(said["contact"]),
         *_sentences([*said["teeth"], *said["blank"], *said["pair"]]),
         *_teeth(dataset, sound=not said["teeth"]),
@@ -86,7 +86,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
     )
 
 
-def _relief(dataset: xr.Dataset) -> list[Finding]:
+def _relief(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     """Say the pressure at the torque of the relief; nothing where it is not known."""
     pressure = 1e-9 * dataset["relief_pressure"]
     if bool(np.isnan(pressure).any()):
@@ -103,8 +103,9 @@ def _relief(dataset: xr.Dataset) -> list[Finding]:
     )
     return [
         Finding(
-            NOTE,
-            f"At {torque:g} N·m of the pinion the highest pressure is {told}.",
+            GOOD if sound else NOTE,
+            f"At {torque:g} N·m of the pinion the highest pressure is {told}"
+            f"{', and no edge carries' if sound else ''}.",
             f"Relief, {amounts}. Give relief.torque_n_m to choose it for another torque.",
         )
     ]

@@ -97,6 +97,7 @@ source = "gears designed by gearlube"
 
 [gear_set]
 gear_file = "{name}.toml"      # its loaded contact is analysed once, some minutes
+# mesh_table = "contact/{name}.nc"   # in place of gear_file, if `gearlube contact` has written it
 """
 
 

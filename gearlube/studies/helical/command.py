@@ -11,6 +11,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.oil_option import oil_kelvin
@@ -135,6 +136,9 @@ def helical(
     oil film, losses of the pair alone, geometry. Finished parts are kept in OUT/parts: run the same
     command again to go on after a stop.
     """
+    if example:
+        print_example("gearlube_core.helical_geometry.gear_file:HelicalGearFile", "he_2007")
+        return
     from gearlube.report.stored import PAGE
     from gearlube.studies.helical import run
     from gearlube.studies.helical.findings import findings
@@ -145,9 +149,6 @@ def helical(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
-        if example:
-            typer.echo(HelicalGearFile.shipped_text("he_2007"), nl=False)
-            return
         file = HelicalGearFile.given(gear)
         if jobs is not None:
             check_within("--jobs", jobs, 1, 1024)

@@ -17,6 +17,7 @@ from gearlube.cli.cooling_options import (
     ConductanceAtRestOption,
     given_cooling,
 )
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import (
@@ -138,7 +139,9 @@ def sweep(
 
     Finished points are kept in OUT/points: run the same command again to go on after a stop.
     """
-    from drivetrain.axle_file.axle_file import AxleFile
+    if example:
+        print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
+        return
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.oil_option import oil_kelvin
@@ -167,9 +170,6 @@ def sweep(
         exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."),
         TemporaryDirectory(prefix="gearlube-") as folder,
     ):
-        if example:
-            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
-            return
         own_axle = axle is not None
         if jobs is not None:
             check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.example import print_example
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import (
     ExampleOption,
@@ -122,14 +123,14 @@ def helical(
     the snapshots; a stopped march goes on from its record in OUT when the same command runs again.
     Tip relief, crown and facets are those of the gear file; options replace them on both flanks.
     """
+    if example:
+        print_example("gearlube_core.helical_geometry.gear_file:HelicalGearFile", gear)
+        return
     from gearlube.studies.films import run_march, run_steady
     from gearlube.studies.films.helical_case import HelicalLineCase, with_flanks
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     with exit_on_errors(out):
-        if example:
-            typer.echo(HelicalGearFile.shipped_text(gear), nl=False)
-            return
         _check_options(step, position, march, snapshots)
         check_option("--time-error", time_error, ("embedded", "repeat"))
         goal = film_error_of(film_error)
