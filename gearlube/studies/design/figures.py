@@ -49,7 +49,8 @@ def contact_patterns(dataset: xr.Dataset) -> Any:
             tooth.draw(ax, f"{_TITLES[side]}: path over {ratio:.2f} pitches")
         figure.colorbar(filled, ax=axes, label="ease-off [µm]")
         figure.suptitle(
-            "Gear tooth: ease-off, path (black), pattern at 6.35 µm (red), asked (white dot)",
+            "Gear tooth: ease-off, path (black), pattern at 6.35 µm (red), wanted place (white "
+            "dot)",
             fontsize=11.5,
         )
     return figure
@@ -107,20 +108,20 @@ DESIGN_CATALOGUE = {
     "contact_pattern": Picture(
         contact_patterns,
         "Contact on the gear tooth",
-        "How far the pinion flank stands off the conjugate one. Black: the way of the contact "
-        "without load; red: where marking compound of 6.35 µm would be wiped off; white dot: the "
-        "place asked for. White areas are out of reach of the pinion, on a grid of 21 x 41 points.",
+        "Gap between the pinion flank and the conjugate one. Black: path of contact without load; "
+        "red: where marking compound of 6.35 µm would be wiped off; white dot: the wanted place. "
+        "The pinion does not reach white areas. Grid of 21 x 41 points.",
     ),
     "transmission_error": Picture(
         transmission_error,
         "Transmission error without load",
-        "Of flanks as cut. Parabolas that meet low are quiet without load and take errors of "
-        "assembly. Gaps: edges would touch.",
+        "Flanks as cut. Parabolas that cross at a low error are quiet without load and tolerate "
+        "errors of assembly. Gaps: edges would touch.",
     ),
     "tooth_widths": Picture(
         tooth_widths,
         "Widths of the teeth",
-        "Normal width of topland, and of the slot at the root: blade points can be at most as wide "
-        "as its least.",
+        "Normal width of topland, and of the slot at the root: blade points must not be wider "
+        "than the narrowest slot.",
     ),
 }

@@ -216,7 +216,7 @@ def helical(
     for name, reason in results.failures.items():
         logger.error("%s: %s", name, reason)
     if results.interrupted:
-        logger.warning("Stopped. Run the same command again to go on from %s.", out / run.PARTS)
+        logger.warning("Stopped. Run the same command again to continue from %s.", out / run.PARTS)
         raise typer.Exit(INTERRUPTED)
     if results.failures:
         raise typer.Exit(FAILED)
