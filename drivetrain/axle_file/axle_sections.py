@@ -94,19 +94,19 @@ class GearSet(ModelSection):
             )
         if self.mesh_table is not None and self.gear_file is not None:
             raise ValueError(
-                f"mesh_table and gear_file must not come together, got {self.mesh_table!r} and "
-                f"{self.gear_file!r}; leave out mesh_table to have the gear file analysed"
+                f"give mesh_table or gear_file, not both, got {self.mesh_table!r} and "
+                f"{self.gear_file!r}; leave out mesh_table if the gear file is to be analysed"
             )
         if self.gear_file is not None and not self.gear_file.endswith(".toml"):
             raise ValueError(
-                f"gear_file must be a gear file, whose name ends in .toml, got {self.gear_file!r}; "
-                "a mesh table is named as mesh_table"
+                "gear_file must be a gear file, a name that ends in .toml, got "
+                f"{self.gear_file!r}; give a mesh table in the field mesh_table"
             )
         if self.contact_torques_n_m is not None:
             if self.gear_file is None:
                 raise ValueError(
-                    "contact_torques_n_m must come with gear_file, got it with mesh_table, which "
-                    "has its own torques; leave it out"
+                    "contact_torques_n_m is only for gear_file, got mesh_table, which has torques "
+                    "of its own; leave it out"
                 )
             if any(np.diff(self.contact_torques_n_m) <= 0.0):
                 raise ValueError(

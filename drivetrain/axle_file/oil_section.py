@@ -112,7 +112,8 @@ class OilSection(ModelSection):
             others = [key for key in type(self).model_fields if key != "file" and self.has(key)]
             if others:
                 raise ValueError(
-                    f"file comes alone, got {', '.join(others)} beside it; write them into the file"
+                    f"file must be the only field of this section, got also {', '.join(others)}; "
+                    "write these into the oil file"
                 )
             return self
         if self.name is not None and self.name not in lubricant_names():
@@ -123,7 +124,9 @@ class OilSection(ModelSection):
         for pair in (_SHEET, _WALTHER):
             given = [key for key in pair if self.has(key)]
             if len(given) == 1:
-                problems.append(f"{pair[0]} and {pair[1]} come together, got {given[0]} alone")
+                problems.append(
+                    f"{pair[0]} and {pair[1]} must be given together, got only {given[0]}"
+                )
         if self.has(_SHEET[0]) and self.has(_WALTHER[0]):
             problems.append(
                 "the two viscosities and walther_a, walther_b are "

@@ -28,14 +28,20 @@ def _asinh_exp(y: float) -> float:
 
 
 @kernel
-def _heated_stress(log_rate: float, softening: float) -> float:
-    # s = asinh(exp(log_rate - softening s)): from that of a stiff film, one step of Newton
-    s = _asinh_exp(log_rate) / (1.0 + softening)
-    y = log_rate - softening * s
+def _heated_stress(log_rate: float, log_viscosity: float, softening: float) -> float:
+    # s = asinh(exp(log_rate + G/(1 + k s/G))), G = ln(eta/kappa) of the cold film, k softening:
+    # that of asinh(exp(x)) = x + c with c of the cold film, then one step of Newton
+    G, k = log_viscosity, softening
+    cold = _asinh_exp(log_rate + G)
+    b = G * (1.0 + k) - k * cold
+    s = 2.0 * cold * G / (b + math.sqrt(b * b + 4.0 * k * cold * G))
+    fall = 1.0 / (1.0 + k * s / G)
+    y = log_rate + G * fall
     if y > _LOG_LARGE:
-        return s - (s - y - _LN2) / (1.0 + softening)
+        return s - (s - y - _LN2) / (1.0 + k * fall * fall)
     e = math.exp(y)
-    return s - (s - math.asinh(e)) / (1.0 + softening * e / math.sqrt(1.0 + e * e))
+    slope = k * fall * fall * e / math.sqrt(1.0 + e * e)
+    return s - (s - math.asinh(e)) / (1.0 + slope)
 
 
 @kernel
@@ -44,7 +50,8 @@ def reference_friction(
 ) -> float:
     """Return the friction coefficient that the model corrects [-].
 
-    mu = <tau>/p,  tau = tau0 asinh[eta(p') slip/(h tau0) exp(-beta(p') tau slip R)],
+    mu = <tau>/p,  tau = tau0 asinh[eta slip/(h tau0)],
+    ln(eta/kappa) = G/[1 + beta(p') dT/G],  dT = tau slip R,
     R = h/(8 k) + 0.37 [a_x/(K rho c u)]^(1/2)
 
     Parameters
@@ -64,8 +71,9 @@ def reference_friction(
 
     Notes
     -----
-    The mean is over the ellipse with Hertz's pressures p', by three points; eta and beta after
-    Roelands and Houpert. R, the film's rise over the heat flux, is rough, and one Newton step ends
+    The mean is over the ellipse with Hertz's pressures p', by three points. G = ln(eta/kappa) at
+    p' and the inlet's temperature after Roelands; with heat it falls as Houpert's law with an
+    exponent S0 of one. R, the film's rise over the heat flux, is rough, and one Newton step ends
     each stress: what the model corrects need only be smooth and near.
     """
     top = ROELANDS_PRESSURE * _LARGEST_OVER_MEAN * p
@@ -80,6 +88,6 @@ def reference_friction(
         (_HIGH, _OUTER_WEIGHT),
     ):
         growth = math.exp(inlet.Z * math.log(1.0 + q * top))
-        stress = _heated_stress(log_rate + inlet.viscosity * growth, softening * growth)
+        stress = _heated_stress(log_rate, inlet.viscosity * growth, softening * growth)
         mean += weight * q * stress
     return inlet.tau0 / p * mean

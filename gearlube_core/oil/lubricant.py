@@ -206,7 +206,7 @@ class Lubricant:
 
 
 def lubricant_names() -> tuple[str, ...]:
-    """Return the names that `Lubricant.named` knows.
+    """Return the names of the oils of the library, which `Lubricant.named` takes.
 
     Examples
     --------

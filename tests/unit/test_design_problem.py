@@ -11,8 +11,9 @@ from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
-RELIEF = {"tip_relief_um": 30.0, "tip_relief_depth_mm": 1.5}
-AMOUNTS = {"pinion tip": 30.0, "gear tip": 30.0, "ends": 30.0}
+# twice 45 um over 8 % of the height would be steeper than a gear file takes
+RELIEF = {"tip_relief_um": 45.0, "tip_relief_depth_mm": 1.5}
+AMOUNTS = {"pinion tip": 45.0, "gear tip": 45.0, "ends": 30.0}
 
 
 def design(relief):

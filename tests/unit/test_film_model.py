@@ -66,13 +66,14 @@ def heated_stress(one: FilmContact, film: float, p: float, resistance: float) ->
     """Stress of an Eyring film heated by itself at one pressure, by bisection [Pa]."""
     log_ratio = math.log(one.eta0 / 63.15e-6)
     growth = (1.0 + 5.1e-9 * p) ** (one.alpha / (5.1e-9 * log_ratio))
-    cold = 63.15e-6 * math.exp(log_ratio * growth) * one.sliding_speed / (film * one.tau0)
+    rate = one.sliding_speed / (film * one.tau0)
 
     def excess(stress: float) -> float:
         rise = stress * one.sliding_speed * resistance
-        return stress - one.tau0 * math.asinh(cold * math.exp(-one.beta * growth * rise))
+        eta = 63.15e-6 * math.exp(log_ratio * growth / (1.0 + one.beta * rise / log_ratio))
+        return stress - one.tau0 * math.asinh(eta * rate)
 
-    return float(brentq(excess, 0.0, one.tau0 * math.asinh(cold)))
+    return float(brentq(excess, 0.0, 1e9))
 
 
 @pytest.fixture(scope="module")

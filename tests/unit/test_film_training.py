@@ -26,7 +26,17 @@ from gearlube_core.film_model.groups import reference_film as reference
 from gearlube_core.film_model.solved_film import SolvedFilm
 from gearlube_core.oil.lubricant import Lubricant
 
-SMALL = FilmPlan(box=140, axle=30, calibration=60, fresh=40, fine_box=25, fine_axle=5, fine_fresh=1)
+SMALL = FilmPlan(
+    box=140,
+    axle=30,
+    edge=10,
+    calibration=60,
+    fresh=40,
+    fine_box=25,
+    fine_axle=5,
+    fine_edge=2,
+    fine_fresh=1,
+)
 
 
 def made_up(task: FilmTask) -> SolveRow:
@@ -98,7 +108,17 @@ def test_training_resumes_and_keeps_failures(monkeypatch, tmp_path):
     from gearlube.studies.film_model import train as module
     from gearlube_core.storage.process_pool import ProcessPool
 
-    plan = FilmPlan(box=6, axle=1, calibration=1, fresh=1, fine_box=1, fine_axle=1, fine_fresh=0)
+    plan = FilmPlan(
+        box=6,
+        axle=1,
+        edge=1,
+        calibration=1,
+        fresh=1,
+        fine_box=1,
+        fine_axle=0,
+        fine_edge=0,
+        fine_fresh=0,
+    )
     solved = []
 
     def solve(task: FilmTask) -> SolveRow:
@@ -123,7 +143,7 @@ def test_training_resumes_and_keeps_failures(monkeypatch, tmp_path):
 
 
 def test_a_fit_finds_a_smooth_film_at_the_limit_of_the_grid(rows):
-    fitted = fit_model(rows, SMALL, FitSettings(points=600, steps=150), name="made_up")
+    fitted = fit_model(rows, SMALL, FitSettings(points=600, steps=15), name="made_up")
     # the made-up film varies by tens of per cent and its coarse grid errs by up to 2 %: 0.7 % rms
     # needs both the fit and the correction
     errors = fitted.fresh.values
@@ -137,7 +157,7 @@ def test_a_fit_finds_a_smooth_film_at_the_limit_of_the_grid(rows):
     film = fitted.predicted["fresh"][:, 0] / np.array([one.central_film for one in true]) - 1.0
     assert np.sqrt((film**2).mean()) < 0.007
     assert fitted.model.provenance["solves"] == {
-        "box": 140, "axle": 30, "calibration": 60, "fresh": 40
+        "box": 140, "axle": 30, "edge": 10, "calibration": 60, "fresh": 40
     }  # fmt: skip
     bounds = (fitted.model.film_bound, fitted.model.friction_bound)
     over = fitted.calibration.violations(bounds)
@@ -168,7 +188,7 @@ def test_net_gradients_lead_to_a_net_that_agrees():
     rng = np.random.default_rng(1)
     x = rng.uniform(-1.0, 1.0, (300, len(contact_groups(SMALL.tasks()[0].contact))))
     y = np.stack([np.sin(x[:, 0] + x[:, 3]), x[:, 1] * x[:, 2]], axis=1)
-    blocks = fit_net(x, y, np.ones_like(y), seed=1, steps=400)
+    blocks = fit_net(x, y, np.ones_like(y), seed=1, steps=40)
     # a wrong gradient stops within a few steps, far above
     assert np.abs(net_values(blocks, x) - y).max() < 0.05
 

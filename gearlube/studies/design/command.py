@@ -11,6 +11,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.next_command import run_next
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
@@ -48,6 +49,9 @@ def design(
     design.nc and figures. Takes seconds. --optimise adds a quieter pair with a report of its own,
     and takes minutes.
     """
+    if example:
+        print_example("gearlube_core.hypoid_design.blank_file:BlankFile", "hypoid_13_42")
+        return
     from gearlube.report.stored import PAGE
     from gearlube.studies.design import run
     from gearlube.studies.design.findings import findings
@@ -57,9 +61,6 @@ def design(
 
     began = time.monotonic()
     with exit_on_error():
-        if example:
-            typer.echo(BlankFile.shipped_text("hypoid_13_42"), nl=False)
-            return
         file = BlankFile.given(blank)
         with (
             results_folder(out, "design", overwrite=overwrite),

@@ -35,7 +35,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     said = json.loads(dataset.attrs["warnings"])
     return [
         *(_contact(dataset.sel(side=side), side) for side in SIDES),
-        *_relief(dataset),
+        *_relief(dataset, sound=not any("flanks carry" in one for one in said["contact"])),
         *_sentences(said["contact"]),
         *_sentences([*said["teeth"], *said["blank"], *said["pair"]]),
         *_teeth(dataset, sound=not said["teeth"]),
@@ -65,7 +65,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
         return Finding(WARNING, f"{name}: no parabolic transmission error was found.")
     told = [
         f"{words} {number_text(float(part[f'found_{key}']) / scale)} {unit} "
-        f"({number_text(float(part[f'asked_{key}']) / scale)} asked)"
+        f"({number_text(float(part[f'asked_{key}']) / scale)} wanted)"
         for key, words, scale, unit in (
             ("error", "transmission error", _MICRO, "µrad"),
             ("path_angle", "path at", DEGREE, "°"),
@@ -74,7 +74,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
     ]
     centre = quantity_text(float(part["missed_centre"]) / MILLIMETRE, "mm", 2)
     missed = missed_targets(part, side)
-    verdict = f"missed: {', '.join(missed)}" if missed else "as asked"
+    verdict = f"missed: {', '.join(missed)}" if missed else "as wanted"
     relieved = float(part["relieved_error"]) / _MICRO
     relief = (
         "no extreme" if math.isnan(relieved) else f"an error of {quantity_text(relieved, 'µrad')}"
@@ -86,7 +86,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
     )
 
 
-def _relief(dataset: xr.Dataset) -> list[Finding]:
+def _relief(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     """Say the pressure at the torque of the relief; nothing where it is not known."""
     pressure = 1e-9 * dataset["relief_pressure"]
     if bool(np.isnan(pressure).any()):
@@ -103,8 +103,9 @@ def _relief(dataset: xr.Dataset) -> list[Finding]:
     )
     return [
         Finding(
-            NOTE,
-            f"At {torque:g} N·m of the pinion the highest pressure is {told}.",
+            GOOD if sound else NOTE,
+            f"At {torque:g} N·m of the pinion the highest pressure is {told}"
+            f"{', and no edge carries' if sound else ''}.",
             f"Relief, {amounts}. Give relief.torque_n_m to choose it for another torque.",
         )
     ]
@@ -138,7 +139,7 @@ def _teeth(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     return [
         Finding(
             GOOD if sound else NOTE,
-            f"The least toplands are {told}{words}.",
+            f"The smallest toplands are {told}{words}.",
             f"Blade points may be as wide as the slot at its narrowest: {points}.",
         )
     ]

@@ -69,13 +69,12 @@ def _parameters(design: Design) -> list[str]:
     for role in ("pinion", "gear"):
         if f"{role}.drive_flank.tip_relief_um" not in design.file.completed:
             continue
+        high = min(2.0 * design.relief.amounts["drive"][f"{role} tip"], 200.0)
+        # gear files refuse a relief steeper than a tenth
+        least = max(0.08 * depth, 0.011 * high)
         lines += [
-            f"{role}.drive_flank.tip_relief_um = {{ low = 1.0, high = {_high(design, role)} }}",
+            f"{role}.drive_flank.tip_relief_um = {{ low = 1.0, high = {high} }}",
             f"{role}.drive_flank.tip_relief_depth_mm = "
-            f"{{ low = {0.08 * depth:.3g}, high = {0.45 * depth:.3g} }}",
+            f"{{ low = {least:.3g}, high = {0.45 * depth:.3g} }}",
         ]
     return lines
-
-
-def _high(design: Design, role: str) -> float:
-    return min(2.0 * design.relief.amounts["drive"][f"{role} tip"], 200.0)

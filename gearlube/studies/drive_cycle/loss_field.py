@@ -116,15 +116,15 @@ def _with_losses(
             break
     else:
         raise ParameterError(
-            f"The pinion torque must settle to {_SETTLED:g} N.m, got a change of {change:.2g} N.m "
-            "in the last round: the losses grow faster than the torque. Check the oil and the "
-            "roughness of the axle."
+            "The iteration of the pinion torque with the losses must settle to within "
+            f"{_SETTLED:g} N.m, got a change of {change:.2g} N.m in the last round. The losses "
+            "grow faster than the torque. Check the oil and the roughness of the axle."
         )
     if carried.max() > nodes[-1] or carried.min() < nodes[0]:
         raise ParameterError(
             f"The pinion torque with losses must be within {nodes[0]:g} to {nodes[-1]:g} N.m, got "
             f"{carried.min():.4g} to {carried.max():.4g} N.m. Run `gearlube contact` with higher "
-            "torques, or take a gentler trace."
+            "torques, or give a trace with smaller torques."
         )
     return carried
 
@@ -167,8 +167,8 @@ def _check_map(status: Array, temperatures: Array, speeds: Array, torques: Array
         return
     i, j, k = np.argwhere(status)[0]
     raise ParameterError(
-        f"The losses must be found at every point of the map, got {int((status != 0).sum())} "
-        f"without. The first is at {temperatures[i]:.1f} K, {speeds[j]:.4g} rad/s and "
+        f"The losses must be found at every point of the map, but {int((status != 0).sum())} "
+        f"points failed. The first is at {temperatures[i]:.1f} K, {speeds[j]:.4g} rad/s and "
         f"{torques[k]:.4g} N.m: {FAILURES[int(status[i, j, k])]}"
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -53,3 +54,13 @@ def conformal_bounds(errors: Array, confidence: float = CONFIDENCE) -> tuple[flo
         raise ParameterError(f"Bounds need at least 19 calibration contacts, got {len(errors)}.")
     ordered = np.sort(np.abs(errors), axis=0)
     return float(ordered[rank - 1, 0]), float(ordered[rank - 1, 1])
+
+
+def tests_table(predicted: Mapping[str, Array], solved: Mapping[str, Array]) -> str:
+    """Return films [m] and frictions of a model beside solved ones as CSV, by kind of contact."""
+    lines = ["kind,film_model_m,film_solved_m,friction_model,friction_solved"]
+    for kind in predicted:
+        for own, true in zip(predicted[kind], solved[kind], strict=True):
+            numbers = (own[0], true[0], own[1], true[1])
+            lines.append(",".join([kind, *(f"{number:.6g}" for number in numbers)]))
+    return "\n".join(lines) + "\n"

@@ -42,6 +42,9 @@ def train(
     ] = "mohammadpour_2015",
     box: Annotated[int, typer.Option(help="Contacts of the box of groups.", metavar="N")] = 760,
     axle: Annotated[int, typer.Option(help="Contacts that the axle visits.", metavar="N")] = 300,
+    edge: Annotated[
+        int, typer.Option(help="More contacts of the box with thick films.", metavar="N")
+    ] = 160,
     calibration: Annotated[
         int, typer.Option(help="Independent contacts of the box, for the bounds.", metavar="N")
     ] = 250,
@@ -78,10 +81,12 @@ def train(
             mesh_table=mesh_table,
             box=box,
             axle=axle,
+            edge=edge,
             calibration=calibration,
             fresh=fresh,
             fine_box=fine,
             fine_axle=min(axle, fine // 2),
+            fine_edge=min(edge, fine // 3),
             fine_fresh=min(fresh, fine // 3),
             seed=seed,
         )
@@ -100,19 +105,21 @@ def fit(
     folder: _FolderArgument = Path("gearlube_film_model"),
     points: Annotated[
         int, typer.Option(help="Points that the net learns from.", metavar="N")
-    ] = 12_000,
-    steps: Annotated[int, typer.Option(help="Most iterations of the net.", metavar="N")] = 3000,
+    ] = 8000,
+    steps: Annotated[int, typer.Option(help="Most steps of the net's fit.", metavar="N")] = 150,
     out: Annotated[Path, typer.Option(help="The model (.json).")] = Path("film_model.json"),
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace OUT.")] = False,
 ) -> None:
     """Fit a model to solved films: processes, net, bounds, test. Some minutes."""
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
+    from gearlube.studies.film_model.calibration import tests_table
     from gearlube.studies.film_model.fit import FitSettings, fit_model
     from gearlube.studies.film_model.model_lines import model_lines
     from gearlube.studies.film_model.solves import SolveTable
     from gearlube.studies.film_model.train import SOLVES, stored_plan
     from gearlube_core.errors import ParameterError
+    from gearlube_core.storage.atomic_file import write_text
 
     with exit_on_error("Stopped; nothing was written."):
         if out.suffix != ".json":
@@ -130,9 +137,11 @@ def fit(
                 progress=progress,
             )
         fitted.model.write(out)
+        tests = out.with_name(f"{out.stem}_tests.csv")
+        write_text(tests_table(fitted.predicted, fitted.solved), tests)
         for line in model_lines(fitted.model):
             typer.echo(line)
-        logger.info("Model: %s", out)
+        logger.info("Model: %s; tests: %s", out, tests)
 
 
 @film_model.command()

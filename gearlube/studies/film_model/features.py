@@ -12,17 +12,20 @@ _MODULUS_OVER_ROELANDS = 588.5
 
 
 def film_features(groups: Array) -> Array:
-    """Return inputs (n, 16) in which films vary simply, from groups (n, N_GROUPS).
+    """Return inputs (n, 17) in which films vary simply, from groups (n, N_GROUPS).
 
     In order: thickness, material group as of Moes with u cos(psi), alpha p, tau0/p, ellipticity,
     entrainment angle, slide-roll ratio, sliding angle, heating number of the oil, Z, S0, Peclet
-    number of the solids, conductivity and heat capacity ratio, viscosity, ln(eta(p)/eta0).
+    number of the solids, conductivity and heat capacity ratio, viscosity, ln(eta(p)/eta0),
+    ln[eta0 slip/(h tau0)] up to a function of the ellipticity.
     """
     g = FilmGroups(*groups.T)
     alpha = g.exponent + np.log(g.viscosity)  # ln(alpha over that of Roelands' pressure)
     speed = g.rate + g.viscosity + np.log(np.cos(g.psi))  # ln(eta0 u cos(psi)/(E* R_x))
     pressure = np.exp(g.pressure) * _MODULUS_OVER_ROELANDS
     growth = g.viscosity * np.expm1(np.exp(g.exponent) * np.log1p(pressure))
+    slip = g.viscosity + g.rate + g.slide_roll - g.stress
+    shear = slip - 2.0 * (np.log(g.thickness) + g.pressure)
     return np.stack(
         [
             g.thickness,
@@ -41,6 +44,7 @@ def film_features(groups: Array) -> Array:
             g.capacity,
             g.viscosity,
             growth,
+            shear,
         ],
         axis=1,
     )

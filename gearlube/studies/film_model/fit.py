@@ -12,11 +12,10 @@ import numpy as np
 
 from gearlube.studies.film_model.calibration import CONFIDENCE, Misses, conformal_bounds
 from gearlube.studies.film_model.net_fit import fit_net
-from gearlube.studies.film_model.plan import COARSE, FINE, FilmPlan
+from gearlube.studies.film_model.plan import COARSE, FINE, TRAINING, FilmPlan
 from gearlube.studies.film_model.process import FilmProcess, fit_process
 from gearlube.studies.film_model.samples import (
     DOMAIN,
-    MOST_HEAT,
     TRAINED,
     Box,
     axle_contacts,
@@ -41,7 +40,7 @@ from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.oil_file import read_oil
-from gearlube_core.progress import Progress, no_progress
+from gearlube_core.progress import Progress, no_progress, part_of
 
 _BORDER = 0.1  # of a group's range, where the model fades
 _FEWEST = {"box": 100, "axle": 20, "calibration": 39, "fresh": 20}
@@ -60,13 +59,13 @@ class FitSettings:
     points
         Of the processes that the net learns from.
     steps
-        Most iterations.
+        Most steps of the net's fit.
     seed
         Of points and first weights.
     """
 
-    points: int = 12_000
-    steps: int = 3000
+    points: int = 8000
+    steps: int = 150
     seed: int = 1
 
     def __post_init__(self) -> None:
@@ -128,10 +127,10 @@ def fit_model(
     settings = settings or FitSettings()
     check_rows(rows)
     progress(0.02, "processes")
-    trained = targets_of(solved_rows(rows, "box", "axle"))
+    trained = targets_of(solved_rows(rows, *TRAINING))
     processes = [fit_process(trained.groups, trained.values[:, n]) for n in range(2)]
     progress(0.3, "grid")
-    pairs, steps = grid_corrections(rows, "box", "axle")
+    pairs, steps = grid_corrections(rows, *TRAINING)
     corrections = [fit_process(pairs.groups, steps[:, n], noise=_PAIR_NOISE) for n in range(2)]
     grid_left = [_rms(one.left_out()) for one in corrections]
     progress(0.4, "points of the net")
@@ -151,7 +150,7 @@ def fit_model(
     weights = np.ones_like(values)
     weights[len(groups) :] = _TRAINED_WEIGHT
     progress(0.45, "net")
-    blocks = _net(points, values, weights, low, high, settings)
+    blocks = _net(points, values, weights, low, high, settings, part_of(progress, 0.45, 0.95))
     modulus = drawn[0].contact_modulus
     model = FilmModel.of_blocks(
         {**blocks, **_frame(low, high, modulus), "bounds": np.array([1.0, 1.0])}, {}
@@ -177,7 +176,7 @@ def check_rows(rows: Sequence[SolveRow]) -> None:
                 f"A fit needs at least {least} solved contacts of the kind {kind}, got {count}. "
                 "Let `gearlube film-model train` go on."
             )
-    pairs = len(grid_corrections(rows, "box", "axle")[0].contacts)
+    pairs = len(grid_corrections(rows, *TRAINING)[0].contacts)
     if pairs < _FEWEST_PAIRS:
         raise ParameterError(
             f"A fit needs at least {_FEWEST_PAIRS} contacts solved on both grids, got {pairs}. "
@@ -190,7 +189,7 @@ def domain_of(box: Box, groups: Array) -> tuple[Array, Array]:
     corners = [contact_groups(box_contact(box, np.full(len(box), t))) for t in (0.0, 1.0)]
     low, high = np.min(corners, axis=0), np.max(corners, axis=0)
     # groups that follow from the others: down to what was met, up to their limit
-    for name, most in (("heat", math.log(MOST_HEAT)), ("thickness", DOMAIN.most_thickness)):
+    for name, most in (("heat", math.log(DOMAIN.most_heat)), ("thickness", DOMAIN.most_thickness)):
         n = FilmGroups._fields.index(name)
         least = groups[:, n].min()
         low[n], high[n] = least - _BORDER * (most - least), most
@@ -234,13 +233,24 @@ def _frame(low: Array, high: Array, modulus: float) -> dict[str, Array]:
 
 
 def _net(
-    points: Array, values: Array, weights: Array, low: Array, high: Array, settings: FitSettings
+    points: Array,
+    values: Array,
+    weights: Array,
+    low: Array,
+    high: Array,
+    settings: FitSettings,
+    progress: Progress,
 ) -> dict[str, Array]:
     """Return the weights of the net that learns values (n, 2) at points (n, N_GROUPS)."""
     inputs = (points - 0.5 * (low + high)) * 2.0 / (high - low)
     spread = values.std(axis=0)
     blocks = fit_net(
-        inputs, values / spread, weights, seed=settings.seed, steps=settings.steps, decay=1e-9
+        inputs,
+        values / spread,
+        weights,
+        seed=settings.seed,
+        steps=settings.steps,
+        progress=progress,
     )
     for name in ("straight", "last"):
         blocks[name] = blocks[name] * spread[:, None]
@@ -258,10 +268,9 @@ def _provenance(
     grid_left: list[float],
     box: Box,
 ) -> dict[str, Any]:
-    counts = {
-        kind: len(solved_rows(rows, kind)) for kind in ("box", "axle", "calibration", "fresh")
-    }
-    fine = len(solved_rows(rows, "box", "axle", fine=True))
+    kinds = (*TRAINING, "calibration", "fresh")
+    counts = {kind: len(solved_rows(rows, kind)) for kind in kinds}
+    fine = len(solved_rows(rows, *TRAINING, fine=True))
     over = misses["fresh"].violations((bounds[0], bounds[1]))
     return {
         "name": name[0],

@@ -12,6 +12,7 @@ from gearlube.studies.film_model.samples import (
     TRAINED,
     axle_contacts,
     box_contacts,
+    edge_contacts,
     widened_box,
 )
 from gearlube_core.checks import check_within
@@ -21,14 +22,15 @@ from gearlube_core.oil.oil_file import read_oil
 
 COARSE, FINE = (129, 33), (257, 65)
 # seeds of the sets, added to that of the plan
-_BOX, _AXLE, _FRESH, _CALIBRATION = range(4)
+_BOX, _AXLE, _FRESH, _CALIBRATION, _EDGE = range(5)
+TRAINING = ("box", "axle", "edge")
 _FIRST_SHARE = 0.15  # of box and axle, solved before all else: enough for a first fit
 
 
 class FilmTask(NamedTuple):
     """One film to solve."""
 
-    kind: str  # box, axle: training; calibration, fresh: kept apart
+    kind: str  # box, axle, edge: training; calibration, fresh: kept apart
     number: int  # of the contact in its set
     nodes: tuple[int, int]
     contact: FilmContact
@@ -46,9 +48,11 @@ class FilmPlan:
         Shipped mesh table of the axle.
     box, axle
         Contacts for training: of the box by a scrambled Sobol sequence, and of the axle.
+    edge
+        More contacts of the box for training, where films are thick.
     calibration, fresh
         Independent contacts of the box and of the axle that no fit sees.
-    fine_box, fine_axle, fine_fresh
+    fine_box, fine_axle, fine_edge, fine_fresh
         How many of the first contacts of each set are solved on the finer grid as well.
     seed
         Of all draws.
@@ -56,26 +60,32 @@ class FilmPlan:
     Examples
     --------
     >>> FilmPlan(box=100, fine_box=10).solves  # calibration, fresh and fine_axle as they are
-    1014
+    1194
     """
 
     oils: tuple[str, ...] = ("mohammadpour_2015", "karagiannis_2012")
     mesh_table: str = "mohammadpour_2015"
     box: int = 760
     axle: int = 300
+    edge: int = 160
     calibration: int = 250
     fresh: int = 304
     fine_box: int = 60
     fine_axle: int = 30
+    fine_edge: int = 20
     fine_fresh: int = 20
     seed: int = 20
 
     def __post_init__(self) -> None:
-        for name in ("box", "axle", "calibration", "fresh"):
+        for name in ("box", "axle", "edge", "calibration", "fresh"):
             check_within(name, getattr(self, name), 1, 100_000)
-        for name, most in (("fine_box", self.box), ("fine_axle", self.axle)):
-            check_within(name, getattr(self, name), 1, most)
-        check_within("fine_fresh", self.fine_fresh, 0, self.fresh)
+        for name, most in (
+            ("fine_box", self.box),
+            ("fine_axle", self.axle),
+            ("fine_edge", self.edge),
+            ("fine_fresh", self.fresh),
+        ):
+            check_within(name, getattr(self, name), 0, most)
 
     @property
     def solves(self) -> int:
@@ -83,10 +93,12 @@ class FilmPlan:
         return (
             self.box
             + self.axle
+            + self.edge
             + self.calibration
             + self.fresh
             + self.fine_box
             + self.fine_axle
+            + self.fine_edge
             + self.fine_fresh
         )
 
@@ -109,6 +121,7 @@ class FilmPlan:
         axle = axle_contacts(self.axle, self.seed + _AXLE, mesh, oils, TRAINED)
         fresh = axle_contacts(self.fresh, self.seed + _FRESH, mesh, oils, DOMAIN)
         kept = box_contacts(box_of, self.calibration, self.seed + _CALIBRATION, random=True)
+        edge = edge_contacts(box_of, self.edge, self.seed + _EDGE)
         first_box = math.ceil(_FIRST_SHARE * len(box))
         first_axle = math.ceil(_FIRST_SHARE * len(axle))
         return [
@@ -120,6 +133,8 @@ class FilmPlan:
             *_tasks("calibration", kept, COARSE),
             *_tasks("box", box[: self.fine_box], FINE),
             *_tasks("axle", axle[: self.fine_axle], FINE),
+            *_tasks("edge", edge, COARSE),
+            *_tasks("edge", edge[: self.fine_edge], FINE),
             *_tasks("fresh", fresh[: self.fine_fresh], FINE),
         ]
 

@@ -28,18 +28,20 @@ _SOLID_C = _STEEL.density * _STEEL.heat_capacity
 
 _RPM_PER_KMH = 22.95  # pinion, of the axle of Mohammadpour et al. 2015
 _LEAST_LOAD = 1.0  # N
-MOST_HEAT = 0.6  # beta eta0 u^2/k of the oil, beyond which films take long or are not found
 
 
 class Limits(NamedTuple):
-    """Where light contacts end, whose films are nearly those of rigid solids."""
+    """Where light contacts end, whose films are nearly those of rigid solids, and hot ones."""
 
     least_pressure: float  # mean [Pa]
     most_thickness: float  # of `FilmGroups` [-]
+    most_heat: float  # beta eta0 u^2/k of the oil; beyond 0.6 films take long or are not found
 
 
 # training goes a little farther
-DOMAIN, TRAINED = Limits(0.2e9, 1.0), Limits(0.18e9, 1.15)
+DOMAIN, TRAINED = Limits(0.2e9, 1.0, 0.6), Limits(0.18e9, 1.15, 0.6)
+ANYWHERE = Limits(0.0, math.inf, math.inf)
+_EDGE_THICKNESS = 0.6  # from there on films change most from contact to contact
 
 Box = dict[str, tuple[float, float, str]]
 
@@ -94,7 +96,7 @@ def oil_temperatures(oil: Lubricant) -> tuple[float, float]:
 
 
 def box_contacts(box: Box, count: int, seed: int, *, random: bool = False) -> list[FilmContact]:
-    """Return contacts drawn evenly from a box, with at most `MOST_HEAT`.
+    """Return contacts drawn evenly from a box, within its limits of light and hot contacts.
 
     Parameters
     ----------
@@ -119,13 +121,24 @@ def box_contacts(box: Box, count: int, seed: int, *, random: bool = False) -> li
     return found[:count]
 
 
+def edge_contacts(box: Box, count: int, seed: int) -> list[FilmContact]:
+    """Return contacts of a box near its thick films, drawn evenly there; as `box_contacts`."""
+    found: list[FilmContact] = []
+    rng = np.random.default_rng(seed)
+    while len(found) < count:
+        one = box_contact(box, rng.random(len(box)))
+        if _fits(one, TRAINED) and contact_groups(one).thickness >= _EDGE_THICKNESS:
+            found.append(one)
+    return found
+
+
 def _fits(contact: FilmContact, limits: Limits) -> bool:
     heat = inlet_heating_number(
         contact.eta0, contact.beta, contact.entrainment_speed, contact.conductivity
     )
     p = contact.pressure_coefficient * contact.load ** (1.0 / 3.0)
     return (
-        heat <= MOST_HEAT
+        heat <= limits.most_heat
         and p >= (1.0 - 1e-9) * limits.least_pressure
         and contact_groups(contact).thickness <= limits.most_thickness
     )

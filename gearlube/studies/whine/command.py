@@ -11,6 +11,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
@@ -88,22 +89,22 @@ def whine(
     derivatives. Writes whine.nc, whine.csv, a figure and report.html. Finished positions are kept
     in OUT: run the same command again to go on after a stop.
     """
+    if example:
+        from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+
+        kind = "helical" if gear in HelicalGearFile.shipped() else "hypoid"
+        print_example(f"gearlube_core.{kind}_geometry.gear_file:{kind.capitalize()}GearFile", gear)
+        return
     from gearlube.studies.whine.findings import findings
     from gearlube.studies.whine.report import write_whine_report
     from gearlube.studies.whine.run import WhineSettings, run_whine, whine_rows
     from gearlube_core.flank_optimisation.problem import read_gear_file
-    from gearlube_core.helical_geometry.gear_file import HelicalGearFile
     from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
     from gearlube_core.units import rpm_to_rads
 
     began = time.monotonic()
     with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
-        if example:
-            helical = gear in HelicalGearFile.shipped()
-            kind = HelicalGearFile if helical else HypoidGearFile
-            typer.echo(kind.shipped_text(gear), nl=False)
-            return
         file = read_gear_file(gear)
         check_within("--positions", positions, 7, 400, "", "Three mesh orders need seven.")
         rpm = numbers_from(
@@ -125,8 +126,8 @@ def whine(
         hypoid = isinstance(file, HypoidGearFile)
         if hypoid and gear.endswith(".toml") and None in (pinion_inertia, gear_inertia):
             logger.warning(
-                "Inertias are those of the shipped pair, %g and %g kg m2. Give --pinion-inertia "
-                "and --gear-inertia.",
+                "The moments of inertia are those of the shipped pair, %g and %g kg m2. Give your "
+                "own with --pinion-inertia and --gear-inertia.",
                 *settings.inertias(file),
             )
         with (

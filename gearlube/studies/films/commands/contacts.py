@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
+from gearlube.cli.example import print_example
 from gearlube.cli.options import CaseArgument, ExampleOption, FilmRoughnessOption, OverwriteOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
@@ -67,13 +68,13 @@ def line(
 
     Shipped cases: jamali_2015, jamali_2015_thermal. Options given here replace those of the case.
     """
+    if example:
+        print_example("gearlube_core.ehl.case.contact_case:LineCase", case)
+        return
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import LineCase
 
     with exit_on_errors(out):
-        if example:
-            typer.echo(LineCase.shipped_text(case), nl=False)
-            return
         changes = {
             "load_n_per_mm": load,
             "solver.nodes": nodes,
@@ -120,13 +121,13 @@ def point(
     Shipped cases: mourier_2006, elliptical, jamali_2015_section. Options given here replace those
     of the case.
     """
+    if example:
+        print_example("gearlube_core.ehl.case.contact_case:PointCase", case)
+        return
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import PointCase
 
     with exit_on_errors(out):
-        if example:
-            typer.echo(PointCase.shipped_text(case), nl=False)
-            return
         changes = {
             "load_n": load,
             "solver.nodes_x": nodes,
