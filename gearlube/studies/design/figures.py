@@ -17,18 +17,21 @@ _TITLES = {"drive": "drive flanks", "coast": "coast flanks"}
 
 def contact_patterns(dataset: xr.Dataset) -> Any:
     """Return ease-off, path and marked pattern on the gear tooth, with the place asked for."""
+    from matplotlib.ticker import MaxNLocator
+
     tooth = DrawnTooth.of_dataset(dataset)
     with house_style():
         figure = new_figure(9.6, 5.4)
         axes = figure.subplots(2, 1)
         top = float(np.nanpercentile(1e6 * dataset["ease_off"].values, 97))
+        levels = MaxNLocator(12).tick_values(0.0, top)
         for ax, side in zip(axes, _TITLES, strict=True):
             part = dataset.sel(side=side)
             grid = tooth.along(part["ease_t"]), tooth.up(part["ease_s"])
             filled = ax.contourf(
                 *grid,
                 1e6 * part["ease_off"].values,
-                levels=np.linspace(0.0, top, 13),
+                levels=levels,
                 cmap="viridis_r",
                 extend="max",
             )
@@ -44,7 +47,7 @@ def contact_patterns(dataset: xr.Dataset) -> Any:
             ax.plot(*asked, "o", color="white", mec="black", ms=7, zorder=7)
             ratio = float(part["path_contact_ratio"])
             tooth.draw(ax, f"{_TITLES[side]}: path over {ratio:.2f} pitches")
-        figure.colorbar(filled, ax=axes, label="ease-off [µm]", format="%.0f")
+        figure.colorbar(filled, ax=axes, label="ease-off [µm]")
         figure.suptitle(
             "Gear tooth: ease-off, path (black), pattern at 6.35 µm (red), wanted place (white "
             "dot)",
