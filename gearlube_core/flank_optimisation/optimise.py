@@ -23,6 +23,8 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 EVALUATIONS, POSITIONS = "evaluations", "positions"  # folders of what is kept
+# of the searches for the front: losses differ by per cents, which wide steps on held cells miss
+_FRONT_ROUNDS, _FRONT_REGION = 3, 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -293,7 +295,7 @@ def _front(
             replace(goal, loss=True, most_square=square),
             (problem.low, problem.high),
             values,
-            replace(settings.search, rounds=2),
+            replace(settings.search, rounds=_FRONT_ROUNDS, region=_FRONT_REGION),
         )
         values = found.values
         points.append(_point(goal, values, found.evaluation))

@@ -24,7 +24,8 @@ from gearlube_core.units import MILLIMETRE
 
 ROLES: tuple[Role, Role] = ("pinion", "gear")
 LEAST = {"pinion tip": 20.0, "gear tip": 20.0, "ends": 30.0}  # um, of a relief that is chosen
-MOST = 200.0  # um, of gear files
+MOST = 200.0  # um
+_STEEPEST = 0.09  # amount over extent; gear files take up to 0.1
 _RISE = 1.25  # of an amount whose edge still carries
 POSITIONS = 12  # of the mesh
 # coarse cells do: relief is deepest at the edge, so finer cells there stand farther off
@@ -119,8 +120,11 @@ def chosen_relief(
         "gear tip": asked.tip_relief_um,
         "ends": asked.end_relief_um,
     }
-    amounts = {name: LEAST[name] if one is None else one for name, one in given.items()}
-    free = {name for name, one in given.items() if one is None}
+    most = _most_amounts(designed)
+    amounts = {
+        name: min(LEAST[name], most[name]) if one is None else one for name, one in given.items()
+    }
+    free = {name: most[name] for name, one in given.items() if one is None}
     sides: dict[Side, Amounts] = {side: dict(amounts) for side in SIDES}
     edges: dict[Side, dict[str, float]] = {side: {} for side in SIDES}
     pressure = dict.fromkeys(SIDES, math.nan)
@@ -146,11 +150,14 @@ def _risen(
     file: HypoidGearFile,
     side: Side,
     amounts: Amounts,
-    free: set[str],
+    free: Amounts,
     torque: float,
     teeth: PairStiffness,
 ) -> tuple[Amounts, dict[str, float], float]:
-    """Return amounts, edges that carry and the highest pressure of one side."""
+    """Return amounts, edges that carry and the highest pressure of one side.
+
+    `free`: how far the amounts that may rise do so [um].
+    """
     while True:
         flanks = {f"{role}.{side}_flank": relief_fields(designed, role, amounts) for role in ROLES}
         pair = FlankPair.from_file(file.varied({k: v or None for k, v in flanks.items()}), side)
@@ -162,12 +169,13 @@ def _risen(
         for state in states:
             for edge, one in loaded_edges(pair, state).items():
                 edges[edge] = max(edges.get(edge, 0.0), one)
-        rising = {name for name in map(_relief_of, edges) if name in free and amounts[name] < MOST}
+        reached = map(_relief_of, edges)
+        rising = {name for name in reached if name in free and amounts[name] < free[name]}
         if not rising:
             highest = max(float(one.pressure.max()) for state in states for one in state.pairs)
             return amounts, edges, highest
         for name in rising:
-            amounts[name] = min(float(np.ceil(_RISE * amounts[name])), MOST)
+            amounts[name] = min(float(np.ceil(_RISE * amounts[name])), free[name])
 
 
 def _relief_of(edge: str) -> str:
@@ -185,16 +193,29 @@ def relief_fields(designed: DesignedBlank, role: Role, amounts: Amounts) -> dict
     amounts : dict
         As in `ChosenRelief` [um].
     """
-    asked, blank = designed.file.relief, designed.blank
+    tip, end = _extents(designed)
     found: dict[str, float] = {}
-    if amounts[f"{role} tip"] and asked.tip_relief_share:
+    if amounts[f"{role} tip"] and tip:
         found["tip_relief_um"] = amounts[f"{role} tip"]
-        found["tip_relief_depth_mm"] = asked.tip_relief_share * blank.whole_depth / MILLIMETRE
-    if role == "pinion" and amounts["ends"] and asked.end_relief_share:
-        # the edge that carries is the gear's end, where the pinion goes on
-        beyond = max(0.5 * (blank.pinion.face_width - blank.gear.face_width), 0.0)
-        length = (asked.end_relief_share * blank.gear.face_width + beyond) / MILLIMETRE
-        for end in ("toe", "heel"):
-            found[f"{end}_relief_um"] = amounts["ends"]
-            found[f"{end}_relief_length_mm"] = length
+        found["tip_relief_depth_mm"] = tip
+    if role == "pinion" and amounts["ends"] and end:
+        for place in ("toe", "heel"):
+            found[f"{place}_relief_um"] = amounts["ends"]
+            found[f"{place}_relief_length_mm"] = end
     return found
+
+
+def _extents(designed: DesignedBlank) -> tuple[float, float]:
+    """Return how far reliefs of tips and of the pinion's ends reach [mm]; 0: none."""
+    asked, blank = designed.file.relief, designed.blank
+    # the edge that carries is the gear's end, where the pinion goes on
+    beyond = max(0.5 * (blank.pinion.face_width - blank.gear.face_width), 0.0)
+    end = asked.end_relief_share * blank.gear.face_width
+    tip = asked.tip_relief_share * blank.whole_depth
+    return tip / MILLIMETRE, (end + beyond) / MILLIMETRE if end else 0.0
+
+
+def _most_amounts(designed: DesignedBlank) -> Amounts:
+    """Return how much each relief may be [um]."""
+    tip, end = (min(MOST, math.floor(1e3 * _STEEPEST * one)) for one in _extents(designed))
+    return {"pinion tip": tip, "gear tip": tip, "ends": end}

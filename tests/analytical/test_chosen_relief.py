@@ -87,6 +87,14 @@ def test_given_relief_stays_and_is_looked_at_where_a_torque_is_given(soft):
     assert "At 400 N.m edges of the drive flanks carry: " in " ".join(found.warnings())
 
 
+def test_relief_rises_no_further_than_a_gear_file_takes_and_stays_away_where_it_has_no_extent(soft):
+    # a tenth of the height: 0.59 mm, of which a gear file takes 59 um
+    found = chosen_for(torque_n_m=900.0, tip_relief_share=0.1, end_relief_share=0.0)
+    assert found.amounts["drive"]["gear tip"] == 53.0  # 0.09 of it
+    assert found.amounts["drive"]["ends"] == 0.0
+    assert "edges of the drive flanks carry" in " ".join(found.warnings())
+
+
 def test_teeth_without_a_mesh_get_the_least_relief_and_a_warning(monkeypatch):
     def refuse(*_, **__):
         raise ParameterError("The teeth are pointed.")
