@@ -194,7 +194,7 @@ def test_records_of_another_case_and_damaged_ones_are_refused(case, tmp_path, wh
     given = ("rough", str(case), "--out", str(out), "--overwrite")
     ended = command(*given, "--rows", "18")
     assert ended.exit_code == BAD_ARGUMENT
-    assert "of another case" in caplog.text
+    assert "from another case" in caplog.text
     (record,) = out.glob("march_*.npz")
     record.write_bytes(record.read_bytes()[:1000])
     ended = command(*given)
