@@ -16,13 +16,13 @@ OIL = {
 }
 LINE = {
     "": "Line contact: the file",
-    "domain": "[domain]: left out, as far as load and film need",
+    "domain": "[domain]: left out: as far as load and film need",
     "profile": "[profile]: heights from a file",
     "solver": "[solver]",
 }
 POINT = {
     "": "Point contact: the file",
-    "domain": "[domain]: left out, as far as load and film need",
+    "domain": "[domain]: left out: as far as load and film need",
     "height_map": "[height_map]: heights from a file",
     "ridge": "[ridge]",
     "dent": "[dent]",
@@ -157,7 +157,8 @@ The error names every wrong field with its value, its range and its unit:
 
 ```text
 my_case.toml has 1 wrong field(s). oil.viscosity_pa_s must be a number, 0.0001 to 10000 Pa.s, got
-800000.0. At ambient pressure and the inlet's temperature.
+800000.0. Dynamic viscosity at ambient pressure and at the inlet temperature; gear oils about 0.01
+to 0.3.
 ```
 """
 

@@ -32,8 +32,9 @@ PURPOSES = {
     "native": "compiler of native FMUs",
     "surfaces": "measured surfaces",
     "sound": "loudness, tonality; measured transfer paths",
-    "export": "VTK files",
+    "export": "VTK files, measurement files",
     "cycles": "driving cycles",
+    "film-model": "fit of film models",
     "docs": "this site",
     "test": "tests",
     "lint": "checks of the code",
@@ -54,6 +55,8 @@ their licences.
   company is no such case.
 - **casadi is LGPL.** It is loaded as a separate library, which a user can exchange. No native FMU
   holds it.
+- **asammdf is LGPL.** It comes with the extra `export` alone, is loaded as it is, only while a
+  measurement file (MDF 4) is written, and no FMU or wheel holds it.
 - An FMU that computes in Python loads the packages of the machine where it runs.
 - **plotly's JavaScript** (MIT) is inside each report.
 """

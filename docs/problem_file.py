@@ -24,10 +24,14 @@ A problem file says which values of a gear pair may change, and for which torque
 errors the pair shall be quiet. [optimise.md](optimise.md) shows three pairs before and after.
 
 ```
-gearlube optimise helical --example > my_problem.toml     # or hypoid gearlube optimise
-my_problem.toml --out my_pair gearlube helical my_pair/he_2007_quiet.toml               # analyses
-the better pair; for hypoid: gearlube contact
+gearlube optimise helical --example > my_problem.toml     # or hypoid
+gearlube optimise my_problem.toml --out my_pair
+gearlube helical my_pair/jamali_2015_a_quiet.toml         # analyses the better pair
+gearlube contact my_pair/mohammadpour_2015_quiet.toml     # the same for a hypoid pair
 ```
+
+`gearlube design` writes such a file for the pair that it designs, as `problem.toml`; with
+`--optimise` it runs this command on it.
 
 **Parameters** are fields of the [gear file](gear_file.md) or its [helical
 twin](helical_gear_file.md), each with bounds in the unit of the field:

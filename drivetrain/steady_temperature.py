@@ -57,24 +57,24 @@ def steady_temperature(
     air_temperature: float = celsius_to_kelvin(23.0),
     heat: SumpHeat | None = None,
 ) -> float:
-    """Return the oil temperature [K] at which the air takes what the axle loses.
+    """Return the steady oil temperature [K] of an axle: the air takes as much heat as it loses.
 
     Parameters
     ----------
     car
         Axle and vehicle of an axle file; tyre and ratio give the vehicle's speed.
     torque, speed
-        Of the pinion [N.m], [rad/s].
+        Torque and speed of the pinion [N.m], [rad/s].
     air_temperature
-        [K]
+        Temperature of the air [K].
     heat
         Conductances; the capacity does not matter. Default: assumed values.
 
     Notes
     -----
-    There is one such temperature while the loss falls with temperature. Where asperities carry
-    load the loss can rise. Then this is the lowest of them to 1/16 of the range: the one that oil
-    starting at the temperature of the air reaches.
+    There is one such temperature as long as the loss falls with temperature. Where asperities carry
+    load the loss can rise, and there may be several. Then the lowest is returned, to 1/16 of the
+    range: the one that oil reaches if it starts at the temperature of the air.
 
     Raises
     ------
@@ -161,8 +161,8 @@ def steady_temperatures(
     axle.oil.check_temperature(air, "air_temperature")
     if air >= high:
         raise ParameterError(
-            f"The air must be colder than the end of the oil's data, {high:g} K, got {air:g} K. "
-            "Take colder air."
+            f"The air temperature must be below the upper limit of the oil's data, {high:g} K, got "
+            f"{air:g} K. Give a lower air temperature."
         )
     looks = np.linspace(air, high, _LOOKS_OF_MANY + 1)
     lost = axle_losses(

@@ -21,9 +21,10 @@ AT_100_KMH = 9.0, 30.0  # W/K
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SumpHeat:
-    """Oil and housing as one body: C dT/dt = P_loss(T) - hA(V) (T - T_air).
+    """Heat capacity and cooling of an axle's oil and housing, which have one temperature T.
 
-    hA grows with V^0.8 from its value at rest to that at 100 km/h.
+    C dT/dt = P_loss(T) - hA(V) (T - T_air). hA grows with V^0.8 from its value at standstill to
+    that at 100 km/h.
 
     Parameters
     ----------

@@ -78,22 +78,22 @@ def build_hypoid_axle(
     mesh_table: str | Path | None = None,
     axle: str | Path | None = None,
 ) -> Path:
-    """Build HypoidAxle.fmu that computes in Python in `out_dir`, and return its path.
+    """Build HypoidAxle.fmu, which computes in Python, in `out_dir`; return its path.
 
     Parameters
     ----------
     out_dir : path
     mesh_table : path, optional
-        Mesh table of another gear pair, which the FMU then carries.
+        Mesh table of another gear pair, which becomes part of the FMU.
     axle : path, optional
-        Axle file (TOML), which the FMU then carries with its mesh table.
+        Axle file (TOML), which becomes part of the FMU together with its mesh table.
 
     Raises
     ------
     TableError
-        When the mesh table is missing, no mesh table, or of another format.
+        The mesh table is missing, no mesh table, or of another format.
     ParameterError
-        The axle file is missing or wrong, or both are given.
+        The axle file is missing or wrong, or both files are given.
 
     Notes
     -----
@@ -114,20 +114,20 @@ def build_helical_pair(
     gear: str | Path | None = None,
     line_mesh: str | Path | None = None,
 ) -> Path:
-    """Build HelicalPair.fmu that computes in Python in `out_dir`, and return its path.
+    """Build HelicalPair.fmu, which computes in Python, in `out_dir`; return its path.
 
     Parameters
     ----------
     out_dir : path
     gear : path, optional
-        Gear file (TOML) of another pair, which the FMU then carries as gear.name = custom.
+        Gear file (TOML) of another pair, which becomes part of the FMU as gear.name = custom.
     line_mesh : path, optional
         Line mesh (NetCDF) of that pair; needs `gear`.
 
     Raises
     ------
     GearLubeError
-        When a file is missing or wrong, or the two do not fit together.
+        A file is missing or wrong, or the two do not belong together.
 
     Examples
     --------
@@ -186,9 +186,12 @@ def build_models(
     wanted = {model} if model else of_files or set(MODELS)
     for name, owners in given.items():
         if not wanted & set(owners):
-            raise ParameterError(f"{name} must come with --model {owners[0]}, got {model}.")
+            raise ParameterError(f"{name} can only be given with --model {owners[0]}, got {model}.")
     if native is None and model == "driveline":
-        raise ParameterError("--model driveline must come without --python: it is native only.")
+        raise ParameterError(
+            "--model driveline cannot be combined with --python: this FMU is "
+            "native only. Leave out --python."
+        )
     definitions = []
     if "hypoid-axle" in wanted:
         definitions.append(axle_definition(mesh_table, axle))

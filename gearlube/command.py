@@ -75,7 +75,7 @@ COMMANDS = (
     LazyCommand(
         name="whine",
         target="gearlube.studies.whine.command:whine",
-        summary="Whine orders of a hypoid pair against its settings.",
+        summary="Whine orders of a gear pair against its settings and reliefs.",
         panel=_GEARS,
         command_class="WhineCommand",
     ),
@@ -134,7 +134,7 @@ COMMANDS = (
     LazyCommand(
         name="export",
         target="gearlube.cli.export:export",
-        summary="Write results of any study for other tools: CSV, MATLAB, UFF58, VTK.",
+        summary="Write results of any study for other tools: CSV, MATLAB, UFF58, MDF4, VTK.",
         panel=_STUDIES,
     ),
     LazyCommand(
@@ -154,6 +154,12 @@ COMMANDS = (
         name="ehl",
         target="gearlube.studies.films.command:ehl",
         summary="Solve lubricated contacts: film, pressure and friction.",
+        panel=_PARTS,
+    ),
+    LazyCommand(
+        name="film-model",
+        target="gearlube.studies.film_model.command:film_model",
+        summary="Train, fit, show and audit a surrogate of solved films.",
         panel=_PARTS,
     ),
     LazyCommand(

@@ -2,7 +2,7 @@
 
 
 class GearLubeError(Exception):
-    """Base of every error that gearlube raises on purpose.
+    """Base class of all errors that gearlube raises on purpose; catch it to catch them all.
 
     Examples
     --------
@@ -17,7 +17,7 @@ class GearLubeError(Exception):
 
 
 class ParameterError(GearLubeError, ValueError):
-    """An input lies outside the valid range of the model.
+    """An input is outside its valid range; the message says the limit and what to do.
 
     Examples
     --------

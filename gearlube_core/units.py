@@ -10,7 +10,7 @@ DEGREE = math.pi / 180.0  # rad
 
 
 def celsius_to_kelvin(temperature_degc: float) -> float:
-    """Return the absolute temperature [K] of `temperature_degc` [degC].
+    """Return the absolute temperature [K] for `temperature_degc` [degC].
 
     Examples
     --------
@@ -31,7 +31,7 @@ def kmh_to_ms(speed_kmh: float) -> float:
 
 
 def rpm_to_rads(speed_rpm: float) -> float:
-    """Return the angular speed [rad/s] of `speed_rpm` [1/min].
+    """Return the angular speed [rad/s] for `speed_rpm` [1/min].
 
     Examples
     --------

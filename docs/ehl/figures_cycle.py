@@ -65,7 +65,7 @@ def designs(store: Store) -> Any:
         top.legend(ncols=2)
         bottom.legend(ncols=2)
         bottom.set_ylim(0.0, None)
-        figure.suptitle("Parabolic relief, k = 1, F_o = 0", fontsize=11)
+        figure.suptitle("Parabolic relief, $k$ = 1, $F_o$ = 0", fontsize=11)
     return figure
 
 
@@ -148,24 +148,28 @@ def parabolas(store: Store) -> Any:
 
 
 def speeds(store: Store) -> Any:
-    """Return pressure and scaled film at four speeds: figs 5.19 and 5.20."""
+    """Return scaled films and pressures at four speeds, at rest and in motion: figs 5.19, 5.20."""
     with house_style():
-        figure = new_figure(8.2, 4.0)
-        left, right = figure.subplots(1, 2)
+        figure = new_figure(8.6, 5.6)
+        axes = figure.subplots(2, 2, sharey="row", sharex="col")
         for row, s in enumerate(SPEEDS):
             films = [store.steady(FilmCase(speed=s, nodes=FACETED), n) for n in POSITIONS]
             march = store.march(FilmCase(speed=s, nodes=CYCLE), 500 - APPROACH, 500)
             colour, scale = SERIES[row], UM / s**0.68
-            left.plot(POSITIONS, [GPA * f.max_pressure for f in films], "o", color=colour)
-            left.plot(march.step, GPA * march["max_pressure"], color=colour, label=f"{s:g} times")
-            right.plot(
-                POSITIONS, [scale * f.min_film for f in films], "o", color=colour, mfc="white"
+            places = np.arange(len(POSITIONS)) + 0.12 * (row - 1.5)
+            axes[0, 0].plot(places, [scale * f.min_film for f in films], "o", color=colour)
+            axes[1, 0].plot(places, [GPA * f.max_pressure for f in films], "o", color=colour)
+            axes[0, 1].plot(
+                march.step, scale * march["min_film"], color=colour, label=f"speed times {s:g}"
             )
-            right.plot(march.step, scale * march["min_film"], color=colour, label=f"{s:g} times")
-        left.set(xlabel="step", ylabel="largest pressure [GPa]", ylim=(0.0, None))
-        right.set(xlabel="step", ylabel="smallest film / speed$^{0.68}$ [µm]", ylim=(0.0, None))
-        left.legend()
-        figure.suptitle("Design A at 1, 2, 5, 10 times the speed; circles: at rest", fontsize=11)
+            axes[1, 1].plot(march.step, GPA * march["max_pressure"], color=colour)
+        axes[1, 0].set_xticks(range(len(POSITIONS)), [f"step {n}" for n in POSITIONS])
+        axes[1, 1].set_xlabel("step of the cycle")
+        axes[0, 0].set(title="at rest", ylabel="smallest film / speed$^{0.68}$ [µm]")
+        axes[0, 1].set_title(f"in motion, from rest at step {500 - APPROACH}")
+        axes[1, 0].set_ylabel("largest pressure [GPa]")
+        figure.legend(*axes[0, 1].get_legend_handles_labels(), ncols=4, loc="outside lower center")
+        figure.suptitle("Design A at four speeds; scales do not begin at zero", fontsize=11)
     return figure
 
 

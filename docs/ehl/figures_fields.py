@@ -71,31 +71,31 @@ def sections(store: Store) -> Any:
     """Return sections of B at step 300: transient, at rest and line contact: fig. 5.13."""
     case = FilmCase(design="b", nodes=FACETED)
     with house_style():
-        figure = new_figure(10.0, 6.4)
-        for ax, y in zip(figure.subplots(2, 3).ravel(), _SECTIONS, strict=True):
+        figure = new_figure(11.5, 5.4)
+        axes = figure.subplots(2, len(_SECTIONS), sharex=True, sharey="row")
+        for (above, below), y in zip(axes.T, _SECTIONS, strict=True):
             fine = store.steady(case, 300)
             j = fine.column(y / MM)
             both = section(store, "b", 300, float(fine.y[j]))
-            x = MM * both.x
-            right = ax.twinx()
-            ax.plot(MM * fine.x, GPA * fine.pressure[:, j], color=BLUE, lw=2.4)
-            ax.plot(x, GPA * both.pressure, "--", color=VERMILLION, lw=1.4)
-            right.plot(MM * fine.x, UM * fine.film[:, j], color=BLUE, lw=2.4, label="at rest")
-            right.plot(x, UM * both.film, "--", color=VERMILLION, lw=1.4, label="transient")
+            curves = [
+                (fine.x, fine.pressure[:, j], fine.film[:, j], "at rest", ("-", BLUE, 2.4)),
+                (both.x, both.pressure, both.film, "in motion", ("--", VERMILLION, 1.4)),
+            ]
             if y < 18.0:
                 line = line_contact(store, case, 300, y / MM)
-                ax.plot(MM * line.x, GPA * line.pressure, ":", color="black", lw=1.2)
-                right.plot(
-                    MM * line.x, UM * line.film, ":", color="black", lw=1.2, label="line contact"
-                )
-            if y == _SECTIONS[0]:
-                right.legend(loc="upper center", fontsize=7.5)
-            ax.set(xlim=(-0.6, 0.5), ylim=(0.0, 1.0), title=f"y = {y:g} mm")
-            right.set_ylim(0.0, 1.2)
-            right.grid(visible=False)
-        figure.supxlabel("across the line, x [mm]", fontsize=10)
-        figure.supylabel("pressure [GPa]; film [µm] on the right", fontsize=10)
-        figure.suptitle("Design B, step 300", fontsize=11)
+                look = (":", "black", 1.2)
+                curves.append((line.x, line.pressure, line.film, "line contact", look))
+            for x, pressure, film, words, (dashes, colour, width) in curves:
+                more = {"ls": dashes, "color": colour, "lw": width, "label": words}
+                above.plot(MM * x, GPA * pressure, **more)
+                below.plot(MM * x, UM * film, **more)
+            above.set_title(f"y = {y:g} mm")
+        axes[0, 0].set(xlim=(-0.6, 0.5), ylim=(0.0, 1.0), ylabel="pressure [GPa]")
+        axes[1, 0].set(ylim=(0.0, 0.6), ylabel="film [µm]")
+        for below in axes[1]:
+            below.set_xlabel("x [mm]")
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=3, loc="outside lower center")
+        figure.suptitle("Design B, step 300: sections across the line", fontsize=11)
     return figure
 
 

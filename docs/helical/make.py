@@ -141,7 +141,7 @@ def main() -> None:
     pairs = [data for name, data in datasets.items() if name.startswith("geometry_")]
     for name in THESIS_PICTURES:
         GEOMETRY_CATALOGUE[name](pairs).savefig(images / f"helical_{name}.png", dpi=110)
-    panels = [("plain flanks, µ = 0.1", plain), ("crowned flanks, zeta 0.02", crowns)]
+    panels = [("plain flanks, µ = 0.1", plain), ("crowned flanks, ζ = 0.02", crowns)]
     save_separation_figure(panels, images / "helical_separation.png")
 
 

@@ -205,7 +205,7 @@ def branch_table(curves: Sequence[Curve]) -> str:
         two = overhang(c)
         rows.append(
             [
-                "crowned, " + c.label + f", zeta {c.damping:g}"
+                "crowned, " + c.label + f", ζ = {c.damping:g}"
                 if c.crowned
                 else "plain, " + c.label,
                 f"{c.natural_frequency:.0f}",

@@ -56,7 +56,7 @@ class Curve:
     @property
     def label(self) -> str:
         """What is different about it, short."""
-        return f"{self.torque:.0f} N·m" if self.crowned else f"zeta {self.damping:g}"
+        return f"{self.torque:.0f} N·m" if self.crowned else f"ζ = {self.damping:g}"
 
     def special(self, kind: str) -> list[float]:
         """Return the relative frequencies of folds or bifurcations, rising."""

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.axle_sections import GearSet, ModelOptions, Steel
+from drivetrain.axle_file.axle_sections import FilmSection, GearSet, ModelOptions, Steel
 from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.car_sections import DrivelineSection, TyreSection, VehicleSection
 from drivetrain.axle_file.drag_sections import Housing, Seals
@@ -49,13 +49,14 @@ _AS_PINION = "as the pinion's"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CarAxle:
-    """An axle in its car, as an axle file gives them.
+    """An axle and its car, as `read_axle` returns them from an axle file.
 
     Parameters
     ----------
     name, source : str
-        Of the file.
+        Name and source in the file.
     axle : HypoidAxleParameters
+        Parameters of the axle model.
     driveline : DrivelineParameters
         The car from the crankshaft to the road; its final drive has the teeth of the mesh table.
     inputs : tuple of InputNote
@@ -95,8 +96,8 @@ class AxleFile(InputFile):
     package: ClassVar[str] = "drivetrain.axle_file"
     title: ClassVar[str] = "axle file"
 
-    name: Text = Field(default="axle", description="What reports call the axle")
-    source: Text | None = Field(default=None, description="Where the numbers are from")
+    name: Text = Field(default="axle", description="Name of the axle in reports")
+    source: Text | None = Field(default=None, description="Where the numbers come from")
     gear_set: GearSet = Field(default={}, validate_default=True)  # type: ignore[arg-type]
     pinion: Member = Member()
     gear: Member = Member()
@@ -105,13 +106,14 @@ class AxleFile(InputFile):
     housing: Housing = Housing()
     seals: Seals = Seals()
     model: ModelOptions = ModelOptions()
+    film: FilmSection = FilmSection()
     vehicle: VehicleSection = VehicleSection()
     tyre: TyreSection = TyreSection()
     gearbox: GearboxSection = GearboxSection()
     engine: EngineSection = EngineSection()
     driveline: DrivelineSection = DrivelineSection()
     tolerances: Tolerances = Field(
-        default={}, description="How fields scatter from part to part, by their dotted names"
+        default={}, description="Scatter of fields from part to part, by their dotted names"
     )
 
     @model_validator(mode="after")
@@ -228,7 +230,7 @@ class AxleFile(InputFile):
             )
         bearing, gear_bearing = self._bearings()
         density = float(bearing.solid.density)
-        given = self.gear_set.changes(base) | self.model.changes(base)
+        given = self.gear_set.changes(base) | self.model.changes(base) | self.film.changes(base)
         given |= self.pinion.member_changes("pinion", density)
         given |= self.gear.member_changes("gear", density)
         given |= self.housing.housing_changes(base) | self.seals.seal_changes()
@@ -292,6 +294,9 @@ class AxleFile(InputFile):
         notes += self.housing.housing_notes("housing.", axle)
         notes += self.seals.seal_notes("seals.", axle)
         notes += self.model.notes("model.", axle, _MODEL)
+        notes += self.film.notes("film.", axle, _MODEL)
+        if axle.film == "solved":
+            notes += self.oil.rheology_notes("oil.", axle.oil)
         if self.model.bearing_approach is None:
             value = TaperedRollerBearing.mohammadpour_2015().approach
             notes.append(InputNote("model.bearing_approach", value, "", "assumed", _MODEL))

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
-from gearlube_core.dynamics.hypoid_axle.parameters import Friction
+from gearlube_core.dynamics.hypoid_axle.parameters import Film, Friction
 
 Text = Annotated[str, Field(min_length=1)]
 Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False)]
@@ -24,6 +24,7 @@ Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False)]
 Poisson = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Density = Annotated[float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False)]
 Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False)]
+LimitingSlope = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 HeatCapacity = Annotated[float, Field(ge=50.0, le=5000.0, allow_inf_nan=False)]
 
 
@@ -38,41 +39,44 @@ class GearSet(ModelSection):
 
     mesh_table: Text | None = Field(
         default=None,
-        description="Shipped mesh table, or a file (.nc) of `gearlube contact`, its path relative "
-        "to the axle file; this or gear_file",
+        description="Name of a shipped mesh table, or a file (.nc) written by `gearlube "
+        "contact`, its path relative to the axle file; give this or gear_file",
     )
     gear_file: Text | None = Field(
         default=None,
-        description="Gear file (.toml) of a hypoid pair, its path relative to the axle file: its "
-        "loaded contact is analysed once, and kept beside it",
+        description="Gear file (.toml) of a hypoid pair, its path relative to the axle file; "
+        "its loaded contact is analysed once and kept beside it",
     )
     contact_torques_n_m: Torques | None = Field(
         default=None,
-        description="Pinion torques at which the gears of gear_file are analysed, rising, used on "
-        "either flank; absent: 5, 10, 20, 50, 100, 200, 300, 400",
+        description="Pinion torques at which the gears of gear_file are analysed, rising, for "
+        "both flanks; left out: 5, 10, 20, 50, 100, 200, 300, 400",
     )
     backlash_um: Backlash | None = Field(
         default=None, description="Total backlash, along the line of action"
     )
     roughness_rms_um: Roughness | None = Field(
-        default=None, description="Composite root mean square of both flanks"
+        default=None, description="Composite RMS roughness of both flanks"
     )
     asperity_table: Text | None = Field(
         default=None,
-        description="File (.nc) of `gearlube roughness flow-factors`, its path relative to the "
-        "axle file: Greenwood and Tripp's law is fitted to it; absent: finished gear flanks",
+        description="File (.nc) written by `gearlube roughness flow-factors`, its path relative "
+        "to the axle file; Greenwood and Tripp's law is fitted to it; left out: finished gear "
+        "flanks",
     )
     radii: Literal["consistent", "paper", "mean"] | None = Field(
-        default=None, description="Radii on which the mesh force acts"
+        default=None, description="Radii at which the mesh force acts"
     )
     mesh_stiffness: Literal["tangent", "secant"] | None = Field(
-        default=None, description="Spring of the mesh: tangent at its load, or secant"
+        default=None,
+        description="Stiffness of the mesh under load: tangent or secant of its force over "
+        "deflection",
     )
     mesh_damping: Literal["hysteretic", "modal"] | None = Field(
         default=None, description="Law of the mesh damping"
     )
     modal_loss_factor: LossFactor | None = Field(
-        default=None, description="Twice the damping ratio of the mesh, for modal damping"
+        default=None, description="Only for modal damping: twice the damping ratio of the mesh"
     )
     hysteretic_loss: Hysteresis | None = Field(
         default=None, description="Coefficient of the hysteretic damping"
@@ -90,19 +94,19 @@ class GearSet(ModelSection):
             )
         if self.mesh_table is not None and self.gear_file is not None:
             raise ValueError(
-                f"mesh_table and gear_file must not come together, got {self.mesh_table!r} and "
-                f"{self.gear_file!r}; leave out mesh_table to have the gear file analysed"
+                f"give mesh_table or gear_file, not both, got {self.mesh_table!r} and "
+                f"{self.gear_file!r}; leave out mesh_table if the gear file is to be analysed"
             )
         if self.gear_file is not None and not self.gear_file.endswith(".toml"):
             raise ValueError(
-                f"gear_file must be a gear file, whose name ends in .toml, got {self.gear_file!r}; "
-                "a mesh table is named as mesh_table"
+                "gear_file must be a gear file, a name that ends in .toml, got "
+                f"{self.gear_file!r}; give a mesh table in the field mesh_table"
             )
         if self.contact_torques_n_m is not None:
             if self.gear_file is None:
                 raise ValueError(
-                    "contact_torques_n_m must come with gear_file, got it with mesh_table, which "
-                    "has its own torques; leave it out"
+                    "contact_torques_n_m is only for gear_file, got mesh_table, which has torques "
+                    "of its own; leave it out"
                 )
             if any(np.diff(self.contact_torques_n_m) <= 0.0):
                 raise ValueError(
@@ -140,30 +144,53 @@ class Steel(ModelSection):
     )
 
 
+class FilmSection(ModelSection):
+    """Film and friction of the oil on the flanks."""
+
+    renamed: ClassVar[Mapping[str, str]] = {
+        "model": "film",
+        "limiting_slope": "film_limiting_slope",
+    }
+
+    model: Film | None = Field(
+        default=None,
+        description="formula: Chittenden 1985 with Evans and Johnson 1986; solved: a model of "
+        "solved thermal Eyring films, and the formulas outside its domain",
+    )
+    limiting_slope: LimitingSlope | None = Field(
+        default=None,
+        description="Limiting shear stress of the film over pressure, for solved films; 0: none",
+    )
+
+
 class ModelOptions(ModelSection):
     """How the axle is computed."""
 
     renamed: ClassVar[Mapping[str, str]] = {"flank_rolling": "rolling"}
 
     equations: Literal["consistent", "as_printed"] | None = Field(
-        default=None, description="Equations of motion: with corrected misprints, or as printed"
+        default=None,
+        description="Equations of motion: consistent with misprints of the paper corrected, or "
+        "as printed in it",
     )
     friction: Friction | None = Field(
         default=None,
-        description="Friction law of the flanks; zhou_hoeprich_1991: as consistent, but asperities "
-        "carry a share of the load that goes to 1 without a film",
+        description="Friction law of the flanks; zhou_hoeprich_1991: as consistent, but the "
+        "asperities carry all load when there is no film",
     )
     flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
         default=None, description="Rolling loss of the flanks"
     )
     bearing_torque_loss: TorqueLoss | None = Field(
         default=None,
-        description="Drag torque of the bearings; palmgren: under the preload; palmgren_loaded, "
-        "skf_2013: under the forces of each bearing; others: of raceways, ribs and oil, under the "
+        description="Drag torque of the bearings. palmgren: under the preload; palmgren_loaded, "
+        "skf_2013: under the forces on each bearing; others: raceways, ribs and oil, under the "
         "load of each roller",
     )
     bearing_approach: Literal["full", "as_printed"] | None = Field(
-        default=None, description="Roller approach under shaft displacement: full, or halved"
+        default=None,
+        description="Approach of a roller to the races under a shaft displacement: all of it, "
+        "or half",
     )
     steps_per_mesh_period: Annotated[int, Field(ge=16, le=4096)] | None = Field(
         default=None, description="Integration steps in one mesh period"

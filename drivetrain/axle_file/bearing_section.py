@@ -62,18 +62,18 @@ class BearingSection(ModelSection):
     )
     pitch_diameter_mm: Diameter | None = Field(
         default=None,
-        description="Of the circle through the roller centres; absent: the mean of the races, or "
-        "of bore and outside diameter where one of these is given",
+        description="Diameter of the circle through the roller centres; left out: the mean of "
+        "the race diameters, or of bore and outside diameter if one of these is given",
     )
     inner_race_diameter_mm: Diameter | None = Field(
         default=None,
-        description="At the middle of the rollers; absent: pitch diameter less roller diameter "
-        "times the cosine of the contact angle",
+        description="Diameter of the inner race at the middle of the rollers; left out: pitch "
+        "diameter minus roller diameter times the cosine of the contact angle",
     )
     outer_race_diameter_mm: Diameter | None = Field(
         default=None,
-        description="At the middle of the rollers; absent: pitch diameter plus roller diameter "
-        "times the cosine of the contact angle",
+        description="Diameter of the outer race at the middle of the rollers; left out: pitch "
+        "diameter plus roller diameter times the cosine of the contact angle",
     )
     rollers: Rollers | None = Field(default=None, description="Number of rollers")
     roller_diameter_mm: RollerSize | None = Field(
@@ -88,40 +88,43 @@ class BearingSection(ModelSection):
     )
     stiffness_constant: Stiffness | None = Field(
         default=None,
-        description="kn of inner race - roller - outer race [N/m^n]; absent: that of steel rollers "
-        "of the given roller length",
+        description="Stiffness constant kn of the contact inner race - roller - outer race "
+        "[N/m^n]; left out: that of steel rollers of this length",
     )
     exponent: Exponent | None = Field(
-        default=None, description="n of load over approach; 10/9 for lines"
+        default=None, description="Exponent n in load = kn approach^n; 10/9 for line contacts"
     )
     preload_n: Preload | None = Field(
-        default=None, description="Axial force of either bearing at rest; or give the interference"
+        default=None,
+        description="Axial force on each bearing at standstill; give this or the interference",
     )
     interference_um: Interference | None = Field(
         default=None,
-        description="Interference of every roller at standstill, in place of the preload",
+        description="Interference of every roller at standstill, instead of the preload",
     )
-    loss: Share | None = Field(default=None, description="Coefficient of the rollers' hysteresis")
+    loss: Share | None = Field(
+        default=None, description="Hysteresis loss coefficient of the rollers"
+    )
     film: Literal["squeeze", "steady", "off"] | None = Field(
         default=None,
-        description="Oil film of the rollers: with squeeze factor, without it, or no film",
+        description="Oil film of the rollers: with squeeze factor, without it, or no film at all",
     )
     f0: ViscousFactor | None = Field(
         default=None, description="Viscous factor of Palmgren's drag torque"
     )
-    f1: LoadFactor | None = Field(default=None, description="Load factor of the drag torque")
+    f1: LoadFactor | None = Field(default=None, description="Load factor of Palmgren's drag torque")
     series: Literal["302", "303", "313", "320X", "322", "other"] | None = Field(
-        default=None, description="Series in the catalogue, for the drag by skf_2013"
+        default=None, description="Series in the catalogue, for the drag torque by skf_2013"
     )
 
     rib_height_mm: RibHeight | None = Field(
         default=None,
-        description="Height of the contact of roller ends and rib above the inner race, for the "
-        "drag by the laws of rolling; absent: 0.15 roller diameters, assumed; 0: no rib",
+        description="Height of the contact between roller ends and rib above the inner race, "
+        "for drag torques from rolling; left out: 0.15 roller diameters, assumed; 0: no rib",
     )
     rib_boundary_friction: RibFriction | None = Field(
         default=None,
-        description="Friction coefficient of the asperities between roller ends and rib",
+        description="Friction coefficient of asperities between roller ends and rib",
     )
 
     @model_validator(mode="after")
@@ -134,10 +137,12 @@ class BearingSection(ModelSection):
             )
         races = [key for key in _RACES if self.has(key)]
         if len(races) == 1:
-            problems.append(f"the race diameters come in pairs, got {races[0]} alone; give both")
+            problems.append(
+                f"the two race diameters must be given together, got only {races[0]}; give both"
+            )
         if races and self.has("pitch_diameter_mm"):
             problems.append(
-                "pitch_diameter_mm and the race diameters are two ways to give it; give one"
+                "pitch_diameter_mm and the race diameters describe the same size; give one of them"
             )
         if not problems:
             try:

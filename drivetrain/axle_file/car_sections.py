@@ -48,16 +48,18 @@ class VehicleSection(ModelSection):
 
     mass_kg: Mass | None = Field(default=None, description="Mass of the loaded vehicle")
     drag_area_m2: Area | None = Field(
-        default=None, description="Drag coefficient times frontal area, in place of the next two"
+        default=None, description="Drag coefficient times frontal area; give this or the next two"
     )
     frontal_area_m2: Area | None = Field(default=None, description="Frontal area A_f")
     drag_coefficient: Drag | None = Field(default=None, description="Drag coefficient C_D")
     rolling_coefficient: Rolling | None = Field(
-        default=None, description="Rolling resistance divided by weight"
+        default=None, description="Rolling resistance divided by the weight"
     )
     air_density_kg_m3: AirDensity | None = Field(default=None, description="Density of the air")
-    grade: Grade | None = Field(default=None, description="Rise over horizontal distance")
-    gravity_m_s2: Gravity | None = Field(default=None, description="g")
+    grade: Grade | None = Field(
+        default=None, description="Slope of the road: rise divided by horizontal distance"
+    )
+    gravity_m_s2: Gravity | None = Field(default=None, description="Gravitational acceleration")
 
     @model_validator(mode="after")
     def _check_vehicle(self) -> VehicleSection:
@@ -65,8 +67,7 @@ class VehicleSection(ModelSection):
             self.has("frontal_area_m2") or self.has("drag_coefficient")
         ):
             raise ValueError(
-                "drag_area_m2 and frontal_area_m2 with drag_coefficient are "
-                "two ways to give it; give one"
+                "drag_area_m2 is frontal_area_m2 times drag_coefficient; give one: it or these two"
             )
         if problems := or_problem(self.vehicle):
             raise ValueError(problems[0])
@@ -95,19 +96,23 @@ class TyreSection(ModelSection):
     """The tyres, all of one size."""
 
     size: Text | None = Field(
-        default=None, description="Size code such as 195/65R16; or give the radii"
+        default=None, description="Tyre size such as 195/65R16; give this or the radii"
     )
     rolling_radius_mm: Radius | None = Field(
-        default=None, description="Vehicle speed over speed of the wheel; absent: that of the size"
+        default=None,
+        description="Vehicle speed divided by the angular speed of the wheel; left out: from "
+        "the size",
     )
     unladen_radius_mm: Radius | None = Field(
-        default=None, description="Half the outer diameter; absent: that of the size or the radius"
+        default=None,
+        description="Half the outer diameter of the unloaded tyre; left out: from the size or "
+        "the rolling radius",
     )
 
     @model_validator(mode="after")
     def _check_tyre(self) -> TyreSection:
         if self.has("size") and (self.has("rolling_radius_mm") or self.has("unladen_radius_mm")):
-            raise ValueError("size and the radii are two ways to give one value; give one")
+            raise ValueError("size and the radii describe the same tyre; give one of them")
         if problems := or_problem(self.tyre):
             raise ValueError(problems[0])
         return self
@@ -141,7 +146,7 @@ class DrivelineSection(ModelSection):
     """Shafts, wheels and the speed controller."""
 
     propshaft_inertia_kg_m2: Inertia | None = Field(
-        default=None, description="Gearbox output shaft and propshaft"
+        default=None, description="Moment of inertia of gearbox output shaft and propshaft"
     )
     propshaft_stiffness_n_m_per_rad: Stiffness | None = Field(
         default=None, description="Torsional stiffness between gearbox output and pinion flange"
@@ -157,13 +162,14 @@ class DrivelineSection(ModelSection):
         default=None, description="Torsional damping of both half-shafts together"
     )
     wheel_inertia_kg_m2: Inertia | None = Field(
-        default=None, description="One wheel with tyre and brake disc"
+        default=None, description="Moment of inertia of one wheel with tyre and brake disc"
     )
     tyre_slip_stiffness_n: SlipStiffness | None = Field(
-        default=None, description="Longitudinal force over slip, of both driven wheels"
+        default=None, description="Longitudinal force per slip of both driven wheels together"
     )
     tyre_relaxation_length_mm: Relaxation | None = Field(
-        default=None, description="The carcass stiffness is the slip stiffness over this length"
+        default=None,
+        description="Relaxation length of the tyre: slip stiffness divided by carcass stiffness",
     )
     speed_control_frequency_hz: Bandwidth | None = Field(
         default=None, description="Bandwidth of the speed controller"

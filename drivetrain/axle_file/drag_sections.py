@@ -34,19 +34,17 @@ class Housing(ModelSection):
     churning: Literal["none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"] | None = (
         Field(
             default=None,
-            description="Law of the gear's churning; absent: changenet_velex_2007 where the "
-            "section has a field, else none",
+            description="Law of the gear's churning loss; left out: changenet_velex_2007 if this "
+            "section has any field, else none",
         )
     )
     ring_diameter_mm: Size | None = Field(default=None, description="Outside diameter of the gear")
     ring_width_mm: Width | None = Field(default=None, description="Face width of the gear")
     immersion_mm: Depth | None = Field(
         default=None,
-        description="Depth of the lowest tooth of the gear below the surface of the oil at rest",
+        description="Depth of the lowest point of the gear below the oil level at standstill",
     )
-    oil_volume_l: Litres | None = Field(
-        default=None, description="Volume of oil filled into the axle"
-    )
+    oil_volume_l: Litres | None = Field(default=None, description="Volume of oil in the axle")
 
     @model_validator(mode="after")
     def _check_depth(self) -> Housing:
@@ -82,14 +80,15 @@ class Seals(ModelSection):
 
     pinion_diameter_mm: ShaftSize | None = Field(
         default=None,
-        description="Diameter of the pinion shaft under the seal lip; or give the torque",
+        description="Diameter of the pinion shaft under the seal lip; give this or the torque",
     )
     wheel_diameter_mm: ShaftSize | None = Field(
         default=None,
-        description="Diameter of each wheel shaft under the seal lip; or give the torque",
+        description="Diameter of each wheel shaft under the seal lip; give this or the torque",
     )
     material: SealMaterial | None = Field(
-        default=None, description="Lip material: fluorocarbon (fkm) or nitrile rubber; absent: fkm"
+        default=None,
+        description="Material of the lip: fluorocarbon (fkm) or nitrile rubber; left out: fkm",
     )
     pinion_torque_n_m: Torque | None = Field(
         default=None, description="Friction torque of the pinion seal"
@@ -103,8 +102,8 @@ class Seals(ModelSection):
         for shaft in ("pinion", "wheel"):
             if self.has(f"{shaft}_diameter_mm") and self.has(f"{shaft}_torque_n_m"):
                 raise ValueError(
-                    f"{shaft}_diameter_mm and {shaft}_torque_n_m are two ways "
-                    f"to give one value; give one of them"
+                    f"{shaft}_diameter_mm and {shaft}_torque_n_m describe the same loss; give one "
+                    "of them"
                 )
         return self
 

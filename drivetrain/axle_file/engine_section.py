@@ -31,10 +31,12 @@ class GearboxSection(ModelSection):
     """The gearbox between engine or motor and propshaft."""
 
     ratios: Ratios | None = Field(
-        default=None, description="Input speed over output speed, first gear first, falling"
+        default=None,
+        description="Ratios, input speed divided by output speed, from first gear on, falling",
     )
     lowest_cruising_speed_rpm: Speed | None = Field(
-        default=None, description="The highest gear that keeps the engine above this speed is used"
+        default=None,
+        description="The car drives in the highest gear in which the engine stays above this speed",
     )
 
     @model_validator(mode="after")
@@ -63,35 +65,43 @@ class EngineSection(ModelSection):
     sources: ClassVar[Mapping[str, str]] = {"kind": "default of the model"}
 
     kind: EngineKind | None = Field(
-        default=None, description="electric_motor: smooth, from standstill, with one gear"
+        default=None,
+        description="Kind of engine; electric_motor: smooth torque, from standstill, with one gear",
     )
     orders: Orders | None = Field(
         default=None,
-        description="Torque orders: periods per revolution of crank or rotor; []: smooth",
+        description="Orders of the engine torque, in periods per revolution of crankshaft or "
+        "rotor; []: smooth torque",
     )
     order_amplitudes: Amplitudes | None = Field(
         default=None, description="Amplitudes of the orders, divided by the mean torque"
     )
     order_phases_deg: Phases | None = Field(
-        default=None, description="Phases of the orders, at the firing dead centre of cylinder 1"
+        default=None, description="Phases of the orders at firing dead centre of cylinder 1"
     )
     primary_inertia_kg_m2: Inertia | None = Field(
-        default=None, description="Crankshaft and primary flywheel mass; of a motor its rotor"
+        default=None,
+        description="Moment of inertia of crankshaft and primary flywheel mass; of a motor: of "
+        "its rotor",
     )
     secondary_inertia_kg_m2: Inertia | None = Field(
         default=None,
-        description="Secondary flywheel mass, clutch and gearbox input; of a motor the last alone",
+        description="Moment of inertia of secondary flywheel mass, clutch and gearbox input; "
+        "with a motor: of the gearbox input alone",
     )
     flywheel_stiffness_n_m_per_rad: Stiffness | None = Field(
         default=None,
-        description="Stiffness of the arc springs of the flywheel; for a motor that of its shaft",
+        description="Torsional stiffness of the arc springs of the flywheel; of a motor: of its "
+        "shaft",
     )
     flywheel_damping_n_m_s_per_rad: Damping | None = Field(
         default=None, description="Viscous damping of the arc springs"
     )
-    idle_speed_rpm: Speed | None = Field(default=None, description="Lowest speed of crank or rotor")
+    idle_speed_rpm: Speed | None = Field(
+        default=None, description="Lowest speed of crankshaft or rotor"
+    )
     highest_speed_rpm: Speed | None = Field(
-        default=None, description="Highest speed of crank or rotor"
+        default=None, description="Highest speed of crankshaft or rotor"
     )
 
     @model_validator(mode="after")

@@ -66,16 +66,18 @@ class Member(ModelSection):
 
     mass_kg: Mass | None = Field(
         default=None,
-        description="Mass of the member with its shaft and parts; absent: from its frusta",
+        description="Mass of the member with its shaft and all parts on it; left out: from its "
+        "frusta",
     )
     inertia_kg_m2: Inertia | None = Field(
         default=None,
-        description="Inertia of the member with its shaft and parts, about its "
-        "axis; absent: from its frusta",
+        description="Moment of inertia of the member with its shaft and all parts on it, about "
+        "its axis; left out: from its frusta",
     )
     frusta_lengths_mm: Frusta | None = Field(
         default=None,
-        description="Blank and shaft as cone frusta of the steel on one axis: length of each",
+        description="Blank and shaft described as cone frusta on one axis, of the steel: length "
+        "of each frustum",
     )
     frusta_first_diameters_mm: Diameters | None = Field(
         default=None, description="Outside diameter of each frustum at one end"
@@ -84,7 +86,7 @@ class Member(ModelSection):
         default=None, description="Outside diameter of each frustum at the other end"
     )
     frusta_bores_mm: Bores | None = Field(
-        default=None, description="Bore diameter of each frustum; absent: solid"
+        default=None, description="Bore diameter of each frustum; left out: solid"
     )
     bearing: BearingSection | None = None
 

@@ -64,21 +64,22 @@ def mesh_of(
 def read_axle(
     path: str | Path, *, jobs: int | None = None, progress: Progress = no_progress
 ) -> CarAxle:
-    """Return axle and car of an axle file, or of a shipped one by its name.
+    """Return axle and car from an axle file, or from a shipped one by its name.
 
     Parameters
     ----------
     path : path
+        The axle file (.toml), or the name of a shipped one.
     jobs : int, optional
-        Processes of the contact analysis, where the file names a gear file whose mesh table is
-        not there or out of date; default: all processors.
+        Number of processes of the contact analysis. It runs if the file names a gear file whose
+        mesh table is missing or out of date. Default: all processors.
     progress : callable, optional
         Called with the share of that analysis that is done [-] and a sentence on what runs.
 
     Raises
     ------
     ParameterError
-        The file or its gear file is missing or wrong; all wrong fields are named.
+        The file or its gear file is missing or wrong; the message names all wrong fields.
     TableError
         Its mesh table or its asperity table is missing or wrong.
     ConvergenceError

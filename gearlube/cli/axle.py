@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption
 
@@ -30,14 +31,13 @@ def show(
     example: ExampleOption = False,
 ) -> None:
     """Check an axle file; print every input with its value, unit and where it is from."""
-    from drivetrain.axle_file.axle_file import AxleFile
+    if example:
+        print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
+        return
     from drivetrain.axle_file.read_axle import read_axle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
 
     with exit_on_error("Stopped. Run the same command again to go on."):
-        if example:
-            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
-            return
         bring_gears_up_to_date(file)
         described = read_axle(file)
         mesh = described.axle.mesh
@@ -49,4 +49,7 @@ def show(
             value = f"{note.value_text} {note.unit}".strip()
             line = f"{note.field:{wide}}  {value:28}  {note.origin:8}  {note.why}"
             typer.echo(line.rstrip())
-        typer.echo(f"{len(described.assumed)} of {len(described.inputs)} inputs are not given.")
+        typer.echo(
+            f"{len(described.assumed)} of {len(described.inputs)} inputs are not given in "
+            "the file: they are assumed or inferred."
+        )

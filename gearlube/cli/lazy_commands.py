@@ -11,6 +11,8 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_group
 
+from gearlube.cli.option_groups import group_options
+
 MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would swallow [units]
 
 
@@ -54,7 +56,9 @@ class LazyCommand:
         else:
             chosen = getattr(module, self.command_class) if self.command_class else None
             app.command(self.name, cls=chosen, context_settings=dict(self.context_settings))(found)
-        return get_group(app).commands[self.name]
+        command = get_group(app).commands[self.name]
+        group_options(command)
+        return command
 
 
 def lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gearlube.cli.default_command import ShowByDefault
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.oil_fit import fit
 
@@ -49,22 +50,25 @@ def show(
     ] = False,
 ) -> None:
     """Check an oil file; print its numbers, where each is from, and a table over temperature."""
+    if example:
+        print_example("gearlube_core.oil.oil_file:OilFile", "iso_vg_220_pao")
+        return
     from gearlube.plotting.oil_properties import properties_figure
     from gearlube_core.errors import ParameterError
-    from gearlube_core.oil.oil_file import OilFile, read_oil
+    from gearlube_core.oil.oil_file import read_oil
     from gearlube_core.storage.atomic_file import atomic_write
 
     with exit_on_error():
-        if example:
-            typer.echo(OilFile.shipped_text("iso_vg_220_pao"), nl=False)
-            return
         if figure is not None and figure.suffix != ".png":
             raise ParameterError(f"--figure must be a file whose name ends in .png, got {figure}.")
         described = read_oil(file)
         typer.echo(f"{described.name}{f' ({described.source})' if described.source else ''}")
         for line in note_lines(described, assumed):
             typer.echo(line)
-        typer.echo(f"{len(described.assumed)} of {len(described.inputs)} numbers are not given.")
+        typer.echo(
+            f"{len(described.assumed)} of {len(described.inputs)} numbers are not given in "
+            "the file: they are assumed or inferred."
+        )
         typer.echo("")
         for line in property_lines(described):
             typer.echo(line)

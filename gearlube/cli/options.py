@@ -33,6 +33,14 @@ OilTemperatureOption = Annotated[
 RoughnessOption = Annotated[
     float, typer.Option(help="Composite rms roughness of the flanks [um].", metavar="UM")
 ]
+FilmRoughnessOption = Annotated[
+    float | None,
+    typer.Option(
+        help="Composite rms roughness of both surfaces [um], for the film ratio. The film itself "
+        "stays the same.",
+        metavar="UM",
+    ),
+]
 JobsOption = Annotated[
     int | None,
     typer.Option(help="Number of parallel processes. Default: all processors.", metavar="N"),

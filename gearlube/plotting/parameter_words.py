@@ -27,5 +27,7 @@ def tolerance_words(tolerance: float, unit: str) -> str:
     if unit == "m":
         return f"{1e3 * tolerance:.3g} mm"
     if unit == "rad":
-        return f"{np.degrees(tolerance):.3g} deg"
+        return f"{np.degrees(tolerance):.3g}°"
+    if unit == "deg":
+        return f"{tolerance:.3g}°"
     return f"{tolerance:.3g}" + ("" if unit == "1" else f" {unit}")

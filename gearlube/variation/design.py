@@ -24,11 +24,12 @@ MOST_POINTS = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class Axis:
-    """A parameter that takes each of some values, in combination with every other axis.
+    """A parameter with a list of values; all axes of a design are combined with each other.
 
     Parameters
     ----------
     key : str
+        Name of the parameter.
     values : tuple of float, int or str
 
     Examples
@@ -43,22 +44,23 @@ class Axis:
     def __post_init__(self) -> None:
         if not self.values or len(set(self.values)) < len(self.values):
             raise ParameterError(
-                f"{self.key} must take one or more values, each once, got {self.values}."
+                f"{self.key} must have one or more different values, got {self.values}."
             )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spread:
-    """A parameter that is sampled.
+    """A parameter with a distribution, from which samples are taken.
 
     Parameters
     ----------
     key : str
+        Name of the parameter.
     low, high : float
-        Ends; no sample lies beyond. They may be infinite for a normal distribution.
+        Limits; no sample is outside them. They may be infinite for a normal distribution.
     mean, deviation : float, optional
-        Mean and standard deviation of a normal distribution before it is cut off at the ends.
-        None: all values between the ends are alike.
+        Mean and standard deviation of a normal distribution before it is cut off at the limits.
+        None: all values between the limits are equally likely.
 
     Examples
     --------
@@ -90,15 +92,16 @@ class Spread:
 
 @dataclass(frozen=True, slots=True)
 class Sampling:
-    """How spreads are sampled.
+    """How samples are taken from the spreads of a design.
 
     Parameters
     ----------
     method : {"lhs", "sobol", "random"}
         Latin hypercube, scrambled Sobol sequence, or independent random numbers.
     count : int
-        Samples; a power of two for sobol.
+        Number of samples; a power of two for sobol.
     seed : int
+        Seed of the random numbers.
 
     Examples
     --------
@@ -134,9 +137,9 @@ class Sampling:
 class Design:
     """All points of a variation: every combination of the axes, each with all samples.
 
-    The samples of every combination are the same, so that differences between combinations are
-    not those of other samples. The points of one combination follow each other; the last axis
-    changes first.
+    All combinations have the same samples, so that differences between combinations do not come
+    from different samples. The points of one combination follow each other; the last axis changes
+    first.
 
     Parameters
     ----------
@@ -163,7 +166,10 @@ class Design:
     def __post_init__(self) -> None:
         twice = sorted({key for key in self.keys if self.keys.count(key) > 1})
         if twice:
-            raise ParameterError(f"{', '.join(twice)} must be varied once, got it twice.")
+            raise ParameterError(
+                f"{', '.join(twice)} must be varied only once, got it twice. "
+                "Remove one --vary of it."
+            )
         if not self.keys:
             raise ParameterError(
                 "A variation needs a parameter to vary, got none. Give --vary, for instance "

@@ -37,7 +37,7 @@ def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Pat
 def _scale(results: xr.Dataset, name: str) -> tuple[float, str]:
     """Return the factor and unit in which a quantity is drawn."""
     unit = str(results[name].attrs["units"])
-    return (1e6, "um") if unit == "m" else (1.0, unit)
+    return (1e6, "µm") if unit == "m" else (1.0, unit)
 
 
 def _about(results: xr.Dataset, name: str) -> str:
@@ -112,7 +112,10 @@ def rank_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
         for name, ax in zip(_shown(results), panels, strict=True):
             bars = ranks.sel(quantity=name).values[chosen]
             ax.barh(np.arange(chosen.size), bars, color=SERIES[0], hatch=HATCHES[0])
-            ax.set_yticks(np.arange(chosen.size), list(summary["input"].values[chosen]))
+            if ax in panels[::2]:  # panels to the right have the same rows
+                ax.set_yticks(np.arange(chosen.size), list(summary["input"].values[chosen]))
+            else:
+                ax.set_yticks(np.arange(chosen.size), [""] * chosen.size)
             ax.set_xlim(-1.0, 1.0)
             ax.set_xlabel("rank correlation [-]")
             ax.set_title(fill(results[name].attrs["long_name"], _TITLE_LETTERS), fontsize=9)

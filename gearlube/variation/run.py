@@ -78,16 +78,17 @@ def run_variation(
     study : PointStudy
     design : Design
     out : path
-        Folder; blocks of the same variation that are already there are not computed again.
+        Folder of results; blocks of the same variation that are already there are not computed
+        again.
     jobs : int, optional
-        Local processes; default: all processors. Without effect on a cluster.
+        Number of local processes; default: all processors. Not used on a cluster.
     scheduler : str, optional
         Address of a running Dask scheduler, "tcp://host:port".
     block : int, optional
-        Points that a worker computes and keeps together. Default: that of the study, and at
-        least 16 blocks.
+        Number of points that a worker computes and keeps together. Default: as the study sets
+        it, but small enough for at least 16 blocks.
     overwrite : bool
-        Begin anew where the folder holds another variation.
+        True: start again if the folder holds another variation.
     progress : callable
         Called with the share done [-] and a sentence.
 
@@ -96,12 +97,13 @@ def run_variation(
     ParameterError
         A point of the design is wrong; nothing has been computed then.
     InterruptedRunError
-        After Ctrl-C, when the blocks under way have been kept.
+        After Ctrl-C, when the blocks that were being computed have been saved.
 
     Notes
     -----
-    The memory of this process does not grow with the results: it holds the blocks that have just
-    arrived. A script calls this under `if __name__ == "__main__":`, as each process reads it.
+    The memory of this process does not grow with the results: it holds only the blocks that have
+    just arrived. Call this in a script under `if __name__ == "__main__":`, because each process
+    reads the script.
 
     Examples
     --------
@@ -211,7 +213,7 @@ class _Tally:
         self.blocks += 1
         if not result.status.size:
             self.lost += points
-            logger.warning("Block %d is lost: %s", number, result.messages[0])
+            logger.warning("Block %d of points is lost: %s", number, result.messages[0])
         else:
             self.computed += points
             self.failed += int((result.status != FINISHED).sum())

@@ -194,12 +194,12 @@ def _attributes(path: Path) -> dict[str, Any]:
 
 
 def open_variation(folder: Path | str) -> xr.Dataset:
-    """Open the results of a variation, without reading them: chunks are read when asked for.
+    """Open the results of a variation as a dataset; data are read only when they are used.
 
     Parameters
     ----------
     folder : path
-        The --out of `gearlube vary`, also while it still computes.
+        Folder given as --out to `gearlube vary`, also while it still computes.
 
     Returns
     -------
@@ -248,7 +248,7 @@ def read_points(folder: Path, points: slice, columns: slice = slice(None)) -> di
 
 
 def gridded(results: xr.Dataset) -> xr.Dataset:
-    """Return results over the axes of their design and `sample`, in the place of `point`.
+    """Return the results of a variation over its axes and `sample`, instead of over `point`.
 
     Examples
     --------

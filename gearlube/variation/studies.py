@@ -24,15 +24,16 @@ _QUICK = ("sweep", "helical", "contact", "resonance")
 
 
 def point_study(name: str, file: str | None = None, *, quick: bool = False) -> PointStudy:
-    """Return a study of a file, or of the shipped one.
+    """Return a study that `run_variation` can run at many points, of a file or of the shipped one.
 
     Parameters
     ----------
     name : {"map", "sweep", "cycle", "bearing", "helical", "contact", "resonance"}
     file : str, optional
-        Axle, bearing or gear file, of resonance a mesh table; or the name of a shipped one.
+        Axle, bearing or gear file, or a mesh table for resonance; or the name of a shipped one.
     quick : bool
-        Short records of the sweep; coarse teeth, few positions or frequencies of gear pairs.
+        True: short records of the sweep; coarse teeth and few positions or frequencies of gear
+        pairs.
 
     Examples
     --------
@@ -42,7 +43,7 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
     check_option("STUDY", name, STUDIES)
     if quick and name not in _QUICK:
         raise ParameterError(
-            f"--quick is for {', '.join(_QUICK)}, got it with {name}. Leave it out."
+            f"--quick is only for {', '.join(_QUICK)}, not for {name}. Leave it out."
         )
     file = SHIPPED[name] if file is None else file
     if name == "bearing":

@@ -44,36 +44,48 @@ class LossBearingSection(Section):
     """Rings, races and rollers."""
 
     series: Literal["302", "303", "313", "320X", "322", "other"] = Field(
-        default="other", description="Of the catalogue, for the law of SKF"
+        default="other", description="Series in the catalogue, for the friction law of SKF"
     )
-    bore_diameter_mm: Diameter = Field(description="Of the inner ring")
-    outside_diameter_mm: Diameter = Field(description="Of the outer ring")
-    pitch_diameter_mm: Diameter = Field(description="Of the middles of the rollers")
-    rollers: Rollers = Field(description="Number of rollers of one row")
-    rows: Rows = Field(default=1, description="Number of rows; each has the same share of the load")
-    roller_diameter_mm: RollerSize = Field(description="Mean, at mid-length")
-    roller_length_mm: RollerSize = Field(description="Effective: without chamfers and undercuts")
+    bore_diameter_mm: Diameter = Field(description="Bore diameter of the inner ring")
+    outside_diameter_mm: Diameter = Field(description="Outside diameter of the outer ring")
+    pitch_diameter_mm: Diameter = Field(
+        description="Diameter of the circle through the middles of the rollers"
+    )
+    rollers: Rollers = Field(description="Number of rollers in one row")
+    rows: Rows = Field(
+        default=1, description="Number of rows; each row carries the same share of the load"
+    )
+    roller_diameter_mm: RollerSize = Field(
+        description="Mean diameter of the rollers, at mid-length"
+    )
+    roller_length_mm: RollerSize = Field(
+        description="Effective length of the rollers, without chamfers and undercuts"
+    )
     contact_angle_deg: Angle = Field(
-        description="Of the outer race: half the included angle of the cup"
+        description="Contact angle of the outer race: half the included angle of the cup"
     )
     inner_angle_deg: InnerAngle | None = Field(
         default=None,
-        description="Of the inner race; absent: that with which rollers and races share one apex",
+        description="Contact angle of the inner race; left out: the angle at which rollers and "
+        "races share one apex",
     )
     roughness_um: Roughness = Field(
-        default=0.16, description="Of roller and race together, rms; only for the film ratio"
+        default=0.16,
+        description="Composite RMS roughness of roller and race; used only for the film ratio",
     )
     f0: ViscousFactor = Field(
-        default=F0_TAPERED_OIL_BATH, description="Viscous factor of Palmgren; 6 is an oil bath"
+        default=F0_TAPERED_OIL_BATH,
+        description="Viscous factor of Palmgren's law; 6 is for an oil bath",
     )
-    f1: LoadFactor = Field(default=F1_TAPERED, description="Load factor of Palmgren")
+    f1: LoadFactor = Field(default=F1_TAPERED, description="Load factor of Palmgren's law")
     timken_g1: TimkenFactor | None = Field(
-        default=None, description="Geometry factor G1 of the manufacturer, for the law of Timken"
+        default=None,
+        description="Geometry factor G1 from the manufacturer, for the friction law of Timken",
     )
     rolling_scale: Scale | None = Field(
         default=None,
-        description="Measured over computed rolling torque of this bearing; with it the error bar "
-        "is 25 % and no longer a factor of 2",
+        description="Measured rolling torque of this bearing divided by the computed one; if "
+        "given, the error bar is 25 % instead of a factor of 2",
     )
 
 
@@ -82,17 +94,25 @@ class RibSection(Section):
 
     contact_height_mm: Height | None = Field(
         default=None,
-        description="Of the contact above the inner race; absent: 0.15 roller diameters, assumed",
+        description="Height of the contact between roller end and rib above the inner race; "
+        "left out: 0.15 roller diameters, assumed",
     )
     end_radius_ratio: EndRadius = Field(
-        default=0.9, description="Sphere of the roller end over its distance from the apex"
+        default=0.9,
+        description="Radius of the spherical roller end divided by its distance from the apex",
     )
-    roughness_um: Roughness = Field(default=0.24, description="Of rib and roller end, rms")
+    roughness_um: Roughness = Field(
+        default=0.24, description="Composite RMS roughness of rib and roller end"
+    )
     share_b: ShareB = Field(
-        default=1.90, description="B of the load on asperities, exp(-B Lambda^C)"
+        default=1.90,
+        description="B in the share of the load on asperities, exp(-B Lambda^C), with Lambda "
+        "the film ratio",
     )
-    share_c: ShareC = Field(default=0.99, description="C of the same")
-    boundary_friction: Friction = Field(default=0.12, description="Of the asperities")
+    share_c: ShareC = Field(default=0.99, description="C in the same formula")
+    boundary_friction: Friction = Field(
+        default=0.12, description="Friction coefficient of the asperities"
+    )
 
 
 class OperationSection(Section):
@@ -104,12 +124,12 @@ class OperationSection(Section):
     axial_load_n: Speeds = Field(default=(1000.0,), description="Axial loads of the bearing")
     radial_load_n: Speeds = Field(default=(0.0,), description="Radial loads of the bearing")
     temperature_degc: Speeds = Field(
-        default=(60.0,), description="Temperatures of the oil at the bearing"
+        default=(60.0,), description="Temperatures of the oil in the bearing"
     )
 
 
 class BearingFile(InputFile):
-    """A tapered roller bearing as a drawing and a catalogue describe it.
+    """Bearing file: a tapered roller bearing as a drawing and a catalogue describe it.
 
     Examples
     --------
@@ -123,14 +143,16 @@ class BearingFile(InputFile):
     package: ClassVar[str] = "gearlube_core.bearings"
     title: ClassVar[str] = "bearing file"
 
-    name: Text = Field(description="What results and figures call the bearing")
-    source: Text | None = Field(default=None, description="Where the numbers are from")
-    oil: Text = Field(default="fva_3", description="Shipped oil; the command may say another")
+    name: Text = Field(description="Name of the bearing in results and figures")
+    source: Text | None = Field(default=None, description="Where the numbers come from")
+    oil: Text = Field(
+        default="fva_3", description="Name of a shipped oil; the command can take another one"
+    )
     bearing: LossBearingSection
     rib: RibSection = Field(default_factory=RibSection)
     operation: OperationSection = Field(default_factory=OperationSection)
     tolerances: Tolerances = Field(
-        default={}, description="How fields scatter from part to part, by their dotted names"
+        default={}, description="Scatter of fields from part to part, by their dotted names"
     )
 
     @model_validator(mode="after")

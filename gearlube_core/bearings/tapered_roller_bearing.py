@@ -41,44 +41,45 @@ _LARGEST_FIT = 100e-6  # m
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaperedRollerBearing:
-    """One type of roller bearing, mounted as an opposed pair on each shaft.
+    """A tapered roller bearing of the axle model, mounted as an opposed pair on each shaft.
 
     Parameters
     ----------
     bore_diameter, outside_diameter : float
         Boundary dimensions, which set the drag [m].
     inner_race_diameter, outer_race_diameter, roller_diameter, roller_length : float
-        At the middle of the rollers [m].
+        Dimensions at the middle of the rollers [m].
     n_rollers : int
-        3 to 40.
+        Number of rollers, 3 to 40.
     stiffness_constant : float
-        kn of inner race - roller - outer race [N/m^n].
+        kn of the contact inner race - roller - outer race [N/m^n].
     exponent : float
-        n; 10/9 for lines, 1.5 for points [-].
+        n of load = kn approach^n; 10/9 for line contacts, 1.5 for point contacts [-].
     contact_angle : float
-        L, 0 for a cylindrical roller bearing [rad].
+        Contact angle, called L in the equations; 0 for a cylindrical roller bearing [rad].
     loss : float
-        Coefficient of the hysteresis in [mohammadpour_2015 (25)] [-].
+        Hysteresis loss coefficient in [mohammadpour_2015 (25)] [-].
     approach : {"full", "as_printed"}
-        "as_printed" halves the displacement in [mohammadpour_2015 (26)] and lets rollers pull.
+        "as_printed" halves the displacement in [mohammadpour_2015 (26)], as the paper prints it,
+        and lets rollers pull.
     film : {"squeeze", "steady", "off"}
-        Film of [mohammadpour_2015 (27)] with or without its squeeze factor, or dry rollers.
+        Film of [mohammadpour_2015 (27)] with its squeeze factor, without it, or dry rollers.
     solid : Solid
-        Rollers and races.
+        Material of rollers and races.
     f0, f1 : float
-        Factors of the drag torque, see `palmgren_1959` [-].
+        Viscous and load factor of the drag torque, see `palmgren_1959` [-].
     preload : float or None
-        Axial force of either bearing of the pair at rest [N].
+        Axial force on each bearing of the pair at standstill [N].
     interference : float or None
-        Approach of every roller at rest, negative for a clearance [m]. Not with `preload`: the
-        two describe the same approach.
+        Approach of every roller at standstill, negative for a clearance [m]. Give it or `preload`,
+        because each follows from the other.
     series : str
-        Of the catalogue, for the drag by `skf_2013`: one of `SERIES_NAMES`.
+        Series in the catalogue, for the drag by `skf_2013`: one of `SERIES_NAMES`.
     rib_height : float, optional
-        Of the contact of the roller ends with the rib above the inner race [m], for the drag by the
-        laws of rolling; None: 0.15 roller diameters, assumed; 0: no rib.
+        Height of the contact between roller ends and rib above the inner race [m], for drag torques
+        from rolling; None: 0.15 roller diameters, assumed; 0: no rib.
     rib_boundary_friction : float
-        Of the asperities there [-].
+        Friction coefficient of the asperities between roller ends and rib [-].
 
     Examples
     --------
@@ -141,7 +142,7 @@ class TaperedRollerBearing:
     def _check_fit(self) -> None:
         if self.preload is not None and self.interference is not None:
             raise ParameterError(
-                "preload and interference both set the approach of the rollers at rest, got "
+                "preload and interference both set the approach of the rollers at standstill, got "
                 f"{self.preload:g} N and {self.interference:g} m. Give one of them."
             )
         if self.preload is not None:

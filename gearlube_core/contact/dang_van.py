@@ -26,7 +26,7 @@ _FROM_NORMAL = np.array(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FatigueLimits:
-    """Fatigue limits of a steel under full reversal.
+    """Fatigue limits of a steel under fully reversed load, for `dang_van_number`.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class FatigueLimits:
     torsion
         t_-1, amplitude of the shear stress [Pa]; 0.5 to 0.8 of f_-1.
     name
-        In tables.
+        Name in tables.
 
     Examples
     --------
@@ -71,40 +71,40 @@ def dang_van_number(
     *,
     tolerance: float = 1e-3,
 ) -> Array:
-    """Return the number of Dang Van; above 1 the steel is expected to fail by fatigue.
+    """Return the fatigue number of Dang Van; above 1 the steel is expected to fail by fatigue.
 
     N = max over time of (tau(t) + alpha sigma_h(t))/t_-1
 
-    tau is the greatest shear of s(t) - s*, s the deviator and s* the centre of the smallest ball
-    around all s(t): the mesoscopic stress of a grain that has shaken down.
+    tau is the greatest shear of s(t) - s*, with the deviator s and the centre s* of the smallest
+    ball around all s(t). It is the mesoscopic stress in a grain that has shaken down.
 
     Parameters
     ----------
     history
         Stress of material points over a cycle [Pa]: xx, yy, zz, xy, yz, xz, shape (steps, 6, ...).
     limits
-        Of the steel.
+        Fatigue limits of the steel.
     residual
         Stress that does not change [Pa], (6, ...); only its hydrostatic part acts.
     tolerance
-        Of the ball's radius [-].
+        Tolerance of the ball's radius [-].
 
     Returns
     -------
     ndarray, shape (...)
-        N [-]. It may be below 0 where high pressure acts alone.
+        N [-]. It may be below 0 where there is only high pressure.
 
     Raises
     ------
     ParameterError
-        Another shape or a number that is not finite.
+        The shape is wrong or a number is not finite.
     ConvergenceError
         A ball was not found.
 
     Notes
     -----
-    Elastic macroscopic stress. Contact has large negative sigma_h, far beyond the tests behind
-    alpha, where the criterion is known to be too kind [desimone_2006].
+    The macroscopic stress is elastic. In contacts sigma_h is strongly negative, far beyond the
+    tests from which alpha comes. There the criterion is known to be too optimistic [desimone_2006].
     Source: [dang_van_1989].
 
     Examples
@@ -123,7 +123,7 @@ def dang_van_number(
             f"history must have the shape (steps, 6, ...), steps from 2 on, got {stress.shape}."
         )
     if not np.isfinite(stress).all():
-        raise ParameterError("history must be finite. Leave out steps that were not solved.")
+        raise ParameterError("history must be finite. Leave out steps without a solution.")
     check_within("tolerance", tolerance, 1e-8, 0.1)
     steps, places = stress.shape[0], stress.shape[2:]
     flat = stress.reshape(steps, 6, -1)
@@ -152,7 +152,7 @@ def dang_van_number(
 
 
 def passage_history(stress: Array) -> Array:
-    """Return what material sees that passes a steady load along x.
+    """Return the stress over time in material that passes a steady load along x.
 
     Parameters
     ----------
@@ -173,24 +173,24 @@ def passage_history(stress: Array) -> Array:
 
 
 def followed_history(stress: Array, x: Array, travel: Array, places: Array) -> Array:
-    """Return what moving material sees of loads that change.
+    """Return the stress over time in material that moves through changing loads.
 
     Parameters
     ----------
     stress
-        (steps, 6, nx, ...) [Pa].
+        Stress on fixed nodes, (steps, 6, nx, ...) [Pa].
     x
         Nodes [m], shape (nx,).
     travel
         Distance that the material has moved along x at each step [m], shape (steps,).
     places
-        Where material points are at travel 0 [m], shape (n,). Beyond the nodes the stress of the
-        last node counts.
+        Positions of the material points at travel 0 [m], shape (n,). Outside the nodes the stress
+        of the last node is used.
 
     Returns
     -------
     ndarray, shape (steps, 6, n, ...)
-        Straight between nodes.
+        Linearly interpolated between nodes.
 
     Examples
     --------

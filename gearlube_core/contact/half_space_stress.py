@@ -20,7 +20,7 @@ _FADED = 1.5  # periods along the closed side, over which its longest wave fades
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HalfSpaceStress:
-    """Stress at any depth under loads on a grid.
+    """Stress at any depth of a solid under pressure and shear on a grid, e.g. those of a film.
 
     For each wave exp(i k s) of the loads along s, with E = exp(-k z):
 
@@ -33,14 +33,14 @@ class HalfSpaceStress:
     pressure
         p [Pa], shape (nx, ny), pressing along z into the solid.
     spacing
-        Along x and y [m].
+        Distances of the nodes along x and y [m].
     traction_x, traction_y
         Shear that acts on the solid along x and y [Pa], shape (nx, ny); None: none.
     poisson_ratio
         nu [-].
     periodic
-        Along x and y: the load repeats. (False, False): a point contact, (False, True): a line
-        contact whose load repeats along it.
+        Whether the load repeats along x and along y. (False, False): a point contact, (False,
+        True): a line contact whose load repeats along it.
 
     Raises
     ------
@@ -49,11 +49,11 @@ class HalfSpaceStress:
 
     Notes
     -----
-    Tension is positive. Waves are exact for loads that the grid resolves. Open sides are padded:
-    all around to four widths, which leaves 1e-3 of the largest pressure under a round load and 1 %
-    under one that fills the domain. Of a line contact the mean over y is taken from closed forms
-    for strips instead, without any image. A mean pressure that is periodic along both sides is held
-    sideways, sigma_xx = -nu/(1 - nu) p.
+    Tension is positive. The solution is exact for all waves that the grid resolves. Open sides are
+    padded with zeros to four times the width. This leaves an error of 1e-3 of the largest pressure
+    under a round load, and of 1 % under a load that fills the domain. For a line contact the mean
+    over y is taken from closed forms for strips instead, without repeated loads. If both sides are
+    periodic, the solid under the mean pressure cannot expand sideways, sigma_xx = -nu/(1 - nu) p.
     Source: Airy's function of each wave, [johnson_1985 sec. 2.2]; strips, [johnson_1985 sec. 2.5].
 
     Examples
@@ -197,7 +197,7 @@ def hydrostatic_stress(stress: Array) -> Array:
 
 
 def mises_stress(stress: Array) -> Array:
-    """Return the equivalent stress of von Mises [Pa] of a stress (6, ...).
+    """Return the von Mises equivalent stress [Pa] of a stress (6, ...).
 
     Examples
     --------
@@ -224,7 +224,7 @@ def principal_stresses(stress: Array) -> Array:
 
 
 def greatest_shear(stress: Array) -> Array:
-    """Return the greatest shear stress, half the difference of principal ones [Pa], of (6, ...).
+    """Return the greatest shear stress [Pa] of a stress (6, ...): half the principal difference.
 
     Examples
     --------

@@ -94,7 +94,7 @@ def central_film_thickness(
     load: float,
     reduced_modulus: float,
 ) -> float:
-    """Return the film thickness in the centre of an elliptical contact.
+    """Return the central film thickness of an elliptical contact after Chittenden et al. 1985.
 
     h_c = R_e 4.31 U^0.68 G^0.49 W^-0.073 {1 - exp[-1.23 (R_s/R_e)^(2/3)]}
     U = eta0 u/(E' R_e),  G = alpha E',  W = F/(E' R_e^2),  u = (u_1 + u_2)/2
@@ -151,7 +151,7 @@ def minimum_film_thickness(
     load: float,
     reduced_modulus: float,
 ) -> float:
-    """Return the smallest film thickness of an elliptical contact.
+    """Return the smallest film thickness of an elliptical contact after Chittenden et al. 1985.
 
     h_m = R_e 3.68 U^0.68 G^0.49 W^-0.073 {1 - exp[-0.67 (R_s/R_e)^(2/3)]}
 

@@ -72,7 +72,7 @@ def central_line_film(
     line_load: float,
     contact_modulus: float,
 ) -> float:
-    """Return the central film of a line contact from checked numbers.
+    """Return the central film thickness of a line contact after Dowson and Toyoda 1979.
 
     Parameters
     ----------

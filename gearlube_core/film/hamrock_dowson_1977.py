@@ -21,7 +21,7 @@ def brewe_hamrock_ellipticity(R_x: float, R_y: float) -> float:
 
 
 def hamrock_dowson_films(U: float, G: float, W: float, k: float) -> tuple[float, float]:
-    """Return central and minimum film over R_x [-].
+    """Return central and minimum film of a point contact, divided by R_x, after Hamrock and Dowson.
 
     H_c = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)),
     H_m = 3.63 U^0.68 G^0.49 W^-0.073 (1 - e^(-0.68 k))
@@ -29,7 +29,7 @@ def hamrock_dowson_films(U: float, G: float, W: float, k: float) -> tuple[float,
     Parameters
     ----------
     U, G, W
-        Speed, material and load with E' and R_x, as in `PointContactGroups` [-].
+        Speed, material and load parameters with E' and R_x, as in `PointContactGroups` [-].
     k
         Ellipticity, 1 and above [-].
 

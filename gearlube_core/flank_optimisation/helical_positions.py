@@ -151,7 +151,7 @@ def held_position(
                 ),
                 arm=strip.arm[column],
                 area=np.full(row.size, strip.cell[0] * strip.cell[1]),
-                sliding=sliding_arm(modified, strip)[column],
+                sliding=strip.sliding_arm(modified.pair)[column],
                 at_edge=at_edge(modified, strip, edge_band)[row, column],
                 start=_start(loaded[strip.line].strip, loaded[strip.line].forces, y, z)
                 if strip.line in loaded
@@ -173,7 +173,7 @@ def plain_measures(
     """Return the measures of a position as the plain analysis finds it; as `held_position`."""
     state = MeshPosition.at(modified, phase).load(torque, stiffness, settings)
     slide = sum(
-        float(np.sum(line.forces * sliding_arm(modified, line.strip))) for line in state.lines
+        float(np.sum(line.forces * line.strip.sliding_arm(modified.pair))) for line in state.lines
     )
     total = sum(float(line.forces.sum()) for line in state.lines)
     edge = sum(
@@ -182,12 +182,6 @@ def plain_measures(
     )
     pressure = max(float(line.pressure.max()) for line in state.lines)
     return LoadedMeasures(state.rotation, pressure, slide / torque, edge / total, total)
-
-
-def sliding_arm(modified: ModifiedPair, strip: LineStrip) -> Array:
-    """Return the sliding speed per pinion speed on the line of action [m], (ny,)."""
-    pair = modified.pair
-    return np.asarray(np.abs(strip.x - pair.pitch_point) * (1.0 + 1.0 / pair.ratio))
 
 
 def at_edge(modified: ModifiedPair, strip: LineStrip, band: float) -> Array:

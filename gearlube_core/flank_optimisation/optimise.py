@@ -23,26 +23,29 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 EVALUATIONS, POSITIONS = "evaluations", "positions"  # folders of what is kept
+# of the searches for the front: losses differ by per cents, which wide steps on held cells miss
+_FRONT_ROUNDS, _FRONT_REGION = 3, 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OptimiseSettings:
-    """What is computed, and how finely.
+    """What `run_optimise` computes, and how finely.
 
     Parameters
     ----------
     search : SearchSettings
     check : CheckSettings
     checks : int
-        Searches at most: after each the plain analysis checks the limits, and those that it finds
-        broken are tightened in the next.
+        Largest number of searches. After each one the full analysis checks the limits; limits that
+        are not kept are tightened for the next search.
     front : int
-        Points of the front of whine against loss; 0: none.
+        Number of points on the front of whine against loss; 0: none.
     nominal : bool
         Whether the best pair without errors is searched too, for comparison.
     body : ToothBodySettings
-        Of a hypoid pair's teeth.
+        Elastic teeth of a hypoid pair.
     helical_body : HelicalBodySettings
+        Elastic teeth of a helical pair.
 
     Examples
     --------
@@ -292,7 +295,7 @@ def _front(
             replace(goal, loss=True, most_square=square),
             (problem.low, problem.high),
             values,
-            replace(settings.search, rounds=2),
+            replace(settings.search, rounds=_FRONT_ROUNDS, region=_FRONT_REGION),
         )
         values = found.values
         points.append(_point(goal, values, found.evaluation))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
@@ -27,10 +28,11 @@ _RANGE = ("low", "high", "start")
 class Range(Section):
     """Between which values one field may change, in the unit of the field."""
 
-    low: Number = Field(description="Lower bound")
-    high: Number = Field(description="Upper bound")
+    low: Number = Field(description="Smallest allowed value")
+    high: Number = Field(description="Largest allowed value")
     start: Number | None = Field(
-        default=None, description="Where the search starts; absent: the value of the gear file"
+        default=None,
+        description="Value at which the search starts; left out: the value in the gear file",
     )
 
     @model_validator(mode="after")
@@ -74,13 +76,15 @@ class Errors(Section):
     )
     lead_slope_um: Length = Field(
         default=0.0,
-        description="Helical pair: misalignment in the plane of contact over the face",
+        description="Helical pair: misalignment in the plane of contact, over the face width",
     )
     profile_slope_um: Length = Field(
-        default=0.0, description="Helical pair: error of the pressure angle of a gear"
+        default=0.0,
+        description="Helical pair: error of the pressure angle of a gear, as a profile slope",
     )
     fields: Annotated[dict[Text, Number], BeforeValidator(_flat)] = Field(
-        default={}, description="Tolerances of fields of the gear file, by their dotted names"
+        default={},
+        description="Tolerances of further fields of the gear file, by their dotted names",
     )
 
 
@@ -88,38 +92,47 @@ class Limits(Section):
     """What the better pair must keep, at each torque; 1 is the value of the gear file as given."""
 
     pressure: Times | None = Field(
-        default=1.0, description="Highest pressure, errors included, times that before"
+        default=1.0,
+        description="Limit of the highest pressure, with errors, divided by that of the given pair",
     )
     loss: Times | None = Field(
-        default=1.0, description="Sliding loss at one coefficient of friction, times that before"
+        default=1.0,
+        description="Limit of the sliding loss with a constant friction coefficient, divided by "
+        "that of the given pair",
     )
     sensitivity: Times | None = Field(
-        default=1.0, description="Change of the mesh orders by the errors, times that before"
+        default=1.0,
+        description="Limit of the change of the mesh orders by the errors, divided by that of "
+        "the given pair",
     )
     force_swing: Times | None = Field(
         default=None,
-        description="Mesh orders of the mesh force at constant torque, times that before; of a "
-        "hypoid pair; absent: no limit",
+        description="Only for hypoid pairs: limit of the mesh orders of the mesh force at "
+        "constant torque, divided by those of the given pair; left out: no limit",
     )
     edge_share: Share | None = Field(
         default=None,
-        description="Largest share of the load in the border of the flanks; absent: no limit",
+        description="Largest share of the load in the border of the flanks; left out: no limit",
     )
     edge_band: Band = Field(
         default=0.05,
-        description="Width of that border at tip, toe and heel, in parts of height and face width",
+        description="Width of this border at tip, toe and heel, as a fraction of tooth height "
+        "and face width",
     )
     other_side_torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False)] = Field(
         default=(),
-        description="Torques on the other flanks of a hypoid pair, for the next two limits alone: "
-        "of coast where side is drive",
+        description="Torques on the other flanks of a hypoid pair (coast if side is drive), "
+        "only for the next two limits",
     )
     other_side_pressure: Times | None = Field(
-        default=1.0, description="Highest pressure there, errors included, times that before"
+        default=1.0,
+        description="Limit of the highest pressure on the other flanks, with errors, divided by "
+        "that of the given pair",
     )
     other_side_edge_share: Share | None = Field(
         default=None,
-        description="Largest part of the load in the border there; absent: no limit",
+        description="Largest share of the load in the border of the other flanks; left out: no "
+        "limit",
     )
 
     @model_validator(mode="after")
@@ -129,8 +142,8 @@ class Limits(Section):
             raise ValueError(f"other_side_torques_n_m must rise, got {list(torques)}")
         if self.other_side_edge_share is not None and not torques:
             raise ValueError(
-                "other_side_edge_share needs other_side_torques_n_m, and got none of them. Give "
-                "torques of the pinion, or leave it out"
+                "other_side_edge_share needs other_side_torques_n_m, got none. Give torques of "
+                "the pinion, or leave it out"
             )
         return self
 
@@ -141,21 +154,23 @@ class Settings(Section):
     members: Annotated[tuple[Literal["pinion", "gear"], ...], Field(strict=False, min_length=1)] = (
         Field(
             default=("pinion",),
-            description="Member whose settings may change; the other member is kept",
+            description="Member whose settings may change; those of the other member are kept",
         )
     )
     blades: bool = Field(
-        default=False, description="Whether their cutters may change too; false: blades are kept"
+        default=False,
+        description="Whether the blades of its cutter may change too; false: they are kept",
     )
-    within_mm: Span = Field(default=0.5, description="Range of lengths, plus and minus")
-    within_deg: Span = Field(default=0.5, description="Range of angles, plus and minus")
+    within_mm: Span = Field(default=0.5, description="Lengths may change by plus and minus this")
+    within_deg: Span = Field(default=0.5, description="Angles may change by plus and minus this")
     within_ratio: Ratio = Field(
-        default=0.01, description="Range of the ratio of roll, plus and minus, as a fraction of it"
+        default=0.01,
+        description="The ratio of roll may change by plus and minus this fraction of its value",
     )
 
 
 class OptimisationFile(InputFile):
-    """What to make better of a gear pair, and within which bounds.
+    """Problem file of an optimisation: what may change on a gear pair, and what limits it.
 
     Examples
     --------
@@ -166,22 +181,29 @@ class OptimisationFile(InputFile):
     package: ClassVar[str] = "gearlube_core.flank_optimisation"
     title: ClassVar[str] = "problem file"
 
-    name: Text = Field(description="Name of the better pair")
-    gear: Text = Field(description="A shipped gear pair or a gear file (TOML)")
+    name: Text = Field(description="Name of the optimised pair")
+    gear: Text = Field(
+        description="Name of a shipped gear pair, or a gear file (.toml); a path is relative to "
+        "this file, or else to the working folder"
+    )
     torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)] = Field(
         description="Operating torques of the pinion, all with the same weight"
     )
-    side: Literal["drive", "coast"] = Field(default="drive", description="Flanks of a hypoid pair")
+    side: Literal["drive", "coast"] = Field(
+        default="drive", description="Flanks of a hypoid pair that are optimised"
+    )
     orders: Annotated[tuple[Order, ...], Field(strict=False, min_length=1)] = Field(
         default=(1, 2, 3),
         description="Mesh orders of the loaded transmission error to minimise, with equal weights",
     )
     aim: Literal["mean", "worst"] = Field(
         default="mean",
-        description="mean: least mean square over torques and errors; worst: least highest value",
+        description="mean: smallest mean square over all torques and errors; worst: smallest "
+        "value of the worst one",
     )
     positions: Annotated[int, Field(ge=6, le=64)] = Field(
-        default=8, description="Mesh phases of the search; above twice the highest order"
+        default=8,
+        description="Number of mesh phases in the search; more than twice the highest order",
     )
     parameters: Annotated[dict[Text, Range], BeforeValidator(_flat)] = Field(
         default={}, description="Fields of the gear file that may change, with bounds"
@@ -189,6 +211,13 @@ class OptimisationFile(InputFile):
     settings: Settings | None = None
     errors: Errors = Errors()
     limits: Limits = Limits()
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Return the file at a path; its gear file may lie beside it."""
+        found = super().from_toml(path)
+        beside = Path(path).parent / found.gear
+        return found.model_copy(update={"gear": str(beside)}) if beside.is_file() else found
 
     @model_validator(mode="after")
     def _check_relations(self) -> OptimisationFile:

@@ -22,6 +22,7 @@ from gearlube_core.helical_contact.involute_gap import (
     tip_edge,
 )
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 
 _SAMPLES = 801  # points across the face at which a line's gap is looked at
@@ -144,6 +145,10 @@ class LineStrip:
     gear_arm: Array
     pinion_roll: Array
     gear_roll: Array
+
+    def sliding_arm(self, pair: HelicalPair) -> Array:
+        """Return the sliding speed per pinion speed on the line of action [m], (ny,)."""
+        return np.asarray(np.abs(self.x - pair.pitch_point) * (1.0 + 1.0 / pair.ratio))
 
     @property
     def usable(self) -> NDArray[np.bool_]:

@@ -44,12 +44,12 @@ _ABSENT = {
 
 
 class HelicalGearFile(InputFile):
-    """A helical or spur gear pair as its source describes it.
+    """Gear file of a helical or spur pair: geometry, flank modifications, bodies and bearings.
 
     Notes
     -----
-    What a file leaves out is completed: roots from the basic rack, inertia as a steel disc.
-    `provenance` says of every field whether its source prints it.
+    Values that a file leaves out are completed: root diameters from the basic rack, inertia from
+    a steel disc. `provenance` tells for every field whether its source prints it.
 
     Examples
     --------
@@ -61,11 +61,12 @@ class HelicalGearFile(InputFile):
 
     package: ClassVar[str] = "gearlube_core.helical_geometry"
 
-    name: Text = Field(description="What reports and plots call the pair")
-    source: Text = Field(description="Where the numbers are from")
+    name: Text = Field(description="Name of the pair in reports and figures")
+    source: Text = Field(description="Where the numbers come from")
     compared_with: Names = Field(
         default=(),
-        description="Shipped gear files whose geometry `gearlube helical` shows beside this pair's",
+        description="Names of shipped gear files; `gearlube helical` shows their geometry "
+        "beside that of this pair",
     )
     pair: Pair
     pinion: Member
@@ -77,14 +78,16 @@ class HelicalGearFile(InputFile):
     film_mesh: FilmMesh = FilmMesh()
     inferred: dict[Text, Text] = Field(
         default={},
-        description="Dotted fields that the source implies without printing them, and how",
+        description="Dotted names of fields that the source does not print but that follow from "
+        "it, and how they follow",
     )
     completed: dict[Text, Text] = Field(
         default={},
-        description="Dotted fields or sections that the source lacks, and why they are so",
+        description="Dotted names of fields or sections that the source lacks, and why these "
+        "values were chosen",
     )
     tolerances: Tolerances = Field(
-        default={}, description="How fields scatter from part to part, by their dotted names"
+        default={}, description="Scatter of fields from part to part, by their dotted names"
     )
 
     @model_validator(mode="after")

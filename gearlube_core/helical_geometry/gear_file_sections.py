@@ -44,25 +44,34 @@ class Pair(Section):
     """Data shared by both members; module and pressure angle are normal or transverse."""
 
     normal_module_mm: Module | None = Field(
-        default=None, description="Of the basic rack; give this or the transverse module"
+        default=None,
+        description="Normal module of the basic rack; give this or the transverse module",
     )
     transverse_module_mm: Module | None = Field(
         default=None,
-        description="Reference diameter over teeth, 25.4 mm over the transverse diametral pitch",
+        description="Transverse module: reference diameter divided by the number of teeth; 25.4 "
+        "mm divided by the transverse diametral pitch",
     )
     normal_pressure_angle_deg: PressureAngle | None = Field(
-        default=None, description="Of the basic rack; give this or the transverse pressure angle"
+        default=None,
+        description="Normal pressure angle of the basic rack; give this or the transverse "
+        "pressure angle",
     )
     transverse_pressure_angle_deg: PressureAngle | None = Field(
-        default=None, description="At the reference cylinder, in the transverse plane"
+        default=None,
+        description="Pressure angle at the reference cylinder, in the transverse plane",
     )
-    helix_angle_deg: HelixAngle = Field(description="At the reference cylinder; 0: spur gears")
-    centre_distance_mm: Length = Field(description="Between the parallel axes")
-    face_width_mm: Width = Field(description="Common to both members")
-    backlash_mm: Backlash = Field(default=0.0, description="Normal, along the line of action")
+    helix_angle_deg: HelixAngle = Field(
+        description="Helix angle at the reference cylinder; 0: spur gears"
+    )
+    centre_distance_mm: Length = Field(description="Distance between the parallel axes")
+    face_width_mm: Width = Field(description="Face width that both members have in common")
+    backlash_mm: Backlash = Field(
+        default=0.0, description="Normal backlash, along the line of action"
+    )
     reduced_modulus_gpa: Modulus | None = Field(
         default=None,
-        description="E' = 2 E* of both flanks, for films; absent: that of steel",
+        description="Reduced modulus E' = 2 E* of both flanks, for films; left out: that of steel",
     )
 
     @model_validator(mode="after")
@@ -81,37 +90,44 @@ class Pair(Section):
 class Flank(Section):
     """Material removed from one member's involute helicoids, in the transverse plane."""
 
-    tip_relief_um: Removal = Field(default=0.0, description="At the tip; 0: none")
+    tip_relief_um: Removal = Field(
+        default=0.0, description="Material removed at the tip; 0: no tip relief"
+    )
     tip_relief_depth_mm: Width | None = Field(
-        default=None, description="Radial distance from the start of the relief to the tip"
+        default=None, description="Radial distance from the start of the tip relief to the tip"
     )
     tip_relief_form: Literal["blended", "power"] = Field(
         default="blended",
-        description="A parabola that goes on as its tangent, or a power of the depth",
+        description="blended: a parabola that goes on as its tangent; power: a power of the depth",
     )
     tip_relief_parabola: Share = Field(
         default=1.0,
-        description="k: parabolic share of the depth of a blended relief; 0 linear, 1 parabolic",
+        description="k: share of the depth of a blended relief that is parabolic; 0: all "
+        "linear, 1: all parabolic",
     )
     tip_relief_exponent: Exponent = Field(
-        default=2.0, description="Exponent beta of a power relief"
+        default=2.0, description="beta: exponent of a power relief"
     )
     crown_um: Removal = Field(
-        default=0.0, description="c_r: axial crown at both face edges; 0: none"
+        default=0.0,
+        description="c_r: axial crown, material removed at both face edges; 0: no crown",
     )
     crown_start_mm: Start = Field(
-        default=0.0, description="F_o: distance from mid-face where the crown begins"
+        default=0.0, description="F_o: distance from mid-face at which the crown begins"
     )
     lead_slope_um: Slope = Field(
-        default=0.0, description="Removal at the face z = +W/2 less that at z = -W/2"
+        default=0.0,
+        description="Lead slope: material removed at the face z = +W/2 minus that at z = -W/2",
     )
     profile_slope_um: Slope = Field(
         default=0.0,
-        description="Removal at the tip end of the active profile less that at its root end",
+        description="Profile slope: material removed at the tip end of the active profile minus "
+        "that at its root end",
     )
     facets: Facets = Field(
         default=0,
-        description="n_f: facets along the path of contact that stand for the involute; 0: none",
+        description="n_f: number of flat facets along the path of contact that replace the "
+        "involute; 0: smooth involute",
     )
 
     @model_validator(mode="after")
@@ -127,18 +143,25 @@ class Bearing(Section):
     """Shaft and bearing on one side of a member, as springs at one place."""
 
     distance_mm: Length = Field(
-        description="From mid-face; bearing 1 is on the side z > 0, bearing 2 on z < 0"
+        description="Distance from mid-face; bearing 1 is on the side z > 0, bearing 2 on the "
+        "side z < 0"
     )
-    stiffness_x_n_per_um: Stiffness = Field(description="K_xx: along the line of action")
-    stiffness_y_n_per_um: Stiffness = Field(description="K_yy: off the line of action")
-    stiffness_z_n_per_um: Stiffness = Field(description="K_zz: axial")
-    tilt_x_knm_per_rad: Tilt = Field(default=0.0, description="K_thx,thx: against tilt about x")
-    tilt_y_knm_per_rad: Tilt = Field(default=0.0, description="K_thy,thy: against tilt about y")
+    stiffness_x_n_per_um: Stiffness = Field(description="K_xx: stiffness along the line of action")
+    stiffness_y_n_per_um: Stiffness = Field(
+        description="K_yy: stiffness normal to the line of action, off-line"
+    )
+    stiffness_z_n_per_um: Stiffness = Field(description="K_zz: axial stiffness")
+    tilt_x_knm_per_rad: Tilt = Field(
+        default=0.0, description="K_thx,thx: stiffness against tilt about x"
+    )
+    tilt_y_knm_per_rad: Tilt = Field(
+        default=0.0, description="K_thy,thy: stiffness against tilt about y"
+    )
     coupling_x_kn_per_rad: Coupling = Field(
-        default=0.0, description="K_x,thy: force along x per tilt about y"
+        default=0.0, description="K_x,thy: force along x per angle of tilt about y"
     )
     coupling_y_kn_per_rad: Coupling = Field(
-        default=0.0, description="K_y,thx: force along y per tilt about x"
+        default=0.0, description="K_y,thx: force along y per angle of tilt about x"
     )
 
     @model_validator(mode="after")
@@ -158,10 +181,19 @@ class Bearing(Section):
 class Body(Section):
     """Inertia of one member; what is absent is that of a steel disc of the root diameter."""
 
-    mass_kg: Mass | None = Field(default=None, description="Of the gear with what turns with it")
-    polar_inertia_kg_mm2: Inertia | None = Field(default=None, description="J_z: about the axis")
+    mass_kg: Mass | None = Field(
+        default=None,
+        description="Mass of the gear and all that turns with it; left out: that of a steel "
+        "disc of the root diameter",
+    )
+    polar_inertia_kg_mm2: Inertia | None = Field(
+        default=None,
+        description="J_z: moment of inertia about the axis; left out: that of a disc of this "
+        "mass and the root diameter",
+    )
     diametral_inertia_kg_mm2: Inertia | None = Field(
-        default=None, description="J_x = J_y; absent: J_z/2 + m W^2/12"
+        default=None,
+        description="J_x = J_y: moment of inertia about a diameter; left out: J_z/2 + m W^2/12",
     )
 
 
@@ -169,10 +201,11 @@ class Member(Section):
     """One gear."""
 
     teeth: Teeth = Field(description="Number of teeth")
-    tip_diameter_mm: Length = Field(description="Over the tips")
+    tip_diameter_mm: Length = Field(description="Tip diameter")
     root_diameter_mm: Length | None = Field(
         default=None,
-        description="Absent: the tip diameter less 4.5 normal modules (full depth 2.25)",
+        description="Root diameter; left out: the tip diameter minus 4.5 normal modules (full "
+        "depth 2.25)",
     )
     flank: Flank = Flank()
     body: Body = Body()
@@ -192,31 +225,36 @@ class Member(Section):
 class DampingRatios(Section):
     """Modal damping, as shares of the critical."""
 
-    mesh: Damping = Field(default=0.05, description="Of the relative rotation against the mesh")
-    translation: Damping = Field(
-        default=0.05, description="Of each translation against its bearings"
+    mesh: Damping = Field(
+        default=0.05, description="Damping ratio of the relative rotation on the mesh stiffness"
     )
-    tilt: Damping = Field(default=0.05, description="Of each tilt against its bearings")
+    translation: Damping = Field(
+        default=0.05, description="Damping ratio of each translation on its bearings"
+    )
+    tilt: Damping = Field(default=0.05, description="Damping ratio of each tilt on its bearings")
 
 
 class Operation(Section):
     """The operating point that the source studies."""
 
-    pinion_torque_n_m: Torque = Field(description="Drives the pinion")
-    pinion_speed_rpm: Speed = Field(description="In the drive direction")
+    pinion_torque_n_m: Torque = Field(description="Torque that drives the pinion")
+    pinion_speed_rpm: Speed = Field(description="Speed of the pinion")
 
 
 class LineSteps(Section):
     """Equal steps of one contact line through its meshing cycle, as the source counts them."""
 
     first_position_mm: Position = Field(
-        description="s_0: where the line's end on the face z = -W/2 is at step 0, from the pitch "
-        "line along the line of action"
+        description="s_0: position of the line's end on the face z = -W/2 at step 0, measured "
+        "from the pitch line along the line of action"
     )
-    step_mm: Width = Field(description="Advance along the line of action in one step")
+    step_mm: Width = Field(
+        description="Distance along the line of action that the contact line moves in one step"
+    )
     count: Steps = Field(description="Number of the last step")
     shown: ShownSteps = Field(
-        default=(), description="Steps whose contact lines `gearlube helical` shows; 0 to count"
+        default=(),
+        description="Numbers of the steps whose contact lines `gearlube helical` shows; 0 to count",
     )
 
     @model_validator(mode="after")
@@ -229,20 +267,31 @@ class LineSteps(Section):
 class FilmMesh(Section):
     """Nodes of the films on the pair's contact lines."""
 
-    nodes_across: Nodes = Field(default=97, description="Across the line, border included")
-    nodes_along: Nodes = Field(default=257, description="Along the line, border included")
+    nodes_across: Nodes = Field(
+        default=97, description="Number of nodes across the line, with the border"
+    )
+    nodes_along: Nodes = Field(
+        default=257, description="Number of nodes along the line, with the border"
+    )
     spacing: Literal["uniform", "exit"] = Field(
         default="uniform",
-        description="Across the line; exit: half as far apart where the film leaves the contact as "
-        "inside it, and twice as far in the inlet",
+        description="Spacing of the nodes across the line. exit: half the spacing where the "
+        "film leaves the contact, twice the spacing in the inlet, compared with the inside of "
+        "the contact",
     )
 
 
 class Oil(Section):
     """The lubricant that the source names."""
 
-    viscosity_pa_s: Viscosity = Field(description="eta_0: at ambient pressure and the bulk's heat")
-    pressure_viscosity_per_gpa: PressureViscosity = Field(description="alpha: at low pressure")
+    viscosity_pa_s: Viscosity = Field(
+        description="eta_0: dynamic viscosity at ambient pressure and bulk temperature"
+    )
+    pressure_viscosity_per_gpa: PressureViscosity = Field(
+        description="alpha: pressure-viscosity coefficient at low pressure"
+    )
     eyring_stress_mpa: Stress | None = Field(
-        default=None, description="tau_0: stress where shear thinning begins; absent: Newtonian"
+        default=None,
+        description="tau_0: shear stress at which shear thinning begins (Eyring); left out: "
+        "Newtonian",
     )

@@ -21,12 +21,14 @@ from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactSettings:
-    """Loads and positions of an analysis, and the elastic bodies.
+    """Loads, positions and elastic teeth of a contact analysis, for `run_contact`.
 
     Parameters
     ----------
     cycle : CycleSettings
+        Torques and mesh positions.
     body : ToothBodySettings
+        Elastic teeth.
 
     Examples
     --------
@@ -72,7 +74,7 @@ def analyse_contact(
     """
     progress(0.0, "checking the gear file")
     check_pair(file, settings.cycle.misalignment)
-    progress(0.0, "tooth compliance")
+    progress(0.0, "elastic teeth")
     stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)
     progress(0.0, "loaded contact")
     cycle = run_cycle(file, stiffness, settings.cycle, store=store, jobs=jobs, progress=progress)

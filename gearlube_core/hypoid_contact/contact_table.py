@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 from gearlube_core.arrays import Array
 from gearlube_core.errors import TableError
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.mesh_table.fourier import ZERO_PHASE, fourier, orders_kept
 from gearlube_core.mesh_table.table import PAIRS, MeshTable, Provenance
 
-ORDERS = 5  # mesh orders kept of each series at least, zero where positions do not resolve them
-_POSITIONS_PER_ORDER = 4  # the corners of a series fold what is above half of them onto the rest
-ZERO_PHASE = -0.5 * PAIRS  # of tooth pair 0 at pinion angle zero, so that it meets mid-window
 _FLATTEST = 20.0  # m, R_y where the ellipse is longer than any tooth
 _LOST = 0.02  # largest share of a pair outside its window that is dropped
 
@@ -88,28 +86,6 @@ def _fitting(dataset: xr.Dataset) -> tuple[dict[str, list[float]], list[str]]:
     return fitting, reasons
 
 
-def orders_kept(positions: int) -> int:
-    """Return the highest mesh order kept of so many positions in a mesh period [-]."""
-    return max(ORDERS, positions // _POSITIONS_PER_ORDER)
-
-
-def fourier(samples: Array, orders: int) -> Array:
-    """Return the (orders + 1, 2) cosine and sine coefficients of samples over one mesh period.
-
-    The mesh phase of the first sample is zero; the series counts from the pinion angle at which
-    the phase is `ZERO_PHASE`.
-    """
-    spectrum = np.zeros(orders + 1, dtype=complex)
-    resolved = min(orders, (samples.size - 1) // 2)  # an order needs more than two samples
-    spectrum[: resolved + 1] = (np.fft.rfft(samples) / samples.size)[: resolved + 1]
-    order = np.arange(orders + 1)
-    # value(angle) = samples(phase = angle + ZERO_PHASE)
-    spectrum = spectrum * np.exp(2j * np.pi * order * ZERO_PHASE)
-    result = np.stack([2.0 * spectrum.real, -2.0 * spectrum.imag], axis=1)
-    result[0] = spectrum[0].real, 0.0
-    return result
-
-
 def _series(state: xr.Dataset) -> dict[str, Array]:
     orders = orders_kept(state.sizes["phase"])
     values = {key: fourier(state[key].values, orders) for key in ("k_m", "R_p", "R_g", "k_t")}
@@ -171,8 +147,9 @@ def _window_start(node: NDArray[np.int_], share: Array, nodes: int, where: str) 
     if lost > _LOST:
         raise TableError(
             f"{where}: a tooth pair still carries {lost:.1%} of the torque more than {PAIRS} mesh "
-            "periods after another position. A mesh table holds that many pairs, so it ends below "
-            "this torque; contact.nc has all. Relieve tips and ends, as cut gears are, to go on."
+            "periods after another position. A mesh table can hold only that many pairs, so it "
+            "ends below this torque; contact.nc has all torques. Give tips and ends some relief, "
+            "as real gears have, to reach higher torques."
         )
     return int(node.min()) + best
 

@@ -38,7 +38,7 @@ _OWN = "this package's choice"
 
 
 class BlankFile(InputFile):
-    """Teeth, offset, size, spiral angle and cutter of a pair that is to be designed.
+    """Blank file of a hypoid or bevel pair to be designed: teeth, offset, size, spiral, cutter.
 
     References
     ----------
@@ -57,8 +57,8 @@ class BlankFile(InputFile):
     name: Text = Field(description="Name of the pair in reports and in the designed gear file")
     method: Method | None = Field(
         None,
-        description="Method of ISO 23509 for the pitch cones; absent: the one that the given "
-        "diameter and spiral angle belong to",
+        description="Method of ISO 23509 for the pitch cones; left out: the method to which the "
+        "given diameter and spiral angle belong",
     )
     pair: BlankPair
     cutter: BlankCutter
@@ -91,8 +91,7 @@ class BlankFile(InputFile):
         if sorted(given) != sorted(_NEEDS[method]):
             raise ValueError(
                 f"method {method} needs {_listed(_NEEDS[method])} and no other diameter or spiral "
-                f"angle, got {_listed(given) or 'none of them'}. What is left follows from the "
-                "cones"
+                f"angle, got {_listed(given) or 'none of them'}. The others follow from the cones"
             )
         length = self.contact.ellipse_length_mm
         if length is not None and not length <= 2.0 * pair.face_width_mm:

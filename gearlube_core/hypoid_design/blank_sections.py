@@ -19,6 +19,7 @@ PathAngle = Annotated[float, Field(ge=1.0, le=179.0, allow_inf_nan=False)]
 Place = Annotated[float, Field(ge=0.2, le=0.8, allow_inf_nan=False)]
 EllipseLength = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False)]
 Removal = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
+Torque = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
 Clearance = Annotated[float, Field(gt=0.0, le=0.5, allow_inf_nan=False)]
 
 
@@ -27,10 +28,13 @@ class BlankPair(Section):
 
     pinion_teeth: int = Field(ge=3, le=100, description="Number of teeth of the pinion")
     gear_teeth: int = Field(ge=3, le=400, description="Number of teeth of the gear")
-    offset_mm: Offset = Field(description="Distance of the axes (pinion offset); 0: bevel gears")
+    offset_mm: Offset = Field(
+        description="Distance between the axes (pinion offset); 0: bevel gears"
+    )
     pinion_hand: Literal["right", "left"] = Field(
         default="right",
-        description="Hand of the pinion's teeth; left: the mirror image, offset to the other side",
+        description="Hand of the pinion's teeth; left: the mirror image, with the offset on the "
+        "other side",
     )
     face_width_mm: Length = Field(description="Face width of the gear along its pitch cone")
     outer_pitch_diameter_mm: Length | None = Field(
@@ -59,11 +63,11 @@ class BlankCutter(Section):
     )
     drive_pressure_angle_deg: PressureAngle = Field(
         default=20.0,
-        description="Effective pressure angle of the drive flanks, counted from the limit angle",
+        description="Effective pressure angle of the drive flanks, measured from the limit angle",
     )
     coast_pressure_angle_deg: PressureAngle = Field(
         default=20.0,
-        description="Effective pressure angle of the coast flanks, counted from the limit angle",
+        description="Effective pressure angle of the coast flanks, measured from the limit angle",
     )
 
 
@@ -71,14 +75,14 @@ class BlankDepth(Section):
     """Tooth depth in mean normal modules; the same from toe to heel."""
 
     depth_factor: Depth = Field(
-        default=2.0, description="k_d: working depth over the mean normal module"
+        default=2.0, description="k_d: working depth divided by the mean normal module"
     )
     clearance_factor: Clearance = Field(
-        default=0.125, description="k_c: bottom clearance over the working depth"
+        default=0.125, description="k_c: bottom clearance divided by the working depth"
     )
     gear_addendum_factor: Share | None = Field(
         default=None,
-        description="c_ham: addendum of the gear over the working depth; absent: 0.21 + "
+        description="c_ham: addendum of the gear divided by the working depth; left out: 0.21 + "
         "0.29 (pinion teeth / gear teeth)^2",
     )
 
@@ -96,44 +100,54 @@ class WantedContact(Section):
     )
     ellipse_length_mm: EllipseLength | None = Field(
         default=None,
-        description="Length of the contact ellipse at a gap of 6.35 um, both sides; absent: a "
+        description="Length of the contact ellipse at a gap of 6.35 um, both sides; left out: a "
         "third of the face width",
     )
     profile_position: Place | None = Field(
         default=None,
-        description="Mean contact over the tooth height, 0 root, 1 tip; absent: the middle of the "
-        "working depth",
+        description="Mean position of the contact over the tooth height; 0: root, 1: tip; left "
+        "out: the middle of the working depth",
     )
     face_position: Place = Field(
-        default=0.5, description="Mean contact over the face, 0 toe, 1 heel"
+        default=0.5, description="Mean position of the contact over the face width; 0: toe, 1: heel"
     )
     drive_path_angle_deg: PathAngle | None = Field(
         default=None,
         description="Direction of the path of contact on the drive flank, from the root line "
-        "towards the heel, to the tip positive; absent: 44 deg from across the lines of contact, "
-        "or 30 or 15 where that fails",
+        "(towards the heel) and positive towards the tip; left out: 44 deg from the normal of "
+        "the lines of contact, or 30 or 15 if that fails",
     )
     coast_path_angle_deg: PathAngle | None = Field(
         default=None,
-        description="The same on the coast flank",
+        description="Direction of the path of contact on the coast flank, in the same way",
     )
 
 
 class BlankRelief(Section):
     """Relief of the designed flanks; sharp edges would carry from small torques on."""
 
-    tip_relief_um: Removal = Field(
-        default=20.0, description="Removed at the tips of pinion and gear, both flanks; 0: none"
+    torque_n_m: Torque | None = Field(
+        default=None,
+        description="Pinion torque up to which no edge carries, for reliefs that are chosen; "
+        "absent: a gear torque of 0.2 N/mm2 times the cube of the gear's outer diameter",
+    )
+    tip_relief_um: Removal | None = Field(
+        default=None,
+        description="Material removed at the tips of pinion and gear, on both flanks; 0: none; "
+        "absent: chosen for torque_n_m, 20 or more",
     )
     tip_relief_share: Share = Field(
         default=0.25, description="Share of the tooth height over which tip relief falls to 0"
     )
-    end_relief_um: Removal = Field(
-        default=30.0, description="Removed at toe and heel of the pinion, both flanks; 0: none"
+    end_relief_um: Removal | None = Field(
+        default=None,
+        description="Material removed at toe and heel of the pinion, on both flanks; 0: none; "
+        "absent: chosen for torque_n_m, 30 or more",
     )
     end_relief_share: Share = Field(
         default=0.15,
-        description="Share of the pinion's face width over which each end relief falls to 0",
+        description="Share of the gear's face width over which each end relief falls to 0; the "
+        "part of the pinion beyond the gear's end is added",
     )
 
 
@@ -142,12 +156,13 @@ class BlankMachine(Section):
 
     gear: Literal["form-cut", "generated"] = Field(
         default="form-cut",
-        description="Whether the gear's slots are plunged (Formate) or its teeth generated by a "
-        "rolling cradle",
+        description="form-cut: the gear's slots are plunged (Formate); generated: its teeth are "
+        "generated by a rolling cradle",
     )
     curved_blades: bool = Field(
         default=True,
-        description="Whether the pinion's blades may have hollow edges, each flank its own radius",
+        description="Whether the pinion's blades may have hollow edges, with a radius of its "
+        "own for each flank",
     )
     modified_roll: bool = Field(
         default=False,

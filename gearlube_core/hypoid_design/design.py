@@ -14,12 +14,18 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.refusal import check_pair
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.blank_limits import check_blank
+from gearlube_core.hypoid_design.chosen_relief import (
+    ROLES,
+    ChosenRelief,
+    chosen_relief,
+    relief_fields,
+)
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.hypoid_design.flank_target import FlankTarget, MeanContact
 from gearlube_core.hypoid_design.measured_contact import MeasuredContact, measured_contact
 from gearlube_core.hypoid_design.pinion_fit import SIDES, Fit, fit_pinion
 from gearlube_core.hypoid_design.start_settings import start_pair
-from gearlube_core.hypoid_geometry.flank.flank import Role, Side
+from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.units import DEGREE, MILLIMETRE
@@ -29,6 +35,7 @@ CHOSEN_TURNS = tuple(math.tan(angle * DEGREE) for angle in (44.0, 30.0, 15.0))
 ROUNDS = 6  # fits, each with targets corrected by what the analysis found
 _NEAR = 0.1  # sum of squares of what a side misses, in parts of what a design may miss
 _FAILED = 1.0
+_FITTED = 0.4  # of the time
 MICRORADIAN = 1e-6
 
 Measured = MeasuredContact | str
@@ -50,6 +57,7 @@ class Design:
         parabolic error.
     relieved : dict of str to MeasuredContact or str
         The same with relief.
+    relief : ChosenRelief
     fit : Fit
     warnings : tuple of str
         About the blank.
@@ -60,6 +68,7 @@ class Design:
     targets: dict[Side, FlankTarget]
     measured: dict[Side, Measured]
     relieved: dict[Side, Measured]
+    relief: ChosenRelief
     fit: Fit
     warnings: tuple[str, ...]
 
@@ -71,20 +80,22 @@ class Design:
         return self.file.varied(dict.fromkeys(flanks, None) | {"completed": kept})
 
 
-def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
+def design_pair(file: BlankFile, progress: Progress = no_progress, jobs: int | None = 1) -> Design:
     """Return the machine settings of a pair whose contact comes nearest to what the file asks.
 
     The gear is cut on the blank. The pinion starts as the image of a form-cut gear, which is
     conjugate to it,
     and its settings are fitted so that both flanks stand off as asked. The unloaded contact
     analysis then judges; what it finds too much or too little is taken off the targets, and the
-    fit goes on from there.
+    fit goes on from there. Relief comes last, as `chosen_relief` says.
 
     Parameters
     ----------
     file : BlankFile
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
+    jobs : int, optional
+        Processes for the elastic teeth, which the relief needs; None: all processors.
 
     Raises
     ------
@@ -92,7 +103,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
         When the blank cannot exist, the contact lies outside of the mesh, or no settings were
         found with which both flanks touch; the sentence says how near it came.
     """
-    progress(0.0, "blank")
+    progress(0.0, "pitch cones and blank")
     designed = DesignedBlank.from_file(file)
     warnings = check_blank(designed)
     start = start_pair(designed)
@@ -107,7 +118,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
         share = number / len(CHOSEN_TURNS)
 
         def report(part: float, sentence: str, share: float = share) -> None:
-            progress(share + part / len(CHOSEN_TURNS), sentence)
+            progress(_FITTED * (share + part / len(CHOSEN_TURNS)), sentence)
 
         attempt = nearest_fit(designed, start, targets, report)
         attempts.append(attempt)
@@ -117,15 +128,20 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
         for side in failed:
             turns[side] += 1
     best = min(attempts, key=_missed)
-    found = named_file(designed, best.fit.file)
-    progress(1.0, "checks")
-    _check(found, best.fit, file.machine.denied)
+    _check(best.fit, file.machine.denied)
+    fitted = rounded_file(best.fit.file)
+    relief = chosen_relief(
+        designed, fitted, lambda share, said: progress(_FITTED + (1 - _FITTED) * share, said), jobs
+    )
+    found = named_file(designed, fitted, relief)
+    progress(1.0, "checking teeth and contact")
     return Design(
         designed=designed,
         file=found,
         targets=best.targets,
         measured=best.measured,
         relieved={side: measured_contact(found, side) for side in SIDES},
+        relief=relief,
         fit=best.fit,
         warnings=tuple(warnings),
     )
@@ -262,14 +278,18 @@ def _far(target: FlankTarget, found: Measured, designed: DesignedBlank) -> float
     return float(np.sum((misses(target, found, designed)[:3] / sizes) ** 2))
 
 
-def named_file(designed: DesignedBlank, file: HypoidGearFile) -> HypoidGearFile:
+def named_file(
+    designed: DesignedBlank, file: HypoidGearFile, relief: ChosenRelief
+) -> HypoidGearFile:
     """Return the gear file with the origin of every number: the blank implied, the rest chosen."""
     data = file.model_dump(exclude_defaults=True)
     data["pair"]["pinion_hand"] = designed.file.pair.pinion_hand
-    for role in ("pinion", "gear"):
-        data[role] |= {f"{side}_flank": one for side in SIDES if (one := relief(designed, role))}
+    for role in ROLES:
+        for side in SIDES:
+            fields = relief_fields(designed, role, relief.amounts[side])
+            data[role] |= {f"{side}_flank": fields} if fields else {}
     implied, chosen = [], []
-    for role in ("pinion", "gear"):
+    for role in ROLES:
         for key, value in data[role].items():
             if isinstance(value, dict):
                 chosen += [f"{role}.{key}.{name}" for name in value]
@@ -278,23 +298,12 @@ def named_file(designed: DesignedBlank, file: HypoidGearFile) -> HypoidGearFile:
     given = {"pinion.cutter.blade_groups", "gear.cutter.blade_groups"}
     data["inferred"] = ["pair.clearance_mm", *implied]
     data["completed"] = [name for name in chosen if name not in given]
-    rounded: dict[str, Any] = _rounded(data)
-    return HypoidGearFile.from_data(rounded, f"The design of {designed.file.name}")
+    return HypoidGearFile.from_data(_rounded(data), f"The design of {designed.file.name}")
 
 
-def relief(designed: DesignedBlank, role: Role) -> dict[str, float]:
-    """Return the relief of either flank of a member as a gear file has it; empty without."""
-    asked, blank = designed.file.relief, designed.blank
-    found: dict[str, float] = {}
-    if asked.tip_relief_um and asked.tip_relief_share:
-        found["tip_relief_um"] = asked.tip_relief_um
-        found["tip_relief_depth_mm"] = asked.tip_relief_share * blank.whole_depth / MILLIMETRE
-    if role == "pinion" and asked.end_relief_um and asked.end_relief_share:
-        length = asked.end_relief_share * blank.pinion.face_width / MILLIMETRE
-        for end in ("toe", "heel"):
-            found[f"{end}_relief_um"] = asked.end_relief_um
-            found[f"{end}_relief_length_mm"] = length
-    return found
+def rounded_file(file: HypoidGearFile) -> HypoidGearFile:
+    """Return a gear file with the numbers that a written one shows."""
+    return HypoidGearFile.from_data(_rounded(file.model_dump(exclude_defaults=True)), file.name)
 
 
 def _rounded(value: Any) -> Any:
@@ -304,9 +313,9 @@ def _rounded(value: Any) -> Any:
     return round(value, 7) if isinstance(value, float) else value
 
 
-def _check(found: HypoidGearFile, fit: Fit, denied: str) -> None:
+def _check(fit: Fit, denied: str) -> None:
     try:
-        check_pair(found)
+        check_pair(fit.file)
     except ParameterError as reason:
         near = ", ".join(f"{side} {1e6 * fit.rms[side]:.1f} um" for side in SIDES)
         raise ParameterError(

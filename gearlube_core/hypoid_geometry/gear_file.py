@@ -36,7 +36,7 @@ Origin = Literal["table", "inferred", "completed"]
 
 
 class HypoidGearFile(InputFile):
-    """A hypoid gear pair as a workshop describes it.
+    """Gear file of a hypoid pair: blanks, cutters and machine settings as a workshop has them.
 
     References
     ----------
@@ -53,19 +53,20 @@ class HypoidGearFile(InputFile):
     package: ClassVar[str] = "gearlube_core.hypoid_geometry"
     unmodelled: ClassVar[Mapping[str, str]] = UNMODELLED
 
-    name: Text = Field(description="What reports and plots call the pair")
-    source: Text = Field(description="Where the numbers are from")
+    name: Text = Field(description="Name of the pair in reports and figures")
+    source: Text = Field(description="Where the numbers come from")
     pair: Pair
     pinion: Pinion
     gear: Gear
     inferred: Fields = Field(
-        (), description="Dotted names of fields that the source does not print but implies"
+        (),
+        description="Dotted names of fields that the source does not print but that follow from it",
     )
     completed: Fields = Field(
-        (), description="Dotted names of fields that the source lacks and that were chosen"
+        (), description="Dotted names of fields that the source lacks and whose values were chosen"
     )
     tolerances: Tolerances = Field(
-        default={}, description="How fields scatter from part to part, by their dotted names"
+        default={}, description="Scatter of fields from part to part, by their dotted names"
     )
 
     @model_validator(mode="after")

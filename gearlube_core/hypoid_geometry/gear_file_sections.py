@@ -40,13 +40,23 @@ RELIEFS = (  # amount and extent of the relief of each edge
     ("toe_relief_um", "toe_relief_length_mm"),
     ("heel_relief_um", "heel_relief_length_mm"),
 )
-UNMODELLED = {  # words in fields that neither gear files nor blank files have
-    "duplex": "both flanks of the pinion are cut in one set-up, with helical motion as in duplex "
-    "helical; duplex taper is not modelled",
-    "taper": "teeth are equally deep from toe to heel; tapered depth is not modelled",
-    "shaft_angle": "the axes stand at 90 deg; other angles are not modelled",
+_UNIFORM = (
+    "teeth are equally deep from toe to heel, so pitch, face and root cones are parallel; tapered "
+    "depth is not modelled. Leave it out: the depth at mid-face counts for the whole tooth"
+)
+UNMODELLED = {  # words in fields that neither gear files nor blank files have, and the cure
+    "duplex": "both flanks of the pinion are cut in one set-up; duplex taper is not modelled. "
+    "Leave it out, and for duplex helical give the pinion's machine helical motion",
+    "completing": "both flanks of the pinion are always cut in one set-up (completing). Leave it "
+    "out; set-ups of their own for convex and concave flanks are not modelled",
+    "taper": _UNIFORM,
+    "dedendum_angle": _UNIFORM,
+    "addendum_angle": _UNIFORM,
+    "face_angle": _UNIFORM,
+    ".root_angle": _UNIFORM,
+    "shaft_angle": "the axes stand at 90 deg; other angles are not modelled. Leave it out",
     "hand": 'the hand is pair.pinion_hand, "left" or "right"',
-    "thickness": "teeth and slots are equally wide at the middle of the working depth",
+    "thickness": "teeth and slots are equally wide at the middle of the working depth: no field",
 }
 _LEAST_RELIEF, _MOST_RELIEF = 0.5, 500.0  # um
 _STEEPEST = 0.1  # amount over extent: the removal stays along the normal
@@ -79,22 +89,22 @@ class Cutter(Section):
     blade_edge_radius_mm: EdgeRadius | None = Field(
         None,
         description="Radius of a curved blade edge, hollow, so that the flank is crowned along its "
-        "profile; absent: straight",
+        "profile; left out: straight",
     )
     convex_flank_edge_radius_mm: EdgeRadius | None = Field(
         None,
-        description="Radius of the edge of the blades that cut the convex flank; absent: "
+        description="Radius of the edge of the blades that cut the convex flank; left out: "
         "blade_edge_radius_mm",
     )
     concave_flank_edge_radius_mm: EdgeRadius | None = Field(
         None,
-        description="Radius of the edge of the blades that cut the concave flank; absent: "
+        description="Radius of the edge of the blades that cut the concave flank; left out: "
         "blade_edge_radius_mm",
     )
     blade_offset_angle_deg: Slant | None = Field(
         None,
         description="Angle from the cutter radius to the blade face, about the cutter axis; "
-        "absent: the blade face is normal to the cutting velocity at the reference point",
+        "left out: the blade face is normal to the cutting velocity at the reference point",
     )
 
     def edge_radius_mm(self, curve: Literal["convex", "concave"]) -> float | None:
@@ -111,30 +121,30 @@ class GearMachine(Section):
     """Machine settings of a gear, form-cut or generated without tilt."""
 
     machine_root_angle_deg: ConeAngle = Field(
-        description="From the gear axis to the reference plane of the cutter"
+        description="Angle from the gear axis to the reference plane of the cutter"
     )
     machine_center_to_back_mm: Millimetres = Field(
-        description="From the crossing point to the apex of the reference plane (the machine "
-        "centre), along the gear axis, positive beyond the crossing point"
+        description="Distance from the crossing point to the apex of the reference plane (the "
+        "machine centre), along the gear axis; positive beyond the crossing point"
     )
     horizontal_setting_mm: Millimetres = Field(
-        description="Cutter centre from the machine centre along the root line, positive to the "
-        "heel"
+        description="Distance of the cutter centre from the machine centre along the root line; "
+        "positive towards the heel"
     )
     vertical_setting_mm: Millimetres = Field(
-        description="Cutter centre from the machine centre, parallel to the offset and positive "
-        "on the side of the pinion axis"
+        description="Distance of the cutter centre from the machine centre, parallel to the "
+        "offset; positive on the side of the pinion axis"
     )
     ratio_of_roll: RollRatio | None = Field(
         None,
         description="Rotation of the gear per rotation of the cradle, about the cutter's direction "
-        "through the machine centre; absent: form-cut (Formate)",
+        "through the machine centre; left out: form-cut (Formate)",
     )
     sliding_base_mm: Millimetres = Field(
         0.0,
-        description="From the machine centre to the reference plane, along the cutter axis, "
-        "positive away from the blade tips; the centre then is where the cradle axis meets the "
-        "gear axis",
+        description="Distance from the machine centre to the reference plane, along the cutter "
+        "axis; positive away from the blade tips; the machine centre then is where the cradle "
+        "axis meets the gear axis",
     )
 
 
@@ -145,16 +155,17 @@ class GeneratorMachine(Section):
     """
 
     machine_root_angle_deg: Slant = Field(
-        description="Angle of the pinion axis to the plane normal to the cradle axis; "
-        "positive with the pinion leaning to the side of the blade tips"
+        description="Angle of the pinion axis to the plane normal to the cradle axis; positive "
+        "if the pinion leans to the side of the blade tips"
     )
     machine_center_to_back_mm: Millimetres = Field(
-        description="Shift of the pinion along its axis, positive away from the crossing point: "
-        "the pinion is cut that much further out than it runs"
+        description="Shift of the pinion along its axis; positive away from the crossing point: "
+        "the pinion is cut farther out than it runs by this distance"
     )
     sliding_base_mm: Millimetres = Field(
-        description="From the pinion axis to the machine plane, which holds the cutter centre, "
-        "along the cradle axis; positive with the pinion axis on the side of the blade tips"
+        description="Distance from the pinion axis to the machine plane, which holds the cutter "
+        "centre, along the cradle axis; positive if the pinion axis is on the side of the blade "
+        "tips"
     )
     blank_offset_mm: Millimetres = Field(
         description="Distance of the pinion axis from the cradle axis; sign as the pair's offset"
@@ -163,7 +174,7 @@ class GeneratorMachine(Section):
         description="Distance of the cutter centre from the cradle axis"
     )
     basic_cradle_angle_deg: Angle = Field(
-        description="q: azimuth of the cutter centre about the cradle axis, from the direction of "
+        description="q: angle of the cutter centre about the cradle axis, from the direction of "
         "the pinion axis towards that of the offset; it only sets a phase"
     )
     basic_swivel_angle_deg: Angle = Field(
@@ -189,38 +200,45 @@ class GeneratorMachine(Section):
 class FlankRelief(Section):
     """Material taken off one flank as it is cut, along its normal."""
 
-    tip_relief_um: Removal = Field(0.0, description="Amount at the tip edge; 0: none")
+    tip_relief_um: Removal = Field(0.0, description="Material removed at the tip edge; 0: none")
     tip_relief_depth_mm: Extent | None = Field(
-        None, description="Tooth height from the tip over which the relief falls to 0, a parabola"
+        None,
+        description="Tooth height, from the tip, over which tip relief falls to 0 as a parabola",
     )
-    root_relief_um: Removal = Field(0.0, description="Amount at the root line; 0: none")
+    root_relief_um: Removal = Field(0.0, description="Material removed at the root line; 0: none")
     root_relief_depth_mm: Extent | None = Field(
-        None, description="Tooth height from the root line over which this relief falls to 0"
+        None, description="Tooth height, from the root line, over which root relief falls to 0"
     )
-    toe_relief_um: Removal = Field(0.0, description="Amount at the toe; 0: none")
+    toe_relief_um: Removal = Field(0.0, description="Material removed at the toe; 0: none")
     toe_relief_length_mm: Extent | None = Field(
-        None, description="Length along the pitch cone, from the toe, over which it falls to 0"
+        None,
+        description="Length along the pitch cone, from the toe, over which toe relief falls to 0",
     )
-    heel_relief_um: Removal = Field(0.0, description="Amount at the heel; 0: none")
+    heel_relief_um: Removal = Field(0.0, description="Material removed at the heel; 0: none")
     heel_relief_length_mm: Extent | None = Field(
-        None, description="Length along the pitch cone, from the heel, over which it falls to 0"
+        None,
+        description="Length along the pitch cone, from the heel, over which heel relief falls to 0",
     )
     tip_edge_radius_mm: Rounding = Field(
-        0.0, description="Radius of the tip edge; 0: sharp. Half of it is removed at the edge"
+        0.0,
+        description="Radius of the tip edge; 0: sharp. Half of this radius is removed at the edge",
     )
     end_edge_radius_mm: Rounding = Field(
         0.0, description="Radius of the edges at toe and heel; 0: sharp"
     )
     profile_crown_um: Crown = Field(
-        0.0, description="Parabola over the tooth height: removed at tip and root"
+        0.0,
+        description="Profile crown, a parabola over the tooth height: material removed at tip "
+        "and root",
     )
     lead_crown_um: Crown = Field(
-        0.0, description="Parabola over the face width: removed at toe and heel"
+        0.0,
+        description="Lead crown, a parabola over the face width: material removed at toe and heel",
     )
     twist_um: Crown = Field(
         0.0,
-        description="Removed at the tip of the heel and at the root of the toe, the same amount "
-        "added at the other two corners, zero along the middle lines",
+        description="Twist: material removed at the tip of the heel and at the root of the toe; "
+        "the same amount is added at the other two corners; zero along the middle lines",
     )
     surface_um: Coefficients = Field(
         (),
@@ -265,17 +283,17 @@ class Member(Section):
     teeth: int = Field(ge=3, le=400, description="Number of teeth")
     face_width_mm: Length = Field(description="Face width along the pitch cone")
     outer_cone_distance_mm: Length = Field(
-        description="From the pitch apex to the heel, along the pitch cone"
+        description="Distance from the pitch apex to the heel, along the pitch cone"
     )
     pitch_angle_deg: ConeAngle = Field(
         description="Half angle of the pitch cone; face and root cone have the same (uniform depth)"
     )
     spiral_angle_deg: SpiralAngle = Field(description="Mean spiral angle, without sign")
     pitch_apex_mm: Millimetres = Field(
-        description="Apex of the pitch cone, positive beyond the crossing point"
+        description="Position of the apex of the pitch cone; positive beyond the crossing point"
     )
     face_apex_mm: Millimetres = Field(
-        description="Apex of the face cone, positive beyond the crossing point"
+        description="Position of the apex of the face cone; positive beyond the crossing point"
     )
     cutter: Cutter
     drive_flank: FlankRelief | None = None
@@ -300,11 +318,11 @@ class Pair(Section):
     offset_mm: PairOffset = Field(description="Distance between the axes (pinion offset)")
     pinion_hand: Literal["right", "left"] = Field(
         default="right",
-        description="Hand of the pinion's teeth; left: the pair is the mirror image of what is "
-        "computed, in exported files and measured points",
+        description="Hand of the pinion's teeth; left: the real pair is the mirror image of the "
+        "computed one, in exported files and measured points",
     )
     clearance_mm: Clearance | None = Field(
         None,
-        description="Gap between the tip of one member and the root of the other; absent: an "
+        description="Gap between the tip of one member and the root of the other; left out: an "
         "eighth of the working depth",
     )

@@ -103,7 +103,7 @@ def sentence(
 ) -> str:
     """Return a pydantic error as a sentence: field, allowed value, given value.
 
-    `unmodelled` says of words in unknown fields why there is no such field.
+    `unmodelled` says of words in unknown fields and their values why there is no such field.
     """
     field = ".".join(str(part) for part in error["loc"])
     kind, note = error["type"], notes.get(field)
@@ -117,8 +117,9 @@ def sentence(
             what = f"{what} ({note.limits}{f' {note.unit}' if note.unit else ''})"
         return f"{field} is missing{f': {what}' if what else ''}."
     if kind == "extra_forbidden":
+        value = error["input"] if isinstance(error["input"], str) else ""
         for word, why in unmodelled.items():
-            if word in field:
+            if word in f"{field} {value}".lower():
                 return f"{field} is not a field of this file: {why}."
         near = get_close_matches(field, notes, n=1)
         return f"{field} is not a field of this file" + (f"; is it {near[0]}?" if near else ".")

@@ -26,17 +26,19 @@ class Tolerance(Section):
     30.0
     """
 
-    plus_minus: Width | None = Field(default=None, description="Half of the tolerance")
+    plus_minus: Width | None = Field(
+        default=None, description="Half of the tolerance range: value plus and minus this"
+    )
     plus_minus_percent: Percent | None = Field(
-        default=None, description="Ditto, as a share of the value [%]"
+        default=None, description="The same as a percentage of the value [%]"
     )
     standard_deviation: Width | None = Field(
-        default=None, description="Of a normal distribution without ends"
+        default=None, description="Standard deviation of a normal distribution without limits"
     )
     distribution: Literal["normal", "uniform"] = Field(
         default="normal",
-        description="normal: the tolerance is three standard deviations, parts beyond are sorted "
-        "out; uniform: all values within it are alike",
+        description="normal: the tolerance is three standard deviations, and parts outside it "
+        "are rejected; uniform: all values within it are equally likely",
     )
 
     @model_validator(mode="after")

@@ -77,7 +77,12 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
 
 
 def read_mesh_table(path: str | Path) -> MeshTable:
-    """Read a table written by `write_mesh_table`; raise TableError for any other file.
+    """Read a mesh table from a file that `gearlube contact` or `write_mesh_table` wrote.
+
+    Raises
+    ------
+    TableError
+        The file is missing or no mesh table.
 
     Examples
     --------

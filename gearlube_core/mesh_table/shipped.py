@@ -10,7 +10,7 @@ from gearlube_core.mesh_table.table import MeshTable
 
 
 def shipped_mesh_table(name: str) -> MeshTable:
-    """Return a table that ships with the package, e.g. "mohammadpour_2015".
+    """Return a mesh table that ships with the package, by its name, e.g. "mohammadpour_2015".
 
     Raises
     ------

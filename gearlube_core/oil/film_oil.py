@@ -21,10 +21,9 @@ _LARGEST_RATIO = math.exp(_LARGEST_EXPONENT)
 
 
 class FilmOil(NamedTuple):
-    """Oil of a film at its inlet temperature, SI; build it with `film_oil` or `film_oil_of`.
+    """Oil of a film at its inlet temperature, in SI units; `film_oil` and `film_oil_of` make one.
 
-    The three laws are NamedTuples of the kind that `viscosity_law`, `density_law` and
-    `shear_law` describe.
+    Its three laws are NamedTuples as described in `viscosity_law`, `density_law` and `shear_law`.
 
     Examples
     --------

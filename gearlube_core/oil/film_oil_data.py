@@ -39,21 +39,21 @@ def film_oil(
     temperature_exponent: float = 0.0,
     heat: OilHeat = _MINERAL,
 ) -> FilmOil:
-    """Return the oil of a film from its numbers and laws.
+    """Return the oil of a film from its numbers and laws; `film_oil_of` takes a library oil.
 
     Parameters
     ----------
     eta0 : float
         Viscosity at ambient pressure [Pa s]; above 63.15e-6 Pa s for Roelands.
     alpha : float, optional
-        Pressure-viscosity coefficient [1/Pa], 0 for constant viscosity; left out with a viscosity
-        law of your own, which has its own.
+        Pressure-viscosity coefficient [1/Pa], 0 for constant viscosity. Leave it out with a
+        viscosity law of your own, which has its own coefficient.
     law : {"barus", "roelands", "houpert"} or viscosity law
-        Houpert is Roelands with `temperature_exponent` above zero.
+        Law of viscosity over pressure. Houpert is Roelands with `temperature_exponent` above zero.
     density_law : {"dowson_higginson", "incompressible"} or density law
-        Density against pressure.
+        Law of density over pressure.
     shear_law : shear law, optional
-        Instead of `eyring_stress`.
+        Shear law used instead of `eyring_stress`.
     rho0 : float
         Density [kg/m3].
     eyring_stress : float, optional
@@ -61,7 +61,7 @@ def film_oil(
     limiting_shear : tuple of float, optional
         Limiting shear stress at ambient pressure [Pa] and its slope with pressure [-].
     temperature : float
-        Of the oil at the inlet [K].
+        Temperature of the oil at the inlet [K].
     temperature_exponent : float
         S0 of Houpert [-], used by thermal solutions only.
     heat : OilHeat
@@ -74,7 +74,7 @@ def film_oil(
     Raises
     ------
     ParameterError
-        When a number is out of range, is given twice or is missing.
+        A number is out of range, given twice or missing.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def film_oil(
     check_within("temperature_exponent", temperature_exponent, 0.0, 5.0)
     if law != "houpert" and temperature_exponent > 0.0:
         raise ParameterError(
-            f"law must be houpert where temperature_exponent is above 0, got {law} and "
+            f"law must be houpert if temperature_exponent is above 0, got {law} and "
             f"{temperature_exponent:g}. Take houpert, or leave the exponent out."
         )
     limit, slope = (0.0, 0.0) if limiting_shear is None else limiting_shear
@@ -120,8 +120,8 @@ def _viscosity_law(law: Any, eta0: float, alpha: float | None, S0: float) -> Any
     if not isinstance(law, str):
         if alpha is not None:
             raise ParameterError(
-                f"alpha must be left out beside a viscosity law, which has its own, got {alpha:g} "
-                "1/Pa."
+                "alpha must be left out with a viscosity law of your own, which has its own "
+                f"coefficient, got {alpha:g} 1/Pa."
             )
         _check_law("law", law, "log_viscosity")
         _check_start("ln(eta/eta0)", log_viscosity(law, 0.0, 1.0)[0], 0.0)
@@ -151,7 +151,7 @@ def _shear_law(law: Any, eyring_stress: float | None) -> Any:
         )
     if eyring_stress is not None:
         raise ParameterError(
-            f"eyring_stress must be left out beside shear_law, got {eyring_stress:g} Pa."
+            f"eyring_stress must be left out if shear_law is given, got {eyring_stress:g} Pa."
         )
     _check_law("shear_law", law, "rate_ratio")
     check_positive("tau0 of the shear law", law.tau0, "Pa", "5 MPa is 5e6 Pa.")
@@ -180,20 +180,20 @@ def film_oil_of(
     newtonian: bool = False,
     limiting_shear: bool = False,
 ) -> FilmOil:
-    """Return the oil of a film of a lubricant at a temperature.
+    """Return the oil of a film from a lubricant and its temperature.
 
     Parameters
     ----------
     lubricant : Lubricant
-        From the library or a data sheet.
+        Oil of the library or from a data sheet.
     temperature : float
-        At the inlet [K], within the range of the oil.
+        Temperature at the inlet [K], within the range of the oil.
     law, density_law
         As in `film_oil`; the viscosity law by its name.
     newtonian : bool
         True: leave the Eyring stress out.
     limiting_shear : bool
-        True: limit the shear stress at tau_l0 + gamma p of the oil's junctions.
+        True: limit the shear stress to tau_l0 + gamma p, the strength of the oil's boundary layer.
 
     Returns
     -------
@@ -202,12 +202,12 @@ def film_oil_of(
     Raises
     ------
     ParameterError
-        When the temperature is outside the oil's range or a law is not known.
+        The temperature is outside the oil's range, or a law is not known.
 
     Notes
     -----
-    The pressure coefficient follows from a constant Roelands exponent. With "houpert" the
-    viscosity is that of the law through 40 and 100 degC, within 3 % of Walther's line.
+    The pressure coefficient follows from a constant Roelands exponent. With "houpert" the viscosity
+    is that of Houpert's law through 40 and 100 degC, within 3 % of Walther's line.
 
     Examples
     --------

@@ -31,31 +31,33 @@ class LubricantParameters(NamedTuple):
     conductivity: float  # at conductivity_temperature [W/(m K)]
     conductivity_temperature: float  # [K]
     conductivity_slope: float  # [W/(m K2)]
+    heat_capacity: float  # [J/(kg K)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lubricant:
-    """A mineral or synthetic gear oil.
+    """A gear oil with its data: viscosity, density, behaviour under pressure and shear, heat.
 
     Parameters
     ----------
     name, source
-        Name in the library and the publication the data come from.
+        Name in the library, and the publication from which the data come.
     walther_a, walther_b
         Line log10 log10 (nu + 0.7) = A - B log10 T, nu in mm2/s, T in K [-].
     density
-        [kg/m3], taken as independent of temperature.
+        Density [kg/m3], taken as independent of temperature.
     alpha
         Pressure-viscosity coefficient [1/Pa] at `alpha_temperature` [K]. At other temperatures
         it follows from a constant Roelands exponent.
     eyring_stress
-        Stress where shear thinning begins [Pa].
+        Shear stress at which shear thinning begins [Pa].
     limiting_shear_stress, boundary_friction
-        Strength of boundary junctions tau = tau_l0 + gamma p: tau_l0 [Pa] and gamma [-].
+        Shear strength of the boundary layer between asperities, tau = tau_l0 + gamma p: tau_l0 [Pa]
+        and gamma [-].
     conductivity, conductivity_temperature, conductivity_slope
         Thermal conductivity [W/(m K)] at a temperature [K], and its slope [W/(m K2)].
     heat_capacity
-        [J/(kg K)].
+        Specific heat capacity [J/(kg K)].
     temperature_low, temperature_high
         Range of oil temperatures for which the data are meant [K].
     alpha_factor, eyring_stress_factor
@@ -64,8 +66,8 @@ class Lubricant:
 
     Notes
     -----
-    `Lubricant.named` reads the library of published oils, `with_two_viscosities` takes the two
-    numbers of an oil data sheet.
+    `Lubricant.named` reads the library of published oils. `with_two_viscosities` takes the two
+    viscosities of an oil data sheet.
 
     Examples
     --------
@@ -199,11 +201,12 @@ class Lubricant:
             conductivity=float(self.conductivity),
             conductivity_temperature=float(self.conductivity_temperature),
             conductivity_slope=float(self.conductivity_slope),
+            heat_capacity=float(self.heat_capacity),
         )
 
 
 def lubricant_names() -> tuple[str, ...]:
-    """Return the names that `Lubricant.named` knows.
+    """Return the names of the oils of the library, which `Lubricant.named` takes.
 
     Examples
     --------

@@ -55,19 +55,19 @@ _LIBRARY_UNITS = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DescribedOil:
-    """An oil and where its numbers are from.
+    """An oil and where its numbers come from, as `read_oil` returns it.
 
     Parameters
     ----------
     name, source : str
     lubricant : Lubricant
-        What every computation takes.
+        The oil as all computations take it.
     inputs : tuple of InputNote
         Every number with value, unit, and whether it is given, inferred or assumed.
     limiting_coefficient : float
-        Limiting shear stress of the film over pressure [-]; nan of a shipped oil.
+        Limiting shear stress of the film divided by pressure [-]; nan for an oil of the library.
     density_slope : float
-        d rho/dT [kg/(m3 K)]; nan of a shipped oil, whose density is one number.
+        d rho/dT [kg/(m3 K)]; nan for an oil of the library, whose density is constant.
 
     Examples
     --------
@@ -106,54 +106,59 @@ class OilFile(InputFile):
     title: ClassVar[str] = "oil file"
 
     name: Text = Field(description="Name of the oil in results")
-    source: Text | None = Field(default=None, description="Where the numbers are from")
+    source: Text | None = Field(default=None, description="Where the numbers come from")
     base_oil: Literal["mineral", "pao", "ester", "pag"] = Field(
         description="Class of the base oil: paraffinic mineral, polyalphaolefin, ester, polyglycol"
     )
     density_kg_m3: Density = Field(description="Density at density_temperature_degc")
     density_temperature_degc: Temperature | None = Field(
-        default=None, description="Temperature at which the density holds"
+        default=None, description="Temperature to which the density belongs"
     )
     density_slope_kg_m3_k: DensitySlope | None = Field(
         default=None, description="Change of the density with temperature"
     )
     viscosity_40_degc_mm2_s: Viscosity | None = Field(
-        default=None, description="Kinematic, at 40 degC; give two of this field and the next two"
+        default=None,
+        description="Kinematic viscosity at 40 degC; give two of this field and the next two",
     )
     viscosity_100_degc_mm2_s: Viscosity | None = Field(
-        default=None, description="Kinematic, at 100 degC"
+        default=None, description="Kinematic viscosity at 100 degC"
     )
     viscosity_index: Index | None = Field(
-        default=None, description="After ASTM D2270, in place of one viscosity"
+        default=None, description="Viscosity index after ASTM D2270, instead of one viscosity"
     )
     alpha_per_gpa: PressureViscosity | None = Field(
         default=None, description="Pressure-viscosity coefficient at low pressure"
     )
     alpha_temperature_degc: Temperature | None = Field(
-        default=None, description="Temperature at which alpha holds"
+        default=None, description="Temperature to which alpha belongs"
     )
     alpha_factor: Factor | None = Field(
         default=None,
-        description="Uncertainty of alpha: within alpha / factor and alpha * factor, k = 2",
+        description="Uncertainty factor of alpha: it lies between alpha / factor and alpha * "
+        "factor (k = 2)",
     )
     eyring_stress_mpa: Stress | None = Field(
         default=None, description="Shear stress at which shear thinning begins (Eyring)"
     )
     eyring_stress_factor: Factor | None = Field(
-        default=None, description="Uncertainty of the Eyring stress, a factor as above, k = 2"
+        default=None, description="Uncertainty factor of the Eyring stress, as above (k = 2)"
     )
     limiting_coefficient: Limit | None = Field(
         default=None, description="Limiting shear stress of the film divided by the pressure"
     )
     limiting_coefficient_factor: Factor | None = Field(
         default=None,
-        description="Uncertainty of the limiting coefficient, a factor as above, k = 2",
+        description="Uncertainty factor of the limiting coefficient, as above (k = 2)",
     )
     limiting_shear_stress_mpa: Strength | None = Field(
-        default=None, description="Shear strength of boundary junctions at zero pressure"
+        default=None,
+        description="Shear strength of the boundary layer between asperities, at zero pressure",
     )
     boundary_friction: Share | None = Field(
-        default=None, description="Increase of this shear strength per unit of pressure"
+        default=None,
+        description="Friction coefficient of the boundary layer: how much its shear strength "
+        "rises per pressure",
     )
     conductivity_w_m_k: Conductivity | None = Field(
         default=None, description="Thermal conductivity"
@@ -175,12 +180,12 @@ class OilFile(InputFile):
         if given != 2:
             raise ValueError(
                 "two of viscosity_40_degc_mm2_s, viscosity_100_degc_mm2_s and viscosity_index "
-                f"make the viscosity line, got {given}"
+                f"must be given, got {given}"
             )
         if cold is not None and hot is not None and cold <= hot:
             raise ValueError(
                 f"viscosity must fall with temperature, got {cold:g} mm2/s at 40 degC and {hot:g} "
-                "mm2/s at 100 degC. Are they exchanged?"
+                "mm2/s at 100 degC. Are they swapped?"
             )
         try:
             self.described()
@@ -223,12 +228,13 @@ def described_library_oil(name: str) -> DescribedOil:
 
 
 def read_oil(name: str | Path) -> DescribedOil:
-    """Return the oil of an oil file, of a shipped oil file or of the library, by path or name.
+    """Return an oil from an oil file or the library, by the path or the name.
 
     Raises
     ------
     ParameterError
-        The file is missing or wrong, all wrong fields are named; or there is no such oil.
+        The file is missing or wrong (the message names all wrong fields), or there is no oil of
+        this name.
 
     Examples
     --------

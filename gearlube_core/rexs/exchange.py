@@ -48,21 +48,22 @@ class RexsPair:
 def read_rexs(
     path: str | Path, *, stage: int | None = None, given: Mapping[str, Any] | None = None
 ) -> RexsPair:
-    """Return the pair of a REXS file (XML, version 1): of a cylindrical or a bevel stage.
+    """Return the pair of a REXS file (XML, version 1) with a cylindrical or a bevel stage.
 
     Parameters
     ----------
     path : path
         The .rexs file.
     stage : int, optional
-        Number of the stage's component, where the file has several.
+        Number of the stage's component, if the file has several.
     given : dict of str to number, optional
-        Dotted fields of the gear file that the REXS file lacks; they go before its own.
+        Values of dotted gear-file fields that the REXS file lacks; they replace those of the REXS
+        file.
 
     Raises
     ------
     ParameterError
-        The file is no such file, lacks numbers, or has others than gear files can have.
+        The file is no REXS file, lacks numbers, or has numbers that a gear file cannot have.
 
     References
     ----------
@@ -102,17 +103,19 @@ def write_rexs(file: PairFile, path: str | Path) -> tuple[ExchangeNote, ...]:
     Parameters
     ----------
     file : HelicalGearFile, HypoidGearFile or BlankFile
+        Gear or blank file.
     path : path
+        The .rexs file to write.
 
     Returns
     -------
     tuple of ExchangeNote
-        Every field of the file that has no place in the REXS file.
+        Every field of the file that has no place in a REXS file.
 
     Raises
     ------
     ParameterError
-        A blank that cannot exist.
+        The blank cannot exist.
 
     Examples
     --------

@@ -48,35 +48,35 @@ def press_patch(
     *,
     tolerance: float = 1e-6,
 ) -> PatchContact:
-    """Return the frictionless elastic contact of a rough patch with a smooth plane.
+    """Return the dry, frictionless elastic contact of a rough patch with a smooth plane.
 
     u_k = 2 p_k/(E* |k|) for each wave k of the pressure, k = 0 left out
 
     Parameters
     ----------
     patch
-        Periodic heights of both surfaces together [m]; their mean is taken off.
+        Periodic heights of both surfaces together [m]; their mean is subtracted.
     mean_pressure
-        [Pa], above zero.
+        Mean pressure [Pa], above zero.
     contact_modulus
         E* [Pa].
     start
-        Pressure to start from [Pa], shape (nx, ny), as of a lower load.
+        Pressure to start from [Pa], shape (nx, ny), e.g. that at a lower load.
     tolerance
-        Of the contact solver [-].
+        Tolerance of the contact solver [-].
 
     Raises
     ------
     ParameterError
         The patch is not periodic, or a number is not above zero.
     ConvergenceError
-        The contact was not found.
+        No contact was found.
 
     Notes
     -----
     Half-spaces, small slopes, no plastic flow: at light loads the mean pressure over the contact is
     near E* times half of the rms slope, which steel with slopes above 0.05 cannot bear.
-    Theories and solutions of others find areas of 1.6 to 2.5 times p/(E* rms slope)
+    Published theories and solutions have areas of 1.6 to 2.5 times p/(E* rms slope)
     [campana_mueser_2007] and p ~ exp(-film/(0.48 sigma)) [almqvist_2011].
     Source of the compliance: [johnson_1985 sec. 13.2]; of the solver: [polonsky_keer_1999].
 

@@ -29,7 +29,7 @@ class FlowFactors(NamedTuple):
 
 
 def flow_factors(patch: HeightMap, film: float) -> FlowFactors:
-    """Return the flow factors of a rough patch against a smooth plane.
+    """Return the flow factors of a rough patch against a smooth plane, for the mean flow of oil.
 
     d/dx(h^3 dp/dx) + d/dy(h^3 dp/dy) = 0 with a mean slope of 1,  phi = mean(h^3 dp/dx)/h_0^3
     d/dx(h^3 dP/dx) + d/dy(h^3 dP/dy) = -dh/dx with no mean slope,  Phi_s = -mean(h^3 dP/dx)/sigma
@@ -37,7 +37,7 @@ def flow_factors(patch: HeightMap, film: float) -> FlowFactors:
     Parameters
     ----------
     patch
-        Periodic heights of both surfaces together [m]; their mean is taken off.
+        Periodic heights of both surfaces together [m]; their mean is subtracted.
     film
         h_0, distance of the mean planes [m].
 
@@ -53,13 +53,14 @@ def flow_factors(patch: HeightMap, film: float) -> FlowFactors:
 
     Notes
     -----
-    Local film h = h_0 - z, zero where the planes overlap: heights are cut there and do not bend.
-    Newtonian oil of constant viscosity, no cavitation. Finite volumes with the film of the heights'
-    Fourier series on each face, so second order; solved by a direct method. The patch repeats,
-    where [patir_cheng_1978] has two closed sides and two at given pressures.
+    Local film h = h_0 - z, and zero where the planes overlap: heights are cut there and do not
+    deform. The oil is Newtonian with constant viscosity and does not cavitate. Finite volumes take
+    the film on each face from the Fourier series of the heights, which gives second order; they
+    are solved by a direct method. The patch repeats, whereas that of [patir_cheng_1978] has two
+    closed sides and two at given pressures.
 
-    With roughness on both surfaces moving past each other the factor of the pressure is that of the
-    sum of heights and the one of shear is made of two, see `shear_flow_factor`.
+    If both surfaces are rough and move past each other, the pressure factor is that of the sum of
+    heights, and the shear factor is made of two, see `shear_flow_factor`.
     Source: the problems of [patir_cheng_1978], [patir_cheng_1979] on a periodic cell.
 
     Examples

@@ -52,20 +52,21 @@ def gaussian_patches(
     nodes: int = 256,
     nodes_per_length: float = 16.0,
 ) -> list[HeightMap]:
-    """Return periodic patches with Gaussian heights and autocorrelation.
+    """Return periodic rough patches with Gaussian heights and autocorrelation, for `patch_table`.
 
     Parameters
     ----------
     roughness
-        Rms height [m].
+        RMS height [m].
     length_x, length_y
-        Along x and y the autocorrelation falls to 0.2 [m].
+        Lengths along x and y over which the autocorrelation falls to 0.2 [m].
     seeds
-        One patch each.
+        Seeds of the random numbers; one patch for each.
     nodes
-        Along each side.
+        Number of nodes along each side.
     nodes_per_length
-        To a correlation length; a patch is `nodes/nodes_per_length` of them long each way.
+        Nodes per correlation length; each side of a patch is `nodes/nodes_per_length` correlation
+        lengths long.
 
     Examples
     --------
@@ -96,26 +97,26 @@ def patch_table(
     contact: bool = True,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return flow factors and asperity load over the film ratio, means over patches.
+    """Return flow factors and asperity load over the film ratio, as means over several patches.
 
     Parameters
     ----------
     patches
-        Periodic, of one kind: seeds of one generator or cuts of one surface.
+        Periodic patches of one kind: seeds of one generator or cuts of one surface.
     film_ratios
-        Distance of the mean planes over the rms height of each patch [-], rising.
+        Distance of the mean planes divided by the RMS height of each patch [-], rising.
     contact
-        Also the dry elastic contact; its loads lie between film ratios of about 0 and 4.
+        True: solve the dry elastic contact too; its loads are for film ratios of about 0 to 4.
     progress
-        Told the share done.
+        Called with the share done.
 
     Returns
     -------
     xr.Dataset
         Over `film_ratio` the mean of each factor and, as `..._spread`, its standard deviation over
-        patches (NaN of one): pressure_x, pressure_y, pressure_xy, shear_x, contact_share, mean_film
-        and, with contact, asperity_pressure (over E*) and asperity_area. NaN beyond the loads that
-        were solved.
+        the patches (NaN if there is one): pressure_x, pressure_y, pressure_xy, shear_x,
+        contact_share, mean_film and, with contact, asperity_pressure (over E*) and asperity_area.
+        NaN outside the loads that were solved.
 
     Examples
     --------
@@ -128,8 +129,9 @@ def patch_table(
     rising = ratios.size > 0 and ratios.min() > 0.0 and bool((np.diff(ratios) > 0.0).all())
     if not patches or not rising or not np.isfinite(ratios).all() or ratios.max() > _WIDEST:
         raise ParameterError(
-            f"patch_table must have at least one patch and rising film ratios above 0 and up to "
-            f"{_WIDEST:g}, got {len(patches)} patches and {ratios.tolist()}. Usual are 0.5 to 6."
+            "patch_table must have at least one patch and rising film ratios above 0 and up to "
+            f"{_WIDEST:g}, got {len(patches)} patches and {ratios.tolist()}. Typical film ratios "
+            "are 0.5 to 6."
         )
     total = len(patches) * (ratios.size + (_LOADS.size if contact else 0))
     done = 0
@@ -176,17 +178,17 @@ class GreenwoodTrippFit(NamedTuple):
 def greenwood_tripp_fit(
     table: xr.Dataset, low: float = 0.5, high: float = 3.0
 ) -> GreenwoodTrippFit:
-    """Return the parameters with which Greenwood and Tripp's law follows a table.
+    """Return the parameters with which Greenwood and Tripp's law fits a table of computed patches.
 
-    The two products of the law are set by the mean logarithms of load and area between two film
-    ratios; the misfits tell what its shape cannot follow.
+    The two products of the law are chosen so that the mean logarithms of load and area between two
+    film ratios agree. The misfits tell by how much the shape of the law differs.
 
     Parameters
     ----------
     table
-        From `patch_table` with contact.
+        Table from `patch_table` with contact.
     low, high
-        Film ratios [-].
+        Film ratios between which the law is fitted [-].
 
     Raises
     ------
@@ -210,7 +212,7 @@ def greenwood_tripp_fit(
     if used.sum() < 2:
         raise ParameterError(
             f"table must hold asperities at two film ratios within {low:g} to {high:g}, got "
-            f"{int(used.sum())}. Take more film ratios."
+            f"{int(used.sum())}. Give more film ratios to patch_table."
         )
     integrals = np.array([asperity_integrals(float(one)) for one in ratios[used]])
     area_rest = np.log(area[used] / integrals[:, 0])

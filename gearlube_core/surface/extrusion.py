@@ -30,21 +30,22 @@ _ROUNDING = 1e-6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lay:
-    """A lay along which a periodic profile repeats over a width.
+    """Direction in which a periodic profile is extended over a width, so that the surface repeats.
 
-    tan(beta) = n L_x/L_y where the profile is a section along x, as in [jamali_2015 7.6];
-    sin(beta) = n L_x/L_y where it was measured across the lay.
+    tan(beta) = n L_x/L_y if the profile is a section along x, as in [jamali_2015 7.6];
+    sin(beta) = n L_x/L_y if it was measured across the lay.
 
     Parameters
     ----------
     period
         L_x of the profile [m].
     width
-        L_y, over which the surface repeats along y [m].
+        L_y, after which the surface repeats along y [m].
     turns
-        n: by how many periods a crest moves along x over the width; below 0 the other way.
+        n: number of periods by which a crest moves along x over the width; below 0: in the other
+        direction.
     measured
-        along_x or across_lay.
+        Direction in which the profile was measured: along_x or across_lay.
 
     Raises
     ------
@@ -123,20 +124,21 @@ class Lay:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ExtrudedProfile:
-    """Heights z(x, y) = p(x - y tan(beta)), or p(x cos(beta) - y sin(beta)), p a periodic spline.
+    """Surface made from a periodic profile, extended along a lay, for films that vary along y.
+
+    z(x, y) = p(x - y tan(beta)), or p(x cos(beta) - y sin(beta)), with p a periodic spline.
 
     Parameters
     ----------
     profile
-        Periodic.
+        Periodic profile.
     lay
-        Of the same period.
+        Lay with the same period.
 
     Raises
     ------
     ParameterError
-        The profile is not periodic, does not meet at its ends, is too steep, or the periods
-        differ.
+        The profile is not periodic, its ends do not meet, it is too steep, or the periods differ.
 
     Examples
     --------
@@ -247,26 +249,26 @@ def check_divides(name: str, length: float, period: float) -> int:
 def periodic_section(
     profile: Profile, start: float, length: float, *, search: float | None = None
 ) -> Profile:
-    """Return a part of a profile that closes, cut near a place.
+    """Return a part of a profile that can be repeated, cut near a given place.
 
-    Among the cuts near `start` the one is taken whose ends meet best in height and slope; the
-    line that joins them is then taken off, so that the heights meet.
+    Among the cuts near `start` the one is taken whose ends agree best in height and slope. Then the
+    line that joins its ends is subtracted, so that their heights agree.
 
     Parameters
     ----------
     profile
-        Levelled.
+        Levelled profile.
     start
         Where the part begins [m].
     length
-        Its period [m]; it is taken to whole points of the profile.
+        Period of the part [m], rounded to whole points of the profile.
     search
         How far the start may move to either side [m]; None: half the length.
 
     Raises
     ------
     ParameterError
-        The profile does not reach so far, or no cut closes.
+        The profile is too short, or no cut can be closed.
 
     Examples
     --------

@@ -19,11 +19,11 @@ SUFFIXES = (".csv", ".npz", ".nc", ".sdf", ".x3p")
 
 
 def read_surface(path: str | Path) -> Surface:
-    """Return a profile or map from a file; its kind is that of the name's end.
+    """Return a surface profile or map from a file; the ending of its name tells its kind.
 
     .csv: a profile, columns x_mm and height_um; .npz, .nc: a map, x and y in mm and height in um;
-    .sdf: [iso_25178_71], .x3p: [iso_25178_72], which need the extra `gearlube[surfaces]`. One row
-    of an .sdf or .x3p file is a profile.
+    .sdf: [iso_25178_71], .x3p: [iso_25178_72], which need the extra `gearlube[surfaces]`. An .sdf
+    or .x3p file with one row gives a profile.
 
     Raises
     ------
@@ -56,12 +56,12 @@ def read_surface(path: str | Path) -> Surface:
 
 
 def write_surface(surface: Surface, path: str | Path) -> None:
-    """Write a profile as CSV or a map as npz, for `read_surface` and case files.
+    """Write a profile as CSV or a map as npz, so that `read_surface` and case files can read it.
 
     Raises
     ------
     ParameterError
-        The name ends in something else.
+        The name has another ending.
 
     Examples
     --------

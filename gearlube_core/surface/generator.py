@@ -69,23 +69,23 @@ class Generated(Generic[S]):
 def generated_profile(
     request: RoughnessRequest, period: float, count: int, random: np.random.Generator
 ) -> Generated[Profile]:
-    """Return a periodic profile.
+    """Return a random periodic profile with the wanted statistics.
 
     Parameters
     ----------
     request
-        What it is to be.
+        Wanted statistics.
     period
-        [m].
+        Length of a period [m].
     count
-        Of points in a period, at least 16.
+        Number of points in a period, at least 16.
     random
-        Same state, same profile.
+        Random number generator; the same state gives the same profile.
 
     Raises
     ------
     ParameterError
-        The band holds no wave, or the heights cannot have these statistics with such a spectrum.
+        The band holds no wave, or heights with such a spectrum cannot have these statistics.
 
     Examples
     --------
@@ -108,18 +108,18 @@ def generated_map(
     counts: tuple[int, int],
     random: np.random.Generator,
 ) -> Generated[HeightMap]:
-    """Return a map that is periodic along x and y.
+    """Return a random map with the wanted statistics, periodic along x and y.
 
     Parameters
     ----------
     request
-        What it is to be.
+        Wanted statistics.
     periods
-        Along x and y [m].
+        Lengths of a period along x and y [m].
     counts
-        Of points in a period along x and y, at least 16.
+        Numbers of points in a period along x and y, at least 16.
     random
-        Same state, same map.
+        Random number generator; the same state gives the same map.
 
     Raises
     ------

@@ -20,12 +20,12 @@ _SHARE_OF_PERIOD = 0.25  # longest correlation length in a period
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoughnessRequest:
-    """Statistics that a generated profile or map is to have.
+    """Wanted statistics of a random profile or map, for `generated_profile` and `generated_map`.
 
     Parameters
     ----------
     correlation_length
-        Distance at which the autocorrelation falls to `correlation_level` [m]; of a map across
+        Distance at which the autocorrelation falls to `correlation_level` [m]; of a map: across
         its lay.
     arithmetic_mean, root_mean_square
         Ra (Sa) or Rq (Sq) [m]; give one of them.
@@ -34,19 +34,20 @@ class RoughnessRequest:
     lay
         Direction of the crests of a map, from y towards x [rad].
     skewness, kurtosis
-        [-]; 0 and 3 of normally distributed heights.
+        Skewness and kurtosis of the heights [-]; 0 and 3 for normally distributed heights.
     shortest_wave, longest_wave
         Limits of the band of waves [m]; None: 8 spacings, and the longest that fits the periods.
     autocorrelation
-        Shape before the band is cut: exponential, or gaussian with less short waves.
+        Shape of the autocorrelation before the band is cut: exponential, or gaussian with fewer
+        short waves.
     correlation_level
-        [-]; 0.2 is the default of [iso_25178_2].
+        Level that defines the correlation length [-]; 0.2 is the default of [iso_25178_2].
 
     Raises
     ------
     ParameterError
-        A number out of its range, both or no height, no distribution with these moments, or a
-        band too long for the correlation length.
+        A number is out of its range, both or no height are given, no distribution has these
+        moments, or a band is too long for the correlation length.
 
     Examples
     --------

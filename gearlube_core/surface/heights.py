@@ -26,18 +26,18 @@ _CLOSED = 4.0  # times the rms step between neighbours that may lie at a periodi
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Profile:
-    """Heights at evenly spaced points along x, the first at x = 0.
+    """A measured or made surface profile: heights at evenly spaced points, the first at x = 0.
 
     Parameters
     ----------
     height
-        (n,) [m], n at least 4.
+        Heights [m], shape (n,), n at least 4.
     spacing
-        From point to point [m], 1 nm to 1 mm.
+        Distance from point to point [m], 1 nm to 1 mm.
     periodic
-        The point after the last is the first.
+        True: after the last point the profile begins anew.
     name
-        In errors.
+        Name in error messages.
 
     Raises
     ------
@@ -77,18 +77,18 @@ class Profile:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeightMap:
-    """Heights at evenly spaced points of a rectangle, the first at x = y = 0.
+    """A measured or made surface map: heights on an even grid, the first at x = y = 0.
 
     Parameters
     ----------
     height
-        (nx, ny) [m], both at least 4.
+        Heights [m], shape (nx, ny), both at least 4.
     spacing
-        Along x and y [m], 1 nm to 1 mm.
+        Distances along x and y [m], 1 nm to 1 mm.
     periodic
-        Along x and y: the point after the last is the first.
+        Along x and along y. True: after the last point the map begins anew.
     name
-        In errors.
+        Name in error messages.
 
     Raises
     ------
@@ -174,8 +174,8 @@ def check_plausible(surface: Surface) -> None:
     if rq < _LOWEST_RQ:
         raise ParameterError(
             f"{surface.name}: heights must have a root mean square of at least 1 nm, got "
-            f"{1e9 * rq:.3g} nm. Give heights in um; mm written for um are a thousand times too "
-            "small."
+            f"{1e9 * rq:.3g} nm. Give heights in um; if mm are written instead, they are a "
+            "thousand times too small."
         )
     for axis, step in enumerate(spacings):
         slope = float(np.sqrt(np.mean((np.diff(surface.height, axis=axis) / step) ** 2)))
@@ -232,8 +232,8 @@ def _check_heights(name: str, height: Array, dimensions: int) -> None:
     wrong = int((~np.isfinite(height)).sum())
     if wrong:
         raise ParameterError(
-            f"{name}: heights must be finite, {wrong} of {height.size} are not. "
-            "Fill the holes of the measurement before."
+            f"{name}: heights must be finite, {wrong} of {height.size} are not. Fill the gaps of "
+            "the measurement first."
         )
 
 

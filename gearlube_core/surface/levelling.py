@@ -15,15 +15,15 @@ _HIGHEST = 8  # degree; more is the work of a filter
 
 
 def levelled(surface: S, degree: int = 1) -> S:
-    """Return a surface less its least-squares polynomial.
+    """Return a surface without its form: its least-squares polynomial is subtracted.
 
     Parameters
     ----------
     surface
         Profile or map.
     degree
-        0: the mean; 1: a line or plane; to 8, of a map in x and y together. A periodic surface
-        has no slope of its own: 0 along its periodic sides whatever is asked.
+        Degree of the polynomial, to 8. 0: the mean; 1: a line or plane; of a map in x and y
+        together. Along periodic sides the degree is always 0, because they have no slope.
 
     Raises
     ------
@@ -38,8 +38,8 @@ def levelled(surface: S, degree: int = 1) -> S:
     """
     if isinstance(degree, bool) or degree not in range(_HIGHEST + 1):
         raise ParameterError(
-            f"degree must be a whole number within 0 to {_HIGHEST}, got {degree!r}. Take longer "
-            "waves off with a filter."
+            f"degree must be a whole number within 0 to {_HIGHEST}, got {degree!r}. Use a filter "
+            "to remove waviness."
         )
     height = surface.height
     if min(height.shape) <= degree:

@@ -34,16 +34,17 @@ _FEWEST_ROWS = 16
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FedFromInlet:
-    """Roughness that enters with its surface, growing over its first part.
+    """Roughness that enters a smooth contact with its surface, from the inlet.
 
-    A surface is smooth at time 0. Behind its first rough point heights grow linearly.
+    Surfaces are smooth at time 0. Behind the first rough point of a surface its heights grow
+    linearly with distance.
 
     Parameters
     ----------
     inlet
-        x of the first rough point at time 0 [m]; most often where the domain begins.
+        x of the first rough point at time 0 [m]; usually where the domain begins.
     growth
-        Length of the surface over which its heights grow from none to full [m]; the Hertzian
+        Length of the surface over which its heights grow from zero to full [m]; the Hertzian
         half-width in [jamali_2015 7.7].
 
     Examples
@@ -62,15 +63,15 @@ class FedFromInlet:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GrownInPlace:
-    """Roughness that grows everywhere at once, linearly in time.
+    """Roughness that grows everywhere in a smooth contact at the same time, linearly.
 
-    Shorter than a feed from the inlet, but no surface does so: let the film forget it, which
-    takes until the slower surface has passed the contact.
+    This takes less time than roughness that enters from the inlet, but no real surface does it. So
+    the first films must be left out, until the slower surface has passed the contact.
 
     Parameters
     ----------
     duration
-        From none to full [s].
+        Time from smooth to full heights [s].
 
     Examples
     --------
@@ -86,17 +87,17 @@ class GrownInPlace:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MovingSurface:
-    """A periodic profile drawn out along a lay, or a periodic map, and its speed.
+    """A rough surface in motion: a periodic profile extended along a lay, or a periodic map.
 
     z(x, y, t) = p(x - y tan(beta) - u t)  or  p(x - y tan(beta) - u t, y)
 
     Parameters
     ----------
     heights
-        Periodic; material that stands out is positive.
+        Periodic heights; peaks are positive.
     lay
-        Its period is that of the heights along x, its width that of the domain. Without turns the
-        crests of a profile lie along y and a map stays as it is; with turns a map is sheared.
+        Lay with the period of the heights along x and the width of the domain. Without turns the
+        crests of a profile are along y, and a map is not changed; with turns a map is sheared.
     speed
         u along x [m/s].
 
@@ -104,7 +105,7 @@ class MovingSurface:
     ------
     ParameterError
         Heights are not periodic, do not meet at their ends, are below 1 nm or too steep; the
-        periods differ; or the period of a map along y does not divide the width.
+        periods differ; or the width is no multiple of the map's period along y.
 
     Examples
     --------
@@ -168,18 +169,18 @@ class MovingSurface:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MovingRoughness:
-    """Heights of one or two moving surfaces on the nodes of a film, at any time.
+    """Heights of one or two moving surfaces on the nodes of a film at any time.
 
-    What it returns is to be taken off the smooth gap.
+    Its values are subtracted from the smooth gap.
 
     Parameters
     ----------
     surfaces
-        One or two, of one width.
+        One or two surfaces with the same width.
     x
         Nodes [m], shape (nx,), rising.
     y
-        Rows [m], shape (ny,): evenly over the width, the row that repeats the first one left out.
+        Rows [m], shape (ny,): evenly over the width, without the row that repeats the first one.
     schedule
         Time steps.
     feed
@@ -188,9 +189,9 @@ class MovingRoughness:
     Raises
     ------
     ParameterError
-        No or more than two surfaces, other widths, fewer than 16 rows or an odd number, fewer
-        than eight nodes a wave, a surface that moves by more than a node in a time step or never
-        enters.
+        There are no or more than two surfaces, their widths differ, there are fewer than 16 rows or
+        an odd number, fewer than eight nodes per wave, or a surface moves by more than a node in a
+        time step or never enters.
 
     Examples
     --------
@@ -227,8 +228,9 @@ class MovingRoughness:
             self._check_step(one)
             if fed and not one.speed > 0.0:
                 raise ParameterError(
-                    f"The speed of {one.heights.name} must be above 0 m/s to be fed from the "
-                    f"inlet, got {one.speed:g} m/s. Turn the x axis, or let it grow in place."
+                    f"The speed of {one.heights.name} must be above 0 m/s so that its roughness "
+                    f"enters from the inlet, got {one.speed:g} m/s. Turn the x axis, or let the "
+                    "roughness grow in place."
                 )
 
     @cached_property

@@ -37,18 +37,18 @@ class RunIn(Generic[S]):
 
 
 def peaks_cut(surface: S, height: float) -> RunIn[S]:
-    """Return a surface whose peaks end flat at a height above its mean.
+    """Return a surface whose peaks are cut off flat at a height, as a model of running-in.
 
-    This is a model, not a simulation of wear: real running-in rounds what it leaves and bends
-    material aside. The cuts have edges, so waves shorter than before appear; filter them with
-    lambda_s if the grid is too coarse for them.
+    This is no simulation of wear: real running-in rounds the peaks and bends material aside. The
+    cuts have edges, which add shorter waves than before. Filter them with lambda_s if the grid is
+    too coarse for them.
 
     Parameters
     ----------
     surface
-        Levelled.
+        Levelled profile or map.
     height
-        [m] above the mean; below 0 is below it.
+        Height of the cut [m] above the mean; a value below 0 is below the mean.
 
     Raises
     ------

@@ -13,19 +13,19 @@ _ROUNDING = 1e-9  # of a step
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoughSchedule:
-    """Time steps until both surfaces are rough, and steps of the rough contact.
+    """Time steps of a contact that becomes rough: steps until it is rough, and steps after that.
 
     Parameters
     ----------
     time_step
-        [s].
+        Length of a time step [s].
     until_rough, rough
-        Numbers of steps, from 0.
+        Numbers of steps until both surfaces are rough and after that, from 0.
 
     Raises
     ------
     ParameterError
-        The time step is not above zero, or a number of steps is not whole or below zero.
+        The time step is not above zero, or a number of steps is below zero or not whole.
 
     Examples
     --------

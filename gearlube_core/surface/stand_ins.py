@@ -72,25 +72,25 @@ class StandIn:
 
 
 def stand_in(case: str, seed: int = SEEDS[0], *, same_mean: bool = False) -> StandIn:
-    """Return stand-ins for the two profiles of a case.
+    """Return made-up profiles for both surfaces of a case of Jamali 2015.
 
-    The long profile has Ra 0.31 um; its short parts scatter about that, as those of a measured
-    one do.
+    The measured profiles are not published. The long made-up profile has Ra 0.31 um; its short
+    parts scatter about that, as parts of a measured profile do.
 
     Parameters
     ----------
     case
         A, B or C. Case C prescribes the longer period for the slower surface, which helical
-        teeth cannot have: there the faster surface has the larger angle.
+        teeth cannot have; so in this case the faster surface has the larger angle.
     seed
-        Whole number from 0; 1 to 5 are the five that results are given for.
+        Whole number from 0; published results of this package are for 1 to 5.
     same_mean
         Scale each part to Ra 0.31 um too.
 
     Raises
     ------
     ParameterError
-        Another case, or a seed that is no whole number from 0.
+        The case is not known, or the seed is no whole number from 0.
 
     Examples
     --------

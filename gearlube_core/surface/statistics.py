@@ -120,7 +120,7 @@ def skewness_kurtosis(height: Array) -> tuple[float, float]:
 
 
 def profile_statistics(profile: Profile) -> ProfileStatistics:
-    """Return the statistics of a levelled, filtered profile.
+    """Return height and slope statistics (Ra, Rq, ...) of a levelled, filtered profile.
 
     Raises
     ------
@@ -160,7 +160,7 @@ def profile_statistics(profile: Profile) -> ProfileStatistics:
 
 
 def map_statistics(surface: HeightMap) -> MapStatistics:
-    """Return the statistics of a levelled, filtered map.
+    """Return height and slope statistics (Sa, Sq, ...) of a levelled, filtered map.
 
     Raises
     ------
@@ -221,8 +221,8 @@ def _rms(surface: Surface, height: Array) -> float:
     rms = float(np.sqrt(np.mean(height**2)))
     if rms <= 1e-12 * float(np.abs(surface.height).max()):
         raise ParameterError(
-            f"{surface.name} must have heights that differ, got a flat one. Its statistics have "
-            "no meaning."
+            f"{surface.name} must have different heights, got a flat surface, whose statistics "
+            "have no meaning."
         )
     return rms
 

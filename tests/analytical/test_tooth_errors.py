@@ -283,6 +283,10 @@ def test_orders_of_the_turns_are_what_the_dynamics_adds_up():
         found = shaft_error(tail, float(pinion[mesh, i]))
         assert found == pytest.approx(error[mesh, i], abs=1e-15)
     assert cycle.turns()[1] == pytest.approx(4e-7 / np.sqrt(2.0), rel=1e-9, abs=0.0)
+    orders, amplitudes = cycle.hunting_orders()
+    assert orders == pytest.approx([1.0 + Z_P / Z_G])
+    assert amplitudes[0] == pytest.approx([4e-7])
+    assert cycle_of(error).hunting_orders()[0].size == 0
     table = cycle_of(error).added_to(one_level())
     assert table.shaft_error["gear"].shape == (1, Z_G, 2)
 

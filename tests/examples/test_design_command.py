@@ -10,8 +10,11 @@ from typer.testing import CliRunner
 
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
+from gearlube.studies.design import command
 from gearlube.studies.design.figures import DESIGN_CATALOGUE
 from gearlube.studies.design.summary import unmet_targets
+from gearlube_core.flank_optimisation.problem import Problem
+from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.hypoid_contact.refusal import check_pair
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.design import design_pair
@@ -25,28 +28,44 @@ def run(*arguments):
 
 
 # seconds: settings and ease-off of both sides are found in full
-def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path):
+def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path, monkeypatch):
+    then = []
+    monkeypatch.setattr(command, "run_next", lambda _, *rest: then.append(rest))
     printed = run("--example")
     assert printed.exit_code == 0
     blank, out = tmp_path / "blank.toml", tmp_path / "out"
-    blank.write_text(printed.stdout.replace("hypoid_13_42", "mine"))
-    assert run(blank, "--out", out).exit_code == 0
+    # relief that is chosen needs elastic teeth
+    relief = "[relief]\ntip_relief_um = 20.0\nend_relief_um = 30.0\n"
+    blank.write_text(printed.stdout.replace("hypoid_13_42", "mine") + relief)
+    assert run(blank, "--out", out, "--optimise").exit_code == 0
+    assert then == [("optimise", [str(out / "problem.toml"), "--out", str(out / "optimised")])]
+    problem = Problem.of(OptimisationFile.from_toml(out / "problem.toml"))
     names = {path.name for path in out.iterdir()}
-    written = {"mine.toml", "axle.toml", "report.html", "design.nc", "gearlube_results.json"}
-    assert names == written | {"figures"}
+    written = {
+        "mine.toml",
+        "axle.toml",
+        "problem.toml",
+        "report.html",
+        "design.nc",
+        "gearlube_results.json",
+    }
+    assert names == written | {"figures", "gearlube_results.json"}
     assert {path.stem for path in (out / "figures").iterdir()} == set(DESIGN_CATALOGUE)
     gear = HypoidGearFile.from_toml(out / "mine.toml")
+    assert problem.file == gear
     check_pair(gear)
-    # a quarter of the tooth height, and 15 % of the pinion's face, as the page of fields says
+    # a quarter of the tooth height, and 15 % of the gear's face and what the pinion's is longer, as
+    # the page of fields says
     depth = 1e3 * gear.blank().whole_depth
     for flank in (gear.pinion.drive_flank, gear.gear.coast_flank):
         assert flank.tip_relief_depth_mm == pytest.approx(0.25 * depth, abs=1e-6)
     heel = gear.pinion.coast_flank.heel_relief_length_mm
-    assert heel == pytest.approx(0.15 * gear.pinion.face_width_mm, abs=1e-6)
+    beyond = 0.5 * (gear.pinion.face_width_mm - gear.gear.face_width_mm)
+    assert heel == pytest.approx(0.15 * gear.gear.face_width_mm + beyond, abs=1e-6)
     axle = tomllib.loads((out / "axle.toml").read_text())
     assert axle["gear_set"]["gear_file"] == "mine.toml"
     report = (out / "report.html").read_text(encoding="utf-8")
-    for part in ("asked and found", "undercut", "blade points", "a third of the face width"):
+    for part in ("wanted and found", "undercut", "blade points", "a third of the face width"):
         assert part in report
     with xr.open_dataset(out / "design.nc") as dataset:
         errors = [dataset["error"].sel(side=side).values for side in ("drive", "coast")]

@@ -100,8 +100,10 @@ def test_a_tooth_without_height_has_the_pitch_thickness_as_topland():
 @pytest.mark.parametrize(
     ("field", "words"),
     [
-        ("cutter.duplex", "cut in one set-up"),
-        ("depth.taper", "equally deep"),
+        ("cutter.duplex", "cut in one set-up.*helical motion"),
+        ("machine.completing", "one set-up.*Leave it out"),
+        ("depth.taper", "equally deep.*depth at mid-face"),
+        ("depth.root_angle_deg", "tapered depth"),
         ("pair.shaft_angle_deg", "90 deg"),
         ("pair.hand", "pair.pinion_hand"),
     ],
@@ -109,3 +111,8 @@ def test_a_tooth_without_height_has_the_pitch_thickness_as_topland():
 def test_what_is_not_modelled_is_said(field, words):
     with pytest.raises(ParameterError, match=rf"{field} is not a field of this file: .*{words}"):
         BlankFile.named("hypoid_13_42").varied({field: 1.0})
+
+
+def test_a_process_that_is_not_modelled_is_known_by_its_name_too():
+    with pytest.raises(ParameterError, match=r"machine\.process is not .*duplex taper"):
+        BlankFile.named("hypoid_13_42").varied({"machine.process": "Duplex"})

@@ -114,7 +114,7 @@ def test_table_and_figure_show_every_parameter_the_largest_on_top(found):
     assert next(iter(table.columns[0].cells)).startswith(f"{parameter_words(first)}, 0.01 ")
     labels = [text.get_text() for text in sensitivity_figure(found).axes[0].get_yticklabels()]
     assert sorted(labels) == [
-        "gear: machine root angle  +0.01 deg",
+        "gear: machine root angle  +0.01°",
         "misalignment P (pinion)  +0.01 mm",
     ]
 
@@ -133,7 +133,7 @@ def test_parameters_have_words(name, words):
 
 def test_tolerances_are_shown_in_millimetres_and_degrees():
     assert tolerance_words(1e-5, "m") == "0.01 mm"
-    assert tolerance_words(np.radians(0.01), "rad") == "0.01 deg"
+    assert tolerance_words(np.radians(0.01), "rad") == "0.01°"
     assert tolerance_words(1e-4, "1") == "0.0001"
 
 

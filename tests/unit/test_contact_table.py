@@ -5,8 +5,9 @@ import pytest
 import xarray as xr
 
 from gearlube_core.errors import TableError
-from gearlube_core.hypoid_contact.contact_table import contact_table, fourier, levels_left_out
+from gearlube_core.hypoid_contact.contact_table import contact_table, levels_left_out
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.mesh_table.fourier import fourier
 from gearlube_core.mesh_table.kernels import mesh_series, pair_channels, transmission_error
 from gearlube_core.mesh_table.table import PAIRS
 

@@ -3,6 +3,7 @@
 import logging
 import sys
 
+import asammdf
 import meshio
 import numpy as np
 import pandas as pd
@@ -118,6 +119,40 @@ def test_uff58_refuses_what_it_cannot_hold(run, tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["run"]
 
 
+def test_mdf4_holds_each_history_with_unit_and_meaning(run, tmp_path):
+    gap = DATASET.copy(deep=True)
+    gap["dte"][3] = np.nan
+    gap.to_netcdf(run / "small.nc")
+    gl.export_results(run, "mdf4", tmp_path / "small.mf4")
+    with asammdf.MDF(tmp_path / "small.mf4") as file:
+        assert file.version == "4.10"
+        channels = set(file.channels_db) - {"time"}
+        assert len(channels) == 5
+        force = file.get("bearing_force.gear.radial 1")
+        values = DATASET["bearing_force"].sel(bearing="gear", direction="radial 1")
+        assert force.samples.dtype == np.float32
+        assert np.array_equal(force.samples, values)
+        assert np.array_equal(force.timestamps, DATASET["time"])
+        assert (force.unit, force.comment) == ("N", "force on the shaft")
+        error = file.get("dte")  # without the value that is not there
+        assert np.array_equal(error.samples, np.delete(DATASET["dte"].values, 3))
+        assert np.array_equal(error.timestamps, np.delete(DATASET["time"].values, 3))
+
+
+def test_mdf4_refuses_what_it_cannot_hold(run, tmp_path, monkeypatch):
+    out = tmp_path / "out.mf4"
+    with pytest.raises(gl.ParameterError, match="time histories, got dte_spectrum"):
+        gl.export_results(run, "mdf4", out, variables=["dte_spectrum"])
+    falling = DATASET.isel(time=slice(None, None, -1))
+    falling.to_netcdf(run / "falling.nc")
+    with pytest.raises(gl.ParameterError, match="must rise, got time"):
+        gl.export_results(run / "falling.nc", "mdf4", out)
+    monkeypatch.setitem(sys.modules, "asammdf", None)
+    with pytest.raises(gl.GearLubeError, match=r"gearlube\[export\]"):
+        gl.export_results(run / "small.nc", "mdf4", out)
+    assert [path.name for path in tmp_path.iterdir()] == ["run"]
+
+
 def test_vtk_holds_film_and_pressure_over_the_plane(tmp_path):
     x, y = np.linspace(-1e-3, 1e-3, 4), np.linspace(0.0, 2e-3, 3)
     pressure = np.random.default_rng(3).random((2, 4, 3))
@@ -221,15 +256,15 @@ def test_command_writes_once_and_says_what_has_no_unit(run, tmp_path, caplog):
     caplog.set_level(logging.INFO, logger="gearlube")
     command = ["export", str(run / "small.nc"), "--to", "mat", "--out", str(tmp_path / "a.mat")]
     assert CliRunner().invoke(app, command).exit_code == 0
-    assert "No unit is stated for: share" in caplog.text
+    assert "These variables have no unit: share" in caplog.text
     assert CliRunner().invoke(app, command).exit_code == 2
-    assert "is there already" in caplog.text
+    assert "exists already" in caplog.text
     assert CliRunner().invoke(app, [*command, "--overwrite"]).exit_code == 0
 
 
 def test_a_folder_needs_one_dataset(run, tmp_path):
     DATASET.to_netcdf(run / "other.nc")
-    with pytest.raises(gl.ParameterError, match=r"has 2: other.nc, small.nc. Name one"):
+    with pytest.raises(gl.ParameterError, match=r"has 2: other.nc, small.nc. Give one"):
         gl.export_results(run, "csv", tmp_path / "out")
     with pytest.raises(gl.GearLubeError, match="got none"):
         gl.export_results(tmp_path, "csv", tmp_path / "out")

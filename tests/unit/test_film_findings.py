@@ -107,7 +107,7 @@ def test_film_pressure_and_friction_of_a_line_are_told_in_everyday_units():
     assert "0.250 µm" in film.headline
     pressure = headline(line(), "largest pressure")
     assert "1.10 GPa" in pressure.headline
-    assert "+10.0 % against Hertz" in pressure.detail
+    assert "+10.0 % relative to Hertz" in pressure.detail
     assert "0.0300" in headline(line(), "friction").headline
 
 
@@ -155,3 +155,39 @@ def test_inputs_are_told_in_everyday_units():
     assert told["load per length"] == ("360", "N/mm")
     assert told["oil temperature"] == ("40", "°C")
     assert told["nodes of the finest grid"] == ("11", "")
+
+
+@pytest.mark.parametrize(
+    ("roughness", "ratio", "level", "words"),
+    [
+        (0.5e-6, "0.5", WARNING, "asperities carry much of the load"),
+        (0.125e-6, "2", NOTE, "mixed lubrication"),
+        (0.05e-6, "5", GOOD, "full film"),
+    ],
+)
+def test_film_over_roughness_tells_what_carries_the_load(roughness, ratio, level, words):
+    rough = line(roughness_rms=roughness)  # central film 0.25 um, smallest 0.2 um
+    one = headline(rough, "film ratio λ of the central film")
+    assert one.headline.endswith(f" is {ratio}.")
+    assert one.level == level
+    assert words in one.detail
+    value = {one.name: one.value for one in numbers(rough)}
+    assert value["film ratio λ, smallest film"] == pytest.approx(0.2e-6 / roughness)
+    told = {one.name: one.value for one in film_inputs(rough)}
+    assert float(told["composite rms roughness"]) == pytest.approx(1e6 * roughness)
+
+
+def test_without_a_roughness_the_one_that_would_matter_is_told():
+    one = headline(line(), "No roughness was given")
+    assert one.level == NOTE
+    assert "above 0.083 µm" in one.detail  # a third of the central film of 0.25 um
+    assert "above 0.033 µm" in headline(cycle(), "No roughness was given").detail
+    told = {one.name: one.value for one in film_inputs(line())}
+    assert told["composite rms roughness"] == "not given"
+
+
+def test_a_hypoid_flank_takes_its_thinnest_place():
+    flank = hypoid().assign_attrs(roughness_rms=0.5e-6)
+    one = headline(flank, "film ratio λ of the central film")
+    assert one.headline.endswith(" is 0.4.")  # 0.2 um over 0.5 um
+    assert "smallest film has 0.3" in one.detail

@@ -80,7 +80,7 @@ def stability(unstable_from):
 def film(ratio):
     return xr.Dataset(
         {
-            "film_ratio": ("point", np.array([2.0, ratio, 0.1])),
+            "film_ratio": ("point", np.array([4.0, ratio, 0.1])),
             "line_load": ("point", np.array([1.0, 1.0, 0.0])),  # the last carries nothing
         },
         attrs={
@@ -169,11 +169,11 @@ def test_instability_is_a_warning_if_the_pair_itself_has_it(unstable_from, level
     np.testing.assert_equal(least_unstable(stability(unstable_from)), least)
 
 
-@pytest.mark.parametrize(("ratio", "level"), [(0.7, WARNING), (1.3, GOOD)])
+@pytest.mark.parametrize(("ratio", "level"), [(0.7, WARNING), (1.3, NOTE), (3.2, GOOD)])
 def test_the_least_film_ratio_is_that_of_loaded_points(ratio, level):
     (one,) = findings({"film": film(ratio)})
     assert one.level == level
-    assert f"ratio is {ratio:.2f}" in one.headline
+    assert f"ratio λ is {ratio:.2f}" in one.headline
 
 
 def test_key_numbers_have_the_same_names_in_every_run():

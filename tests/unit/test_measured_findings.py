@@ -64,8 +64,13 @@ def teeth():
             "error": (("torque", "mesh", "phase"), np.zeros((2, TEETH * GEAR_TEETH, PHASES))),
             "rest_rms": (("torque",), [0.01e-6, 0.02e-6]),
             "pinion_amplitude": (("torque", "pinion_order"), amplitude),
+            "hunting_amplitude": (("torque", "hunting_order"), [[0.0123e-6], [0.0456e-6]]),
         },
-        coords={"torque": [50.0, 100.0], "pinion_order": np.arange(1, 11)},
+        coords={
+            "torque": [50.0, 100.0],
+            "pinion_order": np.arange(1, 11),
+            "hunting_order": [1.0 + TEETH / GEAR_TEETH],
+        },
         attrs={"name": "mine", "pinion_teeth": TEETH, "gear_teeth": GEAR_TEETH},
     )
 
@@ -117,3 +122,9 @@ def test_both_reports_have_figures_and_tables(tmp_path):
     html = report_html(tooth_report(teeth()))
     for part in ("Largest orders of the pinion", "Added error over a turn of the pinion"):
         assert part in html
+    hunting = [one for one in tooth_report(teeth()).tables if "hunting" in one.title]
+    order = 1.0 + TEETH / GEAR_TEETH
+    assert hunting[0].rows[0][:2] == [f"{order:.4f}", f"{order * GEAR_TEETH / TEETH:.4f}"]
+    assert hunting[0].rows[0][2:] == pytest.approx([0.0123, 0.0456])
+    whole = teeth().isel(hunting_order=slice(0, 0))
+    assert not any("hunting" in one.title for one in tooth_report(whole).tables)

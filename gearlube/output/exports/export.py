@@ -9,6 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from gearlube.output.exports.mat import write_dataset_mat
+from gearlube.output.exports.mdf4 import write_mdf4
 from gearlube.output.exports.source import Span, chosen, dataset_file, read_dataset, without_unit
 from gearlube.output.exports.tables import write_tables
 from gearlube.output.exports.uff58 import write_uff58
@@ -28,6 +29,7 @@ FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], list[Path]]]] = {
     "csv": ("_csv", write_tables),
     "mat": (".mat", _mat),
     "uff58": (".uff", write_uff58),
+    "mdf4": (".mf4", write_mdf4),
     "vtk": ("_vtk", write_vtk),
 }
 
@@ -48,24 +50,24 @@ def export_results(
     run : str or Path
         Folder of results with one NetCDF file, or a NetCDF file.
     to : str
-        csv, mat, uff58 or vtk.
+        csv, mat, uff58, mdf4 or vtk.
     out : str or Path, optional
-        File, with csv and vtk a folder. Default: the name of the dataset, in this folder.
+        File to write; with csv and vtk a folder. Default: the name of the dataset, in this folder.
     variables : iterable of str
-        Names; empty: all.
+        Names of variables; empty: all.
     spans : mapping
-        First and last value as text, both inside, by dimension or variable over one dimension,
-        {"time": ("2", "5")}; in the unit of the dataset.
+        First and last value as text, both included, for a dimension or a variable over one
+        dimension, {"time": ("2", "5")}; in the unit of the dataset.
     overwrite : bool
-        Write also where `out` is there.
+        True: write even if `out` exists.
 
     Raises
     ------
     ParameterError
-        An unknown format, variable or span, a dataset that the format cannot hold, or `out` is
-        there.
+        The format, a variable or a span is not known, the format cannot hold the dataset, or `out`
+        exists.
     FileError
-        No dataset, or a package is missing.
+        There is no dataset, or a package is missing.
 
     Examples
     --------
@@ -78,14 +80,14 @@ def export_results(
     file = dataset_file(Path(run))
     path = Path(f"{file.stem}{ending}") if out is None else Path(out)
     if path.exists() and not overwrite:
-        raise ParameterError(f"{path} is there already. Choose another --out, or --overwrite.")
+        raise ParameterError(f"{path} exists already. Choose another --out, or add --overwrite.")
     if path.exists() and path.is_dir() != ending.startswith("_"):
         wanted = "a folder" if ending.startswith("_") else "a file"
         raise ParameterError(f"--out must be {wanted} for {to}, got {path}. Choose another.")
     with read_dataset(file) as dataset:
         part = chosen(dataset, variables, spans)
         if unknown := without_unit(part):
-            logger.warning("No unit is stated for: %s", ", ".join(unknown))
+            logger.warning("These variables have no unit: %s", ", ".join(unknown))
         if not path.parent.is_dir():
             path.parent.mkdir(parents=True)
         return write(part, path)

@@ -14,6 +14,7 @@ from rich.box import SIMPLE
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.oil_option import oil_kelvin
@@ -92,6 +93,9 @@ def bearing(
     Writes bearing.nc, bearing.csv, report.html and figures. Conditions given here replace those of
     the file.
     """
+    if example:
+        print_example("gearlube_core.bearings.bearing_file:BearingFile", "wingertszahn_2023")
+        return
     from gearlube.cli.report_end import finish_with_report
     from gearlube.report.inputs import file_inputs
     from gearlube.studies.bearing.report import bearing_report
@@ -105,9 +109,6 @@ def bearing(
 
     began = time.monotonic()
     with exit_on_error():
-        if example:
-            typer.echo(BearingFile.shipped_text("wingertszahn_2023"), nl=False)
-            return
         given = BearingFile.given(file)
         lubricant = read_oil(given.oil if oil is None else oil).lubricant
         operation = given.operation

@@ -27,17 +27,17 @@ def run_bearing(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return friction torque and power loss of a bearing, each part for itself.
+    """Return friction torque and power loss of a bearing, in all and by part.
 
     Parameters
     ----------
     file : BearingFile
     settings : BearingSettings, optional
-        Conditions and laws; absent: those of the file.
+        Conditions and laws; default: those of the file.
     oil : Lubricant, optional
-        Absent: that of the file.
+        Oil; default: that of the file.
     folder : Path, optional
-        Gets bearing.nc, bearing.csv and figures/.
+        Folder for bearing.nc, bearing.csv and figures/.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
 
@@ -50,7 +50,7 @@ def run_bearing(
     Raises
     ------
     ParameterError
-        A condition beyond the range of bearing, law or oil; before anything is computed.
+        A condition is outside the range of bearing, law or oil; nothing is computed then.
 
     Examples
     --------

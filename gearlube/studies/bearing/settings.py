@@ -19,18 +19,18 @@ MOST_POINTS = 50_000  # conditions times laws
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BearingSettings:
-    """Speeds, loads and temperatures of a study, all combined, and its laws.
+    """Speeds, loads, temperatures and laws of a bearing study; all are combined.
 
     Parameters
     ----------
     speeds : tuple of float
-        Of the shaft [rad/s].
+        Speeds of the shaft [rad/s].
     axial_loads, radial_loads : tuple of float
-        Of the bearing [N].
+        Loads on the bearing [N].
     temperatures : tuple of float
-        Of the oil at the bearing [K].
+        Temperatures of the oil in the bearing [K].
     models : tuple of LossModel
-        The laws; the first is the one whose parts are drawn.
+        Friction laws; figures show the parts of the first one.
 
     Examples
     --------
@@ -51,12 +51,12 @@ class BearingSettings:
         for name in ("speeds", "axial_loads", "radial_loads", "temperatures", "models"):
             values = getattr(self, name)
             if not values:
-                raise ParameterError(f"{name} must hold at least one value, got none.")
+                raise ParameterError(f"{name} must have at least one value, got none.")
             if len(set(values)) < len(values):
-                raise ParameterError(f"{name} must hold each value once, got {values}.")
+                raise ParameterError(f"{name} must not have a value twice, got {values}.")
         laws = [model.law for model in self.models]
         if len(set(laws)) < len(laws):
-            raise ParameterError(f"models must hold each law once, got {', '.join(laws)}.")
+            raise ParameterError(f"models must not have a law twice, got {', '.join(laws)}.")
         check_within("the number of conditions times laws", self.points, 1, MOST_POINTS)
 
     @classmethod

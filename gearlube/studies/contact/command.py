@@ -12,6 +12,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
@@ -100,6 +101,9 @@ def contact(
     With --sensitivity: sensitivity.nc, sensitivity.csv and figures/sensitivity.png. Finished
     positions are kept in OUT: run the same command again to go on after a stop.
     """
+    if example:
+        print_example("gearlube_core.hypoid_geometry.gear_file:HypoidGearFile", "mohammadpour_2015")
+        return
     from gearlube.report.stored import PAGE
     from gearlube.studies.contact import run
     from gearlube.studies.contact.findings import findings
@@ -121,9 +125,6 @@ def contact(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
-        if example:
-            typer.echo(HypoidGearFile.shipped_text("mohammadpour_2015"), nl=False)
-            return
         file = HypoidGearFile.given(gear)
         usual = QUICK if quick else ContactSettings()
         cycle = replace(
@@ -157,7 +158,7 @@ def contact(
                 command_line=command_line(),
             )
             if export:
-                progress(1.0, "gears")
+                progress(1.0, "writing flanks and gears")
                 write_gears(file, out / "gears")
         kept = None
         if gear.endswith(".toml") and replace(cycle, torques=CycleSettings().torques) == (
@@ -186,11 +187,13 @@ def _sensitivity_settings(
 
     if torques and len(torques) > 1:
         raise ParameterError(
-            f"--sensitivity must have one torque, got {len(torques)}. Give one of them and run it "
-            "again in another --out for the next."
+            f"--sensitivity must have one torque, got {len(torques)}. Give one torque; run the "
+            "command again with another --out for the next one."
         )
     if export:
-        raise ParameterError("--export must stand without --sensitivity. Run them one by one.")
+        raise ParameterError(
+            "--export cannot be combined with --sensitivity. Run the command once with each."
+        )
     usual = SensitivitySettings()
     return SensitivitySettings(
         torque=torques[0] if torques else usual.torque,

@@ -45,21 +45,21 @@ def run_contact(
     progress: Progress = no_progress,
     command_line: str = "",
 ) -> ContactResults:
-    """Return the tooth contact of a gear file, unloaded and loaded.
+    """Return the tooth contact of a hypoid gear file, without and under load, and its mesh table.
 
     Parameters
     ----------
     file : HypoidGearFile
     settings : ContactSettings
     folder : Path, optional
-        Gets contact.nc, report.html, figures/ and the mesh table as NAME.nc. Finished positions
-        are kept there in `positions`: the same call goes on after a stop.
+        Folder for contact.nc, report.html, figures/ and the mesh table NAME.nc. Finished positions
+        are kept in its folder `positions`: after a stop the same call continues.
     jobs : int, optional
-        Processes; default: all processors.
+        Number of processes; default: all processors.
     progress : callable, optional
         Called with the share of positions that is done [-] and a sentence on what runs.
     command_line : str
-        Kept in the report.
+        Command that the report shows.
 
     Raises
     ------
@@ -68,7 +68,8 @@ def run_contact(
     ConvergenceError
         A position finds no equilibrium.
     TableError
-        More tooth pairs carry than a mesh table holds, at any torque. All else is written before.
+        At some torque more tooth pairs carry load than a mesh table can hold. All other results are
+        written before.
 
     Examples
     --------
@@ -81,7 +82,7 @@ def run_contact(
     store = None if folder is None else folder / POSITIONS
     dataset = analyse_contact(file, settings, store=store, jobs=jobs, progress=progress)
     if folder is not None:
-        progress(1.0, "figures")
+        progress(1.0, "writing report and figures")
         write_dataset(dataset, folder / "contact.nc")
         save_contact_figures(dataset, folder / "figures")
         write_contact_report(dataset, folder, command_line)

@@ -42,7 +42,7 @@ class SensitivityRow(NamedTuple):
 
 
 def sensitivity_rows(dataset: xr.Dataset) -> list[SensitivityRow]:
-    """Return the changes of all parameters, both sides of each after one another.
+    """Return the results of `run_sensitivity` as rows of a table, one for each parameter and flank.
 
     Parameters
     ----------
@@ -99,12 +99,12 @@ def run_sensitivity(
     ----------
     file : HypoidGearFile
     settings : SensitivitySettings, optional
-        Parameters, torque and positions; absent: all of them, 50 N.m, 8.
+        Parameters, torque and positions; default: all parameters, 50 N.m, 8 positions.
     folder : Path, optional
-        Gets sensitivity.nc, sensitivity.csv and figures/sensitivity.png. Finished positions are
-        kept there: the same call goes on after a stop.
+        Folder for sensitivity.nc, sensitivity.csv and figures/sensitivity.png. Finished positions
+        are kept there: after a stop the same call continues.
     jobs : int, optional
-        Processes; default: all processors.
+        Number of processes; default: all processors.
     progress : callable, optional
         Called with the share of positions that is done [-] and a sentence on what runs.
 

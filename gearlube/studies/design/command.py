@@ -11,8 +11,10 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
-from gearlube.cli.options import ExampleOption, OverwriteOption
+from gearlube.cli.next_command import run_next
+from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
@@ -24,9 +26,19 @@ logger = logging.getLogger("gearlube")
 
 
 def design(
+    context: typer.Context,
     blank: Annotated[
         str, typer.Argument(help="Blank file (TOML) or a shipped one.", metavar="BLANK")
     ] = "hypoid_13_42",
+    optimise: Annotated[
+        bool,
+        typer.Option(
+            "--optimise",
+            help="Then make the pair quieter: write OUT/problem.toml and run `gearlube optimise` "
+            "on it, some minutes, into OUT/optimised.",
+        ),
+    ] = False,
+    jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_design"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -34,26 +46,28 @@ def design(
     """Design a hypoid or bevel pair: from blank data and a wanted contact to machine settings.
 
     Writes the gear file (`gearlube contact` takes it), an axle file to complete, report.html,
-    design.nc and figures. Takes seconds.
+    design.nc and figures. Takes seconds. --optimise adds a quieter pair with a report of its own,
+    and takes minutes.
     """
+    if example:
+        print_example("gearlube_core.hypoid_design.blank_file:BlankFile", "hypoid_13_42")
+        return
     from gearlube.report.stored import PAGE
     from gearlube.studies.design import run
     from gearlube.studies.design.findings import findings
+    from gearlube.studies.design.problem import PROBLEM
     from gearlube.studies.design.summary import asked_and_found
     from gearlube_core.hypoid_design.blank_file import BlankFile
 
     began = time.monotonic()
     with exit_on_error():
-        if example:
-            typer.echo(BlankFile.shipped_text("hypoid_13_42"), nl=False)
-            return
         file = BlankFile.given(blank)
         with (
             results_folder(out, "design", overwrite=overwrite),
             progress_on(console, "design") as progress,
         ):
             results = run.run_design(
-                file, folder=out, progress=progress, command_line=command_line()
+                file, folder=out, jobs=jobs, progress=progress, command_line=command_line()
             )
         console.print(_table(file.name, asked_and_found(results.design)))
         gear = out / f"{results.design.file.name}.toml"
@@ -61,8 +75,14 @@ def design(
         logger.info("Results: %s, %s, %s", gear, out / "design.nc", out / "figures")
         tell_findings(findings(results.dataset), out / PAGE)
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
-        logger.info("Quieter: gearlube optimise hypoid --example, with gear = %s", gear)
         logger.info("Then: gearlube map %s, once you have completed it", out / "axle.toml")
+        if not optimise:
+            logger.info("Quieter: gearlube optimise %s", out / PROBLEM)
+            return
+    again = ["--overwrite"] if overwrite else []
+    workers = [] if jobs is None else ["--jobs", str(jobs)]
+    quiet = ["--out", str(out / "optimised")]
+    run_next(context, "optimise", [str(out / PROBLEM), *quiet, *workers, *again])
 
 
 def _table(name: str, rows: list[AskedAndFound]) -> Table:

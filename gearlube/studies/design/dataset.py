@@ -17,6 +17,7 @@ from gearlube_core.hypoid_contact.contact_dataset import (
     unloaded_contact,
 )
 from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_design.chosen_relief import LEAST
 from gearlube_core.hypoid_design.design import Design, misses
 from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
@@ -76,11 +77,13 @@ def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
         )
     data |= _asked_and_found(design)
     data |= _limits(forms)
+    data |= _relief(design)
     return xr.Dataset(
         data,
         coords={
             "side": list(SIDES),
             "member": list(forms),
+            "edge": list(LEAST),
             "face": forms["gear"].t,
             "path_phase": PATH_PHASES,
             "mesh_phase": np.arange(_FINER * _PERIOD) / (_FINER * _PERIOD),
@@ -92,6 +95,7 @@ def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
             "gear_file": design.file.model_dump_json(exclude_none=True),
             "method": design.designed.file.design_method,
             "cut": design.designed.file.machine.gear,
+            "relief_torque": design.relief.torque,
             "warnings": json.dumps(design_warnings(design, forms)),
             "inputs": json.dumps(_noted(design_inputs(design))),
             "blank": json.dumps(_noted(design.designed.results())),
@@ -147,6 +151,23 @@ def _limits(forms: dict[str, ToothForm]) -> dict[str, Any]:
             ("member",),
             [form.normal_module for form in forms.values()],
             {"units": "m", "long_name": "mean normal module"},
+        ),
+    }
+
+
+def _relief(design: Design) -> dict[str, Any]:
+    """Return the relief of both sides, and the pressure with it."""
+    relief = design.relief
+    return {
+        "relief": (
+            ("side", "edge"),
+            [[1e-6 * relief.amounts[side][edge] for edge in LEAST] for side in SIDES],
+            {"units": "m", "long_name": "removed at the edge"},
+        ),
+        "relief_pressure": (
+            ("side",),
+            [relief.pressure[side] for side in SIDES],
+            {"units": "Pa", "long_name": "highest pressure at the torque of the relief"},
         ),
     }
 

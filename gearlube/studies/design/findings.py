@@ -35,6 +35,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     said = json.loads(dataset.attrs["warnings"])
     return [
         *(_contact(dataset.sel(side=side), side) for side in SIDES),
+        *_relief(dataset, sound=not any("flanks carry" in one for one in said["contact"])),
         *_sentences(said["contact"]),
         *_sentences([*said["teeth"], *said["blank"], *said["pair"]]),
         *_teeth(dataset, sound=not said["teeth"]),
@@ -64,7 +65,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
         return Finding(WARNING, f"{name}: no parabolic transmission error was found.")
     told = [
         f"{words} {number_text(float(part[f'found_{key}']) / scale)} {unit} "
-        f"({number_text(float(part[f'asked_{key}']) / scale)} asked)"
+        f"({number_text(float(part[f'asked_{key}']) / scale)} wanted)"
         for key, words, scale, unit in (
             ("error", "transmission error", _MICRO, "µrad"),
             ("path_angle", "path at", DEGREE, "°"),
@@ -73,7 +74,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
     ]
     centre = quantity_text(float(part["missed_centre"]) / MILLIMETRE, "mm", 2)
     missed = missed_targets(part, side)
-    verdict = f"missed: {', '.join(missed)}" if missed else "as asked"
+    verdict = f"missed: {', '.join(missed)}" if missed else "as wanted"
     relieved = float(part["relieved_error"]) / _MICRO
     relief = (
         "no extreme" if math.isnan(relieved) else f"an error of {quantity_text(relieved, 'µrad')}"
@@ -83,6 +84,31 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
         f"{name}, {verdict}: {', '.join(told)}, mean contact {centre} off.",
         f"Flanks as cut, without load. With relief there is {relief}.",
     )
+
+
+def _relief(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
+    """Say the pressure at the torque of the relief; nothing where it is not known."""
+    pressure = 1e-9 * dataset["relief_pressure"]
+    if bool(np.isnan(pressure).any()):
+        return []
+    torque = float(dataset.attrs["relief_torque"])
+    told = " and ".join(f"{float(pressure.sel(side=side)):.2f} GPa ({side})" for side in SIDES)
+    amounts = "; ".join(
+        f"{side}: "
+        + ", ".join(
+            f"{edge} {1e6 * float(dataset['relief'].sel(side=side, edge=edge)):.0f} µm"
+            for edge in dataset["edge"].values
+        )
+        for side in SIDES
+    )
+    return [
+        Finding(
+            GOOD if sound else NOTE,
+            f"At {torque:g} N·m of the pinion the highest pressure is {told}"
+            f"{', and no edge carries' if sound else ''}.",
+            f"Relief, {amounts}. Give relief.torque_n_m to choose it for another torque.",
+        )
+    ]
 
 
 def _sentences(said: list[str]) -> list[Finding]:
@@ -113,7 +139,7 @@ def _teeth(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     return [
         Finding(
             GOOD if sound else NOTE,
-            f"The least toplands are {told}{words}.",
+            f"The smallest toplands are {told}{words}.",
             f"Blade points may be as wide as the slot at its narrowest: {points}.",
         )
     ]
@@ -158,6 +184,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
             Number(f"transmission error as cut, {side}", error, "µrad"),
             Number(f"contact ellipse, {side}", length, "mm"),
             Number(f"path of contact, {side}", ratio, "pitches"),
+            Number(f"highest pressure, {side}", 1e-9 * float(part["relief_pressure"]), "GPa"),
         ]
     for member in dataset["member"].values:
         part = dataset.sel(member=member)

@@ -20,7 +20,8 @@ PATH_LIMIT = 2.0 * DEGREE
 CENTRE_LIMIT = 0.5 * MILLIMETRE
 LENGTH_LIMIT = 0.25
 _MICRO = 1e-6
-_PATH = "44 deg from across the lines of contact; 30 or 15 where that fails"
+_TORQUE = "0.2 N/mm2 times the cube of the gear's outer diameter, on the gear"
+_PATH = "44 deg from the normal of the lines of contact; 30 or 15 if that fails"
 
 
 class AskedAndFound(NamedTuple):
@@ -68,7 +69,7 @@ def unmet_targets(design: Design) -> list[str]:
         across = MeanContact.at(pair, target.s, target.t).path_angle(0.0) / DEGREE
         cure = (
             f"Relax: a larger contact.{side}_error_urad, a longer contact.ellipse_length_mm, or "
-            f"contact.{side}_path_angle_deg nearer to {across:.0f} deg, across the lines of "
+            f"contact.{side}_path_angle_deg nearer to {across:.0f} deg, the normal of the lines of "
             "contact."
         )
         denied = design.designed.file.machine.denied
@@ -85,26 +86,24 @@ def unmet_targets(design: Design) -> list[str]:
         if abs(error) > ERROR_LIMIT[side]:
             said.append(
                 f"The transmission error of the {side} flanks came to {found.error / _MICRO:.0f} "
-                f"urad, asked {target.error / _MICRO:.0f} urad. {cure}"
+                f"urad, wanted {target.error / _MICRO:.0f} urad. {cure}"
             )
         if abs(turned) > PATH_LIMIT:
             said.append(
-                f"The path of contact of the {side} flanks came to "
-                f"{found.path_angle / DEGREE:.1f} deg, asked {target.path_angle / DEGREE:.1f} deg. "
-                f"{cure}"
+                f"The path of contact of the {side} flanks came to {found.path_angle / DEGREE:.1f} "
+                f"deg, wanted {target.path_angle / DEGREE:.1f} deg. {cure}"
             )
         if centre > CENTRE_LIMIT:
             said.append(
                 f"The mean contact of the {side} flanks came within {centre / MILLIMETRE:.2f} mm "
-                f"of the place asked for. {cure}"
+                f"of the wanted place. {cure}"
             )
         if abs(length) > LENGTH_LIMIT:
             if found.length < target.length:
                 cure = cure.replace("a longer contact.ellipse", "a shorter contact.ellipse")
             said.append(
-                f"The contact ellipse of the {side} flanks came to "
-                f"{found.length / MILLIMETRE:.1f} mm, asked {target.length / MILLIMETRE:.1f} mm. "
-                f"{cure}"
+                f"The contact ellipse of the {side} flanks came to {found.length / MILLIMETRE:.1f} "
+                f"mm, wanted {target.length / MILLIMETRE:.1f} mm. {cure}"
             )
     return said
 
@@ -119,7 +118,7 @@ def design_warnings(design: Design, forms: dict[str, ToothForm]) -> dict[str, li
         for one in pair_warnings(design.file)
         if not any(one.startswith(reason) for reason in said)
     ]
-    contact = unmet_targets(design)
+    contact = unmet_targets(design) + design.relief.warnings()
     return {"blank": list(design.warnings), "contact": contact, "pair": pair, "teeth": teeth}
 
 
@@ -136,7 +135,22 @@ def design_inputs(design: Design) -> list[InputNote]:
     ):
         if f"contact.{key}" not in named:
             notes.append(InputNote(f"contact.{key}", value, unit, "assumed", why))
-    return notes
+    return notes + _relief_notes(design, named)
+
+
+def _relief_notes(design: Design, named: set[str]) -> list[InputNote]:
+    chosen = design.relief
+    found = [InputNote("relief.torque_n_m", chosen.torque, "N.m", "assumed", _TORQUE)]
+    why = f"no edge carries at {chosen.torque:g} N.m"
+    for key, edges in (
+        ("tip_relief_um", ("pinion tip", "gear tip")),
+        ("end_relief_um", ("ends",)),
+    ):
+        amounts = [chosen.amounts[side][edge] for side in SIDES for edge in edges]
+        low, high = min(amounts), max(amounts)
+        text = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+        found.append(InputNote(f"relief.{key}", text, "um", "assumed", why))
+    return [one for one in found if one.field not in named]
 
 
 def design_settings(design: Design) -> list[tuple[str, str, str]]:

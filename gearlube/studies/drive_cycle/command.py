@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.results_folder import results_folder
@@ -85,7 +86,9 @@ def drive_cycle(
 
     Writes drive_cycle.nc, drive_cycle.csv, summary.csv, report.html and a figure.
     """
-    from drivetrain.axle_file.axle_file import AxleFile
+    if example:
+        print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
+        return
     from drivetrain.axle_file.read_axle import read_axle
     from drivetrain.sump_heat import SumpHeat
     from gearlube.cli.axle_gears import bring_gears_up_to_date
@@ -101,9 +104,6 @@ def drive_cycle(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
-        if example:
-            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
-            return
         bring_gears_up_to_date(axle)
         settings = DriveCycleSettings(
             car=read_axle(axle),

@@ -37,7 +37,8 @@ def run_cycle(
     settings
         Car, cycle, temperatures, brakes, heat.
     folder
-        Where drive_cycle.nc, drive_cycle.csv, summary.csv and figures are written; None: nowhere.
+        Folder for drive_cycle.nc, drive_cycle.csv, summary.csv and figures; None: nothing is
+        written.
     progress
         Called with the share that is done and a sentence.
 
@@ -46,17 +47,17 @@ def run_cycle(
     xr.Dataset
         Over the steps of the trace torques, speeds and `loss` by source [W]; at its rows
         `oil_temperature` [degC]; `energy_in`, `energy_lost` by source [kJ], `efficiency`, and the
-        bounds of 95 % of the draws.
+        bounds of 95 % of the samples.
 
     Raises
     ------
     ParameterError
-        Torque or temperature is out of range; torque before anything has been computed.
+        Torque or temperature is out of range; for torque before anything has been computed.
 
     Notes
     -----
-    Each step loses what the axle loses in steady running at the torque, speed and oil temperature
-    of its middle. Standing still loses nothing.
+    The loss in each step is that of steady running at the torque, speed and oil temperature in the
+    middle of the step. At standstill nothing is lost.
 
     Examples
     --------
@@ -95,7 +96,7 @@ def run_cycle(
         spread = cycle_spread(settings, demand, losses, bars)
     dataset = cycle_dataset(settings, demand, losses, warming, others, spread)
     if folder is not None:
-        progress(1.0, "files and figures")
+        progress(1.0, "writing files and figures")
         folder.mkdir(parents=True, exist_ok=True)
         write_dataset(dataset, folder / "drive_cycle.nc")
         write_text(csv_text(*series_rows(dataset)), folder / "drive_cycle.csv")
@@ -118,6 +119,6 @@ def _check_oil(settings: DriveCycleSettings, temperature: np.ndarray) -> None:
     if beyond.size:
         raise ParameterError(
             f"The oil temperature must be at most {oil.temperature_high:g} K, the end of the data "
-            f"of {oil.name}; it is above from {settings.cycle.time[beyond[0]]:g} s on, up to "
+            f"of {oil.name}; it is above this from {settings.cycle.time[beyond[0]]:g} s on, up to "
             f"{temperature.max():.4g} K. Take larger conductances or a larger heat capacity."
         )

@@ -16,14 +16,14 @@ COAST_TORQUE = 30.0  # N.m at the pinion; assumed, 0 to 60 for a car of 1.3 t
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LossGrid:
-    """Points of the map of losses that the cycle is read from.
+    """Grid of the loss map that a drive cycle is computed from.
 
     Parameters
     ----------
     torques, speeds : int
-        Numbers of pinion torques, denser near zero, and of speeds, in a geometric series.
+        Number of pinion torques, denser near zero, and of speeds, in a geometric series.
     temperature_step : float
-        Of the oil [K].
+        Step of the oil temperature [K].
 
     Examples
     --------
@@ -52,7 +52,7 @@ class LossGrid:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveCycleSettings:
-    """A car over a drive cycle.
+    """Car, cycle and conditions of a drive-cycle study, for `run_cycle`.
 
     Parameters
     ----------
@@ -60,19 +60,20 @@ class DriveCycleSettings:
         Axle and vehicle of an axle file, see `read_axle`.
     cycle : DriveCycle
     start_temperature, air_temperature : float
-        Of oil and housing at the start, and of the air [K]. Default: 23 degC.
+        Temperature of oil and housing at the start, and of the air [K]. Default: 23 degC.
     regeneration : float
-        Share of the braking beyond coast torque that goes through the axle, 0 to 1. The rest is
-        the friction brakes'.
+        Share of the braking beyond coast torque that goes through the axle, 0 to 1. The friction
+        brakes take the rest.
     coast_torque : float
         Drag of engine and gearbox with closed throttle, at the pinion [N.m]; assumed.
     heat : SumpHeat
     grid : LossGrid
     draws : int
-        Samples of the uncertain data, 0 to 10000; 0: no error bars but those of the heat data.
+        Number of samples of the uncertain data, 0 to 10000; 0: error bars of the heat data only.
     seed : int
+        Seed of the random numbers.
     calibrated_bearings : bool
-        f0 and f1 of Palmgren's law are from measured torques of these bearings.
+        True: f0 and f1 of Palmgren's law are from measured torques of these bearings.
 
     Examples
     --------

@@ -25,21 +25,24 @@ _STEEPEST = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveCycle:
-    """Speed over time of a vehicle, or speed and torque of its pinion.
+    """A drive cycle: vehicle speed over time, or pinion speed and torque as measured.
 
-    Between two rows all quantities are straight lines.
+    All quantities are linear between two rows.
 
     Parameters
     ----------
     name : str
     time : ndarray of shape (n,)
-        Rising [s]. No step is longer than 5 s or, above 2 s, than ten usual steps.
+        Times [s], rising. No step is longer than 5 s, or longer than ten usual steps if it is above
+        2 s.
     speed : ndarray of shape (n,), optional
-        Of the vehicle, 0 to 90 [m/s]. It gains at most 8 and loses at most 12 m/s2.
+        Vehicle speed, 0 to 90 [m/s]. It rises by at most 8 m/s2 and falls by at most 12 m/s2.
     grade : ndarray of shape (n,), optional
-        Rise over horizontal distance [-], -0.5 to 0.5. Default: that of the vehicle.
+        Slope of the road, rise over horizontal distance [-], -0.5 to 0.5. Default: that of the
+        vehicle.
     pinion_speed, pinion_torque : ndarray of shape (n,), optional
-        As measured, in the place of speed and grade [rad/s], [N.m]; torque below 0: coast.
+        Measured pinion speed and torque, instead of speed and grade [rad/s], [N.m]; torque below 0:
+        coast.
 
     Raises
     ------
@@ -70,8 +73,8 @@ class DriveCycle:
             )
         if measured and self.grade is not None:
             raise ParameterError(
-                f"{self.name} has a measured torque, got a grade as well, which that torque "
-                "holds already. Remove the grade."
+                f"{self.name} has a measured torque, which includes the effect of the grade, but "
+                "got a grade too. Remove the grade."
             )
         for name in ("time", *self._given(), "grade"):
             values = getattr(self, name)
@@ -137,10 +140,9 @@ class DriveCycle:
         if np.any(bad):
             row = int(np.argmax(bad)) + 1
             raise ParameterError(
-                f"The acceleration of {self.name} must be within {-HARDEST[1]:g} to "
-                f"{HARDEST[0]:g} m/s2, which is what tyres hold; got {gained[row - 1]:.3g} m/s2 "
-                f"before row {row + 1}. Smooth the speed if it is noise. {kmh} Times are in "
-                "seconds."
+                f"The acceleration of {self.name} must be within {-HARDEST[1]:g} to {HARDEST[0]:g} "
+                f"m/s2, the most that tyres can transmit; got {gained[row - 1]:.3g} m/s2 before "
+                f"row {row + 1}. Smooth the speed if it is noise. {kmh} Times are in seconds."
             )
 
     def _within(self, name: str, low: float, high: float, unit: str, cure: str) -> None:

@@ -18,17 +18,17 @@ def compare_marches(
     film_exponent: float = 0.0,
     folder: Path | None = None,
 ) -> xr.Dataset:
-    """Return largest pressures and smallest films of several marches over their steps.
+    """Return largest pressures and smallest films of several marches, to compare them by step.
 
     Parameters
     ----------
     marches
-        By the names that the figure shows: folders of `run_helical_march`, or its datasets.
+        Folders of `run_helical_march`, or its datasets, by the names that the figure shows.
     film_exponent
-        Films are divided by the pinion speed, over that of the first march, to this power,
-        -5 to 5 [-].
+        Films are divided by (pinion speed / pinion speed of the first march) to this power, -5 to
+        5 [-].
     folder
-        Where compare.png is written; None: nothing is written.
+        Folder for compare.png; None: nothing is written.
 
     Returns
     -------

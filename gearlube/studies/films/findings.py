@@ -11,6 +11,7 @@ import xarray as xr
 
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.studies.films.film_ratios import RATIO_FILMS, film_ratio_finding, film_ratios
 from gearlube_core.ehl.grid_error import LARGE_ERROR
 
 STEADY = ("line", "point", "helical")  # contacts with one film
@@ -41,10 +42,13 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     """
     found = [_converged(dataset), *_grid(largest_errors(dataset))]
     if dataset.attrs["contact"] in STEADY:
-        return found + _steady(dataset)
-    if dataset.attrs["contact"] == "hypoid":
-        return found + _hypoid(dataset)
-    return found + _march(dataset)
+        of_films = _steady(dataset)
+    elif dataset.attrs["contact"] == "hypoid":
+        of_films = _hypoid(dataset)
+    else:
+        of_films = _march(dataset)
+    smallest, *others = of_films
+    return [*found, smallest, film_ratio_finding(dataset), *others]
 
 
 def _converged(dataset: xr.Dataset) -> Finding:
@@ -124,13 +128,13 @@ def _steady(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             NOTE,
             f"The largest pressure is {quantity_text(1e-9 * of['pressure_max'], 'GPa')}.",
-            f"{100.0 * hertz:+.1f} % against Hertz {dry}.",
+            f"{100.0 * hertz:+.1f} % relative to Hertz {dry}.",
         ),
     ]
     friction = abs(of["friction_coefficient"])
     if friction > 0.0:
         power = of.get("sliding_power", math.nan)
-        lost = f"{quantity_text(power, 'W')} are lost to sliding. " if power > 0.0 else ""
+        lost = f"{quantity_text(power, 'W')} are lost by sliding. " if power > 0.0 else ""
         warm = "With" if math.isfinite(of.get("temperature_max", math.nan)) else "Without"
         found.append(
             Finding(
@@ -223,7 +227,7 @@ def _hypoid(dataset: xr.Dataset) -> list[Finding]:
             _asperities(dataset),
         ),
     ]
-    return found + _compared(mean_ratios(dataset), "is on the mean")
+    return found + _compared(mean_ratios(dataset), "is on average")
 
 
 def _asperities(dataset: xr.Dataset) -> str:
@@ -243,6 +247,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
             Number("smallest film", 1e6 * of["minimum_film"], "µm"),
             Number("central film", 1e6 * of["central_film"], "µm"),
             Number("largest pressure", 1e-9 * of["pressure_max"], "GPa"),
+            *_ratio_numbers(dataset),
             Number("coefficient of friction", abs(of["friction_coefficient"])),
             Number("largest estimated error", worst, "%", 2),
             Number("first formula over central film", ratios.get("central film", math.nan)),
@@ -250,6 +255,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
     prefix = "steady_" if of["contact"] == "hypoid" else ""
     found = [
         Number("smallest film", 1e6 * float(dataset[f"{prefix}minimum_film"].min()), "µm"),
+        *_ratio_numbers(dataset),
         Number("largest pressure", 1e-9 * float(dataset[f"{prefix}pressure_max"].max()), "GPa"),
         Number("largest estimated error", worst, "%", 2),
         Number("films not converged", int(of["failures"])),
@@ -260,3 +266,9 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
             *(Number(f"{one.source} over central film", one.ratio) for one in mean_ratios(dataset)),
         ]
     return found
+
+
+def _ratio_numbers(dataset: xr.Dataset) -> list[Number]:
+    ratios = film_ratios(dataset)
+    names = ("smallest film",) if dataset.attrs["contact"] == "helical_cycle" else RATIO_FILMS
+    return [Number(f"film ratio λ, {one}", ratios.get(one, math.nan), "", 2) for one in names]

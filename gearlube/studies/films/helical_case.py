@@ -27,29 +27,32 @@ _STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: [jamali_2015 sec. 4.4]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HelicalLineCase:
-    """A contact line at one position of its cycle, for a steady film.
+    """Case of one contact line of a helical pair at one position, for `run_helical_line`.
 
     Parameters
     ----------
     file : HelicalGearFile
     torque, pinion_speed
-        [N m], [rad/s]; None: those of the file.
+        Torque on the pinion [N m], its speed [rad/s]; None: those of the file.
     step
-        Of the meshing cycle, need not be whole; None: see `position`.
+        Step of the meshing cycle, not necessarily whole; None: see `position`.
     position
-        s_i of the line [m]; None with `step` None: where the line carries most.
+        s_i of the line [m]; None, with `step` None too: where the line carries the largest load.
     oil
-        Of the library; None: that of the file.
+        Name of an oil of the library; None: the oil of the file.
     oil_temperature
-        Of an oil of the library [K].
+        Temperature of an oil of the library [K].
     newtonian
         True: leave the Eyring stress out.
     convention
-        Of the load, "normal" or "thesis".
+        Meaning of the load, "normal" or "thesis".
     nodes
-        Across the line and along it; None, also for one of them: those of the file.
+        Numbers of nodes across the line and along it; None, also for one of them: those of the
+        file.
     spacing
-        Of the nodes across the line, "uniform" or "exit"; None: that of the file.
+        Spacing of the nodes across the line, "uniform" or "exit"; None: that of the file.
+    roughness_um
+        Composite rms roughness of both flanks [um], for the film ratio; None: not known.
 
     Raises
     ------
@@ -75,6 +78,7 @@ class HelicalLineCase:
     convention: str = "normal"
     nodes: tuple[int | None, int | None] = (None, None)
     spacing: str | None = None
+    roughness_um: float | None = None
 
     @property
     def mesh(self) -> tuple[tuple[int, int], str]:
@@ -94,6 +98,8 @@ class HelicalLineCase:
         for name, count in (("across", across), ("along", along)):
             check_within(f"nodes {name} the line", count, 17, 2049)
         check_option("spacing", spacing, tuple(GRADINGS))
+        if self.roughness_um is not None:
+            check_within("roughness_um", self.roughness_um, 1e-3, 20.0, "um")
         return HelicalFilm(
             modified=modified,
             steps=meshing_steps(modified, _STEP, _SMALLEST_SHARE)

@@ -13,6 +13,7 @@ from gearlube.report.parts import Cell, Column, Input, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.films.figures.catalogue import CATALOGUES, drawn_figures
 from gearlube.studies.films.figures.charts import main_charts
+from gearlube.studies.films.film_ratios import ROUGHNESS
 from gearlube.studies.films.findings import STEADY, findings, numbers
 from gearlube.studies.films.hypoid.summary import ratio_rows
 from gearlube.studies.films.summary import SOLUTION, summary_rows
@@ -26,8 +27,8 @@ _KINDS = {
 }
 _LIMITS = (
     "The bodies are elastic half-spaces; the oil is that of the case, without history.",
-    "The film fills its inlet: starvation is in it only where the case has it.",
-    "Where the film is thinner than the roughness, asperities carry load that is not in it.",
+    "The inlet is full of oil; starvation is included only if the case has it.",
+    "Where the film is thinner than the roughness, asperities carry load; this is not included.",
 )
 _UNITS = {
     "m": (1e6, "µm"), "Pa": (1e-9, "GPa"), "N/m": (1e-3, "N/mm"), "1": (1.0, ""),
@@ -50,6 +51,7 @@ _INPUTS = {
     "sliding_x": ("sliding along x", 1.0, "m/s"),
     "sliding_y": ("sliding along y", 1.0, "m/s"),
     "step": ("step of the meshing cycle", 1.0, ""),
+    ROUGHNESS: ("composite rms roughness", 1e6, "µm"),
     "eyring_stress": ("Eyring stress", 1e-6, "MPa"),
     "nodes_minor": ("nodes along the minor axis", 1.0, ""),
     "nodes_major": ("nodes along the major axis", 1.0, ""),
@@ -110,6 +112,8 @@ def film_inputs(dataset: xr.Dataset) -> list[Input]:
         if math.isfinite(float(of.get(key, math.nan))):
             found.append(Input("oil temperature", f"{float(of[key]) - 273.15:.4g}", "°C"))
     found += [Input(name, str(of[key])) for key, name in _WORDS.items() if key in of]
+    if ROUGHNESS not in of:
+        found.append(Input("composite rms roughness", "not given"))
     if of["contact"] in STEADY:
         sizes = " x ".join(str(dataset.sizes[one]) for one in ("x", "y") if one in dataset.sizes)
         found.append(Input("nodes of the finest grid", sizes))

@@ -30,23 +30,24 @@ def run_hypoid(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the films of a hypoid tooth pair through its engagement, beside the formulas.
+    """Return the films of a hypoid tooth pair from entry to exit, together with film formulas.
 
     Parameters
     ----------
     case
         Axle, operation, oil and grid.
     march
-        Also films in time, with squeeze; else steady films only. A thermal case has none.
+        True: films in time too, with squeeze; False: steady films only. It must be False for a
+        thermal case.
     kept
-        Steady films that are kept whole.
+        Number of steady films that are kept whole.
     record_every
-        Time steps from one record of the march to the next.
+        Number of time steps between two records of the march.
     folder
-        Where hypoid.nc, summary.csv, figures and records of the march are written. A march goes
-        on from its record in `folder` if there is one. None: nothing is written.
+        Folder for hypoid.nc, summary.csv, figures and records of the march. If there is a record,
+        the march continues from it. None: nothing is written.
     progress
-        Called with the share done and what is done now.
+        Called with the share done and a sentence on what runs.
 
     Returns
     -------
@@ -56,7 +57,7 @@ def run_hypoid(
     Raises
     ------
     ParameterError
-        Something is out of range, the pair carries no load, or a thermal case shall march.
+        Something is out of range, the pair carries no load, or a march is asked of a thermal case.
 
     Examples
     --------
@@ -66,7 +67,7 @@ def run_hypoid(
     if thermal and march:
         raise ParameterError(
             "temperature must be isothermal for a march, got thermal: transient thermal films are "
-            "not implemented. Leave the march out (--no-march)."
+            "not implemented. Add --no-march."
         )
     flank = hypoid_flank(case)
     _warn_of_separation(flank)
@@ -124,4 +125,6 @@ def run_hypoid(
 
 def _warn_of_separation(flank: HypoidFlank) -> None:
     if flank.case.load == "dynamic" and not np.isfinite(flank.drive.axle_film).all():
-        logger.warning("The axle gives no film at some samples: its teeth separate there.")
+        logger.warning(
+            "The axle model gives no film at some samples, because its teeth separate there."
+        )

@@ -17,7 +17,7 @@ from gearlube.studies.films.datasets.helical_cycle import (
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished, step_file, write_film_results
-from gearlube.studies.films.run_steady import warn_of_ends, warn_of_grid
+from gearlube.studies.films.run_steady import note_roughness, warn_of_ends, warn_of_grid
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
@@ -33,17 +33,17 @@ MOST_STEPS = 100_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarchSteps:
-    """Steps of the meshing cycle that a march covers.
+    """Steps of the meshing cycle that `run_helical_march` covers, and what it keeps of them.
 
     Parameters
     ----------
     first, last
         First and last step; `last` None: that of the cycle. The film is steady at the first.
     snapshots
-        Steps whose whole film is written, beside that of the line at rest there. They need a
-        folder.
+        Steps whose whole film is written, together with the steady film of the same line. They need
+        a folder.
     record_every
-        Steps from one record of the march to the next. A stopped march goes on from its last
+        Number of steps between two records of the march. A stopped march continues from its last
         record.
 
     Examples
@@ -82,19 +82,19 @@ def run_helical_march(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the film of a contact line over the steps of its meshing cycle, with squeeze.
+    """Return the film of a helical pair's contact line through its meshing cycle, with squeeze.
 
     Parameters
     ----------
     case
-        Gear pair, operation, oil and grid; its `step` and `position` have no meaning here.
+        Gear pair, operation, oil and grid; its `step` and `position` are not used.
     steps
-        Of the march; the whole cycle if left out.
+        Steps of the march; default: the whole cycle.
     folder
-        Where cycle.nc, figures, snapshots and records of the march are written. A march goes on
-        from its record in `folder` if there is one. None: nothing is written.
+        Folder for cycle.nc, figures, snapshots and records of the march. If there is a record, the
+        march continues from it. None: nothing is written.
     progress
-        Called with the share done and what is done now.
+        Called with the share done and a sentence on what runs.
 
     Returns
     -------
@@ -122,7 +122,9 @@ def run_helical_march(
     for step in steps.snapshots:
         check_within("snapshots", step, first, last, "", "Name steps of the march.")
     if steps.snapshots and folder is None:
-        raise ParameterError("snapshots need a folder to write them to, got None. Give a folder.")
+        raise ParameterError(
+            "snapshots need a folder in which they are written, got none. Give a folder."
+        )
     warn_of_ends(film)
     key = march_key(film, first)
     begin(folder, progress, "steady film at the first step")
@@ -157,12 +159,13 @@ def run_helical_march(
     start = solve_helical_line(film, float(first), MARCH_SETTINGS, throw=False)
     steady: dict[int, FilmSolution] = {}
     for done, step in enumerate(steps.snapshots, last - first):
-        report(done, f"step {step} at rest")
+        report(done, f"steady film at step {step}")
         steady[step] = solve_helical_line(film, float(step), MARCH_SETTINGS, throw=False)
         if folder is not None:
             _finish_snapshot(folder, step, key, steady[step])
     curves = cycle_dataset(film, cycle, lines, start=start, repeated=steps.repeat, **names)
     dataset = with_steady_points(curves, steady)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress, films / (films + 1))
 
@@ -173,8 +176,8 @@ def _finish_snapshot(folder: Path, step: int, key: str, steady: FilmSolution) ->
     stored = xr.load_dataset(path, engine="scipy") if path.exists() else None
     if stored is None or stored.attrs.get("march") != key:
         logger.warning(
-            "The march passed step %d before its film was asked for. For %s, march into another "
-            "folder.", step, path.name,
+            "The march has already passed step %d, so its film cannot be kept. For %s, run it "
+            "with another folder.", step, path.name,
         )  # fmt: skip
         return
     write_film_results(with_steady_film(stored, steady), folder)

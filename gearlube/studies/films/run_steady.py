@@ -11,6 +11,7 @@ import xarray as xr
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.datasets.line import line_dataset
 from gearlube.studies.films.datasets.point import point_dataset
+from gearlube.studies.films.film_ratios import ROUGHNESS
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
@@ -40,20 +41,20 @@ def run_line(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the film of a line contact; the case chooses isothermal or thermal.
+    """Return the film of a line contact, isothermal or thermal as the case says.
 
     Parameters
     ----------
     case
-        `LineCase.named` of a shipped case, `LineCase.from_toml` of a file or
-        `LineCase.from_data` of numbers.
+        `LineCase.named` for a shipped case, `LineCase.from_toml` for a file or
+        `LineCase.from_data` for numbers.
     film_error
-        Relative error of the films that is wanted [-]: the spacing is halved until the estimate
-        is below it. None: the grid of the case.
+        Wanted relative error of the films [-]: the spacing is halved until the estimate is below
+        it. None: the grid of the case.
     folder
-        Where line.nc, summary.csv and figures are written; None: nothing is written.
+        Folder for line.nc, summary.csv and figures; None: nothing is written.
     progress
-        Called with the share done and what is done now.
+        Called with the share done and a sentence on what runs.
 
     Returns
     -------
@@ -78,6 +79,7 @@ def run_line(
     )
     seconds = time.monotonic() - began
     dataset = line_dataset(solution, name=case.name, source=case.source, seconds=seconds)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress)
 
@@ -89,7 +91,7 @@ def run_point(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the film of a point contact; the case chooses isothermal or thermal.
+    """Return the film of a point contact, isothermal or thermal as the case says.
 
     Parameters
     ----------
@@ -117,6 +119,7 @@ def run_point(
         else solve_point_contact(problem, settings, film_error=film_error, throw=False)
     )
     dataset = point_dataset(solution, sliding=case.sliding, name=case.name, source=case.source)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress)
 
@@ -162,15 +165,23 @@ def run_helical_line(
     # the settings of a march, so that both give one film where nothing moves
     solution = solve_helical_line(film, step, MARCH_SETTINGS, film_error=film_error, throw=False)
     dataset = helical_dataset(film, step, solution, name=case.file.name, source=case.file.source)
+    note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress)
+
+
+def note_roughness(dataset: xr.Dataset, roughness_um: float | None) -> None:
+    """Keep the composite rms roughness with the film, in m, where it was given."""
+    if roughness_um is not None:
+        dataset.attrs[ROUGHNESS] = 1e-6 * roughness_um
 
 
 def warn_of_ends(film: HelicalFilm) -> None:
     """Warn where lines end at the full face width."""
     if film.modified.pinion.crown is None and film.modified.gear.crown is None:
         logger.warning(
-            "Neither flank is crowned: the line ends abruptly, where the film may not converge."
+            "Neither flank is crowned, so the contact line ends abruptly. The film may not "
+            "converge there."
         )
 
 
@@ -180,7 +191,7 @@ def warn_of_grid(dataset: xr.Dataset) -> None:
     large = {name: error for name, error in largest.items() if error > LARGE_ERROR}
     if large:
         logger.warning(
-            "The grid makes an estimated error of %s. Take more nodes, or ask for an error of the "
+            "The estimated error by the grid is %s. Take more nodes, or ask for an error of the "
             "films (film_error, --film-error).",
             ", ".join(f"{100.0 * error:.2g} % of the {name}" for name, error in large.items()),
         )
@@ -189,6 +200,6 @@ def warn_of_grid(dataset: xr.Dataset) -> None:
 def _warn_of_heights(case: LineCase | PointCase) -> None:
     if case.heights_travel:
         logger.warning(
-            "The heights are held at rest while both surfaces move. Those that do not lie along "
-            "the motion would travel through the contact and squeeze its film."
+            "The heights do not move, but both surfaces do. Heights that vary along the motion "
+            "would in fact travel through the contact and squeeze the film."
         )

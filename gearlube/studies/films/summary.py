@@ -8,6 +8,7 @@ from typing import NamedTuple
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.studies.films.film_ratios import film_ratios
 
 SOLUTION = "solution"
 _ERRORS = {
@@ -38,6 +39,9 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
     for name in ("central film", "minimum film"):
         value = of[name.replace(" ", "_")]
         rows += _compared(name, value, "m", _formulas(dataset, name, basis))
+    rows += [
+        _own(f"film ratio λ, {name}", value, "1") for name, value in film_ratios(dataset).items()
+    ]
     rows.append(_own("friction coefficient", abs(of["friction_coefficient"]), "1"))
     if of["contact"] == "helical":
         rows += [

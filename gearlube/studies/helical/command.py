@@ -11,6 +11,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.oil_option import oil_kelvin
@@ -36,6 +37,9 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.helical.summary import Row
 
 logger = logging.getLogger("gearlube")
+
+# units of the table on the terminal; the summary file stays in SI
+_SHOWN = {"m": (1e6, "µm"), "N/m": (1e-6, "N/µm"), "1": (1.0, "")}
 
 
 class HelicalCommand(MultiValueCommand):
@@ -135,6 +139,9 @@ def helical(
     oil film, losses of the pair alone, geometry. Finished parts are kept in OUT/parts: run the same
     command again to go on after a stop.
     """
+    if example:
+        print_example("gearlube_core.helical_geometry.gear_file:HelicalGearFile", "he_2007")
+        return
     from gearlube.report.stored import PAGE
     from gearlube.studies.helical import run
     from gearlube.studies.helical.findings import findings
@@ -145,9 +152,6 @@ def helical(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
-        if example:
-            typer.echo(HelicalGearFile.shipped_text("he_2007"), nl=False)
-            return
         file = HelicalGearFile.given(gear)
         if jobs is not None:
             check_within("--jobs", jobs, 1, 1024)
@@ -212,20 +216,22 @@ def helical(
     for name, reason in results.failures.items():
         logger.error("%s: %s", name, reason)
     if results.interrupted:
-        logger.warning("Stopped. Run the same command again to go on from %s.", out / run.PARTS)
+        logger.warning("Stopped. Run the same command again to continue from %s.", out / run.PARTS)
         raise typer.Exit(INTERRUPTED)
     if results.failures:
         raise typer.Exit(FAILED)
 
 
 def _table(name: str, rows: list[Row]) -> Table:
+    from gearlube.report.numbers import number_text
+
     table = Table(title=f"{name}: helical pair")
     for heading in ("", "quantity", "value", "unit"):
         table.add_column(heading, justify="right" if heading == "value" else "left")
     topic = ""
     for row in rows:
-        table.add_row(
-            "" if row.topic == topic else row.topic, row.quantity, f"{row.value:.4g}", row.unit
-        )
+        factor, unit = _SHOWN.get(row.unit, (1.0, row.unit))
+        value = number_text(factor * row.value, 4)
+        table.add_row("" if row.topic == topic else row.topic, row.quantity, value, unit)
         topic = row.topic
     return table

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
@@ -17,7 +18,6 @@ from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 Datasets = Mapping[str, xr.Dataset]
 NEAR = 0.1  # of a natural frequency, within which an order is close to it
 ORDERS = (1, 2, 3)  # mesh orders that are compared with natural frequencies
-_THIN = 1.0  # film ratio below which asperities touch
 
 
 class Peak(NamedTuple):
@@ -122,7 +122,8 @@ def _transmission_error(sweep: xr.Dataset) -> list[Finding]:
             Finding(
                 WARNING,
                 "The vibration is unstable at some speeds of the sweep.",
-                "There sweep.nc has no values. More damping or less swing of the stiffness helps.",
+                "sweep.nc has no values there. More damping or a smaller swing of the stiffness "
+                "helps.",
             )
         )
     return found
@@ -204,8 +205,8 @@ def _edges(contact: xr.Dataset) -> list[Finding]:
             WARNING,
             f"Sharp edges of tips or ends press at {torque:.4g} N·m, with up to "
             f"{quantity_text(highest, 'GPa')}.",
-            "Such a pressure has no finite value, it rises with finer cells: read it as a place. "
-            "Tip and end relief in the gear file remove it.",
+            "This pressure has no meaning as a number, because it rises with finer cells: it only "
+            "shows the place. Tip and end relief in the gear file remove it.",
         )
     ]
 
@@ -242,12 +243,12 @@ def _film(film: xr.Dataset) -> list[Finding]:
     of = film.attrs
     return [
         Finding(
-            WARNING if ratio < _THIN else GOOD,
-            f"The least film ratio is {ratio:.2f}, the mean coefficient of friction "
+            film_ratio_level(ratio),
+            f"The smallest film ratio λ is {ratio:.2f}, the mean coefficient of friction "
             f"{of['operating_mean_coefficient']:.4f}, and the mesh loses "
             f"{quantity_text(of['operating_power_loss'], 'W')}.",
             f"Film over a composite roughness of {1e6 * of['roughness_rms']:.3g} µm, at "
-            f"{of['oil_temperature'] - 273.15:.0f} °C. Below 1 asperities touch.",
+            f"{of['oil_temperature'] - 273.15:.0f} °C. {film_ratio_words(ratio)}",
         )
     ]
 

@@ -30,29 +30,29 @@ def run_helical(
     progress: Progress = no_progress,
     command_line: str = "",
 ) -> HelicalResults:
-    """Return loaded contact, vibration, instability, separation, film and geometry of a pair.
+    """Return contact, vibration, instability, separation, film and geometry of a helical pair.
 
-    On KeyboardInterrupt, returns what was found until then.
+    After KeyboardInterrupt it returns what it has found so far.
 
     Parameters
     ----------
     settings : HelicalSettings
     folder : Path, optional
-        Gets the results as `write_helical` writes them.
+        Folder for the results of `write_helical`.
     store : Path, optional
-        Folder that keeps finished parts: the same call goes on after a stop. By default `parts` in
+        Folder for finished parts: after a stop the same call continues. Default: `parts` in
         `folder`.
     jobs : int, optional
-        Processes; all processors by default.
+        Number of processes; default: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
     command_line : str
-        Kept in the datasets.
+        Command that the datasets record.
 
     Raises
     ------
     GearLubeError
-        The loaded contact failed whose mesh all else needs. Failures of other stages are in
+        The loaded contact, whose mesh all other parts need, failed. Failures of other parts are in
         `failures`.
 
     Examples

@@ -45,46 +45,47 @@ _COARSE = CondensationSettings(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HelicalSettings:
-    """Settings of one gear pair: an operating point and the ranges of its sweeps.
+    """Operating point, ranges and options of a helical study, for `run_helical`.
 
     Parameters
     ----------
     file : HelicalGearFile
         The pair, its supports and damping.
     pinion_torque, pinion_speed : float
-        Of the operating point [N.m], [rad/s].
+        Operating point [N.m], [rad/s].
     mu : tuple of float
         Coefficients of friction of the sweeps [-], rising from 0 to 1.
     speeds : tuple of float
-        Pinion speeds of the sweep [rad/s], rising; empty: `speed_count` of them up to 1.1 times
-        the resonance of the mesh.
+        Pinion speeds of the sweep [rad/s], rising; empty: `speed_count` speeds up to 1.1 times the
+        resonance of the mesh.
     speed_count : int
-        Speeds of the sweep where `speeds` is empty.
+        Number of speeds of the sweep if `speeds` is empty.
     mesh : {"contact", "density"}
-        Stiffness of the vibrating pair: that of the loaded contact, or one density along all
-        lines.
+        Stiffness of the vibrating pair: that of the loaded contact, or one constant density along
+        all lines.
     density : float, optional
-        Of mesh "density" [N/m2]; None: from ISO 6336-1.
+        Stiffness density for mesh "density" [N/m2]; None: from ISO 6336-1.
     friction : {"film", "constant"}
-        What is run: constant coefficients alone, or the friction of the oil film beside them.
+        "constant": constant coefficients only; "film": friction of the oil film too.
     torques : tuple of float
         Pinion torques of the loaded contact [N.m]; empty: `LOAD_STEPS`.
     positions : int
-        Mesh phases of the loaded contact.
+        Number of mesh phases of the loaded contact.
     oil : str or Lubricant
-        Of the library by its name, or any other.
+        Name of an oil of the library, or any other oil.
     oil_temperature, roughness_rms : float
-        [K], composite of both flanks [m].
+        Oil temperature [K], composite roughness of both flanks [m].
     parts : {"all", "contact", "dynamics", "geometry", "losses"}
-        What is run.
+        Parts of the study that are run.
     oil_temperatures : tuple of float
-        Of the losses [K], rising; empty: oil_temperature alone.
+        Oil temperatures of the losses [K], rising; empty: only oil_temperature.
     draws, seed : int
-        Samples of the uncertain data for the error bars of the losses, 0 to 10000; their seed.
+        Number of samples of the uncertain data for the error bars of the losses, 0 to 10000, and
+        the seed of the random numbers.
     stability_columns, stability_rows : int
         Size of the maps of parametric instability.
     separation_speeds : int
-        Rows of the branch with tooth separation; 0 for none.
+        Number of speeds of the response with tooth separation; 0: none.
     body : HelicalBodySettings
         Elastic teeth.
 
@@ -131,11 +132,11 @@ class HelicalSettings:
             if any(np.diff(values) <= 0.0):
                 raise ParameterError(f"{name} must rise, got {values}. Sort them.")
         if not self.mu:
-            raise ParameterError("mu must name one coefficient at least, got none. Try 0:0.3:0.01.")
+            raise ParameterError("mu must have at least one coefficient, got none. Try 0:0.3:0.01.")
         if self.density is not None:
             if self.mesh == "contact":
                 raise ParameterError(
-                    "density must not be given with mesh contact, which computes it, got "
+                    "density cannot be given with mesh contact, which computes the stiffness, got "
                     f"{self.density:g} N/m2. Leave it out, or take mesh density."
                 )
             cure = "About 1.3e10 N/m2 is usual for steel."
@@ -153,7 +154,9 @@ class HelicalSettings:
         for temperature in self.oil_temperatures:
             self.film().oil.check_temperature(temperature, "oil_temperatures")
         if any(np.diff(self.oil_temperatures) <= 0.0):
-            raise ParameterError(f"oil_temperatures must rise, got {self.oil_temperatures}.")
+            raise ParameterError(
+                f"oil_temperatures must rise, got {self.oil_temperatures}. Sort them."
+            )
         check_within("draws", self.draws, 0, 10_000, "", "60 are usual.")
         check_within("separation_speeds", self.separation_speeds, 0, 5000)
         check_within("speed_count", self.speed_count, 2, 2000)

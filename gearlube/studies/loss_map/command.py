@@ -16,6 +16,7 @@ from gearlube.cli.cooling_options import (
     ConductanceAtRestOption,
     given_cooling,
 )
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, OverwriteOption
@@ -126,7 +127,9 @@ def loss_map(
     Writes map.nc, map.csv, map.mat, report.html, figures, and a file for VECTO, GEM and Modelica
     for each oil temperature.
     """
-    from drivetrain.axle_file.axle_file import AxleFile
+    if example:
+        print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
+        return
     from drivetrain.axle_file.read_axle import read_axle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
@@ -141,9 +144,6 @@ def loss_map(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
-        if example:
-            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
-            return
         bring_gears_up_to_date(axle)
         described = read_axle(axle)
         described_axle = described.axle

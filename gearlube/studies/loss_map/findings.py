@@ -6,13 +6,13 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
+from gearlube.report.film_ratio import MIXED, film_ratio_level
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube_core.arrays import Array
 
 _NAMED = 3  # sources of loss and uncertain inputs that are told one by one
 _LEAST_SHARE = 0.005  # of the loss, of a source that is told
-_FULL_FILM, _MIXED = 3.0, 1.0  # film ratios between full film, mixed and mostly dry contact
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -94,7 +94,7 @@ def _best(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             NOTE,
-            f"The axle is at best {100.0 * float(best['efficiency']):.1f} % efficient, at "
+            f"The axle is at most {100.0 * float(best['efficiency']):.1f} % efficient, at "
             f"{words_of(best)}.",
             f"Over the map the mean is {100.0 * float(efficiency.mean()):.1f} %, where less than "
             "half of the input is lost.",
@@ -204,14 +204,14 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
         return []
     worst = _at(dataset, ratio, least=True)
     least = float(worst["film_ratio"])
-    mixed = 100.0 * float((ratio < _MIXED).sum() / np.isfinite(ratio.values).sum())
-    level = GOOD if least >= _FULL_FILM else NOTE if least >= _MIXED else WARNING
+    mixed = 100.0 * float((ratio < MIXED).sum() / np.isfinite(ratio.values).sum())
     return [
         Finding(
-            level,
-            f"The least film ratio λ of a flank is {quantity_text(least, '', 2)}, at "
+            film_ratio_level(least),
+            f"The smallest film ratio λ of a flank is {quantity_text(least, '', 2)}, at "
             f"{words_of(worst)}.",
-            f"Below 1, where asperities carry much of the load, are {mixed:.0f} % of the points.",
+            f"It is below {MIXED:g}, where asperities carry much of the load, at {mixed:.0f} % of "
+            "the points.",
         )
     ]
 

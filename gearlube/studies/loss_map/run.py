@@ -25,27 +25,27 @@ def run_loss_map(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the loss torque of an axle over torque, speed and oil temperature.
+    """Return the loss torque of an axle over torque, speed and oil temperature, with error bars.
 
     Parameters
     ----------
     settings
         Axle, grid, uncertain data.
     folder
-        Where map.nc, map.csv, figures and the files for other tools are written; None: nowhere.
+        Folder for map.nc, map.csv, figures and the files for other tools; None: nothing is written.
     progress
         Called with the share that is done and a sentence.
 
     Returns
     -------
     xr.Dataset
-        `loss_torque` [N.m], `loss` by source [W], efficiency, error bars and what else
-        `loss_map_dataset` has. A point that failed is NaN, its status says why.
+        `loss_torque` [N.m], `loss` by source [W], efficiency, error bars and the other variables of
+        `loss_map_dataset`. A point that failed is NaN, and its status gives the reason.
 
     Raises
     ------
     ParameterError
-        Torque, speed or temperature is out of range, or a draw of the uncertain data is; nothing
+        Torque, speed or temperature is out of range, or a sample of the uncertain data is; nothing
         has been computed then.
 
     Examples
@@ -83,7 +83,7 @@ def run_loss_map(
         )
         dataset = with_steady_temperature(dataset, settings.cooling, *steady)
     if folder is not None:
-        progress(1.0, "files and figures")
+        progress(1.0, "writing files and figures")
         folder.mkdir(parents=True, exist_ok=True)
         write_dataset(dataset, folder / "map.nc")
         write_exports(dataset, folder)

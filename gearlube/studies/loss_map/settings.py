@@ -20,29 +20,30 @@ MOST_POINTS = 200_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LossMapSettings:
-    """A loss map: the axle, its grid and its uncertain data.
+    """Axle, grid and uncertain data of a loss map, for `run_loss_map`.
 
     Parameters
     ----------
     axle : HypoidAxleParameters
     torques : ndarray of shape (n,)
-        On the pinion [N.m], rising; below 0 the wheels drive. Default: 21 from half the coast
-        end of the mesh table to its drive end.
+        Torques on the pinion [N.m], rising; below 0 the wheels drive. Default: 21 from half the
+        coast end of the mesh table to its drive end.
     speeds : ndarray of shape (m,)
-        Of the pinion [rad/s], rising. Default: 20 from 25 to 525 rad/s.
+        Speeds of the pinion [rad/s], rising. Default: 20 from 25 to 525 rad/s.
     temperatures : ndarray of shape (k,)
-        Of the oil [K], rising. Default: 40, 60, 80 and 100 degC.
+        Temperatures of the oil [K], rising. Default: 40, 60, 80 and 100 degC.
     draws : int
-        Samples of the uncertain data, 0 to 10000; 0: no error bars.
+        Number of samples of the uncertain data, 0 to 10000; 0: no error bars.
     seed : int
+        Seed of the random numbers.
     calibrated_bearings : bool
-        f0 and f1 of Palmgren's law are from measured torques of these bearings: their drag is
-        known to a factor of 1.25.
+        True: f0 and f1 of Palmgren's law are from measured torques of these bearings, so their drag
+        is known to a factor of 1.25.
     uncertain : tuple of Uncertain, optional
         Default: `uncertain_of` the axle.
     cooling : Cooling, optional
-        Of the axle in a car; with it the map has the steady oil temperature of each torque
-        and speed, where heat in and out balance, and the loss there.
+        Cooling of the axle in a car. If given, the map also has the steady oil temperature of each
+        torque and speed, at which heat in and out balance, and the loss there.
 
     Examples
     --------
@@ -79,8 +80,8 @@ class LossMapSettings:
             chosen = default if values is None else np.atleast_1d(np.asarray(values, dtype=float))
             if chosen.ndim != 1 or chosen.size == 0 or np.any(np.diff(chosen) <= 0.0):
                 raise ParameterError(
-                    f"{name} must be a list of rising numbers, got {chosen}. Sort it, and remove "
-                    "what stands twice."
+                    f"{name} must be a list of rising numbers, got {chosen}. Sort the list, and "
+                    "remove values that occur twice."
                 )
             object.__setattr__(self, name, chosen)
         if self.cooling is not None:

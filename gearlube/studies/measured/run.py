@@ -14,19 +14,19 @@ from gearlube_core.storage.atomic_file import write_text
 
 
 def run_measured(path: str | Path, *, folder: Path | None = None) -> MeasuredFlanks:
-    """Return the measured flanks of a measured-gear file.
+    """Return the measured flanks of a hypoid pair as a gear file.
 
     Parameters
     ----------
     path : str or Path
         Measured-gear file (TOML), with its CSV files beside it.
     folder : Path, optional
-        Gets the gear file NAME.toml, which `gearlube contact` takes, and flanks.png.
+        Folder for the gear file NAME.toml, which `gearlube contact` takes, and for flanks.png.
 
     Raises
     ------
     ParameterError
-        A file is missing or wrong; the sentence names the line.
+        A file is missing or wrong; the message names the line.
 
     Examples
     --------

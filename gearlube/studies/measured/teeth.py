@@ -62,7 +62,9 @@ def run_tooth_errors(
     jobs: int | None = None,
     progress: Progress = no_progress,
 ) -> ToothErrorResults:
-    """Return what the teeth of a measured pair add to its mesh table.
+    """Return a mesh table that includes the measured differences from tooth to tooth.
+
+    These are pitch errors, eccentricity and waves.
 
     Parameters
     ----------
@@ -71,21 +73,22 @@ def run_tooth_errors(
     table : str or Path
         Mesh table of the measured flanks, from `gearlube contact`.
     positions : int
-        In a mesh period; orders are kept up to a quarter of them times the teeth.
+        Number of positions in a mesh period; orders are kept up to a quarter of this number times
+        the teeth.
     body : ToothBodySettings, optional
-        Elastic teeth; those of `gearlube contact` by default.
+        Elastic teeth; default: those of `gearlube contact`.
     folder : Path, optional
-        Gets the mesh table NAME.nc, tooth_errors.nc and tooth_errors.png; finished positions are
-        kept in `positions`, so that the same call goes on after a stop.
+        Folder for the mesh table NAME.nc, tooth_errors.nc and tooth_errors.png. Finished positions
+        are kept in its folder `positions`: after a stop the same call continues.
     jobs, progress
         As in `run_contact`.
 
     Raises
     ------
     ParameterError
-        A file is wrong, all teeth are alike, or waves are too many for the positions.
+        A file is wrong, all teeth are equal, or there are too many waves for the positions.
     ConvergenceError
-        Errors of single teeth are too large beside the deflection.
+        Errors of single teeth are too large compared with the deflection.
 
     Examples
     --------
@@ -97,14 +100,14 @@ def run_tooth_errors(
     flanks = read_measured_flanks(path)
     if flanks.errors.is_none:
         raise ParameterError(
-            f"{path} must name pitch, waviness or an eccentricity, got none: all teeth are alike. "
-            "The table of `gearlube contact` is complete then."
+            f"{path} must name pitch, waviness or an eccentricity, got none, so all its teeth are "
+            "equal. Use the table of `gearlube contact` as it is."
         )
     file, nominal = flanks.gear_file(), read_mesh_table(table).without_shaft_error()
     settings = CycleSettings(positions=positions)
-    progress(0.0, "tooth compliance")
+    progress(0.0, "elastic teeth")
     stiffness = pair_stiffness(file, body or ToothBodySettings(), jobs=jobs)
-    progress(0.0, "single pairs")
+    progress(0.0, "loaded contact of single tooth pairs")
     cycle = tooth_error_cycle(
         file,
         stiffness,
@@ -144,7 +147,14 @@ def tooth_error_dataset(cycle: ToothErrorCycle, name: str = "") -> xr.Dataset:
             np.hypot(orders[..., 0], orders[..., 1]),
             {"units": "m", "long_name": f"amplitude by order of the {member}'s turn"},
         )
+    hunting, amplitudes = cycle.hunting_orders()
+    data["hunting_amplitude"] = (
+        ("torque", "hunting_order"),
+        amplitudes,
+        {"units": "m", "long_name": "largest orders of the hunting turn alone, not in the table"},
+    )
     coords = {
+        "hunting_order": ("hunting_order", hunting, {"units": "1", "long_name": "pinion's turn"}),
         "torque": ("torque", cycle.torque, {"units": "N.m", "long_name": "pinion torque"}),
         "phase": ("phase", cycle.phases, {"units": "1", "long_name": "mesh phase"}),
         **{

@@ -12,6 +12,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
@@ -58,6 +59,9 @@ def optimise(
     contact at edges. Writes the better gear file, report.html, optimise.nc and figures. What is
     computed is kept in OUT: run the same command again to go on after a stop.
     """
+    if example:
+        print_example("gearlube_core.flank_optimisation.problem_file:OptimisationFile", problem)
+        return
     from gearlube.report.stored import PAGE
     from gearlube.studies.optimise import run
     from gearlube.studies.optimise.findings import findings
@@ -67,9 +71,6 @@ def optimise(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
-        if example:
-            typer.echo(OptimisationFile.shipped_text(problem), nl=False)
-            return
         given = OptimisationFile.given(problem)
         usual = OptimiseSettings()
         check_within("--rounds", rounds, 1, 50)

@@ -11,6 +11,7 @@ import xarray as xr
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 
 _COLOURS = {"before": GREY, "better": BLUE, "nominal": GREEN}
+NAMES = {"before": "before", "better": "better", "nominal": "best without errors"}
 _MICRO = 1e6
 
 
@@ -18,7 +19,7 @@ def errors_over_mesh(dataset: xr.Dataset) -> Any:
     """Return the loaded transmission error over two mesh periods, a panel for each torque."""
     with house_style():
         torques = dataset["torque"].values
-        figure = new_figure(max(4.2, 3.2 * torques.size), 3.4)
+        figure = new_figure(max(4.2, 3.2 * torques.size), 3.6)
         axes = np.atleast_1d(figure.subplots(1, torques.size, sharey=True))
         for ax, torque in zip(axes, torques, strict=True):
             for design in dataset["design"].values:
@@ -31,11 +32,11 @@ def errors_over_mesh(dataset: xr.Dataset) -> Any:
                         np.append(np.tile(values, 2), values[0]),
                         color=_COLOURS[str(design)],
                         lw=1.8 if s == 0 else 0.6,
-                        label=str(design) if s == 0 else None,
+                        label=NAMES[str(design)] if s == 0 else None,
                     )
             ax.set(xlim=(0.0, 2.0), xlabel="mesh periods", title=f"{torque:g} N·m")
         axes[0].set_ylabel("transmission error [µrad]")
-        axes[0].legend()
+        _legend_below(figure, axes[0])
         figure.suptitle("Loaded transmission error, mean removed; thin: with errors", fontsize=11.5)
     return figure
 
@@ -44,7 +45,7 @@ def mesh_orders(dataset: xr.Dataset) -> Any:
     """Return amplitudes of the mesh orders without errors, a panel for each torque."""
     with house_style():
         torques, orders = dataset["torque"].values, dataset["order"].values
-        figure = new_figure(max(4.2, 3.2 * torques.size), 3.4)
+        figure = new_figure(max(4.2, 3.2 * torques.size), 3.6)
         axes = np.atleast_1d(figure.subplots(1, torques.size, sharey=True))
         names = [str(one) for one in dataset["design"].values]
         for ax, torque in zip(axes, torques, strict=True):
@@ -56,12 +57,12 @@ def mesh_orders(dataset: xr.Dataset) -> Any:
                     _MICRO * part.values,
                     0.75 / len(names),
                     color=_COLOURS[design],
-                    label=design,
+                    label=NAMES[design],
                 )
             ax.set_xticks(np.arange(orders.size), [f"{order}" for order in orders])
             ax.set(xlabel="mesh order", title=f"{torque:g} N·m")
         axes[0].set_ylabel("amplitude [µrad]")
-        axes[0].legend()
+        _legend_below(figure, axes[0])
     return figure
 
 
@@ -69,19 +70,19 @@ def sensitivity_to_errors(dataset: xr.Dataset) -> Any:
     """Return all orders together under each error, a panel for each torque."""
     with house_style():
         torques, errors = dataset["torque"].values, dataset["error"].values
-        figure = new_figure(max(5.0, 3.2 * torques.size + 1.2), 0.35 * errors.size + 1.8)
+        figure = new_figure(max(5.0, 3.2 * torques.size + 1.2), 0.35 * errors.size + 2.0)
         axes = np.atleast_1d(figure.subplots(1, torques.size, sharey=True))
         for ax, torque in zip(axes, torques, strict=True):
             for design in dataset["design"].values:
                 part = dataset["whine"].sel(torque=torque, design=design)
                 place = np.arange(errors.size)
                 colour = _COLOURS[str(design)]
-                ax.plot(_MICRO * part.values, place, "o", color=colour, label=str(design))
-            ax.set_yticks(np.arange(errors.size), [str(one) for one in errors])
-            ax.set(xlabel="all orders [µrad]", title=f"{torque:g} N·m")
+                ax.plot(_MICRO * part.values, place, "o", color=colour, label=NAMES[str(design)])
+            ax.set_yticks(np.arange(errors.size), [error_words(str(one)) for one in errors])
+            ax.set(xlabel="mesh orders together [µrad]", title=f"{torque:g} N·m")
             ax.set_xlim(left=0.0)
-        axes[0].invert_yaxis()
-        axes[0].legend()
+            ax.set_ylim(errors.size - 0.5, -0.5)
+        _legend_below(figure, axes[0])
     return figure
 
 
@@ -90,12 +91,30 @@ def whine_against_loss(dataset: xr.Dataset) -> Any:
     with house_style():
         figure = new_figure(5.2, 3.8)
         ax = figure.subplots()
-        ax.plot(dataset["front_whine"], dataset["front_loss"], "o-", color=BLUE)
+        ax.plot(dataset["front_whine"], dataset["front_loss"], "o-", color=BLUE, label="after")
         ax.plot(1.0, 1.0, "s", color=VERMILLION, label="before")
-        ax.set(xlabel="mesh orders over those before", ylabel="sliding loss over that before")
+        ax.set(xlabel="mesh orders, relative to before", ylabel="sliding loss, relative to before")
         ax.set_xlim(left=0.0)
         ax.legend()
     return figure
+
+
+def error_words(error: str) -> str:
+    """Return an error as labels show it.
+
+    Examples
+    --------
+    >>> error_words("lead_slope +10 um"), error_words("none")
+    ('lead slope +10 µm', 'no error')
+    """
+    if error == "none":
+        return "no error"
+    return error.replace("_", " ").replace(" um", " µm").replace(" deg", "°")
+
+
+def _legend_below(figure: Any, ax: Any) -> None:
+    handles, names = ax.get_legend_handles_labels()
+    figure.legend(handles, names, ncols=len(names), loc="outside lower center")
 
 
 OPTIMISE_CATALOGUE = {

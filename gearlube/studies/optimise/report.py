@@ -14,17 +14,18 @@ from gearlube.report.file_inputs import file_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
 from gearlube.studies.optimise.dataset import measures_of
+from gearlube.studies.optimise.figures import NAMES, error_words
 from gearlube.studies.optimise.findings import findings, numbers
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 _MICRO = 1e6
 _MOST_FIELDS = 8  # that a table of the front shows
-_NAMES = {"before": "before", "better": "better", "nominal": "best without errors"}
 _UNITS = {"um": "µm", "deg": "°", "urad": "µrad", "1": ""}
 _LIMITS = (
     "Mesh orders are those of the static loaded transmission error, not at a resonance.",
-    "The best near the start of the search, not the best of all: try other starts.",
+    "The result is the best pair near the start of the search, perhaps not the best of all: try "
+    "other starts.",
     "The elastic teeth are those of the pair as it is; shafts, bearings and housing are rigid.",
     "Errors are taken one at a time, with both signs.",
 )
@@ -52,9 +53,9 @@ def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:
         study="optimise",
         title=f"Quieter flanks: {attributes['name']}",
         subtitle=f"Better flanks of {attributes['pair']}: {sizes['parameter']} fields may change, "
-        f"at {torques} N·m, with {'no' if count == 0 else count} errors of assembly and making, "
-        f"aim {attributes['aim']}. All numbers are from the plain loaded analysis with "
-        f"{sizes['phase']} mesh phases; errors are rotations of the pinion.",
+        f"at {torques} N·m, with {'no' if count == 0 else count} errors of assembly and "
+        f"making, aim {attributes['aim']}. All numbers come from the full loaded analysis "
+        f"with {sizes['phase']} mesh phases; errors are rotations of the pinion.",
         findings=findings(dataset),
         numbers=numbers(dataset),
         figures=_figures(dataset),
@@ -91,8 +92,8 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
             Figure(
                 name="errors",
                 title="Mesh orders with errors",
-                caption="All orders together under each error of assembly and making. The nearer "
-                "the points of a pair are to each other, the less errors matter.",
+                caption="All orders together under each error of assembly and making. The closer "
+                "together the points of a pair are, the less the errors matter.",
                 chart=_scatter_chart(dataset),
             )
         )
@@ -104,8 +105,8 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
             Figure(
                 name="front",
                 title="Mesh orders against loss",
-                caption="The least loss for each level of the mesh orders, on the coarse cells of "
-                "the search.",
+                caption="The smallest loss for each level of the mesh orders, with the coarse "
+                "cells of the search.",
                 chart=line_chart([front, before], *axes),
             )
         )
@@ -125,7 +126,7 @@ def _error_chart(dataset: xr.Dataset) -> Any:
         for number, design in enumerate(dataset["design"].values):
             part = dataset["transmission_error"].sel(torque=torque, design=design).isel(error=0)
             values = _MICRO * (part.values - part.values.mean())
-            name = _NAMES[str(design)]
+            name = NAMES[str(design)]
             line = Line(name=name, x=phase, y=np.append(values, values[0]))
             add_line(figure, line, number, x, y, row=row, col=1)
             figure.data[-1].update(legendgroup=name, showlegend=row == 1)
@@ -140,7 +141,7 @@ def _order_chart(dataset: xr.Dataset) -> Any:
     for row, torque in enumerate(dataset["torque"].values, 1):
         for number, design in enumerate(dataset["design"].values):
             part = dataset["amplitude"].sel(torque=torque, design=design).isel(error=0)
-            name = _NAMES[str(design)]
+            name = NAMES[str(design)]
             figure.add_bar(
                 x=orders,
                 y=_MICRO * part.values,
@@ -158,12 +159,12 @@ def _order_chart(dataset: xr.Dataset) -> Any:
 
 
 def _scatter_chart(dataset: xr.Dataset) -> Any:
-    names = [str(one).replace("_", " ").replace(" um", " µm") for one in dataset["error"].values]
+    names = [error_words(str(one)) for one in dataset["error"].values]
     x, y = Axis("all orders", "µrad"), Axis("")
     figure = _torque_panels(dataset, x, y, height=120 + 24 * len(names))
     for row, torque in enumerate(dataset["torque"].values, 1):
         for number, design in enumerate(dataset["design"].values):
-            name = _NAMES[str(design)]
+            name = NAMES[str(design)]
             figure.add_scatter(
                 x=_MICRO * dataset["whine"].sel(torque=torque, design=design).values,
                 y=names,
@@ -245,7 +246,7 @@ def _error_tables(dataset: xr.Dataset) -> list[Table]:
             for error in dataset["error"].values
         ]
         columns = [Column("torque", "N·m"), Column("error")]
-        columns += [Column(_NAMES[one], "µrad") for one in names]
+        columns += [Column(NAMES[one], "µrad") for one in names]
         title = "With errors and without"
         found.append(Table(title=title, columns=columns, rows=rows, folded=True))
     if "front_whine" in dataset:
@@ -261,8 +262,8 @@ def _error_tables(dataset: xr.Dataset) -> list[Table]:
         found.append(
             Table(
                 title="Mesh orders against loss",
-                caption="Over those before, on the coarse cells of the search, with the fields of "
-                "each pair; optimise.nc has them all.",
+                caption="Relative to before, with the coarse cells of the search, and with the "
+                "fields of each pair; optimise.nc has all pairs.",
                 columns=[
                     Column("mesh orders"),
                     Column("sliding loss", digits=4),

@@ -43,7 +43,7 @@ def run_optimise(
     progress: Progress = no_progress,
     command_line: str = "",
 ) -> OptimiseResults:
-    """Return the flanks with least mesh orders under the limits of a problem file.
+    """Return flanks with the smallest mesh orders under the limits of a problem file.
 
     Parameters
     ----------
@@ -51,14 +51,14 @@ def run_optimise(
     settings : OptimiseSettings, optional
         Rounds, resolution of the check, front, nominal pair.
     folder : Path, optional
-        Gets the better gear file, report.html, optimise.nc and figures/. Evaluations and positions
-        are kept there: the same call goes on after a stop.
+        Folder for the better gear file, report.html, optimise.nc and figures/. Evaluations and
+        positions are kept there: after a stop the same call continues.
     jobs : int, optional
-        Processes; default: all processors.
+        Number of processes; default: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
     command_line : str
-        For the report.
+        Command that the report shows.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def run_optimise(
     found = optimise(problem, settings, folder=folder, jobs=jobs, progress=progress)
     results = OptimiseResults(optimised=found, dataset=optimise_dataset(found))
     if folder is not None:
-        progress(1.0, "figures")
+        progress(1.0, "writing report and figures")
         write_optimise(results, folder, command_line)
     return results
 

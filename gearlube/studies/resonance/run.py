@@ -48,13 +48,13 @@ def run_resonance(
 ) -> ResonanceResults:
     """Return response curves, motions and flank contacts of the torsional pair.
 
-    On KeyboardInterrupt, returns what was found until then.
+    After KeyboardInterrupt it returns what it has found so far.
 
     Parameters
     ----------
     settings : ResonanceSettings
     folder : Path, optional
-        Gets the results as `write_resonance` writes them.
+        Folder for the results of `write_resonance`.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
 
@@ -63,7 +63,7 @@ def run_resonance(
     ConvergenceError
         No periodic motion was found at an end of the range.
     StepError
-        A time sweep was no longer finite.
+        A time sweep became infinite or not a number.
 
     Examples
     --------
@@ -83,10 +83,10 @@ def run_resonance(
         interrupted=study.interrupted,
     )
     if folder is not None:
-        progress(1.0, "figures")
+        progress(1.0, "writing report and figures")
         write_resonance(results, folder)
     if settings.load_at is not None and not study.interrupted:
-        progress(1.0, "load")
+        progress(1.0, "response over load")
         results = replace(results, load=load_response(settings, settings.load_at, study.responses))
         if folder is not None:
             _write_load(results, folder)

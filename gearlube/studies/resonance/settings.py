@@ -32,39 +32,39 @@ HOT = 373.15  # K, [karagiannis_2012 fig. 21]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ResonanceSettings:
-    """A gear pair, its oil and the range of mesh frequency.
+    """Gear pair, oil and frequency range of a resonance study, for `run_resonance`.
 
     Parameters
     ----------
     mesh : MeshTable, optional
-        By default the table that ships.
+        Default: the table that ships.
     radii : {"consistent", "paper", "mean"}
         See `HypoidTorsionalParameters`.
     pinion_torque : float
-        Mean [N.m].
+        Mean torque on the pinion [N.m].
     oil_temperature : float
-        [K]
+        Temperature of the oil [K].
     roughness_rms : float
         Composite roughness of the flanks [m].
     friction : {"thermal_eyring", "off"}
         "off" leaves out the lubricated model and the flank contacts.
     first, last : float
-        Mesh over natural frequency [-], 0.05 to 3.
+        Range of mesh frequency divided by natural frequency [-], 0.05 to 3.
     frequencies : int
-        Equally spaced rows of each response curve; the branch adds its own between them.
+        Number of equally spaced rows of each response curve; the branch adds points between them.
     sweep_frequencies : int
-        Of the time sweeps; 0 for none.
+        Number of frequencies of the time sweeps; 0: none.
     section_starts : int
-        Starts of the Poincare section; 0 for none.
+        Number of start points of the Poincare section; 0: none.
     load_at : float, optional
-        Also follow the response over the pinion torque, at this mesh over natural frequency [-],
-        0.05 to 3.
+        If given, the response is also followed over the pinion torque, at this mesh frequency
+        divided by natural frequency [-], 0.05 to 3.
     changes : tuple of (str, float)
-        Fields of `HypoidTorsionalParameters` by name that differ from the papers' pair, in SI
+        Fields of `HypoidTorsionalParameters` that differ from the papers' pair, by name and in SI
         units: inertias, backlash, damping.
     steps_per_mesh_period, lubricated_steps : int
-        Of the integrator, without and with friction. Steps in which flanks touch or part are cut
-        there; with the default, Floquet multipliers are exact to 1e-4, with friction to 3e-4.
+        Steps of the integrator, without and with friction. Steps in which flanks touch or part are
+        split there. With the default, Floquet multipliers are exact to 1e-4, with friction to 3e-4.
 
     Examples
     --------

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.results_folder import results_folder
@@ -116,7 +117,9 @@ def runup(
     Writes runup.nc (coastdown.nc), summary.csv, figures and report.html. After Ctrl-C the same
     command goes on where it stopped.
     """
-    from drivetrain.axle_file.axle_file import AxleFile
+    if example:
+        print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
+        return
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
@@ -132,9 +135,6 @@ def runup(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
-        if example:
-            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
-            return
         _check_together(rpm, start, end, duration, rate, torque, coast_down, coast_torque)
         bring_gears_up_to_date(axle)
         first = _settings(
@@ -168,7 +168,7 @@ def runup(
                 run_runup(one, folder=out, progress=part_of(progress, i / count, (i + 1) / count))
                 for i, one in enumerate(ramps)
             ]
-            progress(1.0, "report")
+            progress(1.0, "writing the report")
             write_text(summary_csv(datasets), out / "summary.csv")
             command_line = shlex.join(["gearlube", *sys.argv[1:]])
             report = write_runup_report(datasets, out, command_line)
@@ -205,11 +205,11 @@ def _check_together(
     if rate is not None:
         check_positive("--rate", rate, "rpm/s" if rpm else "km/h per s")
     if coast_torque is not None and not coast_down:
-        raise ParameterError("--coast-torque needs --coast-down, got it alone. Add that option.")
+        raise ParameterError("--coast-torque works only with --coast-down. Add that option.")
     if coast_down and (torque is None) != (coast_torque is None):
         raise ParameterError(
-            "--coast-down needs --torque and --coast-torque, or neither of them, got one. Without "
-            "both the car's own torques are taken."
+            "--coast-down needs --torque and --coast-torque, or neither of them, got one of them. "
+            "Without both, the torques follow from the car."
         )
 
 

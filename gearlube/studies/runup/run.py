@@ -23,15 +23,15 @@ def run_runup(
     folder: Path | str | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Take an axle through a continuous speed ramp; return its record, orders and spectra.
+    """Run an axle through a continuous speed ramp; return its record, orders and spectra.
 
     Parameters
     ----------
     settings : RunupSettings
         Axle, ramp, torque, oil temperature.
     folder : path, optional
-        Where runup.nc or coastdown.nc is written. Parts of the ramp are kept in its folder parts/
-        until the ramp is finished, so that a stopped run goes on from there. None: no files.
+        Folder for runup.nc or coastdown.nc. Parts of the ramp are kept in its folder parts/ until
+        the ramp is finished, so that a stopped run continues from there. None: no files.
     progress : callable
         Called with the share that is done and a sentence.
 
@@ -40,14 +40,14 @@ def run_runup(
     xarray.Dataset
         At the constant rate `setting_sample_rate`: `bearing_force` [N] over (time, bearing,
         direction), `pinion_speed`, `wheel_speed`, `dte`, `mesh_force`; `loss` by source over
-        slow_time. Along the blocks of the order analysis: `bearing_force_track`, `dte_track`, their
-        overall levels and order maps. Along slices of time: `bearing_force_waterfall`,
+        slow_time. Over the blocks of the order analysis: `bearing_force_track`, `dte_track`, their
+        overall levels and order maps. Over slices of time: `bearing_force_waterfall`,
         `dte_waterfall` over frequency.
 
     Raises
     ------
     GearLubeError
-        The axle refused; nothing has been written then.
+        The axle model failed; nothing has been written then.
     InterruptedRunError
         After Ctrl-C.
 
@@ -68,7 +68,7 @@ def run_runup(
     progress(_OF_MARCH, "orders and spectra")
     dataset = runup_dataset(settings, record)
     if out is not None:
-        progress(1.0, "file")
+        progress(1.0, "writing the file")
         out.mkdir(parents=True, exist_ok=True)
         write_compressed_dataset(dataset, out / FILES[settings.name])
         shutil.rmtree(out / "parts", ignore_errors=True)
@@ -76,7 +76,7 @@ def run_runup(
 
 
 def load_runup(path: Path | str) -> xr.Dataset:
-    """Read runup.nc or coastdown.nc, or the run-up in a folder.
+    """Read the results of a run-up or coast-down: runup.nc, coastdown.nc, or the folder it is in.
 
     Examples
     --------

@@ -34,16 +34,17 @@ _NODES = 9  # of torque and loss along the ramp
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunupSettings:
-    """A speed ramp of an axle.
+    """Axle, speed ramp and torque of a run-up or coast-down, for `run_runup`.
 
     Parameters
     ----------
     car_axle : CarAxle
         Axle and car, see `read_axle`.
     start_speed, end_speed : float
-        Pinion speed at the two ends [rad/s]; a lower end than start is a coast-down.
+        Pinion speed at the two ends [rad/s]; if the end is lower than the start, it is a
+        coast-down.
     duration : float
-        From start to end [s].
+        Time from start to end [s].
     pinion_torque : float, optional
         Constant torque on the pinion from outside [N m]; below 0 the wheels drive. None: what the
         car needs for its road load and for its acceleration in the ramp.
@@ -51,16 +52,16 @@ class RunupSettings:
         "bench": smooth torque on the pinion, the wheel holds the ramp; "vehicle": engine with its
         orders, driveline and tyres in one gear, with the torque that the car needs.
     oil_temperature : float
-        [K]
+        Temperature of the oil [K].
     order_resolution : float
-        Distance of the orders that are told apart [-]; 1 over a whole number of pinion
-        revolutions.
+        Smallest distance of two orders that can be told apart [-]; 1 divided by a whole number of
+        pinion revolutions.
     highest_frequency : float
         End of the spectra [Hz].
     sample_rate : float
-        Of the record [Hz].
+        Sample rate of the record [Hz].
     settling_time : float
-        For which the start speed is held before the record begins [s].
+        Time at the start speed before the record begins [s].
 
     Raises
     ------
@@ -215,8 +216,8 @@ class RunupSettings:
             status = int(found.status[0, 0, 0])
             if status:
                 raise ParameterError(
-                    f"The axle must balance along the ramp, got {torque:.4g} N m at "
-                    f"{rads_to_rpm(float(speed)):.0f} rpm: {FAILURES[status]}"
+                    "The axle must have a static equilibrium along the ramp, but it has none with "
+                    f"{torque:.4g} N m at {rads_to_rpm(float(speed)):.0f} rpm: {FAILURES[status]}"
                 )
             loss[i] = found.total[0, 0, 0] / speed
         return (asked if self.pinion_torque is not None else asked + loss), loss

@@ -36,7 +36,7 @@ def run_sound(
     command_line: str = "",
     progress: Progress = no_progress,
 ) -> Sound:
-    """Return the sound of a run: bearing forces through a transfer path to the ear.
+    """Return the sound of a run: its bearing forces, sent through a transfer path to the ear.
 
     Parameters
     ----------
@@ -48,11 +48,11 @@ def run_sound(
     transfer : path, optional
         Measured frequency responses, CSV or UFF58. None: the generic path.
     names : tuple of str
-        What the runs are called; absent: their folders.
+        Names of the runs; default: their folders.
     folder : path, optional
-        Gets sound.nc, WAV files, summary.csv, figures/ and report.html.
+        Folder for sound.nc, WAV files, summary.csv, figures/ and report.html.
     command_line : str
-        What was typed, for the report.
+        Command that the report shows.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
 
@@ -63,7 +63,7 @@ def run_sound(
     Raises
     ------
     ParameterError, FileError
-        The input is not fit; before anything is written.
+        The input cannot be used; nothing has been written then.
 
     Examples
     --------

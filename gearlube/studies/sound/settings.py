@@ -13,7 +13,7 @@ WAV_RATES = (16000, 22050, 24000, 32000, 44100, 48000)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SoundSettings:
-    """How the sound of a run is made and judged.
+    """How `run_sound` makes and judges the sound of a run.
 
     Parameters
     ----------
@@ -25,14 +25,14 @@ class SoundSettings:
         Pressure at the full scale of the WAV [Pa]. None: the next of 1, 2, 5, 10 ... above the
         peak, the same for both runs.
     wav_rate : int
-        Rate of the WAV [Hz]; the analysis is always at 48 kHz.
+        Sample rate of the WAV [Hz]; the analysis is always at 48 kHz.
     field : {"free", "diffuse"}
         Sound field of the loudness.
     metrics : tuple of str
         Which of `METRICS` are computed. Empty: levels and order tracks only.
     revolutions : int
-        Pinion revolutions in a block of the order tracks [-]; orders 1/revolutions apart are told
-        apart.
+        Number of pinion revolutions in a block of the order tracks [-]; orders can be told apart if
+        their distance is at least 1/revolutions.
 
     Raises
     ------

@@ -17,6 +17,7 @@ from gearlube.cli.cooling_options import (
     ConductanceAtRestOption,
     given_cooling,
 )
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import (
@@ -138,7 +139,9 @@ def sweep(
 
     Finished points are kept in OUT/points: run the same command again to go on after a stop.
     """
-    from drivetrain.axle_file.axle_file import AxleFile
+    if example:
+        print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
+        return
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.oil_option import oil_kelvin
@@ -167,9 +170,6 @@ def sweep(
         exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."),
         TemporaryDirectory(prefix="gearlube-") as folder,
     ):
-        if example:
-            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
-            return
         own_axle = axle is not None
         if jobs is not None:
             check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")
@@ -178,8 +178,8 @@ def sweep(
         if oil is not None and oil.endswith(".toml"):
             if fmu is not None:
                 raise ParameterError(
-                    f"--oil must not be a file with --fmu, which has its oil, got {oil}. Build the "
-                    "FMU with it by `gearlube build-fmu`, or leave out --fmu."
+                    "--oil cannot be a file if --fmu is given, because the FMU has its own oil; "
+                    f"got {oil}. Build the FMU with it by `gearlube build-fmu`, or leave out --fmu."
                 )
             axle = str(axle_with_oil(axle, mesh_table, oil, Path(folder)))
             mesh_table, oil = None, None
@@ -190,8 +190,8 @@ def sweep(
         )
         if cooling is not None and oil_temperature is not None:
             raise ParameterError(
-                "--oil-temperature must not be given with --steady-temperature, which finds it, "
-                f"got {oil_temperature:g} degC. Leave one of them out."
+                "--oil-temperature cannot be combined with --steady-temperature, which computes "
+                f"it, got {oil_temperature:g} degC. Leave one of them out."
             )
         car_axle = chosen_axle(fmu, mesh_table, axle)
         if scheduler is not None:
@@ -244,7 +244,7 @@ def sweep(
                 progress=progress,
                 command_line=shlex.join(["gearlube", *sys.argv[1:]]),
             )
-            progress(1.0, "report")
+            progress(1.0, "writing the report")
             report = write_sweep_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
         computed = dataset.attrs["computed_points"]
         logger.info("%d points computed in %.1f s.", computed, dataset.attrs["wall_time"])

@@ -101,7 +101,9 @@ def save(dataset: xr.Dataset, directory: Path) -> Path:
 
 
 def load_sweep(path: Path | str) -> xr.Dataset:
-    """Read sweep.nc (or the folder it is in); `.sel(speed_kmh=60, preload=2500)` works on it.
+    """Read the results of a sweep: sweep.nc, or the folder it is in.
+
+    `.sel(speed_kmh=60, preload=2500)` works on the dataset.
 
     Examples
     --------

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import not_modelled, source_words
+from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
 from gearlube.studies.sweep.crossings import ORDERS, Crossing, crossings
@@ -15,7 +16,6 @@ from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE
 from gearlube_core.arrays import Array
 
 NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
-_FULL_FILM, _MIXED = 3.0, 1.0  # film ratios between full film, mixed and mostly dry contact
 _CLOSED = 1e-3  # of the input, below which the energy balance is called closed
 _NAMED = 3  # crossings and losses that are told one by one
 _LEAST_SHARE = 0.005  # of the loss, of a source that is told
@@ -128,7 +128,7 @@ def _resonance(dataset: xr.Dataset) -> list[Finding]:
         return [
             Finding(
                 level,
-                f"No mesh order 1 to {ORDERS[-1]} meets a natural frequency {span}; the least "
+                f"No mesh order 1 to {ORDERS[-1]} meets a natural frequency {span}; the smallest "
                 f"margin is {100.0 * nearest.margin:.0f} %.",
                 f"That is {_crossing(nearest)}.",
             )
@@ -163,7 +163,7 @@ def _contact(dataset: xr.Dataset) -> list[Finding]:
             Finding(
                 GOOD,
                 "The teeth stay in contact at every point.",
-                f"The least transmission error is {quantity_text(least, 'µm')}; contact is lost "
+                f"The smallest transmission error is {quantity_text(least, 'µm')}; contact is lost "
                 "below zero.",
             )
         ]
@@ -221,21 +221,14 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
         return []
     row, column = _place(-ratio)
     least, point = float(ratio[row, column]), dataset.isel(preload=row, speed=column)
-    level, words = (
-        (GOOD, "Above 3: full film on the flanks.")
-        if least >= _FULL_FILM
-        else (NOTE, "Below 3 the highest asperities are in contact: mixed lubrication.")
-        if least >= _MIXED
-        else (WARNING, "Below 1 asperities carry much of the load; watch wear and friction.")
-    )
     film = quantity_text(1e6 * float(point["film_thickness_min"]), "µm")
     return [
         Finding(
-            level,
-            f"The least film ratio λ of a loaded flank is {quantity_text(least, '', 2)}, at "
+            film_ratio_level(least),
+            f"The smallest film ratio λ of a loaded flank is {quantity_text(least, '', 2)}, at "
             f"{float(point['speed_kmh']):g} km/h and preload {float(point['preload']):g} N "
             f"(film {film}).",
-            words,
+            film_ratio_words(least),
         )
     ]
 
@@ -290,7 +283,7 @@ def _balance(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             WARNING,
-            f"The energy balance is open by up to {size}.",
+            f"The energy balance has an error of up to {size}.",
             "Use more time steps per mesh period.",
         )
     ]

@@ -46,14 +46,14 @@ _LIMITS = (
     "coasting.",
     "Natural frequencies are undamped, about the static state at the middle speed.",
     "Spectra end at 4000 Hz. Extremes are taken over the whole record.",
-    "A source of loss that is not modelled is not in the efficiency: see the findings.",
+    "The efficiency does not include sources of loss that are not modelled: see the findings.",
 )
 
 
 def write_sweep_report(
     dataset: xr.Dataset, directory: Path | str, entries: Sequence[Entry] = CATALOGUE
 ) -> Path:
-    """Write report.html and figures/*.png into `directory`; return the path of the report.
+    """Write report.html and figures/*.png of a sweep into `directory`; return the report's path.
 
     Examples
     --------

@@ -83,32 +83,32 @@ def run_sweep(
     command_line: str = "",
     model: SweepModel = AXLE_MODEL,
 ) -> xr.Dataset:
-    """Run the axle FMU over a grid of vehicle speeds and bearing preloads.
+    """Run the axle FMU over a grid of vehicle speeds and bearing preloads; return all results.
 
     Parameters
     ----------
     settings : SweepSettings
-        Shared by all points; by default those of the axle, see `settings_of`.
+        Settings of all points; default: those of the axle, see `settings_of`.
     speeds_kmh, preloads : sequence of float
         Grid [km/h], [N].
     fmu : path
         The axle FMU, as a file or as an unzipped folder. None: that of this installation, built
-        if need be.
+        if necessary.
     mesh_table : path
         Mesh table (.nc) of another gear pair, built into the FMU of this installation.
     axle : path
-        Axle file, or the name of a shipped one, built into the FMU likewise.
+        Axle file, or the name of a shipped one, also built into the FMU.
     out : path
-        Folder of results: points/ holds every finished point; sweep.nc and summary.csv all.
+        Folder of results: points/ holds every finished point; sweep.nc and summary.csv hold all.
         Points that are already there are not computed again; failed ones are. None: no files.
     jobs : int
-        Local processes [-]; all processors if None. Without effect on a cluster.
+        Number of local processes [-]; None: all processors. Not used on a cluster.
     scheduler : str
         Address of a running Dask scheduler, "tcp://host:port".
     progress : callable
         Called after every point with the share done [-] and a sentence on the point.
     command_line : str
-        Noted in the dataset.
+        Command that the dataset records.
     model : SweepModel
         Replaces the simulation, e.g. in tests.
 

@@ -42,38 +42,38 @@ PRELOAD_RANGE = (1.0, 1e5)  # of a bearing [N]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepSettings:
-    """Model options, driver and timing that all points of a sweep share.
+    """Model options, driver and timing of a speed sweep, the same for all its points.
 
     Parameters
     ----------
     oil_temperature : float
-        Temperature of the oil at the flank inlet [K]; not used where `oil_state` is "steady".
+        Temperature of the oil at the flank inlet [K]; not used if `oil_state` is "steady".
     oil_state : str
-        "given"; "steady": each point runs at the oil temperature where the air takes what the axle
-        loses, see `drivetrain.steady_temperature`.
+        "given": `oil_temperature`. "steady": each point runs at the oil temperature at which the
+        air takes as much heat as the axle loses, see `drivetrain.steady_temperature`.
     air_temperature, conductance_at_rest, conductance_at_100_kmh : float
-        Of that balance [K], [W/K], [W/K].
+        Data for the steady temperature [K], [W/K], [W/K].
     driver : str
         "vehicle": the axle is coupled to the driveline and the road; "hold": road load and a slow
-        speed hold act on it directly.
+        speed controller act on it directly.
     oil, equations, radii, mesh_stiffness, mesh_damping, friction : str
     bearing_approach, bearing_torque_loss : str
         Options of the axle model, passed to the FMU. Oil "custom" is that of its axle file.
     roughness_rms, backlash : float
         Composite roughness of the flanks, total normal backlash [m].
     modal_loss_factor : float
-        Used by mesh_damping = "modal" only [-].
+        Used only with mesh_damping = "modal" [-].
     steps_per_mesh_period, steps_per_highest_period : int
         Inner time steps of the FMU [-].
     communication_step : float
         Largest communication step [s]. The step used is the mesh period divided by an integer.
-        At 1e-4 s the record reaches 5 kHz, so bearing modes at 2-3 kHz are resolved.
+        With 1e-4 s the record reaches 5 kHz, so that bearing modes at 2 to 3 kHz are resolved.
     settling_time : float
-        Least time before the record starts [s]; at least 20 mesh periods are waited too.
+        Shortest time before the record starts [s]; it is at least 20 mesh periods.
     record_time : float
-        Least length of the record [s].
+        Shortest length of the record [s].
     cage_turns : float
-        Least length of the record in turns of the pinion bearing cages [-].
+        Shortest length of the record in turns of the pinion bearing cages [-].
 
     Examples
     --------
@@ -167,7 +167,7 @@ class SweepSettings:
 
 
 def quick_sweep_settings(settings: SweepSettings) -> SweepSettings:
-    """Return `settings` with the shortest settling time and record for a first look.
+    """Return `settings` with the shortest settling time and record, for a first look at a sweep.
 
     Examples
     --------

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,6 +11,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
@@ -38,7 +38,8 @@ def whine(
     gear: Annotated[
         str,
         typer.Argument(
-            help="Gear file (TOML) of a hypoid pair or the name of a shipped one.", metavar="GEAR"
+            help="Gear file (TOML) of a hypoid or helical pair, or the name of a shipped one.",
+            metavar="GEAR",
         ),
     ] = "mohammadpour_2015",
     torque: Annotated[float, typer.Option(help="Pinion torque [N.m].", metavar="TORQUE")] = 50.0,
@@ -52,22 +53,24 @@ def whine(
     by: Annotated[
         list[str] | None,
         typer.Option(
-            help="Setting, relief or misalignment, as pinion.machine.tilt_angle_deg; repeat for "
-            "more. Default: all of them.",
+            help="Setting, relief or misalignment, as pinion.machine.tilt_angle_deg, or of a "
+            "helical pair pinion.flank.crown_um; repeat for more. Default: all of them.",
             metavar="FIELD",
         ),
     ] = None,
     pinion_inertia: Annotated[
         float | None,
         typer.Option(
-            help="Moment of inertia about its axis [kg m2]. Default: that of the shipped pair.",
+            help="Moment of inertia about its axis [kg m2]. Default: that of the shipped hypoid "
+            "pair or of the helical gear file.",
             metavar="KGM2",
         ),
     ] = None,
     gear_inertia: Annotated[
         float | None,
         typer.Option(
-            help="Moment of inertia about its axis [kg m2]. Default: that of the shipped pair.",
+            help="Moment of inertia about its axis [kg m2]. Default: that of the shipped hypoid "
+            "pair or of the helical gear file.",
             metavar="KGM2",
         ),
     ] = None,
@@ -80,25 +83,29 @@ def whine(
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
-    """Whine orders of a hypoid pair over the speed, and what each setting changes of them.
+    """Whine orders of a pair over the speed, and what each setting or relief changes of them.
 
     From the flanks through the mesh table to the vibration of the torsional pair, with exact
     derivatives. Writes whine.nc, whine.csv, a figure and report.html. Finished positions are kept
     in OUT: run the same command again to go on after a stop.
     """
+    if example:
+        from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+
+        kind = "helical" if gear in HelicalGearFile.shipped() else "hypoid"
+        print_example(f"gearlube_core.{kind}_geometry.gear_file:{kind.capitalize()}GearFile", gear)
+        return
     from gearlube.studies.whine.findings import findings
     from gearlube.studies.whine.report import write_whine_report
     from gearlube.studies.whine.run import WhineSettings, run_whine, whine_rows
+    from gearlube_core.flank_optimisation.problem import read_gear_file
     from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
     from gearlube_core.units import rpm_to_rads
 
     began = time.monotonic()
     with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
-        if example:
-            typer.echo(HypoidGearFile.shipped_text(gear), nl=False)
-            return
-        file = HypoidGearFile.given(gear)
+        file = read_gear_file(gear)
         check_within("--positions", positions, 7, 400, "", "Three mesh orders need seven.")
         rpm = numbers_from(
             "--speeds-rpm",
@@ -112,18 +119,16 @@ def whine(
         settings = WhineSettings(
             series=SeriesSettings(parameters=tuple(by or ()), torque=torque, positions=positions),
             speeds=tuple(float(rpm_to_rads(one)) for one in rpm),
+            pinion_inertia=pinion_inertia,
+            gear_inertia=gear_inertia,
             damping_ratio=damping_ratio,
         )
-        if pinion_inertia is not None:
-            settings = replace(settings, pinion_inertia=pinion_inertia)
-        if gear_inertia is not None:
-            settings = replace(settings, gear_inertia=gear_inertia)
-        if gear.endswith(".toml") and None in (pinion_inertia, gear_inertia):
+        hypoid = isinstance(file, HypoidGearFile)
+        if hypoid and gear.endswith(".toml") and None in (pinion_inertia, gear_inertia):
             logger.warning(
-                "Inertias are those of the shipped pair, %g and %g kg m2. Give --pinion-inertia "
-                "and --gear-inertia.",
-                settings.pinion_inertia,
-                settings.gear_inertia,
+                "The moments of inertia are those of the shipped pair, %g and %g kg m2. Give your "
+                "own with --pinion-inertia and --gear-inertia.",
+                *settings.inertias(file),
             )
         with (
             results_folder(out, "whine", overwrite=overwrite),

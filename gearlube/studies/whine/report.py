@@ -15,17 +15,18 @@ from gearlube.report.page import write_report
 from gearlube.report.parts import Column, Figure, Input, Report, Table
 from gearlube.studies.whine.figures import most_moving, order_changes
 from gearlube.studies.whine.findings import findings, movers, numbers
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import rads_to_rpm
 
 _SPEED = Axis("pinion speed", "rpm")
 _RPM, _MICRO = rads_to_rpm(1.0), 1e6
 _LIMITS = (
-    "The pair turns with two degrees of freedom on rigid shafts and bearings; flank friction is "
-    "not in it. A car has more natural frequencies.",
+    "The pair turns with two degrees of freedom on rigid shafts and bearings; there is no flank "
+    "friction. A car has more natural frequencies.",
     "Changes are to first order: those of a small error. A change of more than a third of the "
     "amplitude is a hint only.",
-    "One torque, drive flanks. Teeth are all alike.",
+    "One torque, drive flanks. All teeth are equal.",
     "The mesh table has the orders that its positions resolve: fewer than half of them.",
 )
 
@@ -45,7 +46,10 @@ def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
     """Return the report of a whine study."""
     attributes = dataset.attrs
     speed = _RPM * dataset["pinion_speed"].values
-    file = HypoidGearFile.model_validate_json(attributes["gear_file"])
+    kind = attributes.get("kind", "hypoid")
+    model = HypoidGearFile if kind == "hypoid" else HelicalGearFile
+    file = model.model_validate_json(attributes["gear_file"])
+    moved = "settings, reliefs and misalignments" if kind == "hypoid" else "reliefs and slopes"
     settings = [
         Input("pinion torque", f"{attributes['torque']:g}", "N·m"),
         Input("pinion speeds", f"{speed[0]:.0f} to {speed[-1]:.0f}, {speed.size} of them", "rpm"),
@@ -53,10 +57,10 @@ def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
     ]
     return Report(
         study="whine",
-        title=f"Whine of the hypoid pair {attributes['name']}",
+        title=f"Whine of the {kind} pair {attributes['name']}",
         subtitle=f"Mesh orders of the torsional pair at {attributes['torque']:g} N·m on the pinion "
         f"from {speed[0]:.0f} to {speed[-1]:.0f} rpm, and what {dataset.sizes['parameter']} "
-        "settings, reliefs and misalignments change of them.",
+        f"{moved} change of them.",
         findings=findings(dataset),
         numbers=numbers(dataset),
         figures=_figures(dataset),
@@ -88,8 +92,9 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
             name="changes",
             title="What small errors change of the first order",
             caption="Change of the mesh force in percent of it, by a growth of each parameter by "
-            "its tolerance; point at a cell to read it. Red: louder, blue: quieter. The largest on "
-            "the mean of the speeds stand on top. Where the force is small, percents are large.",
+            "its tolerance; point at a cell to read it. Red: louder, blue: quieter. "
+            "Parameters with the largest mean over the speeds are on top. Where the force "
+            "is small, percents are large.",
             chart=_changes(dataset),
         ),
         Figure(

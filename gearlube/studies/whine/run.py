@@ -21,15 +21,18 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import (
 )
 from gearlube_core.dynamics.hypoid_torsional.whine_rates import WhineRates, whine_rates
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.hypoid_contact.sensitivity.series_rates import (
-    SeriesRates,
-    SeriesSettings,
-    series_rates,
+from gearlube_core.helical_contact.series_rates import (
+    HelicalSeriesSettings,
+    helical_series_rates,
 )
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings, series_rates
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.tooth_contact.series_rates import SeriesRates
 
+GearFile = HypoidGearFile | HelicalGearFile
 POSITIONS = "positions"  # folder of finished positions, in that of the results
 QUANTITIES = {
     "transmission_error": ("rad", "rotation of the pinion beyond the teeth ratio"),
@@ -40,7 +43,7 @@ _SHIPPED = karagiannis_2012_pair()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WhineSettings:
-    """Where whine is computed, and by what it is differentiated.
+    """Speeds and orders of a whine study, and the parameters by which it differentiates.
 
     Parameters
     ----------
@@ -49,11 +52,11 @@ class WhineSettings:
     speeds : tuple of float
         Mean pinion speeds [rad/s], rising, 1 to 5000.
     orders : tuple of int
-        Of the mesh.
+        Mesh orders.
     pinion_inertia, gear_inertia : float
-        About the members' axes [kg m2]; by default those of the shipped pair.
+        Moments of inertia about the members' axes [kg m2]; default: those of the shipped pair.
     damping_ratio : float
-        Of the mesh mode [-], 0.001 to 0.5.
+        Damping ratio of the mesh mode [-], 0.001 to 0.5.
 
     Examples
     --------
@@ -64,8 +67,8 @@ class WhineSettings:
     series: SeriesSettings = field(default_factory=SeriesSettings)
     speeds: tuple[float, ...] = tuple(np.linspace(50.0, 650.0, 61).tolist())
     orders: tuple[int, ...] = (1, 2, 3)
-    pinion_inertia: float = _SHIPPED.pinion_inertia
-    gear_inertia: float = _SHIPPED.gear_inertia
+    pinion_inertia: float | None = None
+    gear_inertia: float | None = None
     damping_ratio: float = KARAGIANNIS_DAMPING_RATIO
 
     def __post_init__(self) -> None:
@@ -73,14 +76,25 @@ class WhineSettings:
             raise ParameterError(f"speeds must rise [rad/s], got {self.speeds}. Sort them.")
         check_within("speeds", self.speeds[0], 1.0, 5e3, "rad/s")
         check_within("speeds", self.speeds[-1], 1.0, 5e3, "rad/s")
-        check_positive("pinion_inertia", self.pinion_inertia, "kg m2")
-        check_positive("gear_inertia", self.gear_inertia, "kg m2")
+        for name in ("pinion_inertia", "gear_inertia"):
+            if getattr(self, name) is not None:
+                check_positive(name, getattr(self, name), "kg m2")
         check_within("damping_ratio", self.damping_ratio, 1e-3, 0.5)
         most = (self.series.positions - 1) // 2
         for order in self.orders:
             check_within(
                 "orders", order, 1, most, "", "Twice the order and one position are needed."
             )
+
+    def inertias(self, file: GearFile) -> tuple[float, float]:
+        """Return those of pinion and gear [kg m2]: as given, or those of the pair."""
+        own = _SHIPPED.pinion_inertia, _SHIPPED.gear_inertia
+        if isinstance(file, HelicalGearFile):
+            own = file.body("pinion").polar_inertia, file.body("gear").polar_inertia
+        return (
+            own[0] if self.pinion_inertia is None else self.pinion_inertia,
+            own[1] if self.gear_inertia is None else self.gear_inertia,
+        )
 
 
 class WhineRow(NamedTuple):
@@ -95,28 +109,30 @@ class WhineRow(NamedTuple):
 
 
 def run_whine(
-    file: HypoidGearFile,
+    file: GearFile,
     settings: WhineSettings | None = None,
     *,
     folder: Path | None = None,
     jobs: int | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the whine orders of a hypoid pair over its speed, and their rates by settings.
+    """Return the whine orders of a hypoid pair over speed, and how each setting changes them.
 
-    The drive flanks' loaded contact and its derivatives become a mesh table with derivatives; the
-    torsional pair's periodic motions on it give amplitudes of transmission error and mesh force.
+    The drive flanks' loaded contact and its derivatives become a mesh table with derivatives. The
+    periodic motions of the torsional pair on it give the amplitudes of transmission error and mesh
+    force.
 
     Parameters
     ----------
-    file : HypoidGearFile
+    file : HypoidGearFile or HelicalGearFile
+        Of a helical pair the parameters are reliefs, crowns and slopes of its flanks.
     settings : WhineSettings, optional
-        Torque, parameters, speeds; absent: 50 N.m, all parameters.
+        Torque, parameters, speeds; default: 50 N.m, all parameters.
     folder : Path, optional
-        Gets whine.nc, whine.csv and figures/whine.png. Finished positions are kept there: the
-        same call goes on after a stop.
+        Folder for whine.nc, whine.csv and figures/whine.png. Finished positions are kept there:
+        after a stop the same call continues.
     jobs : int, optional
-        Processes; default: all processors.
+        Number of processes; default: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
 
@@ -129,8 +145,9 @@ def run_whine(
 
     Notes
     -----
-    No flank friction, shafts and bearings rigid. A speed without periodic motion of the mesh
-    period is NaN; `stable` is 0 where such a motion is not stable.
+    The model has no flank friction, and shafts and bearings are rigid. At a speed without a
+    periodic motion of the mesh period the results are NaN; `stable` is 0 if this motion is not
+    stable.
 
     Examples
     --------
@@ -139,10 +156,10 @@ def run_whine(
     >>> found["force_rate"].sel(parameter="misalignment.pinion_axial", order=1)  # doctest: +SKIP
     """
     settings = settings or WhineSettings()
-    store = None if folder is None else folder / POSITIONS
-    table = series_rates(file, settings.series, store=store, jobs=jobs, progress=progress)
+    table = _series(file, settings.series, folder, jobs, progress)
     progress(1.0, "periodic motions")
-    dataset = _dataset(file, settings, table, _motions(table, settings))
+    pair = _pair(file, table, settings)
+    dataset = _dataset(file, settings, table, pair, _motions(pair, table, settings))
     if folder is not None:
         write_whine(dataset, folder)
     return dataset
@@ -178,19 +195,37 @@ def whine_rows(dataset: xr.Dataset) -> list[WhineRow]:
     return sorted(rows, key=lambda row: -row.force)
 
 
-def _pair(table: SeriesRates, settings: WhineSettings) -> HypoidTorsionalParameters:
+def _series(
+    file: GearFile,
+    series: SeriesSettings,
+    folder: Path | None,
+    jobs: int | None,
+    progress: Progress,
+) -> SeriesRates:
+    if isinstance(file, HypoidGearFile):
+        store = None if folder is None else folder / POSITIONS
+        return series_rates(file, series, store=store, jobs=jobs, progress=progress)
+    own = HelicalSeriesSettings(
+        parameters=series.parameters, torque=series.torque, positions=series.positions
+    )
+    return helical_series_rates(file, own, jobs=jobs, progress=progress)
+
+
+def _pair(file: GearFile, table: SeriesRates, settings: WhineSettings) -> HypoidTorsionalParameters:
+    pinion, gear = settings.inertias(file)
     return replace(
         karagiannis_2012_pair(table.table),
         pinion_torque=settings.series.torque,
-        pinion_inertia=settings.pinion_inertia,
-        gear_inertia=settings.gear_inertia,
+        pinion_inertia=pinion,
+        gear_inertia=gear,
         mesh_damping="modal",
         damping_ratio=settings.damping_ratio,
     )
 
 
-def _motions(table: SeriesRates, settings: WhineSettings) -> list[WhineRates | None]:
-    pair = _pair(table, settings)
+def _motions(
+    pair: HypoidTorsionalParameters, table: SeriesRates, settings: WhineSettings
+) -> list[WhineRates | None]:
     found: list[WhineRates | None] = []
     for speed in settings.speeds:
         try:
@@ -200,16 +235,17 @@ def _motions(table: SeriesRates, settings: WhineSettings) -> list[WhineRates | N
         found.append(one)
     if not any(found):
         raise ConvergenceError(
-            f"A periodic motion must exist at one of {len(settings.speeds)} speeds, none was "
-            "found. Give speeds off the resonance, or more damping."
+            f"No periodic motion was found at any of the {len(settings.speeds)} speeds. Give "
+            "speeds farther from the resonance, or more damping."
         )
     return found
 
 
 def _dataset(
-    file: HypoidGearFile,
+    file: GearFile,
     settings: WhineSettings,
     table: SeriesRates,
+    pair: HypoidTorsionalParameters,
     motions: list[WhineRates | None],
 ) -> xr.Dataset:
     count, orders = len(table.parameters), len(settings.orders)
@@ -239,7 +275,7 @@ def _dataset(
         table.rotation_rate,
         {"units": "rad per unit of the parameter", "long_name": "its rate"},
     )
-    model = HypoidTorsional(_pair(table, settings))
+    model = HypoidTorsional(pair)
     return xr.Dataset(
         data,
         coords={
@@ -259,6 +295,7 @@ def _dataset(
             "name": file.name,
             "torque": settings.series.torque,
             "pinion_teeth": file.pinion.teeth,
+            "kind": "hypoid" if isinstance(file, HypoidGearFile) else "helical",
             "natural_frequency": model.natural_frequency,
             "gear_file": file.model_dump_json(exclude_none=True),
         },

@@ -73,40 +73,41 @@ class Rib:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BearingGeometry:
-    """A single-row tapered roller bearing, or equal rows that share the load.
+    """Geometry of a tapered roller bearing, for `bearing_loss`; rows share the load equally.
 
     Parameters
     ----------
     bore_diameter, outside_diameter : float
         Boundary dimensions d, D [m].
     pitch_diameter : float
-        Through the middles of the rollers [m].
+        Diameter of the circle through the middles of the rollers [m].
     roller_diameter, roller_length : float
-        At mid-length; effective length [m].
+        Diameter at mid-length; effective length [m].
     n_rollers : int
-        Of one row, 3 to 40.
+        Number of rollers in one row, 3 to 40.
     outer_angle, inner_angle : float
         Half the cone angles of the races of outer and inner ring [rad].
     rib : Rib
     rows : int
-        1 to 4, each with the same share of the load.
+        Number of rows, 1 to 4, each with the same share of the load.
     series : str
-        Of the catalogue: 302, 303, 313, 320X, 322 or other.
+        Series in the catalogue: 302, 303, 313, 320X, 322 or other.
     roughness : float
-        Composite rms of roller and race [m].
+        Composite rms roughness of roller and race [m].
     f0, f1 : float
-        Factors of `palmgren_1959` [-].
+        Viscous and load factor of `palmgren_1959` [-].
     timken_g1 : float
         Geometry factor of `timken`; 0: not known [-].
     rolling_scale : float, optional
-        Measured over computed rolling torque; None: not calibrated [-].
+        Measured rolling torque divided by the computed one; None: not calibrated [-].
     solid : Solid
-        Rollers and races.
+        Material of rollers and races.
 
     Raises
     ------
     ParameterError
-        Rollers that overlap, no common apex, rings that do not hold the rollers.
+        The rollers overlap, rollers and races have no common apex, or the rings do not hold the
+        rollers.
 
     Examples
     --------
@@ -165,8 +166,8 @@ class BearingGeometry:
             )
             raise ParameterError(
                 f"The rollers overlap: {self.n_rollers} rollers on a pitch diameter of "
-                f"{mm * self.pitch_diameter:.4g} mm leave {mm * room:.4g} mm for each, got rollers "
-                f"of {mm * self.roller_diameter:.4g} mm; at most {most} fit."
+                f"{mm * self.pitch_diameter:.4g} mm leave room for {mm * room:.4g} mm for each, "
+                f"got rollers of {mm * self.roller_diameter:.4g} mm; at most {most} fit."
             )
         across = self.roller_diameter * math.cos(self.outer_angle)
         if not (

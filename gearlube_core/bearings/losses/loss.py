@@ -38,18 +38,20 @@ PARTS = ("rolling", "sliding", "rib", "drag", "hysteresis", "viscous", "load", "
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LossModel:
-    """How the friction of a bearing is computed.
+    """Law and oil supply by which `bearing_loss` computes the friction of a bearing.
 
     Parameters
     ----------
     law : str
         One of `laws.LAWS`.
     heating : str, optional
-        Inlet heating of the raceways, one of `laws.HEATINGS`; absent: what the law is used with.
+        Inlet heating of the raceways, one of `laws.HEATINGS`; default: the one that belongs to the
+        law.
     inlet_layer : float
-        Oil at the inlet of the raceways, both surfaces together [m]; 0: flooded.
+        Thickness of the oil at the inlet of the raceways, on both surfaces together [m]; 0:
+        flooded.
     temperature_rise : float
-        Of the oil at the contacts over the given temperature [K].
+        Temperature of the oil at the contacts above the given temperature [K].
 
     Examples
     --------
@@ -99,7 +101,7 @@ def bearing_loss(
     radial_load: float,
     temperature: float,
 ) -> BearingLoss:
-    """Return torque and power loss of a tapered roller bearing.
+    """Return torque and power loss of a tapered roller bearing at one operating point.
 
     Parameters
     ----------
@@ -107,22 +109,22 @@ def bearing_loss(
     oil : Lubricant
     model : LossModel
     speed : float
-        Of the shaft, not negative; the outer ring stands [rad/s].
+        Speed of the shaft, not negative; the outer ring does not turn [rad/s].
     axial_load, radial_load : float
-        Of the whole bearing [N].
+        Load on the whole bearing [N].
     temperature : float
-        Of the oil at the bearing [K].
+        Temperature of the oil in the bearing [K].
 
     Raises
     ------
     ParameterError
-        A number beyond the range of the law, the oil or the bearing.
+        A number is outside the range of the law, the oil or the bearing.
 
     Notes
     -----
-    The error bar is a factor of 2 (k = 2) for a bearing that was not calibrated: the state of
-    lubrication is not known. Laws that miss the one measured bearing by more have a wider one. With
-    `rolling_scale` from a measured torque it is 1.25 for the laws of the raceways.
+    The error bar is a factor of 2 (k = 2) for a bearing that was not calibrated, because the state
+    of lubrication is not known. Laws that differ more from the one measured bearing have a wider
+    one. With `rolling_scale` from a measured torque it is 1.25 for the laws of the raceways.
 
     Examples
     --------
@@ -217,7 +219,7 @@ def check_condition(
         raise ParameterError(
             f"axial_load must be at least {radial_load * tan / LARGEST_RATIO:.4g} N to balance "
             f"radial_load {radial_load:g} N, got {axial_load:g} N: with less, fewer than half of "
-            "the rollers carry load and the rings part. Give more axial load."
+            "the rollers carry load and the rings separate. Give more axial load."
         )
     loads = np.zeros(geometry.n_rollers)
     rows = geometry.rows
@@ -228,8 +230,8 @@ def check_condition(
     if pressure > LARGEST_PRESSURE:
         share = (LARGEST_PRESSURE / pressure) ** 2
         raise ParameterError(
-            f"The load must leave the largest pressure on the inner race below "
+            "The load must leave the largest pressure on the inner race below "
             f"{1e-9 * LARGEST_PRESSURE:g} GPa, got {1e-9 * pressure:.3g} GPa from axial_load "
-            f"{axial_load:g} N and radial_load {radial_load:g} N. At most {share:.2g} of this "
+            f"{axial_load:g} N and radial_load {radial_load:g} N. Use at most {share:.2g} of this "
             "load."
         )

@@ -26,7 +26,7 @@ def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
     springs = file.body(role).supports
     if len(springs) != 2:
         raise ParameterError(
-            f"{role} must have two bearings to vibrate in, the gear file has {len(springs)}. Add "
+            f"{role} must have two bearings, but the gear file has {len(springs)}. Add "
             f"[{role}.bearing_1] and [{role}.bearing_2]."
         )
     first, second = (Bearing(**spring._asdict()) for spring in springs)
@@ -41,21 +41,23 @@ def helical_pair_parameters(
     mesh: LineMesh | None = None,
     pair: HelicalPair | None = None,
 ) -> HelicalPairParameters:
-    """Return the vibrating pair of a gear file, with linear contact.
+    """Return the parameters of a helical pair from its gear file, for `periodic_response`.
+
+    The contact of the teeth is linear.
 
     Parameters
     ----------
     file
-        With bearings, and one damping ratio for translation and tilt.
+        Gear file with bearings, and with one damping ratio for translation and tilt.
     pinion_torque
-        [N.m]
+        Torque on the pinion [N.m].
     mu
         Constant coefficient of friction [-].
     mesh
         Contact lines of the pair with their stiffness; by default that of ISO 6336-1 at the
         torque, see `iso_mesh`.
     pair
-        Another geometry with the same bodies and bearings.
+        Another geometry, to be used with the same bodies and bearings.
 
     Raises
     ------
@@ -71,8 +73,8 @@ def helical_pair_parameters(
     """
     if file.damping.translation != file.damping.tilt:
         raise ParameterError(
-            "damping.tilt must equal damping.translation, the model has one ratio for both; got "
-            f"{file.damping.tilt:g} and {file.damping.translation:g}. Give one value."
+            "damping.tilt must equal damping.translation, because the model has one ratio for "
+            f"both; got {file.damping.tilt:g} and {file.damping.translation:g}. Give one value."
         )
     pinion, gear = file.body("pinion"), file.body("gear")
     geometry = file.helical_pair() if pair is None else pair

@@ -22,10 +22,10 @@ from gearlube_core.dynamics.hypoid_axle.kernel_parameters import (
     without_losses,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshAtLoad,
     MeshFields,
     MeshLevels,
     blend_mesh,
+    place_at_load,
 )
 from gearlube_core.dynamics.hypoid_axle.outputs import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
@@ -69,7 +69,9 @@ def torque_limits(parameters: HypoidAxleParameters) -> TorqueLimits:
 
 
 class HypoidAxle(SteppedModel[StepControl]):
-    """Lubricated hypoid axle: 8 DOF, dynamic tapered roller bearings, three flanks.
+    """Lubricated hypoid axle in motion: give it torques, step it in time, read its outputs.
+
+    The model has 8 degrees of freedom, dynamic tapered roller bearings and three lubricated flanks.
 
     Parameters
     ----------
@@ -77,8 +79,9 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     Notes
     -----
-    Integrated by fixed-step RK4 tied to the mesh period and the highest mode. Same input, same
-    bits. Instances share nothing.
+    Equations of motion are integrated by RK4 with a fixed step, which follows from the mesh period
+    and the highest natural frequency. The same input gives the same output to the bit. Instances
+    share nothing.
 
     References
     ----------
@@ -106,6 +109,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             parameters.contact_pressure,
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
+        self._film_model = parameters.film_model()
         super().__init__(
             states=N_STATE,
             output_names=OUTPUT_NAMES,
@@ -118,7 +122,7 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     def _with_data(self) -> Kernels:
         mesh = self.packed
-        fields: MeshFields = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+        fields: MeshFields = (*mesh.fields, self._film_model)
         data = fields, flatten(self.kernel_parameters)
         work, rollers = np.zeros(work_size(mesh.series_size, mesh.nodes)), np.zeros(ROLLERS_MAX)
         p = self.kernel_parameters
@@ -152,10 +156,8 @@ class HypoidAxle(SteppedModel[StepControl]):
         full[:N_ODE] = state
         torque_p, torque_g, oil_temperature = self._inputs.tolist()
         oil = lubricant_state(p.oil, oil_temperature)
-        table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
-        at_load = MeshAtLoad(
-            np.zeros(mesh.series_size), mesh.orders, np.zeros(mesh.window_size), mesh.nodes
-        )
+        table = MeshLevels(*mesh.fields, self._film_model)
+        at_load = place_at_load(table, np.zeros(mesh.series_size), np.zeros(mesh.window_size))
         blend_mesh(full[LOAD_TORQUE], full[SIDE], table, at_load)
         slope = np.zeros(N_ODE)
         inputs = step_inputs(full, torque_p, torque_g, oil, p)

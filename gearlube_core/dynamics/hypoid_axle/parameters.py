@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal, get_args
 
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_within
@@ -22,6 +23,7 @@ from gearlube_core.contact.solid import (
 from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES, TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     MeshForceConstants,
     equivalent_mass,
@@ -33,8 +35,15 @@ from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import chittenden_1985
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.friction.flank_film import flank_film_model
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
-from gearlube_core.friction.flank_laws import CONTACT_PRESSURES, FLANK_LAWS
+from gearlube_core.friction.flank_laws import (
+    CONTACT_PRESSURES,
+    FILM_MODELS,
+    FLANK_LAWS,
+    MixedFlankFriction,
+)
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS, FlankRolling
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
@@ -47,73 +56,92 @@ MeshDamping = Literal["hysteretic", "modal"]
 Friction = Literal[
     "consistent", "as_printed", "off", "printed_traction_circular", "zhou_hoeprich_1991"
 ]
+Film = Literal["formula", "solved"]
 Approach = Literal["full", "as_printed"]
 
 NO_MODAL_LOSS = (
     "modal_loss_factor must be above 0 with mesh_damping 'modal', got 0. "
     "Give about 0.06, or choose 'hysteretic'."
 )
+# friction laws whose parts besides the film's are consistent, so that a solved film can stand in
+FRICTION_WITH_SOLVED_FILM = ("consistent", "off", "zhou_hoeprich_1991")
+PRINTED_WITH_SOLVED_FILM = (
+    "a solved film must come with the friction law consistent, zhou_hoeprich_1991 or off: the "
+    "others have films of their own. Change one of the two."
+)
+FILM_MODEL = "hypoid_flank"  # of the package, for flanks of steel
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HypoidAxleParameters(AxleScalars):
-    """Everything that defines one axle.
+    """Everything that defines one hypoid axle: give it to `HypoidAxle`.
 
-    Its other fields are those of `kernel_parameters.AxleScalars`, such as masses and backlash, and
-    of `mesh_force.MeshForceScalars`.
+    More fields, such as masses and backlash, are those of `kernel_parameters.AxleScalars` and
+    `mesh_force.MeshForceScalars`.
 
     Parameters
     ----------
     mesh : MeshTable
+        Stiffness, contact radii and transmission error of the gears.
     bearing : Bearing
-        Two opposed on either shaft, e.g. a `TaperedRollerBearing` with preload, interference or
-        clearance set.
+        Each shaft has two, mounted as an opposed pair, e.g. a `TaperedRollerBearing` with preload,
+        interference or clearance set.
     gear_bearing : Bearing, optional
-        Those of the gear's shaft, of the same class; by default as the pinion's.
+        Bearings of the gear's shaft, of the same class; default: as those of the pinion.
     oil : Lubricant
     solid : Solid
-        Both flanks.
+        Material of both flanks.
     roughness_rms : float
         Composite root-mean-square roughness of the flanks [m].
     xi_beta_sigma, sigma_over_beta : float
-        Asperities of Greenwood and Tripp's law [-]: density times tip radius times roughness, and
+        Asperities in Greenwood and Tripp's law [-]: density times tip radius times roughness, and
         roughness over tip radius. `greenwood_tripp_fit` gives those of computed asperities.
     equations : {"consistent", "as_printed"}
-        Sign of the mesh force in the lateral equations, flank friction in them, and the terms with
-        which the mesh conserves energy.
+        "as_printed": the equations as the paper prints them. "consistent" differs in the sign of
+        the mesh force in the lateral equations, in their flank friction, and in terms that make
+        the mesh conserve energy.
     radii : {"consistent", "paper", "mean"}
-        R_g = R_p z_g/z_p with all ratio error in e; both as in the table (counts the ratio error
-        twice); both constant.
+        Contact radii. "consistent": R_g = R_p z_g/z_p, and the whole ratio error is in e.
+        "paper": both as in the table, which counts the ratio error twice. "mean": both constant.
     mesh_stiffness : {"tangent", "secant"}
-        Spring of the mesh about its load, see `pack_mesh`.
+        Stiffness of the mesh about its load, see `pack_mesh`.
     mesh_damping : {"hysteretic", "modal"}
-        [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
+        Damping by [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq) with k0 at
+        REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
     friction : {"consistent", "as_printed", "off", "printed_traction_circular", \
         "zhou_hoeprich_1991"} or callable
-        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`.
-        "printed_traction_circular" reads the paper so that its efficiency comes out: (13) without
-        beta, as printed, at the mean pressure of a circle, `circular_pressure_coefficient`;
-        asperities are consistent. "zhou_hoeprich_1991": asperities carry exp(-B Lambda^C) of the
-        load, all of it where there is no film.
+        Friction law of the flanks: a name in `flank_laws.FLANK_LAWS`, "off", or a function that
+        makes a law, see `flank_law`. "printed_traction_circular" is the reading of the paper that
+        gives its efficiency: (13) without beta, as printed there, at the mean pressure of a
+        circular contact, `circular_pressure_coefficient`; asperities are consistent.
+        "zhou_hoeprich_1991": asperities carry exp(-B Lambda^C) of the load, and all of it when
+        there is no film.
+    film : {"formula", "solved"}
+        Central film and friction of the oil on the flanks: "formula", Chittenden 1985 with Evans
+        and Johnson 1986, or "solved", by a model of solved thermal Eyring films, see `solved_film`;
+        outside its domain the formulas come in. Friction of asperities is as `friction` says.
+    film_limiting_slope : float
+        Limiting shear stress of the film over pressure [-], 0 for none: the film model knows none,
+        so contacts whose mean stress comes near it count as outside.
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
         "aihara_1987", "palmgren_loaded", "skf_2013"}
-        Palmgren's law under the preload; the raceways by a law of rolling, with ribs, hysteresis
-        and oil drag, under the load of each roller; or a law of the catalogues under the forces of
-        either bearing.
+        Drag torque of the bearings. "palmgren": under the preload. "palmgren_loaded", "skf_2013":
+        laws of catalogues under the forces on each bearing. The others: a law of rolling for the
+        raceways, with ribs, hysteresis and oil drag, under the load of each roller.
     churning : {"none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
-        Law of the gear's churning, see `churning_torque`.
+        Law of the gear's churning loss, see `churning_torque`.
     ring_diameter, ring_width : float
         Outside diameter and width of the teeth of the gear [m].
     immersion : float
-        Depth of the lowest tooth below the surface of the oil at rest [m]; more than ring_diameter
-        counts as that.
+        Depth of the lowest tooth below the oil level at standstill [m]; a value above
+        ring_diameter counts as ring_diameter.
     oil_volume : float
-        [m3]
+        Volume of oil in the axle [m3].
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
 
@@ -143,6 +171,8 @@ class HypoidAxleParameters(AxleScalars):
     mesh_damping: MeshDamping = "hysteretic"
     modal_loss_factor: Annotated[float, Within(0.0, 1.0)] = 0.06
     friction: Friction | FlankLawMaker = "consistent"
+    film: Film = "formula"
+    film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
     rolling: FlankRolling = "none"
     bearing_torque_loss: TorqueLoss = "palmgren"
     churning: ChurningLaw = "none"
@@ -161,6 +191,7 @@ class HypoidAxleParameters(AxleScalars):
         if isinstance(self.friction, str):
             check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, TORQUE_LOSSES)
+        check_option("film", self.film, FILM_MODELS)
         check_option("rolling", self.rolling, FLANK_ROLLING_LAWS)
         check_option("churning", self.churning, CHURNING_LAWS)
         check_scalars(self)
@@ -243,7 +274,27 @@ class HypoidAxleParameters(AxleScalars):
         surface = SurfaceParameters(
             float(self.roughness_rms), float(self.xi_beta_sigma), float(self.sigma_over_beta)
         )
-        return make(surface, solid_parameters(self.solid, self.solid))
+        law = make(surface, solid_parameters(self.solid, self.solid))
+        if isinstance(law, MixedFlankFriction):
+            law = law._replace(
+                film=float(FILM_MODELS.index(self.film)),
+                limiting_slope=float(self.film_limiting_slope),
+            )
+        return law
+
+    def film_model(self) -> Array:
+        """Return the numbers of the film model for one axle; empty with the formulas.
+
+        Raises
+        ------
+        ParameterError
+            The film is solved and the friction law has a film of its own.
+        """
+        if self.film == "formula":
+            return NO_FILM_MODEL
+        if self.friction not in FRICTION_WITH_SOLVED_FILM:
+            raise ParameterError(f"{PRINTED_WITH_SOLVED_FILM} Got {self.friction!r}.")
+        return flank_film_model(FilmModel.named(FILM_MODEL))
 
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""
@@ -294,31 +345,33 @@ def mohammadpour_2015_axle(
     oil: str = "mohammadpour_2015",
     bearing_approach: Approach = "full",
 ) -> HypoidAxleParameters:
-    """Return the axle of Mohammadpour et al. 2015 (Tables 1 and A1-A4).
+    """Return the axle of Mohammadpour et al. 2015 (Tables 1 and A1-A4), to start from.
 
-    Options of the model keep the defaults of `HypoidAxleParameters`; change them with `replace`.
+    Options of the model have the defaults of `HypoidAxleParameters`; change them with `replace`.
 
     Parameters
     ----------
     bearing_preload : float
         Axial preload of every bearing at assembly [N].
     roughness_rms : float
-        Composite roughness of the flanks [m]. The paper gives "Ra 0.5 um" per solid, its formulas
-        need the composite root mean square; Karagiannis et al. 2012 give 0.5 um for this pair.
+        Composite roughness of the flanks [m]. The paper gives "Ra 0.5 um" for each solid. Its
+        formulas need the composite root mean square, and Karagiannis et al. 2012 give 0.5 um for
+        this pair.
     backlash : float
-        Total [m], Karagiannis et al. 2012.
+        Total backlash [m], from Karagiannis et al. 2012.
     mesh : MeshTable, optional
-        Of another gear pair, e.g. read from what `gearlube contact` wrote; inertias, masses and
-        bearings stay those of the paper. By default the table that ships.
+        Mesh table of another gear pair, e.g. one written by `gearlube contact`; inertias, masses
+        and bearings stay those of the paper. Default: the table that ships.
     oil : str
         Name in the lubricant library.
     bearing_approach : {"full", "as_printed"}
-        [mohammadpour_2015 (26)] with the full approach, or halved as printed.
+        Equation (26) of the paper with the full approach of the rollers, or with half of it, as
+        printed there.
 
     Raises
     ------
     ParameterError
-        A value out of range, or an option or oil that does not exist.
+        A value is out of range, or an option or oil does not exist.
 
     Examples
     --------

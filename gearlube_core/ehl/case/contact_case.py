@@ -41,17 +41,31 @@ PartLength = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
 LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]
+Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
 Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
+
+
+_ROUGHNESS = (
+    "Composite rms roughness of both surfaces, for the film ratio in the report; the film itself "
+    "is solved for the surfaces of this case"
+)
 
 
 class ContactCase(FilmCase):
     """What line and point contacts share: speeds along x, solids, oil."""
 
-    speed_1_m_s: Speed = Field(description="Surface speed of body 1, below, along x")
-    speed_2_m_s: Speed = Field(description="Surface speed of body 2, above, along x")
+    speed_1_m_s: Speed = Field(
+        description="Speed of the surface of body 1 (below the film) along x, relative to the "
+        "contact"
+    )
+    speed_2_m_s: Speed = Field(
+        description="Speed of the surface of body 2 (above the film) along x, relative to the "
+        "contact"
+    )
     reduced_modulus_gpa: Modulus | None = Field(
         default=None,
-        description="E' = 2 E*; left out, that of body_1 and body_2",
+        description="Reduced modulus E' = 2 E*, steel on steel about 230; left out: computed "
+        "from body_1 and body_2",
     )
     oil: Oil
     body_1: Body = Body()
@@ -108,7 +122,7 @@ class ContactCase(FilmCase):
         mean = 0.5 * (self.speed_1_m_s + self.speed_2_m_s)
         if mean == 0.0:
             raise ParameterError(
-                f"{self.name} has a mean speed of 0 m/s along x, so no slide-roll ratio. "
+                f"{self.name} has a mean speed of 0 m/s along x, so it has no slide-roll ratio. "
                 "Give both speeds in the case file."
             )
         ratio = (self.speed_1_m_s - self.speed_2_m_s) / mean if slide_roll is None else slide_roll
@@ -117,7 +131,7 @@ class ContactCase(FilmCase):
 
 
 class LineCase(ContactCase):
-    """A lubricated line contact.
+    """Case of a lubricated line contact, for `run_line`: contact, oil, speeds, load, grid.
 
     Examples
     --------
@@ -131,14 +145,19 @@ class LineCase(ContactCase):
     title: ClassVar[str] = "line contact"
     prefix: ClassVar[str] = "line_"
 
-    radius_mm: Radius = Field(description="Relative radius of curvature along x")
-    load_n_per_mm: LineLoad = Field(description="Load per length of the line")
+    radius_mm: Radius = Field(description="Radius of relative curvature along x, 1/R = 1/R1 + 1/R2")
+    load_n_per_mm: LineLoad = Field(description="Load per mm of the length of the line")
     inlet_fill: Fill = Field(
-        default=1.0, description="Share of the inlet gap that holds oil; 1: flooded"
+        default=1.0,
+        description="Share of the gap at the inlet that is filled with oil; 1: flooded; below 1 "
+        "needs mass_conserving cavitation",
     )
     temperature: Heat = Field(
-        default="isothermal", description="thermal: with the energy balance of oil and bodies"
+        default="isothermal",
+        description="isothermal: the oil stays at its inlet temperature; thermal: the energy "
+        "balance of oil and bodies is solved too",
     )
+    roughness_um: Roughness | None = Field(default=None, description=_ROUGHNESS)
     domain: LineDomain | None = None
     profile: ProfileFile | None = None
     solver: LineSolver = LineSolver()
@@ -191,7 +210,7 @@ class LineCase(ContactCase):
 
 
 class PointCase(ContactCase):
-    """A lubricated point contact.
+    """Case of a lubricated point contact, for `run_point`: contact, oil, speeds, load, grid.
 
     Examples
     --------
@@ -202,32 +221,41 @@ class PointCase(ContactCase):
     title: ClassVar[str] = "point contact"
     prefix: ClassVar[str] = "point_"
 
-    radius_x_mm: Radius = Field(description="Relative radius of curvature along x")
+    radius_x_mm: Radius = Field(
+        description="Radius of relative curvature along x, 1/R = 1/R1 + 1/R2"
+    )
     radius_y_mm: Radius | None = Field(
         default=None,
-        description="Relative radius of curvature along y; left out with length_mm",
+        description="Radius of relative curvature along y; leave it out if length_mm is given",
     )
     length_mm: PartLength | None = Field(
         default=None,
-        description="Of a part of a line contact along y, over which all repeats; load_n is its "
-        "load",
+        description="Makes the case a part of a line contact: length of this part along y, "
+        "after which everything repeats; load_n is the load on this length",
     )
     side_conditions: Literal["ambient", "cyclic", "no_flow"] = Field(
         default="ambient",
-        description="At both ends along y: ambient pressure; of a part of a line contact: the film "
-        "repeats, or no oil passes",
+        description="Condition at both ends along y. ambient: ambient pressure. For a part of a "
+        "line contact, cyclic: the film repeats; no_flow: no oil passes",
     )
-    load_n: Load = Field(description="Load")
-    side_speed_1_m_s: Speed = Field(default=0.0, description="Of body 1 along y")
-    side_speed_2_m_s: Speed = Field(default=0.0, description="Of body 2 along y")
+    load_n: Load = Field(description="Load on the contact")
+    side_speed_1_m_s: Speed = Field(
+        default=0.0, description="Speed of the surface of body 1 along y"
+    )
+    side_speed_2_m_s: Speed = Field(
+        default=0.0, description="Speed of the surface of body 2 along y"
+    )
     inlet_layer_um: Layer | None = Field(
         default=None,
-        description="Oil that both surfaces together bring to the inlet, for mass_conserving "
-        "cavitation; left out: flooded",
+        description="Thickness of the oil that both surfaces together carry into the inlet; "
+        "needs mass_conserving cavitation; left out: flooded",
     )
     temperature: Heat = Field(
-        default="isothermal", description="thermal: with the energy balance of oil and bodies"
+        default="isothermal",
+        description="isothermal: the oil stays at its inlet temperature; thermal: the energy "
+        "balance of oil and bodies is solved too",
     )
+    roughness_um: Roughness | None = Field(default=None, description=_ROUGHNESS)
     domain: PointDomain = PointDomain()
     height_map: MapFile | None = None
     ridge: RidgeShape | None = None

@@ -21,8 +21,8 @@ class FilmCase(InputFile):
 
     package: ClassVar[str] = "gearlube_core.ehl.case"
 
-    name: Text = Field(description="What reports and plots call the case")
-    source: Text = Field(description="Where the numbers are from")
+    name: Text = Field(description="Name of the case in reports and figures")
+    source: Text = Field(description="Where the numbers come from")
 
 
 @contextmanager

@@ -20,53 +20,92 @@ Steps = Annotated[int, Field(ge=1, le=1000)]
 class LineDomain(Section):
     """Where the film is computed."""
 
-    first_mm: Place = Field(description="First x")
-    last_mm: Place = Field(description="Last x")
+    first_mm: Place = Field(description="Smallest x at which the film is computed")
+    last_mm: Place = Field(description="Largest x at which the film is computed")
 
 
 class LineSolver(Section):
     """How a line contact is solved."""
 
-    nodes: LineNodes = Field(default=1001, description="Of the finest grid")
+    nodes: LineNodes = Field(default=1001, description="Number of nodes of the finest grid")
     stencil: Literal["upwind-2", "central", "upwind-1", "galerkin"] = Field(
-        default="upwind-2", description="Of the wedge, or galerkin: finite elements"
+        default="upwind-2",
+        description="Difference formula for the wedge term of Reynolds' equation; galerkin: "
+        "finite elements",
     )
     cavitation: Literal["reynolds", "mass_conserving"] = Field(
-        default="reynolds", description="Where the film breaks"
+        default="reynolds",
+        description="How the film breaks. reynolds: pressure and its slope are zero there; "
+        "mass_conserving: the oil in the broken film is computed too",
     )
-    tolerance: Tolerance = Field(default=1e-8, description="Unbalanced flow and load")
-    max_iterations: Steps = Field(default=40, description="Newton steps on each grid")
+    tolerance: Tolerance = Field(
+        default=1e-8,
+        description="The solution is accepted when the relative errors of flow and load are "
+        "below this",
+    )
+    max_iterations: Steps = Field(
+        default=40, description="Largest number of Newton steps on each grid"
+    )
 
 
 class PointDomain(Section):
     """How far the film is computed, in semi-axes of the dry contact along the same axis."""
 
     inlet: Reach | None = Field(
-        default=None, description="Upstream, in semi-axes of the dry contact"
+        default=None,
+        description="Distance upstream, in semi-axes of the dry contact; left out: as far as "
+        "load and film need",
     )
-    outlet: Reach | None = Field(default=None, description="Downstream, in semi-axes")
-    side: Reach | None = Field(default=None, description="To the sides, in semi-axes")
+    outlet: Reach | None = Field(
+        default=None,
+        description="Distance downstream, in semi-axes of the dry contact; left out: as far as "
+        "load and film need",
+    )
+    side: Reach | None = Field(
+        default=None,
+        description="Distance to each side, in semi-axes of the dry contact; left out: as far "
+        "as load and film need",
+    )
     oil_beyond: bool | None = Field(
         default=None,
-        description="Oil goes on beyond the domain; false: ambient pressure on its border; left "
-        "out: on the default domain where it carries more than 2.5 % of the load",
+        description="true: there is oil beyond the domain too; false: ambient pressure on the "
+        "border; left out: true on the default domain if the oil beyond carries more than 2.5 % "
+        "of the load",
     )
 
 
 class PointSolver(Section):
     """How a point contact is solved."""
 
-    nodes_x: PointNodes = Field(default=129, description="Along x, border included")
-    nodes_y: PointNodes = Field(default=129, description="Along y, border included")
-    wedge: Wedge = Field(default="upwind-2", description="Stencil of the wedge")
+    nodes_x: PointNodes = Field(default=129, description="Number of nodes along x, with the border")
+    nodes_y: PointNodes = Field(
+        default=129,
+        description="Number of nodes along y, with the border; rows of a part of a line "
+        "contact: an even number from 16 on",
+    )
+    wedge: Wedge = Field(
+        default="upwind-2",
+        description="Difference formula for the wedge term of Reynolds' equation",
+    )
     discretisation: Literal["differences", "elements"] = Field(
         default="differences",
-        description="Differences of finite volumes, or finite elements: Galerkin's, upwinded where "
-        "pressure hardly flows",
+        description="differences: finite volumes; elements: Galerkin finite elements, with "
+        "upwinding where pressure hardly moves the oil",
     )
     cavitation: Literal["reynolds", "mass_conserving"] = Field(
-        default="reynolds", description="Where the film breaks"
+        default="reynolds",
+        description="How the film breaks. reynolds: pressure and its slope are zero there; "
+        "mass_conserving: the oil in the broken film is computed too",
     )
-    tolerance: Tolerance = Field(default=1e-6, description="Unbalanced flow")
-    load_tolerance: Tolerance = Field(default=1e-6, description="Error of the load")
-    newton_steps: Steps = Field(default=60, description="Most Newton steps on each grid")
+    tolerance: Tolerance = Field(
+        default=1e-6,
+        description="The solution is accepted when the relative error of the flow balance is "
+        "below this",
+    )
+    load_tolerance: Tolerance = Field(
+        default=1e-6,
+        description="The solution is accepted when the relative error of the load is below this",
+    )
+    newton_steps: Steps = Field(
+        default=60, description="Largest number of Newton steps on each grid"
+    )

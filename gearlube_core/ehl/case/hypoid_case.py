@@ -28,20 +28,29 @@ Tolerance = Annotated[float, Field(gt=0.0, le=1e-3, allow_inf_nan=False)]
 class HypoidSolver(Section):
     """How the films of a flank are solved."""
 
-    nodes_minor: Nodes = Field(default=257, description="Along the minor axis of the contact")
-    nodes_major: Nodes = Field(default=65, description="Along the major axis")
+    nodes_minor: Nodes = Field(
+        default=257, description="Number of nodes along the minor axis of the contact"
+    )
+    nodes_major: Nodes = Field(
+        default=65, description="Number of nodes along the major axis of the contact"
+    )
     steps: Annotated[int, Field(ge=2, le=100000)] = Field(
-        default=160, description="Time steps of the march"
+        default=160, description="Number of time steps from entry to exit"
     )
     steady: Annotated[int, Field(ge=2, le=1000)] = Field(
-        default=17, description="Positions with a steady film"
+        default=17, description="Number of positions at which a steady film is computed too"
     )
-    wedge: Wedge = Field(default="quick", description="Stencil of the wedge")
-    tolerance: Tolerance = Field(default=1e-5, description="Unbalanced flow")
+    wedge: Wedge = Field(
+        default="quick", description="Difference formula for the wedge term of Reynolds' equation"
+    )
+    tolerance: Tolerance = Field(
+        default=1e-5,
+        description="A film is accepted when the relative error of the flow balance is below this",
+    )
 
 
 class HypoidCase(FilmCase):
-    """One tooth pair of a hypoid axle through its engagement.
+    """Case of one tooth pair of a hypoid axle, from entry to exit, for `run_hypoid`.
 
     Examples
     --------
@@ -53,45 +62,61 @@ class HypoidCase(FilmCase):
     prefix: ClassVar[str] = "hypoid_"
 
     mesh_table: Text = Field(
-        default="mohammadpour_2015", description="Shipped mesh table, or a file (.nc)"
+        default="mohammadpour_2015",
+        description="Name of a shipped mesh table, or a mesh table file (.nc)",
     )
     gear_file: Text | None = Field(
         default=None,
-        description="Gear file of the table, shipped or .toml; for the point of contact's motion",
+        description="Gear file that belongs to the mesh table, shipped or .toml; only needed "
+        "for the motion of the contact point",
     )
     pinion_speed_rpm: Speed = Field(description="Mean speed of the pinion")
     pinion_torque_n_m: Torque = Field(
-        description="Above 0 on the drive flank, below on the coast flank"
+        description="Torque on the pinion; above 0: the drive flank, below 0: the coast flank"
     )
     load: Literal["dynamic", "static"] = Field(
-        default="dynamic", description="Of the running axle, or torque over arm times load share"
+        default="dynamic",
+        description="Load of the tooth pair. dynamic: from the running axle; static: torque "
+        "divided by its arm, times the load share",
     )
     entrainment: Literal["mesh_table", "moving_contact"] = Field(
         default="mesh_table",
-        description="Surface speeds in the fixed frame, as the axle takes them, or against the "
-        "point of contact, which moves along the tooth",
+        description="Frame of the surface speeds. mesh_table: the fixed frame, as in the axle "
+        "model; moving_contact: relative to the contact point, which moves along the tooth",
     )
-    oil: Text = Field(default="mohammadpour_2015", description="Of the library")
+    oil: Text = Field(default="mohammadpour_2015", description="Name of an oil of the library")
     flow: Literal["eyring", "newtonian"] = Field(
         default="eyring",
-        description="Of the film; newtonian: the Eyring stress acts on friction alone",
+        description="How the oil of the film flows. eyring: shear thinning; newtonian: the "
+        "Eyring stress acts on friction only",
     )
     temperature: Heat = Field(
         default="isothermal",
-        description="thermal: also steady films with the energy balance of oil and flanks; "
+        description="thermal: steady films with the energy balance of oil and flanks too; "
         "transient thermal films are not implemented",
     )
-    oil_temperature_degc: Temperature = Field(default=95.0, description="At the inlet")
+    oil_temperature_degc: Temperature = Field(
+        default=95.0, description="Temperature of the oil at the inlet"
+    )
     roughness_um: Roughness = Field(
-        default=0.5, description="Composite root mean square, for the axle's friction"
+        default=0.5,
+        description="Composite RMS roughness of both flanks, for the friction in the axle model",
     )
     smallest_load: Share = Field(
-        default=0.1, description="Over the largest load of the pair, where the cycle begins, ends"
+        default=0.1,
+        description="The cycle begins and ends where the load is this share of the largest load "
+        "of the pair",
     )
     first_phase: Phase = Field(
-        default=-1.5, description="Not before this [mesh periods from the middle of the window]"
+        default=-1.5,
+        description="The cycle does not begin before this phase, in mesh periods from the "
+        "middle of the contact window",
     )
-    last_phase: Phase = Field(default=1.5, description="Not after this [mesh periods]")
+    last_phase: Phase = Field(
+        default=1.5,
+        description="The cycle does not end after this phase, in mesh periods from the middle "
+        "of the contact window",
+    )
     solver: HypoidSolver = HypoidSolver()
 
     def table(self) -> MeshTable:

@@ -46,21 +46,28 @@ class RoughTimes(Section):
     """Time steps of a contact that becomes rough, in half widths a of the dry contact."""
 
     steps_per_half_width: StepCount = Field(
-        default=400, description="Time steps in which the faster surface moves by a"
+        default=400,
+        description="Number of time steps in which the faster surface moves by the half width a "
+        "of the dry contact",
     )
     until_rough: HalfWidths = Field(
-        default=5.0, description="That the slower surface moves until all is rough, in a"
+        default=5.0,
+        description="Distance that the slower surface moves until the whole contact is rough, "
+        "in half widths a",
     )
     rough: HalfWidths = Field(
-        default=4.0, description="That the faster surface moves from then on, in a"
+        default=4.0,
+        description="Distance that the faster surface moves after that, in half widths a",
     )
     feed: Literal["inlet", "in_place"] = Field(
         default="inlet",
-        description="inlet: roughness comes in with its surface; in_place: it grows everywhere "
-        "at once until all is rough",
+        description="inlet: each surface carries its roughness in from the inlet; in_place: "
+        "roughness grows everywhere at once until the whole contact is rough",
     )
     growth: Growth = Field(
-        default=1.0, description="Length over which roughness from the inlet grows to full, in a"
+        default=1.0,
+        description="With feed = inlet: length over which the roughness grows from zero to its "
+        "full height, in half widths a",
     )
 
 
@@ -68,47 +75,75 @@ class RoughSolids(Section):
     """What carries load where the film vanishes."""
 
     thickness_um: Layer = Field(
-        default=0.01, description="Of the layer on both solids together; 0: the oil carries all"
+        default=0.01,
+        description="Thickness of a thin layer, on both solids together, that carries load "
+        "where the film is thinner than it; 0: the oil carries all load",
     )
-    pressure_gpa: Pressure = Field(default=1.0, description="At which the layer is half as thick")
-    friction: Friction = Field(default=0.1, description="Friction coefficient where solids touch")
+    pressure_gpa: Pressure = Field(
+        default=1.0, description="Pressure at which this layer is pressed to half its thickness"
+    )
+    friction: Friction = Field(
+        default=0.1, description="Friction coefficient where the solids touch"
+    )
 
 
 class RoughDomain(Section):
     """How far the film is computed, in half widths of the dry contact."""
 
-    inlet: Reach = Field(default=2.5, description="Upstream")
-    outlet: Reach = Field(default=1.5, description="Downstream")
+    inlet: Reach = Field(
+        default=2.5, description="Distance upstream, in half widths of the dry contact"
+    )
+    outlet: Reach = Field(
+        default=1.5, description="Distance downstream, in half widths of the dry contact"
+    )
 
 
 class RoughSolver(Section):
     """How the film is solved."""
 
-    nodes_x: Columns = Field(default=401, description="Along x, border included")
-    rows: Rows = Field(default=64, description="Along y, an even number from 16 on")
-    wedge: Wedge = Field(default="quick", description="Stencil of the wedge")
+    nodes_x: Columns = Field(default=401, description="Number of nodes along x, with the border")
+    rows: Rows = Field(default=64, description="Number of rows along y, an even number from 16 on")
+    wedge: Wedge = Field(
+        default="quick", description="Difference formula for the wedge term of Reynolds' equation"
+    )
     scheme: Literal["bdf2", "crank_nicolson"] = Field(
         default="bdf2",
-        description="Of what is stored in time; crank_nicolson has a quarter of the error",
+        description="Formula for the change of oil mass over time; crank_nicolson has a quarter "
+        "of the error of bdf2",
     )
-    tolerance: Tolerance = Field(default=1e-4, description="Unbalanced flow")
-    load_tolerance: Tolerance = Field(default=1e-4, description="Error of the load")
-    newton_steps: Steps = Field(default=60, description="Most Newton steps of a time step")
-    krylov_steps: Steps = Field(default=60, description="Most iterations of a linear solution")
+    tolerance: Tolerance = Field(
+        default=1e-4,
+        description="A time step is accepted when the relative error of the flow balance is "
+        "below this",
+    )
+    load_tolerance: Tolerance = Field(
+        default=1e-4,
+        description="A time step is accepted when the relative error of the load is below this",
+    )
+    newton_steps: Steps = Field(
+        default=60, description="Largest number of Newton steps in a time step"
+    )
+    krylov_steps: Steps = Field(
+        default=60, description="Largest number of iterations in a linear solution"
+    )
 
 
 class RoughFrames(Section):
     """Which films are kept."""
 
-    every: Moment = Field(default=0, description="Keep every n-th film; 0: none but `steps`")
-    steps: list[Moment] = Field(default=[], description="Time steps whose film is kept")
+    every: Moment = Field(default=0, description="Keep every n-th film; 0: only those of `steps`")
+    steps: list[Moment] = Field(
+        default=[], description="Numbers of the time steps whose films are kept"
+    )
     record_every: StepCount = Field(
-        default=25, description="Time steps from one record to the next, from which a run goes on"
+        default=25,
+        description="Number of time steps between two records; an interrupted run goes on from "
+        "the last record",
     )
 
 
 class RoughCase(ContactCase):
-    """A part of a line contact between rough surfaces in motion.
+    """Case of a line contact between rough surfaces in motion, for `run_rough`; a part of the line.
 
     Examples
     --------
@@ -122,11 +157,15 @@ class RoughCase(ContactCase):
     title: ClassVar[str] = "rough line contact"
     prefix: ClassVar[str] = "rough_"
 
-    radius_mm: Radius = Field(description="Relative radius of curvature along x")
-    load_n_per_mm: LineLoad = Field(description="Load per length of the line")
-    length_mm: PartLength = Field(description="Of the part along y, over which all repeats")
+    radius_mm: Radius = Field(description="Radius of relative curvature along x, 1/R = 1/R1 + 1/R2")
+    load_n_per_mm: LineLoad = Field(description="Load per mm of the length of the line")
+    length_mm: PartLength = Field(
+        description="Length of the computed part along y, after which everything repeats"
+    )
     side_conditions: Literal["cyclic", "no_flow"] = Field(
-        default="cyclic", description="At both ends along y: the film repeats, or no oil passes"
+        default="cyclic",
+        description="Condition at both ends along y. cyclic: the film repeats; no_flow: no oil "
+        "passes",
     )
     surface_1: RoughSurface | None = None
     surface_2: RoughSurface | None = None

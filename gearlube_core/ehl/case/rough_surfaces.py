@@ -42,48 +42,64 @@ class RoughSurface(Section):
 
     file: FileName | None = Field(
         default=None,
-        description="Profile (CSV) or map (npz, NetCDF, SDF, X3P); its place counts from the case "
-        "file",
+        description="File with heights: a profile (CSV) or a map (npz, NetCDF, SDF, X3P); its "
+        "path is relative to the case file",
     )
     stand_in: Literal["A", "B", "C"] | None = Field(
         default=None,
-        description="Made up in the place of Jamali's unpublished profiles: the part of the "
-        "faster surface for the faster one",
+        description="A made-up profile of case A, B or C of Jamali 2015, whose measured "
+        "profiles are not published; the faster surface gets the part that belongs to the "
+        "faster one",
     )
-    ra_um: Height | None = Field(default=None, description="Ra of generated heights")
+    ra_um: Height | None = Field(default=None, description="Makes a random profile: its Ra")
     amplitude_um: Height | None = Field(
-        default=None, description="Of a sine: half the height from trough to crest"
+        default=None, description="Makes a cosine wave: half its height from trough to crest"
     )
     period_um: Length | None = Field(
         default=None,
-        description="Along x, of a sine or of generated heights, or of the part of a profile",
+        description="Period along x: of a wave, of a random profile, or of the part that is cut "
+        "from a profile file, which without it is one period as a whole",
     )
     start_um: Length | None = Field(
         default=None,
-        description="Where the part of a profile begins, about; left out: all of it is one period",
+        description="About where that part of a profile file begins; left out: at 0",
     )
     correlation_um: Length = Field(
-        default=8.0, description="Of generated heights: where their autocorrelation is 0.2"
+        default=8.0,
+        description="Correlation length of a random profile: where its autocorrelation has "
+        "fallen to 0.2",
     )
-    skewness: Moment = Field(default=0.0, description="Of generated heights")
-    kurtosis: Moment = Field(default=3.0, description="Of generated heights")
+    skewness: Moment = Field(
+        default=0.0,
+        description="Skewness Rsk of a random profile; below 0: deep valleys, few peaks",
+    )
+    kurtosis: Moment = Field(
+        default=3.0, description="Kurtosis Rku of a random profile; 3: Gaussian heights"
+    )
     shortest_um: Length | None = Field(
-        default=None, description="Shortest wave of generated heights; left out: 8 um"
+        default=None, description="Shortest wave of a random profile; left out: 8 um"
     )
-    seed: Seed = Field(default=1, description="Of a stand-in or of generated heights")
+    seed: Seed = Field(
+        default=1,
+        description="Seed of the random numbers of a made-up or random profile; the same seed "
+        "gives the same profile",
+    )
     same_ra: bool = Field(
-        default=False, description="Scale the part of a stand-in to the Ra of the whole, 0.31 um"
+        default=False,
+        description="Scale the part of a made-up profile to the Ra of the whole profile, 0.31 um",
     )
     cutoff_um: Length | None = Field(
-        default=None, description="lambda_s of a Gaussian filter: shorter waves are taken off"
+        default=None,
+        description="Cut-off lambda_s of a Gaussian filter, which removes shorter waves",
     )
     turns: Turns | None = Field(
         default=None,
-        description="Periods that a crest moves along x over the length; left out with lay_deg: 0, "
-        "crests along y",
+        description="Slope of the crests: number of periods by which a crest moves along x over "
+        "the length; 0 (also if lay_deg is left out too): crests along y",
     )
     lay_deg: Angle | None = Field(
-        default=None, description="Angle of the crests from y towards x, in the place of turns"
+        default=None,
+        description="Slope of the crests as an angle from y towards x; give it or turns",
     )
 
     @model_validator(mode="after")
@@ -153,8 +169,8 @@ class RoughSurface(Section):
         if isinstance(surface, HeightMap):
             if self.period_um is not None:
                 raise ParameterError(
-                    f"period_um is for a profile, got it for {surface.name}, a map. Leave it out: "
-                    "a map is one period."
+                    f"period_um is only for a profile, but {surface.name} is a map. Leave "
+                    "period_um out: a map is one period."
                 )
             return replace(surface, periodic=(True, True))
         if self.period_um is None:

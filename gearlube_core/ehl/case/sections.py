@@ -45,44 +45,64 @@ class Oil(Section):
 
     library: str | None = Field(
         default=None,
-        description="Oil of the library; leave out its numbers then",
+        description="Name of an oil of the library; if given, leave out the four values that it "
+        "brings: viscosity, pressure-viscosity coefficient, Eyring stress and limiting stress",
     )
     shear: Literal["eyring", "newtonian", "limited"] = Field(
         default="eyring",
-        description="Of an oil of the library: Eyring, Newtonian, or Eyring up to a limit",
+        description="Only with an oil of the library: how it shears. eyring: it thins with "
+        "shear; newtonian: it does not; limited: eyring up to a limiting shear stress",
     )
     viscosity_pa_s: Viscosity | None = Field(
-        default=None, description="At ambient pressure and the inlet's temperature"
+        default=None,
+        description="Dynamic viscosity at ambient pressure and at the inlet temperature; gear "
+        "oils about 0.01 to 0.3",
     )
     pressure_viscosity_per_gpa: PressureViscosity | None = Field(
-        default=None, description="alpha, slope of ln(viscosity) at ambient pressure"
+        default=None,
+        description="Pressure-viscosity coefficient alpha: slope of ln(viscosity) over pressure "
+        "at ambient pressure; most oils 10 to 25",
     )
     law: Literal["barus", "roelands", "houpert"] = Field(
-        default="roelands", description="Viscosity against pressure; houpert also temperature"
+        default="roelands",
+        description="Law of viscosity over pressure; houpert also over temperature, as thermal "
+        "solutions need",
     )
     density_law: Literal["dowson_higginson", "incompressible"] = Field(
-        default="dowson_higginson", description="Density against pressure"
+        default="dowson_higginson", description="Law of density over pressure"
     )
-    eyring_stress_mpa: Stress | None = Field(default=None, description="Left out: Newtonian")
+    eyring_stress_mpa: Stress | None = Field(
+        default=None,
+        description="Eyring stress, above which the oil shears thin; typically 2 to 10; left "
+        "out: Newtonian",
+    )
     limiting_stress_mpa: Stress | None = Field(
-        default=None, description="Limiting shear stress at ambient pressure"
+        default=None,
+        description="Limiting shear stress at ambient pressure, the largest shear stress the "
+        "oil can carry; left out: no limit",
     )
     limiting_stress_slope: Slope = Field(
-        default=0.0, description="Slope of the limiting shear stress with pressure"
+        default=0.0, description="How much the limiting shear stress rises per pressure"
     )
-    density_kg_m3: OilDensity = Field(default=870.0, description="At ambient pressure")
-    temperature_degc: Temperature = Field(default=40.0, description="At the inlet")
+    density_kg_m3: OilDensity = Field(default=870.0, description="Density at ambient pressure")
+    temperature_degc: Temperature = Field(
+        default=40.0, description="Temperature of the oil at the inlet"
+    )
     temperature_exponent: TemperatureExponent = Field(
-        default=0.0, description="S0 of Houpert's law, for thermal solutions"
+        default=0.0,
+        description="Exponent S0 of Houpert's law, how fast viscosity falls with temperature; "
+        "only for thermal solutions, often about 1",
     )
     expansion_per_k: Expansion = Field(
-        default=0.0, description="Thermal expansion of volume, for thermal solutions"
+        default=0.0,
+        description="Thermal expansion of the oil's volume; only for thermal solutions, often "
+        "about 7e-4",
     )
     conductivity_w_m_k: Conductivity = Field(
-        default=0.14, description="Heat conduction, for thermal solutions"
+        default=0.14, description="Thermal conductivity of the oil; only for thermal solutions"
     )
     heat_capacity_j_kg_k: HeatCapacity = Field(
-        default=2000.0, description="Heat capacity, for thermal solutions"
+        default=2000.0, description="Specific heat capacity of the oil; only for thermal solutions"
     )
 
     @model_validator(mode="after")
@@ -90,8 +110,8 @@ class Oil(Section):
         numbers = [name for name in _OWN_DATA if getattr(self, name) is not None]
         if self.library is not None and numbers:
             raise ValueError(
-                f"{', '.join(numbers)} must be left out beside library = {self.library!r}, "
-                "which has its own"
+                f"{', '.join(numbers)} must be left out if library is given, because library = "
+                f"{self.library!r} has its own values"
             )
         if self.library is None:
             for name in _OWN_DATA[:2]:
@@ -139,12 +159,15 @@ class Body(Section):
         default=_STEEL.youngs_modulus / _GIGA, description="Young's modulus"
     )
     poisson_ratio: PoissonRatio = Field(default=_STEEL.poisson_ratio, description="Poisson's ratio")
-    density_kg_m3: Density = Field(default=_STEEL.density, description="For thermal solutions")
+    density_kg_m3: Density = Field(
+        default=_STEEL.density, description="Density; only for thermal solutions"
+    )
     conductivity_w_m_k: Conductivity = Field(
-        default=_STEEL.conductivity, description="For thermal solutions"
+        default=_STEEL.conductivity, description="Thermal conductivity; only for thermal solutions"
     )
     heat_capacity_j_kg_k: HeatCapacity = Field(
-        default=_STEEL.heat_capacity, description="For thermal solutions"
+        default=_STEEL.heat_capacity,
+        description="Specific heat capacity; only for thermal solutions",
     )
 
     def solid(self) -> Solid:

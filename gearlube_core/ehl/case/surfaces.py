@@ -38,7 +38,8 @@ class ProfileFile(Section):
     """Measured or computed heights along a line contact."""
 
     file: FileName = Field(
-        description="CSV with the columns x_mm and height_um; its place counts from the case file"
+        description="CSV file with the columns x_mm and height_um; its path is relative to the "
+        "case file"
     )
     holds: Meaning = Field(default="heights", description=_MEANING)
 
@@ -51,8 +52,8 @@ class MapFile(Section):
     """Measured or computed heights over a point contact."""
 
     file: FileName = Field(
-        description="NetCDF or .npz with x, y in mm and height in um; its place counts from the "
-        "case file"
+        description="NetCDF or .npz file with x and y in mm and height in um; its path is "
+        "relative to the case file"
     )
     holds: Meaning = Field(default="heights", description=_MEANING)
 
@@ -64,12 +65,13 @@ class MapFile(Section):
 class RidgeShape(Section):
     """A ridge or groove with a Gaussian section."""
 
-    height_um: Height = Field(description="Of the crest; below 0 a groove")
-    width_mm: Size = Field(description="At half height")
-    x_mm: Place = Field(default=0.0, description="A point of the crest")
-    y_mm: Place = Field(default=0.0, description="A point of the crest")
+    height_um: Height = Field(description="Height of the crest; a value below 0 makes a groove")
+    width_mm: Size = Field(description="Width at half height")
+    x_mm: Place = Field(default=0.0, description="x of a point on the crest")
+    y_mm: Place = Field(default=0.0, description="y of a point on the crest")
     direction_deg: Angle = Field(
-        default=90.0, description="Of the crest, from x towards y; 90 lies across x"
+        default=90.0,
+        description="Direction of the crest, from x towards y; 0: along x, 90: along y",
     )
 
     def surface(self) -> Ridge:
@@ -86,10 +88,10 @@ class RidgeShape(Section):
 class DentShape(Section):
     """A round dent or bump with a Gaussian section."""
 
-    depth_um: Height = Field(description="In the middle; below 0 a bump")
+    depth_um: Height = Field(description="Depth in the middle; a value below 0 makes a bump")
     width_mm: Size = Field(description="Diameter at half depth")
-    x_mm: Place = Field(default=0.0, description="Of the middle")
-    y_mm: Place = Field(default=0.0, description="Of the middle")
+    x_mm: Place = Field(default=0.0, description="x of the middle")
+    y_mm: Place = Field(default=0.0, description="y of the middle")
 
     def surface(self) -> Dent:
         """Return the dent, in SI units."""
@@ -104,12 +106,15 @@ class DentShape(Section):
 class WavinessShape(Section):
     """Straight harmonic waves."""
 
-    amplitude_um: Amplitude = Field(description="Half the height from trough to crest")
-    wavelength_mm: Size = Field(description="From crest to crest")
+    amplitude_um: Amplitude = Field(description="Amplitude: half the height from trough to crest")
+    wavelength_mm: Size = Field(description="Distance from crest to crest")
     direction_deg: Angle = Field(
-        default=0.0, description="Across the crests, from x towards y; 0: crests across x"
+        default=0.0,
+        description="Direction normal to the crests, from x towards y; 0: the crests lie along y",
     )
-    phase_deg: Angle = Field(default=0.0, description="0: a crest through x = y = 0")
+    phase_deg: Angle = Field(
+        default=0.0, description="Phase of the waves; 0: a crest passes through x = y = 0"
+    )
 
     def surface(self) -> Waviness:
         """Return the waves, in SI units."""

@@ -21,6 +21,38 @@ FLOWS = ("eyring", "newtonian")
 _Y_REACH = (-1.5, 1.3)
 
 
+def flank_contact(
+    instant: FlankInstant, contact_modulus: float, lubricant: FilmOil, nodes: tuple[int, int]
+) -> PointContactProblem:
+    """Return the steady contact of one instant on a domain of its own.
+
+    Parameters
+    ----------
+    instant
+        Load, radii and motion.
+    contact_modulus
+        E* [Pa].
+    lubricant
+        As it flows.
+    nodes
+        Along the minor and along the major axis.
+    """
+    problem = elliptical_contact(
+        R_x=instant.R_x,
+        R_y=instant.R_y,
+        entrainment=instant.entrainment,
+        load=instant.load,
+        contact_modulus=contact_modulus,
+        lubricant=lubricant,
+        nodes=nodes,
+        sliding=instant.sliding,
+        oil_beyond=False,
+    )
+    semi_axis = problem.hertz_contact[1]
+    low, high = (reach * semi_axis for reach in _Y_REACH)
+    return replace(problem, y_limits=(low, high))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HypoidFilm:
     """Film of one tooth pair through its engagement.
@@ -64,20 +96,7 @@ class HypoidFilm:
 
     def problem(self, instant: FlankInstant) -> PointContactProblem:
         """Return the steady contact of one instant on a domain of its own."""
-        problem = elliptical_contact(
-            R_x=instant.R_x,
-            R_y=instant.R_y,
-            entrainment=instant.entrainment,
-            load=instant.load,
-            contact_modulus=self.contact_modulus,
-            lubricant=self._flowing(),
-            nodes=self.nodes,
-            sliding=instant.sliding,
-            oil_beyond=False,
-        )
-        semi_axis = problem.hertz_contact[1]
-        low, high = (reach * semi_axis for reach in _Y_REACH)
-        return replace(problem, y_limits=(low, high))
+        return flank_contact(instant, self.contact_modulus, self._flowing(), self.nodes)
 
     def domain(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Return limits along x and y [m] that contain the contact of all instants."""

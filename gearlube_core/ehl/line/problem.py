@@ -35,32 +35,33 @@ def _hertz_distance(gap: float) -> float:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LineProblem:
-    """Steady line contact of two elastic bodies in plane strain.
+    """Steady lubricated line contact of two elastic bodies, for `solve_line`; plane strain.
 
     Parameters
     ----------
     lubricant
         Oil of the film.
     radius
-        Relative radius of curvature R [m]; with `gap` given it only scales and starts.
+        Radius of relative curvature R [m]; if `gap` is given, it only sets scales and the start.
     line_load
         w, load per unit length [N/m].
     reduced_modulus
         E' = 2 E* [Pa].
     speed_1, speed_2
-        Surface speeds along x [m/s]; body 1 below the film, body 2 above. They may not add up
-        to zero in a steady problem.
+        Surface speeds along x [m/s]; body 1 is below the film, body 2 above. In a steady problem
+        their sum must not be zero.
     gap
-        Undeformed gap h_u(x) [m] at positions (n,) [m], up to a constant; without it x^2/(2 R).
+        Undeformed gap h_u(x) [m] at positions (n,) [m], up to a constant; default: x^2/(2 R).
     domain
-        First and last x [m]; without it chosen from load, film and direction of entrainment.
+        First and last x [m]; default: chosen from load, film and direction of entrainment.
     inlet_fill
-        Share of the gap filled with oil at the inlet, above 0 to 1; below 1 needs
+        Share of the gap at the inlet that is filled with oil, above 0 to 1; below 1 needs
         mass-conserving cavitation.
 
     Notes
     -----
-    Half-spaces, smooth or with surface features long against the film (Reynolds).
+    The bodies are half-spaces. They are smooth, or their surface features are long compared with
+    the film (Reynolds' equation).
 
     Examples
     --------
@@ -148,23 +149,23 @@ class LineProblem:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LineSettings:
-    """How a line contact is solved.
+    """How `solve_line` solves a line contact: grid, difference formula, tolerance.
 
     Parameters
     ----------
     nodes
-        Of the finest grid.
+        Number of nodes of the finest grid.
     stencil
-        Of the wedge: "upwind-2" (default), "central", "upwind-1", or "galerkin" for the finite
-        elements of [jamali_2015 (3.14)].
+        Difference formula of the wedge term: "upwind-2" (default), "central", "upwind-1", or
+        "galerkin" for the finite elements of [jamali_2015 (3.14)].
     cavitation
-        "reynolds": pressure and its gradient vanish where the film breaks. "mass_conserving":
-        the void share of [jakobsson_floberg_1957] and [olsson_1965] is solved as well.
+        "reynolds": pressure and its gradient are zero where the film breaks. "mass_conserving":
+        the void share of [jakobsson_floberg_1957] and [olsson_1965] is solved too.
     tolerance
-        Largest sum of unbalanced flows over the flow through the contact, and of the load's
-        error [-]; never asked for beyond what rounding allows.
+        Largest sum of unbalanced flows over the flow through the contact, and largest relative
+        error of the load [-]. Rounding errors limit what can be reached.
     max_iterations
-        Newton steps on each grid.
+        Largest number of Newton steps on each grid.
     coarsest
         Fewest nodes of the coarsest grid of the nest.
     contact_film
@@ -195,6 +196,6 @@ class LineSettings:
         check_within("contact_film", self.contact_film, 0.0, 1e-6, "m")
         if self.stencil == "galerkin" and self.cavitation == "mass_conserving":
             raise ParameterError(
-                "stencil galerkin has no flux between nodes that a void share could follow. "
-                "Take upwind-2 with mass-conserving cavitation."
+                "stencil galerkin cannot be combined with mass-conserving cavitation, which needs "
+                "fluxes between nodes. Take upwind-2."
             )

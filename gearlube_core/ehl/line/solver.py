@@ -30,23 +30,25 @@ def solve_line(
     most_nodes: int = 16001,
     throw: bool = True,
 ) -> LineSolution:
-    """Return the steady film of a line contact, with the error of its grid.
+    """Return the steady film of a line contact, with an estimate of its error by the grid.
 
     Parameters
     ----------
     problem : LineProblem
-        Contact.
+        The contact.
     settings : LineSettings, optional
         Grid and scheme.
     start : LineSolution, optional
-        Of a neighbouring problem; without it the dry contact after Hertz on a nest of grids.
+        Solution of a similar problem, to start from; default: the dry contact after Hertz on a
+        nest of grids.
     film_error : float, optional
-        Relative error of the central and the smallest film that is wanted, 1e-4 to 1 [-]: the
-        spacing is halved until the estimate is below it.
+        Wanted relative error of the central and the smallest film, 1e-4 to 1 [-]: the spacing is
+        halved until the estimate is below it.
     most_nodes : int
-        That no grid of that search exceeds.
+        Largest number of nodes of a grid in that search.
     throw : bool
-        False: return what was reached, `converged` False, instead of raising.
+        True: raise if the solution does not converge; False: return the last state, with
+        `converged` False.
 
     Returns
     -------
@@ -55,13 +57,13 @@ def solve_line(
     Raises
     ------
     ParameterError
-        When the mean surface speed vanishes, or a starved inlet meets Reynolds' cavitation.
+        The mean surface speed is zero, or a starved inlet is combined with Reynolds' cavitation.
     ConvergenceError
-        When the finest grid fails, unless `throw` is False.
+        The finest grid does not converge, unless `throw` is False.
 
     Notes
     -----
-    The error of the grid is estimated from the same film on two grids of two and four times the
+    The error by the grid is estimated from the same film on two grids with two and four times the
     spacing; see `estimated_error`.
 
     Examples
@@ -76,8 +78,8 @@ def solve_line(
     settings = settings or LineSettings()
     if problem.entrainment_speed == 0.0:
         raise ParameterError(
-            "A steady film needs entrainment, but speed_1 + speed_2 is 0 m/s. "
-            "Solve squeeze with the transient solver."
+            "A steady film needs entrainment, but speed_1 + speed_2 is 0 m/s. Use the transient "
+            "solver for pure squeeze."
         )
     if problem.inlet_fill < 1.0 and settings.cavitation != "mass_conserving":
         raise ParameterError(

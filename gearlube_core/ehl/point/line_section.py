@@ -83,14 +83,16 @@ def line_section(
     domain: tuple[float, float] = DOMAIN,
     sides: str = "cyclic",
 ) -> PointContactProblem:
-    """Return a part of a smooth line contact, for roughness that varies along it as well.
+    """Return a part of a smooth line contact as a point-contact problem.
+
+    Roughness that also varies along the line can be added to it.
 
     Parameters
     ----------
     R_x
-        Relative radius of curvature [m].
+        Radius of relative curvature [m].
     length
-        Of the part along y [m].
+        Length of the part along y [m].
     line_load
         w [N/m].
     speed_1, speed_2
@@ -98,23 +100,24 @@ def line_section(
     contact_modulus
         E* [Pa].
     lubricant
-        Oil.
+        Oil of the film.
     nodes
-        Columns along x, border included, and rows along y, an even number.
+        Number of columns along x, with the border, and of rows along y, an even number.
     domain
         First and last x, in half widths of the dry contact [-].
     sides : {"cyclic", "no_flow"}
-        See `Sides`.
+        Condition at both ends along y, see `Sides`.
 
     Returns
     -------
     PointContactProblem
-        y from 0 to `length`.
+        With y from 0 to `length`.
 
     Notes
     -----
-    Pressure of a line falls with distance squared only, and a repeated solid under a line has no
-    displacement of its own: approaches of two films are comparable, their zero means nothing.
+    Pressure beside a line contact falls only with the square of distance. The approach of the
+    solids has no absolute meaning here, because the deflection under a line
+    load has no finite limit. The approaches of two films can be compared.
 
     Examples
     --------

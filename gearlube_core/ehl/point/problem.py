@@ -54,17 +54,18 @@ class EllipticParaboloid:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointContactProblem:
-    """Steady film between two solids over a rectangle, with ambient pressure on its border.
+    """Steady film between two solids over a rectangle, for `solve_point_contact`.
 
     div(rho h^3/(12 eta) S grad p) = d(u rho h)/dx + d(v rho h)/dy,
     h = h_0 + h_u(x, y) + 1/(pi E*) int p/r,  int p = W,  p >= 0
 
-    S is 1, or the tensor of flow factors of an Eyring film.
+    S is 1, or the tensor of flow factors of an Eyring film. The border has ambient pressure.
 
     Parameters
     ----------
     gap
-        h_u(x, y) [m] of the undeformed solids, up to a constant; takes arrays, returns the like.
+        Gap h_u(x, y) [m] of the undeformed solids, up to a constant; a function that takes arrays
+        and returns an array.
     entrainment
         Mean surface velocity (u, v) [m/s] along x and y; not both zero.
     load
@@ -72,29 +73,30 @@ class PointContactProblem:
     contact_modulus
         E* [Pa]; half of E' = 2 E*.
     lubricant
-        Oil; its Eyring stress acts on the flow where `sliding` is given, and so does the limiting
-        stress of an oil that has both: beyond it the film slips. Slip changes the
-        traction of a Newtonian film but not its flow by pressure.
+        Oil of the film. If `sliding` is given, its Eyring stress acts on the flow; so does the
+        limiting stress of an oil that has both: above it the film slips. In a Newtonian film slip
+        changes the traction, but not the flow by pressure.
     x_limits, y_limits
-        Domain [m].
+        Limits of the domain [m].
     nodes
-        Number of nodes along x and along y, border included: 17 to 2049.
+        Number of nodes along x and along y, with the border: 17 to 2049.
     hertz
-        Radius that sets the scales and the start, if the gap is close to a paraboloid.
+        Paraboloid that sets the scales and the start, if the gap is close to one.
     sliding
         Difference of the surface velocities (u_2 - u_1, v_2 - v_1) [m/s] along x and y, for an
-        oil with an Eyring stress; None: it flows as a Newtonian one.
+        oil with an Eyring stress; None: the oil flows as a Newtonian one.
     solids
-        What carries load where the film vanishes; None: the oil alone.
+        Law by which touching solids carry load where the film vanishes; None: only the oil
+        carries load.
     oil_beyond
-        Oil goes on beyond the domain, between the paraboloids `hertz` around zero: the border
-        has its pressure, and it carries its share of the load.
+        True: there is oil beyond the domain, between the paraboloids `hertz` around zero. Its
+        pressure acts on the border, and it carries its share of the load.
     inlet_layer
-        Thickness of the oil that both surfaces together bring to the upstream border [m], for
+        Thickness of the oil that both surfaces together carry to the upstream border [m], for
         mass-conserving cavitation; None: the gap is full there.
     sides : {"ambient", "cyclic", "no_flow"}
-        What the film meets at both limits of y, see `Sides`; other than "ambient" for a part of
-        a line contact, whose scales follow from `hertz.R_x` alone.
+        Condition at both limits of y, see `Sides`. The last two are for a part of a line contact,
+        whose scales follow from `hertz.R_x` alone.
 
     Raises
     ------
@@ -150,8 +152,8 @@ class PointContactProblem:
             check_positive(f"{axis}_limits[1] - {axis}_limits[0]", limits[1] - low, "m")
             if self.oil_beyond and not low < 0.0 < limits[1]:
                 raise ParameterError(
-                    f"{axis}_limits must lie on both sides of 0 m where oil goes on beyond them, "
-                    f"got {low:.4g} to {limits[1]:.4g} m."
+                    f"{axis}_limits must be on both sides of 0 m if there is oil beyond them, got "
+                    f"{low:.4g} to {limits[1]:.4g} m."
                 )
         sides = Sides(self.sides)
         if sides.closed:
@@ -257,12 +259,13 @@ def expected_film(problem: PointContactProblem) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ContactDomain:
-    """Size of the domain of a film, in semi-axes of the dry contact along the same axis.
+    """Size of the domain of a point contact's film, in semi-axes of the dry contact.
 
     Parameters
     ----------
     inlet, outlet, side
-        Upstream, downstream and to the sides [-]; None: as far as the film needs.
+        Distance upstream, downstream and to each side, in semi-axes along the same axis [-]; None:
+        as far as the film needs.
 
     Examples
     --------
@@ -292,18 +295,18 @@ def elliptical_contact(
     oil_beyond: bool | None = None,
     inlet_layer: float | None = None,
 ) -> PointContactProblem:
-    """Return the problem of two smooth solids on a domain that floods the inlet.
+    """Return the problem of two smooth solids in point contact, on a domain with a flooded inlet.
 
     Parameters
     ----------
     R_x, R_y
-        Relative radii of curvature along x and y [m].
+        Radii of relative curvature along x and y [m].
     entrainment, load, contact_modulus, lubricant, nodes, sliding
         As in `PointContactProblem`.
     domain
-        By default as far as the film needs.
+        Size of the domain; default: as far as the film needs.
     oil_beyond
-        As in `PointContactProblem`. None: where the domain is the default one, flooded, and oil
+        As in `PointContactProblem`. None: True on the default domain if it is flooded and oil
         outside would carry more than 2.5 % of the load.
     inlet_layer
         As in `PointContactProblem`.
@@ -315,11 +318,11 @@ def elliptical_contact(
 
     Notes
     -----
-    The default inlet lies where the undeformed gap is 20 central films, never closer than 2.5
-    semi-axes; the sides and the outlet follow likewise. Larger domains move the central film by
-    less than 1 %. Without oil beyond the border isoviscous films, and those thicker than the
-    solids flatten, come out up to a fifth too thin on a domain of 320 films: pressure falls
-    with the third power of distance only.
+    The default inlet begins where the undeformed gap is 20 central films, at least 2.5 semi-axes
+    from the centre; sides and outlet are chosen in the same way. Larger domains change the central
+    film by less than 1 %. Without oil beyond the border two kinds of film come out up to a fifth
+    too thin on a domain of 320 films: isoviscous films, and films that are thicker than the solids
+    flatten. The reason is that pressure falls only with the third power of distance.
 
     Examples
     --------

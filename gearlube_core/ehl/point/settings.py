@@ -22,33 +22,34 @@ CAVITATION = ("reynolds", "mass_conserving")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointSolverSettings:
-    """How a point contact is solved and when it counts as solved.
+    """How `solve_point_contact` solves a point contact, and when it accepts the solution.
 
     Parameters
     ----------
     wedge
-        Stencil of d(rho h): `upwind-1`, `upwind-2`, `central` or `quick`. Elements are Galerkin's,
-        upwinded where pressure hardly flows, or of first order for `upwind-1`.
+        Difference formula of d(rho h): `upwind-1`, `upwind-2`, `central` or `quick`. Elements are
+        Galerkin's, with upwinding where pressure hardly moves the oil, or of first order for
+        `upwind-1`.
     discretisation
-        `differences` of finite volumes or bilinear finite `elements`.
+        `differences` (finite volumes) or bilinear finite `elements`.
     cavitation
-        `reynolds`: pressure and its gradient vanish where the film breaks, and its gap counts as
-        full behind. `mass_conserving`: the oil in ruptured film is found as well, after
+        `reynolds`: pressure and its gradient are zero where the film breaks, and the gap behind
+        counts as full. `mass_conserving`: the oil in the broken film is computed too, after
         [jakobsson_floberg_1957] and [olsson_1965].
     tolerance
-        Limit of the flow residual: sum over the nodes of what flows in but not out, over the
-        flow through the width of the dry contact at the central film [-].
+        Limit of the flow residual: the sum over all nodes of the flow that enters but does not
+        leave, divided by the flow through the width of the dry contact at the central film [-].
     load_tolerance
         Limit of the relative error of the load [-].
     fall_back
-        Where the stencil has no solution with a film above zero on the grid, take that of
+        If the difference formula has no solution with a film above zero on the grid, use
         `upwind-1`; the outcome says so.
     newton_steps
-        Most Newton steps on one grid.
+        Largest number of Newton steps on one grid.
     krylov_steps
-        Most iterations of one linear solution.
+        Largest number of iterations of one linear solution.
     estimate_error
-        Solve two coarser grids as well, of which the error of the grid is estimated.
+        Also solve two coarser grids, to estimate the error by the grid.
 
     Examples
     --------
@@ -72,8 +73,8 @@ class PointSolverSettings:
         check_option("cavitation", self.cavitation, CAVITATION)
         if self.discretisation == "elements" and self.cavitation == "mass_conserving":
             raise ParameterError(
-                "elements have no flux between nodes that oil in broken film could follow. Take "
-                "differences with mass-conserving cavitation."
+                "elements cannot be combined with mass-conserving cavitation, which needs fluxes "
+                "between nodes. Take differences."
             )
         check_within("tolerance", self.tolerance, 1e-11, 1e-2)
         check_within("load_tolerance", self.load_tolerance, 1e-11, 1e-2)

@@ -23,21 +23,21 @@ def solve_point_contact(
     most_nodes: int = 1025,
     throw: bool = True,
 ) -> PointSolution:
-    """Return pressure and film of a steady point contact, with the error of its grid.
+    """Return pressure and film of a steady point contact, with the estimated error by the grid.
 
     Parameters
     ----------
     problem
         Gap, motion, load, oil, domain.
     settings
-        Stencil and tolerances.
+        Difference formula and tolerances.
     film_error
-        Relative error of the central and the smallest film that is wanted, 1e-4 to 1 [-]: the
-        spacing is halved until the estimate is below it. None: the nodes of the problem.
+        Wanted relative error of the central and the smallest film, 1e-4 to 1 [-]: the spacing is
+        halved until the estimate is below it. None: the nodes of the problem.
     most_nodes
-        Along a side, which no grid of that search exceeds.
+        Largest number of nodes along a side in that search.
     throw
-        Raise where the solution does not converge; else return the last state.
+        True: raise if the solution does not converge; False: return the last state.
 
     Returns
     -------
@@ -46,20 +46,20 @@ def solve_point_contact(
     Raises
     ------
     ConvergenceError
-        With the reason and a cure.
+        The solution does not converge; the message gives the reason and a cure.
     ParameterError
-        The problem does not go with the cavitation of the settings.
+        The problem cannot be combined with the cavitation of the settings.
 
     Notes
     -----
-    The error of the grid is estimated from the same film on two grids of two and four times the
-    spacing, a third more time; see `FilmError`.
+    The error by the grid is estimated from the same film on two grids with two and four times the
+    spacing, which takes a third more time; see `FilmError`.
 
-    Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
-    flexible GMRES with a multigrid cycle of line solutions; start on nested grids from the dry
-    contact. Mass-conserving cavitation keeps these unknowns: the oil in ruptured film follows from
-    them, node after node downstream. References: [venner_lubrecht_2000] for the equations and
-    the hybrid relaxation; [saad_1993] for GMRES.
+    The method is Newton's iteration on pressure and approach, with the full deflection by FFT.
+    Linear systems are solved by flexible GMRES with a multigrid cycle of line solutions. Nested
+    grids start from the dry contact. With mass-conserving cavitation the unknowns are the same: the
+    oil in the broken film follows from them, node after node downstream. References:
+    [venner_lubrecht_2000] for the equations and the hybrid relaxation; [saad_1993] for GMRES.
 
     Examples
     --------

@@ -28,17 +28,17 @@ PRESSURE_EDGES = np.linspace(0.0, 10e9, 1001)  # Pa
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FilmFriction:
-    """What friction of a rough film needs.
+    """Oil, sliding and solid friction, from which the friction of a rough film is computed.
 
     Parameters
     ----------
     oil
-        With its shear law and limiting stress.
+        Oil with its shear law and limiting stress.
     sliding
         u_2 - u_1 along x and y [m/s]; (0, 0) in pure rolling.
     solid_coefficient
-        Friction coefficient of touching solids [-]. No law gives it: take that of the oil's
-        boundary layers. Without sliding it says nothing, and solids count as free of friction.
+        Friction coefficient where solids touch [-]. No law gives it: take that of the oil's
+        boundary layers. Without sliding it is not used, and touching solids have no friction.
 
     Examples
     --------
@@ -58,25 +58,25 @@ class FilmFriction:
 
 @dataclass(eq=False, kw_only=True)
 class RoughFilmStatistics:
-    """Statistics of films that are added one after the other; none is kept.
+    """Statistics of films that are added one after another; the films themselves are not kept.
 
     Parameters
     ----------
     zone
-        Nodes that count, the Hertzian contact. Friction and the load of solids are those of the
-        whole film.
+        Nodes that are counted, the Hertzian contact. Friction and the load of solids are those of
+        the whole film.
     roughness
         Rq of both surfaces together, sqrt(Rq_1^2 + Rq_2^2) [m].
     smooth_film
-        Central film of the smooth contact [m], over `roughness` the lambda ratio that design
-        rules use; None: not known.
+        Central film of the smooth contact [m]; divided by `roughness` it is the lambda ratio of
+        design rules; None: not known.
     solids
-        What carried load where the film vanished; None: the oil alone.
+        Law by which touching solids carried load where the film vanished; None: only the oil did.
     friction
-        None: no friction.
+        Data for the friction; None: friction is not computed.
     gather_from
-        Time [s] from which films count in the distributions over all films; before, the contact is
-        not yet rough.
+        Time [s] from which films count in the distributions over all films; before it the contact
+        is not yet fully rough.
 
     Examples
     --------
@@ -164,7 +164,7 @@ class RoughFilmStatistics:
         if count < 1 or rest <= 0 or rest % count:
             raise ParameterError(
                 f"gathered must hold statistics of at least one film, got {gathered.size} numbers. "
-                "Start anew."
+                "Start again."
             )
         rows = gathered[1 : 1 + rest].reshape(count, -1)
         self._rows = [tuple(row) for row in rows.tolist()]
@@ -289,7 +289,7 @@ class RoughFilmStatistics:
 def statistics_of_run(
     run: xr.Dataset | Iterable[xr.Dataset], statistics: RoughFilmStatistics
 ) -> xr.Dataset:
-    """Return the statistics of a saved run; nothing is solved.
+    """Return the statistics of the films of a saved run; nothing is solved.
 
     Parameters
     ----------
@@ -297,12 +297,12 @@ def statistics_of_run(
         `film` [m] and `pressure` [Pa] over `time`, `x` and `y` in any order, one dataset or several
         in turn. Films are loaded one by one.
     statistics
-        To which the films are added.
+        Statistics to which the films are added.
 
     Raises
     ------
     ParameterError
-        A variable or dimension is missing, or the nodes are others than those of the zone.
+        A variable or dimension is missing, or the nodes are not those of the zone.
 
     Examples
     --------

@@ -16,16 +16,16 @@ _FEWEST = 4  # nodes along a side
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class FilmZone:
-    """Nodes inside a Hertzian contact, and the areas of all cells.
+    """The nodes of a film whose statistics are taken, usually inside the Hertzian contact.
 
     Parameters
     ----------
     x, y
         Nodes [m], shapes (nx,) and (ny,).
     inside
-        Which nodes count, shape (nx, ny).
+        Which nodes are counted, shape (nx, ny).
     cells
-        Areas [m2], shape (nx, ny).
+        Areas of all cells [m2], shape (nx, ny).
 
     Examples
     --------

@@ -47,7 +47,7 @@ _FORMAT = 1  # raise with every change of the model that changes results
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SensitivitySettings:
-    """What the contact is differentiated by, and where.
+    """Parameters by which `run_sensitivity` differentiates the contact, and at which load.
 
     Parameters
     ----------
@@ -56,11 +56,11 @@ class SensitivitySettings:
         with pinion_offset (E), pinion_axial (P), gear_axial (G) or shaft_angle. Empty: all
         misalignments, machine settings and cutter dimensions.
     torque : float
-        On the pinion, either flank [N.m], 0.01 to 1e5.
+        Torque on the pinion, for either flank [N.m], 0.01 to 1e5.
     positions : int
-        Mesh phases in a period, 4 to 400.
+        Number of mesh phases in a period, 4 to 400.
     misalignment : Misalignment
-        About which the derivatives are taken.
+        Misalignment at which the derivatives are taken.
     loaded : LoadedSettings
     body : ToothBodySettings
 
@@ -141,7 +141,7 @@ def contact_sensitivity(
     for side in SIDES:
         pair = FlankPair.from_file(file, side, settings.misalignment)
         variations[side] = Variations.of(file, pair, names)
-    progress(0.0, "tooth compliance")
+    progress(0.0, "elastic teeth")
     stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)
     progress(0.0, "loaded contact")
     with single_threaded():

@@ -13,7 +13,6 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_contact.contact_table import ZERO_PHASE
 from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE, SIDES, CycleSettings
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.tooth_errors.hunting_turn import TurnProblem
@@ -21,6 +20,7 @@ from gearlube_core.hypoid_contact.tooth_errors.pair_curves import SAMPLES, posit
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, ToothErrors
+from gearlube_core.mesh_table.fourier import ZERO_PHASE
 from gearlube_core.mesh_table.table import MEMBERS, MeshTable
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.result_store import Record
@@ -28,6 +28,7 @@ from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import compute_positions, stack_records
 
 _POSITIONS_PER_ORDER = 4  # as in the mesh table: what is above folds onto the rest
+_NOTHING = 1e-9  # of the largest error: rounding
 _FORMAT = 2  # raise with every change of the model that changes results
 
 
@@ -66,6 +67,11 @@ class ToothErrorCycle:
         rest : ndarray of shape (L,)
             Root mean square of what repeats with the hunting turn alone.
         """
+        parts, rest = self._parts()
+        return parts, np.sqrt(np.mean(rest**2, axis=(1, 2)))
+
+    def _parts(self) -> tuple[dict[str, Array], Array]:
+        """Return the parts of `turns`, and the rest (L, H, P) [m]."""
         levels, meshes, positions = self.error.shape
         rest = self.error.copy()
         parts = {}
@@ -75,7 +81,35 @@ class ToothErrorCycle:
             own = rest.reshape(levels, meshes // teeth, teeth, positions).mean(axis=1)
             rest -= np.tile(own, (1, meshes // teeth, 1))
             parts[member] = own.reshape(levels, teeth * positions)
-        return parts, np.sqrt(np.mean(rest**2, axis=(1, 2)))
+        return parts, rest
+
+    def hunting_orders(self, most: int = 8) -> tuple[Array, Array]:
+        """Return the largest orders of what repeats with the hunting turn alone.
+
+        They are no whole numbers of either member's turn, and are not in the mesh table.
+
+        Parameters
+        ----------
+        most : int
+            How many orders.
+
+        Returns
+        -------
+        orders : ndarray of shape (K,)
+            Of the pinion's turn [-], the largest amplitude first; times gear teeth over pinion
+            teeth they are those of the gear's turn.
+        amplitudes : ndarray of shape (L, K)
+            [m]
+        """
+        rest = self._parts()[1]
+        levels, meshes, positions = rest.shape
+        samples = meshes * positions
+        spectrum = np.abs(np.fft.rfft(rest.reshape(levels, samples), axis=1)) * (2.0 / samples)
+        spectrum = spectrum[:, : samples // _POSITIONS_PER_ORDER + 1]
+        size = spectrum.max(axis=0)
+        largest = np.argsort(-size)[:most]
+        largest = largest[size[largest] > _NOTHING * np.abs(self.error).max()]
+        return largest * (self.pinion_teeth / meshes), spectrum[:, largest]
 
     def orders(self) -> dict[str, Array]:
         """Return cosine and sine coefficients [m] by orders 1, 2, ... of each member, (L, N, 2)."""

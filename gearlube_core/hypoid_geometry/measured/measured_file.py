@@ -27,7 +27,7 @@ Text = Annotated[str, Field(min_length=1)]
 
 
 class MeasuredFile(InputFile):
-    """Measured flanks of a hypoid pair, as a measuring machine hands them out.
+    """Measured-gear file: flanks, pitch and waves of a hypoid pair from a measuring machine.
 
     Examples
     --------
@@ -39,30 +39,38 @@ class MeasuredFile(InputFile):
     title: ClassVar[str] = "measured-gear file"
     prefix: ClassVar[str] = "measured_"
 
-    name: Text = Field(description="Name of the measured pair in reports and plots")
-    source: Text = Field(description="Who measured what; say so if the data are invented")
+    name: Text = Field(description="Name of the measured pair in reports and figures")
+    source: Text = Field(description="Who measured what; say so if the data are made up")
     gear_file: Text = Field(
-        description="Gear file of the nominal flanks, or a shipped one's name; a path is relative "
-        "to this file"
+        description="Gear file of the nominal flanks, or the name of a shipped one; its path is "
+        "relative to this file"
     )
     deviations: Text | None = Field(
-        None, description="CSV file of normal deviations; path as above"
+        None,
+        description="CSV file of deviations normal to the flank; its path is relative to this file",
     )
     nominal_points: Text | None = Field(
         None,
-        description="CSV file of the nominal points of the grids; path as above. They are checked "
-        "against the flanks, and the grids need no sections",
+        description="CSV file with the nominal points of the grids, its path relative to this "
+        "file; they are checked against the flanks, and the grid sections can then be left out",
     )
     middle_point: Literal["zero", "measured"] = Field(
         "zero",
-        description="Whether the member was turned so that the middle point of each grid is zero",
+        description="Whether the member was turned so that the deviation at the middle point of "
+        "each grid is zero",
     )
-    degree: int = Field(3, ge=0, le=5, description="Degree of the smooth surface")
-    pitch: Text | None = Field(None, description="CSV file of pitch deviations; path as above")
+    degree: int = Field(
+        3, ge=0, le=5, description="Degree of the polynomial surface that smooths the deviations"
+    )
+    pitch: Text | None = Field(
+        None, description="CSV file of pitch deviations; its path is relative to this file"
+    )
     pitch_kind: PitchKind = Field(
-        "cumulative", description="Whether the pitch deviations are cumulative or single"
+        "cumulative", description="Kind of the pitch deviations: cumulative or single"
     )
-    waviness: Text | None = Field(None, description="CSV file of waves; path as above")
+    waviness: Text | None = Field(
+        None, description="CSV file of waves; its path is relative to this file"
+    )
     pinion: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
     gear: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
 

@@ -19,14 +19,19 @@ Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
 class Grid(Section):
     """The grid of measured points on one member's flanks: even rows and columns."""
 
-    rows: Points = Field(5, description="From root to tip")
-    columns: Points = Field(9, description="From toe to heel")
+    rows: Points = Field(5, description="Number of rows from root to tip")
+    columns: Points = Field(9, description="Number of columns from toe to heel")
     root_inset_mm: Inset = Field(
-        description="First row from the root line, the edge of the root cone: tooth height"
+        description="Tooth height between the root line (the edge of the root cone) and the "
+        "first row"
     )
-    tip_inset_mm: Inset = Field(description="Last row from the tip edge: tooth height")
-    toe_inset_mm: Inset = Field(description="First column from the toe, along the pitch cone")
-    heel_inset_mm: Inset = Field(description="Last column from the heel, along the pitch cone")
+    tip_inset_mm: Inset = Field(description="Tooth height between the last row and the tip edge")
+    toe_inset_mm: Inset = Field(
+        description="Distance of the first column from the toe, along the pitch cone"
+    )
+    heel_inset_mm: Inset = Field(
+        description="Distance of the last column from the heel, along the pitch cone"
+    )
 
 
 class MeasuredMember(Section):
@@ -34,22 +39,27 @@ class MeasuredMember(Section):
 
     pitch_radius_mm: Length | None = Field(
         None,
-        description="Radius at which pitch was measured, from the axis; absent: that of the pitch "
-        "cone at mid-face",
+        description="Distance from the axis at which the pitch was measured; left out: that of "
+        "the pitch cone at mid-face",
     )
     eccentricity_um: Eccentricity = Field(
-        0.0, description="Of the teeth from the axis about which the member runs, in the axle"
+        0.0,
+        description="Eccentricity of the teeth: distance of their axis from the axis about "
+        "which the member runs in the axle",
     )
     eccentricity_phase_deg: Angle = Field(
-        0.0, description="Its direction: angle from tooth 1 in the sense of counting"
+        0.0,
+        description="Direction of the eccentricity: angle from tooth 1 in the sense in which "
+        "teeth are counted",
     )
     wobble_um: Eccentricity = Field(
         0.0,
-        description="Axial rise of the teeth over a turn from their mean, at the pitch radius: "
-        "half of the axial runout, peak to peak",
+        description="Wobble: how far the teeth move axially from their mean over a turn, at the "
+        "pitch radius; half of the peak-to-peak axial runout",
     )
     wobble_phase_deg: Angle = Field(
         0.0,
-        description="Where the teeth stand farthest from the crossing point, counted likewise",
+        description="Direction in which the teeth are farthest from the crossing point, counted "
+        "in the same way",
     )
     grid: Grid | None = None

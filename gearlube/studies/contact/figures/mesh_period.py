@@ -19,6 +19,7 @@ def transmission_errors(dataset: xr.Dataset) -> Any:
     with house_style():
         figure = new_figure(9.6, 7.0)
         axes = figure.subplots(2, 2, sharex="row")
+        axes[1, 1].sharey(axes[1, 0])
         for column, side in enumerate(_SIDES):
             part = dataset.sel(side=side)
             _single_pairs(axes[0, column], part)
@@ -54,7 +55,7 @@ def _loaded(ax: Any, part: xr.Dataset) -> None:
         x, y = _two_periods(part["phase"].values, error - error.mean())
         ax.plot(x, y, color=SERIES[row], label=f"{torque:g} N·m")
     ax.set_xlim(0.0, 2.0)
-    ax.set_ylabel("closing [µm]")
+    ax.set_ylabel("approach of the teeth [µm]")
 
 
 def stiffness_and_radii(dataset: xr.Dataset) -> Any:

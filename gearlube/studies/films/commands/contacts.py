@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
+from gearlube.cli.example import print_example
+from gearlube.cli.options import CaseArgument, ExampleOption, FilmRoughnessOption, OverwriteOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
 from gearlube_core.checks import check_finite
@@ -57,6 +58,7 @@ def line(
     ] = None,
     cavitation: _Cavitation = None,
     temperature: _Temperature = None,
+    roughness_um: FilmRoughnessOption = None,
     film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
     overwrite: OverwriteOption = False,
@@ -66,18 +68,19 @@ def line(
 
     Shipped cases: jamali_2015, jamali_2015_thermal. Options given here replace those of the case.
     """
+    if example:
+        print_example("gearlube_core.ehl.case.contact_case:LineCase", case)
+        return
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import LineCase
 
     with exit_on_errors(out):
-        if example:
-            typer.echo(LineCase.shipped_text(case), nl=False)
-            return
         changes = {
             "load_n_per_mm": load,
             "solver.nodes": nodes,
             "solver.stencil": stencil,
             "solver.cavitation": cavitation,
+            "roughness_um": roughness_um,
             "temperature": temperature,
         }
         file = _changed(LineCase.given(case), changes, entrainment, slide_roll)
@@ -107,6 +110,7 @@ def point(
         ),
     ] = None,
     cavitation: _Cavitation = None,
+    roughness_um: FilmRoughnessOption = None,
     film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
     overwrite: OverwriteOption = False,
@@ -117,19 +121,20 @@ def point(
     Shipped cases: mourier_2006, elliptical, jamali_2015_section. Options given here replace those
     of the case.
     """
+    if example:
+        print_example("gearlube_core.ehl.case.contact_case:PointCase", case)
+        return
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import PointCase
 
     with exit_on_errors(out):
-        if example:
-            typer.echo(PointCase.shipped_text(case), nl=False)
-            return
         changes = {
             "load_n": load,
             "solver.nodes_x": nodes,
             "solver.nodes_y": nodes,
             "solver.wedge": wedge,
             "solver.cavitation": cavitation,
+            "roughness_um": roughness_um,
         }
         file = _changed(PointCase.given(case), changes, entrainment, slide_roll)
         goal = film_error_of(film_error)

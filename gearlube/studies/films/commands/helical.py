@@ -7,9 +7,11 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.example import print_example
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import (
     ExampleOption,
+    FilmRoughnessOption,
     HelicalGearArgument,
     OverwriteOption,
     SpeedOfFileOption,
@@ -101,6 +103,7 @@ def helical(
             metavar="uniform|exit",
         ),
     ] = None,
+    roughness_um: FilmRoughnessOption = None,
     film_error: FilmErrorOption = None,
     time_error: Annotated[
         str,
@@ -120,21 +123,21 @@ def helical(
     the snapshots; a stopped march goes on from its record in OUT when the same command runs again.
     Tip relief, crown and facets are those of the gear file; options replace them on both flanks.
     """
+    if example:
+        print_example("gearlube_core.helical_geometry.gear_file:HelicalGearFile", gear)
+        return
     from gearlube.studies.films import run_march, run_steady
     from gearlube.studies.films.helical_case import HelicalLineCase, with_flanks
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     with exit_on_errors(out):
-        if example:
-            typer.echo(HelicalGearFile.shipped_text(gear), nl=False)
-            return
         _check_options(step, position, march, snapshots)
         check_option("--time-error", time_error, ("embedded", "repeat"))
         goal = film_error_of(film_error)
         if goal is not None and march is not None:
             raise ParameterError(
-                f"--film-error must not be given with --march, got {film_error!r}: only a film at "
-                "rest is refined. Leave one out, or give --nodes-across."
+                f"--film-error cannot be combined with --march, got {film_error!r}: the error is "
+                "only estimated for steady films. Leave one out, or give --nodes-across."
             )
         file = with_flanks(
             HelicalGearFile.given(gear), facets, crown_start, relief_parabola, relief_exponent
@@ -157,6 +160,7 @@ def helical(
             convention=load_sharing,
             nodes=(nodes_across, nodes_along),
             spacing=spacing,
+            roughness_um=roughness_um,
         )
         if march is None:
             solve_and_show(
@@ -190,12 +194,10 @@ def _check_options(
 ) -> None:
     """Raise ParameterError if options exclude each other."""
     if march is None and snapshots is not None:
-        raise ParameterError(
-            f"--snapshots must be given with --march, got {snapshots!r} alone. Give both."
-        )
+        raise ParameterError(f"--snapshots needs --march, got {snapshots!r} without it. Give both.")
     if march is not None and (step is not None or position is not None):
         raise ParameterError(
-            f"--march must not be given with --step or --position, got {march!r}. Leave one out."
+            f"--march cannot be combined with --step or --position, got {march!r}. Leave one out."
         )
 
 

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.example import print_example
 from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.errors import ParameterError
@@ -96,13 +97,13 @@ def hypoid(
     Writes hypoid.nc, summary.csv and figures. Options override the case file. A stopped march
     continues from the last step stored in OUT when the same command runs again.
     """
+    if example:
+        print_example("gearlube_core.ehl.case.hypoid_case:HypoidCase", case)
+        return
     from gearlube.studies.films import run_hypoid
     from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
     with exit_on_errors(out):
-        if example:
-            typer.echo(HypoidCase.shipped_text(case), nl=False)
-            return
         file = HypoidCase.given(case)
         first, last = (None, None) if phases is None else _phases(phases)
         given = {

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_if_failed
 from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
@@ -48,15 +49,15 @@ def rough(
 
     A stopped march goes on from its record in OUT. Options given here replace those of the case.
     """
+    if example:
+        print_example("gearlube_core.ehl.case.rough_case:RoughCase", case)
+        return
     from gearlube.studies.films.rough.animation import ANIMATION, check_animation, write_animation
     from gearlube.studies.films.rough.files import summary_rows
     from gearlube.studies.films.rough.run import run_rough, statistics_again
     from gearlube_core.ehl.case.rough_case import RoughCase
 
     with exit_on_errors(out):
-        if example:
-            typer.echo(RoughCase.shipped_text(case), nl=False)
-            return
         changes = {"solver.nodes_x": nodes, "solver.rows": rows, "side_conditions": sides}
         given = {name: value for name, value in changes.items() if value is not None}
         file = RoughCase.given(case)

@@ -132,6 +132,7 @@ def hypoid_dataset(
             "entrainment_of": case.entrainment,
             "oil": case.oil,
             "oil_temperature": case.oil_temperature,
+            "roughness_rms": 1e-6 * case.roughness_um,
             "eyring_stress": flank.oil.tau0,
             "flow": case.flow,
             "wedge": case.solver.wedge,

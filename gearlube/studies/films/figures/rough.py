@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.studies.films.figures.parts import film_colours
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 
@@ -51,10 +52,10 @@ def rough_history(runs: Runs, time_step: float | None = None) -> Any:
         for ax, name in zip(
             axes,
             (
-                "Largest pressure\n[GPa]",
-                "Smallest film\n[nm]",
-                f"Zone with a film\nbelow {words} [%]",
-                "Load on solids\n[%]",
+                "largest pressure\n[GPa]",
+                "smallest film\n[nm]",
+                f"zone with a film\nbelow {words} [%]",
+                "load on solids\n[%]",
             ),
             strict=True,
         ):
@@ -62,7 +63,7 @@ def rough_history(runs: Runs, time_step: float | None = None) -> Any:
             ax.margins(x=0.0)
         for ax in (axes[0], axes[2], axes[3]):
             ax.set_ylim(bottom=0.0)
-        axes[-1].set_xlabel("Time [µs]" if time_step is None else "Time step")
+        axes[-1].set_xlabel("time [µs]" if time_step is None else "time step")
         if len(runs) > 1:
             axes[0].legend(ncols=min(len(runs), 4), loc="lower right")
         axes[0].set_title("Rough film in motion")
@@ -91,8 +92,8 @@ def rough_distributions(runs: Runs) -> Any:
             right.semilogy(pressure, 100.0 * np.where(above > 0.0, above, np.nan), **line)
         left.set_xlim(0.0, _end(runs, "film", 0.999) / _MICROMETRE)
         right.set_xlim(0.0, _end(runs, "pressure", 1.0 - 1e-6) / _GIGAPASCAL)
-        left.set(xlabel="Film [µm]", ylabel="Zone with a film below [%]", ylim=(0.0, 100.0))
-        right.set(xlabel="Pressure [GPa]", ylabel="Zone with a pressure above [%]")
+        left.set(xlabel="film [µm]", ylabel="zone with a film below [%]", ylim=(0.0, 100.0))
+        right.set(xlabel="pressure [GPa]", ylabel="zone with a pressure above [%]")
         right.set_ylim(1e-4, 100.0)
         if len(runs) > 1:
             left.legend()
@@ -119,7 +120,7 @@ def rough_thin_films(runs: Runs) -> Any:
             middle = 0.5 * (edges[thin] + edges[thin + 1]) + (k - 0.5 * (len(runs) - 1)) * width
             shares = 100.0 * run["film_histogram"].values[thin]
             ax.bar(middle, shares, width, color=SERIES[k % len(SERIES)], label=label)
-        ax.set(xlabel="Film [nm]", ylabel="Share of the zone [%]", xlim=(0.0, 25.0))
+        ax.set(xlabel="film [nm]", ylabel="share of the zone [%]", xlim=(0.0, 25.0))
         ax.set_title("Thin films of the Hertz zone, all times, in bins of 1 nm")
         if len(runs) > 1:
             ax.legend()
@@ -150,19 +151,21 @@ def rough_frame(
         colours = axes[0].pcolormesh(
             x, y, pressure / _GIGAPASCAL, vmin=0.0, vmax=top, cmap="inferno", shading="nearest"
         )
-        figure.colorbar(colours, ax=axes[0], label="Pressure [GPa]")
+        figure.colorbar(colours, ax=axes[0], label="pressure [GPa]", pad=0.01)
         limit = (loaded_film(film, pressure) if thickest is None else thickest) / _MICROMETRE
         colours = axes[1].pcolormesh(
-            x, y, film / _MICROMETRE, vmin=0.0, vmax=limit, cmap="viridis", shading="nearest"
+            x, y, film / _MICROMETRE, vmin=0.0, vmax=limit, cmap=film_colours(), shading="nearest"
         )
-        figure.colorbar(colours, ax=axes[1], label="Film [µm]", extend="max")
+        figure.colorbar(
+            colours, ax=axes[1], label="film [µm], grey: thicker", extend="max", pad=0.01
+        )
         for ax in axes[:2]:
             ax.set_ylabel("y [mm]")
             ax.grid(visible=False)
         j = y.size // 2
         row = loaded_film(film[j], pressure[j]) if thickest is None else thickest
         _section(axes[2], x, film[j], pressure[j], top, 2.0 * row / _MICROMETRE)
-        axes[2].set_title(f"Row y = {y[j]:.3g} mm", loc="left", fontsize=9)
+        axes[2].set_title(f"row y = {y[j]:.3g} mm", loc="left", fontsize=9)
         axes[2].set_xlabel("x [mm], along the motion")
         if "time" in frame.coords:
             axes[0].set_title(f"Rough film at {float(frame['time']) / _MICROMETRE:.2f} µs")
@@ -192,7 +195,9 @@ def rough_difference(first: xr.Dataset, second: xr.Dataset, x: float = 0.0) -> A
     for name in ("time", "x", "y"):
         one, other = (np.atleast_1d(run[name].values) for run in (first, second))
         if one.shape != other.shape or not np.allclose(one, other, rtol=1e-9, atol=1e-12):
-            raise ParameterError(f"{name} of both runs must be the same. Take the same case.")
+            raise ParameterError(
+                f"{name} of both runs must be the same. Compare runs of the same case."
+            )
     difference = (first[["film", "pressure"]] - second[["film", "pressure"]]).sel(
         x=x, method="nearest"
     )
@@ -205,8 +210,8 @@ def rough_difference(first: xr.Dataset, second: xr.Dataset, x: float = 0.0) -> A
             line = {"color": SERIES[k % len(SERIES)], "ls": _DASHES[k // len(SERIES) % 4]}
             upper.plot(y, row["pressure"] / _GIGAPASCAL, **line)
             lower.plot(y, row["film"] / _MICROMETRE, label=f"{time / _MICROMETRE:.2f} µs", **line)
-        upper.set_ylabel("Pressure, difference\n[GPa]")
-        lower.set_ylabel("Film, difference\n[µm]")
+        upper.set_ylabel("pressure, difference\n[GPa]")
+        lower.set_ylabel("film, difference\n[µm]")
         lower.set_xlabel("y [mm]")
         lower.legend(ncols=4)
         place = 1e6 * float(difference["x"])
@@ -217,12 +222,12 @@ def rough_difference(first: xr.Dataset, second: xr.Dataset, x: float = 0.0) -> A
 
 def _section(ax: Any, x: Array, film: Array, pressure: Array, top: float, thickest: float) -> None:
     (line,) = ax.plot(x, pressure / _GIGAPASCAL, color=SERIES[1], lw=1.1, label="pressure")
-    ax.set(ylabel="Pressure [GPa]", ylim=(0.0, 1.05 * top))
+    ax.set(ylabel="pressure [GPa]", ylim=(0.0, 1.05 * top))
     right = ax.twinx()
     right.spines["right"].set_visible(True)
     right.grid(visible=False)
     (other,) = right.plot(x, film / _MICROMETRE, color=SERIES[0], lw=1.1, label="film")
-    right.set(ylabel="Film [µm]", ylim=(0.0, thickest))
+    right.set(ylabel="film [µm]", ylim=(0.0, thickest))
     ax.legend(handles=[line, other], loc="upper left")
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.studies.films.film_ratios import ROUGHNESS
 
 # quantity, what it is compared with, and the solved variable
 _CENTRAL, _MINIMUM, _FRICTION = (
@@ -66,6 +67,7 @@ def ratio_rows(dataset: xr.Dataset) -> list[RatioRow]:
 
     Means are weighted with the load, so that the ends of the engagement count little.
     """
+    roughness = float(dataset.attrs.get(ROUGHNESS, 0.0))
     weight = dataset["steady_load"].values
     weight = weight / weight.sum()
 
@@ -77,6 +79,11 @@ def ratio_rows(dataset: xr.Dataset) -> list[RatioRow]:
         row("load", "solution", dataset["steady_load"].values, "N"),
         row("central film", "solution", dataset["steady_central_film"].values, "m"),
         row("minimum film", "solution", dataset["steady_minimum_film"].values, "m"),
+        *(
+            row(f"film ratio λ, {name}", "over roughness", dataset[film].values / roughness, "1")
+            for name, film in (("central film", _CENTRAL), ("minimum film", _MINIMUM))
+            if roughness
+        ),
         row("largest pressure", "solution", dataset["steady_pressure_max"].values, "Pa"),
         row("friction", "solution, heated Eyring", dataset["steady_traction_heated"].values, "1"),
         row("entrainment angle", "given", np.degrees(dataset["steady_psi"].values), "deg"),

@@ -37,37 +37,39 @@ def run_rough(
     threads: int = 1,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the statistics of a contact that becomes rough, step by step.
+    """Return the statistics of a contact that becomes rough, step by step in time.
 
     Parameters
     ----------
     case
         Contact, surfaces, time steps, grid.
     steps
-        To march; None: all of the case. A later call in the same folder goes on.
+        Number of steps to compute now; None: all steps of the case. A later call with the same
+        folder continues.
     folder
-        Where rough.nc, summary.csv, figures, kept films and the record of the march are written.
-        A march goes on from its record there, to the bit as if it had not stopped. None: nothing
-        is written.
+        Folder for rough.nc, summary.csv, figures, kept films and the record of the march. A march
+        continues from its record there, with the same results to the bit as without a stop. None:
+        nothing is written.
     threads
-        That share the work on rows, 1 to 64; results do not depend on it, to the bit.
+        Number of threads that share the work on rows, 1 to 64; results do not depend on it, to the
+        bit.
     progress
-        Called with the share done and what is done now.
+        Called with the share done and a sentence on what runs.
 
     Returns
     -------
     xr.Dataset
-        Of `RoughFilmStatistics`, with the work of every step; `converged` is 0 if any step did
-        not converge.
+        Results of `RoughFilmStatistics`, and the work of every step; `converged` is 0 if any step
+        did not converge.
 
     Raises
     ------
     ParameterError
-        The disk has too little space, or the record is of another case or damaged.
+        There is too little disk space, or the record is damaged or of another case.
     ConvergenceError
-        Ten steps in turn did not converge, or a film is not finite; the last record stays.
+        Ten steps in turn did not converge, or a film is not finite; the last record is kept.
     FileError
-        A file could not be written; the last record stays.
+        A file could not be written; the last record is kept.
 
     Examples
     --------
@@ -104,7 +106,7 @@ def run_rough(
         gathered.add(march.solution)
         _keep(case, folder, 0, march.solution, key)
     else:
-        logger.info("Going on from step %d.", march.steps)
+        logger.info("Continuing from step %d.", march.steps)
     lost = 0
     while march.steps < last:
         solution = march.step(throw=False)
@@ -127,7 +129,7 @@ def run_rough(
         )
     dataset = _with_attributes(gathered.dataset(), case, key)
     if folder is not None:
-        progress(last / (last + 1), "files and figures")
+        progress(last / (last + 1), "writing files and figures")
         with _told(folder, march.steps):
             write_rough_results(dataset, folder)
     progress(1.0, "done")
@@ -164,7 +166,7 @@ def _record(folder: Path, key: str) -> MarchRecord | None:
     others = sorted(one.name for one in folder.glob("march_*.npz") if one != path)
     if others:
         raise ParameterError(
-            f"{folder} must hold marches of this case alone, got {others[0]} of another case. "
+            f"{folder} must hold only results of this case, got {others[0]} from another case. "
             "Give another --out, or remove that file and the folder frames."
         )
     return MarchRecord.read(path) if path.exists() else None
@@ -186,16 +188,17 @@ def _told(folder: Path, step: int) -> Iterator[None]:
     except OSError as reason:
         why = "the disk is full" if reason.errno == errno.ENOSPC else (reason.strerror or reason)
         raise FileError(
-            f"Step {step} could not be written to {folder}: {why}. The record before it is whole. "
-            "Make space and run the same command again: it goes on from there."
+            f"Step {step} could not be written to {folder}: {why}. The previous record is "
+            "complete. Free some disk space and run the same command again: it continues from "
+            "there."
         ) from reason
 
 
 def _check_finite(step: int, solution: FilmSolution) -> None:
     if not (np.isfinite(solution.film).all() and np.isfinite(solution.pressure).all()):
         raise ConvergenceError(
-            f"Step {step}: the film is not finite. Take more nodes or shorter time steps; the last "
-            "record stays."
+            f"Step {step}: the film is not finite. Take more nodes or shorter time steps. The last "
+            "record is kept."
         )
 
 

@@ -17,7 +17,7 @@ def pair_losses(dataset: xr.Dataset) -> Any:
     temperatures = _some(dataset["temperature"].values)
     torques = _some(dataset["torque"].values)
     with house_style():
-        figure = new_figure(4.2 * len(temperatures) + 1.2, 4.4)
+        figure = new_figure(max(4.2 * len(temperatures) + 1.2, 6.4), 4.6)
         panels = np.atleast_1d(figure.subplots(1, len(temperatures), sharey=True))
         for ax, temperature in zip(panels, temperatures, strict=True):
             for row, torque in enumerate(torques):
@@ -28,7 +28,7 @@ def pair_losses(dataset: xr.Dataset) -> Any:
                     one["loss_torque"],
                     color=colour,
                     marker=MARKERS[row % len(MARKERS)],
-                    label=f"{torque:g} N·m",
+                    label=f"{torque:.4g} N·m",
                 )
                 if "loss_torque_low" in one:
                     ax.fill_between(
@@ -42,10 +42,14 @@ def pair_losses(dataset: xr.Dataset) -> Any:
             ax.set(xlabel="pinion speed [rpm]", title=f"oil {temperature:g} °C")
             ax.set_ylim(bottom=0.0)
         panels[0].set_ylabel("loss torque at the pinion [N·m]")
-        panels[-1].legend(title="pinion torque")
+        handles, names = panels[0].get_legend_handles_labels()
+        figure.legend(
+            handles, names, title="pinion torque", ncols=_MOST, loc="outside lower center"
+        )
+        bands = "; bands: 95 % of the draws" if "loss_torque_low" in dataset else ""
         figure.suptitle(
-            f"Sliding and rolling of the teeth; bands: 95 % of the draws. Not modelled: "
-            f"{dataset.attrs['not_modelled']}.",
+            f"Sliding and rolling of the teeth{bands}.\n"
+            f"Not modelled: {dataset.attrs['not_modelled']}.",
             fontsize=8.5,
         )
     return figure

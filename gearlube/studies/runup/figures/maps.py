@@ -48,8 +48,9 @@ def frequency_map(dataset: xr.Dataset) -> Any:
         for order in range(1, 8):
             if not _is_seen(order * per_rpm * speed, rows, cells, floor):
                 continue
-            place = min(ends[1] - 0.012 * np.ptp(ends), 0.97 * top / (order * per_rpm))
-            _name(ax, f"H{order}", place, order * per_rpm * place, ha="right")
+            place = min(ends[1] - 0.012 * np.ptp(ends), 0.94 * top / (order * per_rpm))
+            if place > ends[0] + 0.1 * np.ptp(ends):
+                _name(ax, f"H{order}", place, order * per_rpm * place, ha="right")
         ax.set_ylim(0.0, top)
         _modes_beside(ax, dataset, top)
         levels.speed_axis(ax, dataset)
@@ -164,14 +165,16 @@ def _mode_curves(ax: Any, dataset: xr.Dataset, speed: Array, top: float) -> None
         if inside.size == 0:
             continue
         place = inside[0]
+        late = place > 0.85 * speed.size  # the name would cross the end of the axis
         text = ax.annotate(
             str(mode),
             (speed[place], values[place]),
-            xytext=(4, 0),
+            xytext=(-4 if late else 4, 0),
             textcoords="offset points",
             color=_LIGHT,
             fontsize=7.5,
             va="center",
+            ha="right" if late else "left",
         )
         outlined(text)
         height -= 0.045 if place > 0 else 0.0

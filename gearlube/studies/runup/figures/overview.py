@@ -20,6 +20,7 @@ from gearlube.plotting.style import (
     house_style,
     new_figure,
 )
+from gearlube.report.numbers import quantity_text
 from gearlube.studies.runup import levels
 
 _COLOURS = (BLUE, SKY, GREEN, PURPLE, ORANGE, VERMILLION, GREY, YELLOW)
@@ -33,7 +34,7 @@ def overview(dataset: xr.Dataset) -> Any:
         speed.plot(dataset["block_time"], levels.rpm(dataset), color=BLUE)
         speed.set_ylabel("pinion speed\n[rpm]")
         torque.plot(dataset["torque_time"], dataset["pinion_torque"], color=BLUE)
-        torque.set_ylabel("torque on the\npinion [N m]")
+        torque.set_ylabel("torque on the\npinion [N·m]")
         low, high = torque.get_ylim()
         torque.set_ylim(min(low, 0.0), max(high, 0.0) * 1.05)
         names = [str(name) for name in dataset["source"].values]
@@ -42,7 +43,10 @@ def overview(dataset: xr.Dataset) -> Any:
         loss.stackplot(
             dataset["slow_time"],
             powers[losing],
-            labels=[f"{source_words(names[i])}, up to {powers[i].max():.3g} W" for i in losing],
+            labels=[
+                f"{source_words(names[i])}, up to {quantity_text(float(powers[i].max()), 'W')}"
+                for i in losing
+            ],
             colors=[_COLOURS[i] for i in losing],
             lw=0.0,
         )

@@ -72,8 +72,15 @@ def _ring(ax: Any, angle: Array, load: Array, frame: int, colour: str) -> None:
     circle = np.linspace(0.0, 2.0 * np.pi, 121)
     ax.plot(circle, np.full(circle.size, hub), color="#808080", lw=0.8)
     ax.set_ylim(0.0, hub + 1.05 * top)
-    ax.set_yticks([hub + top], [f"{top:.0f} N"], fontsize=7.5)
-    ax.set_rlabel_position(45.0)
+    ax.set_yticks([hub + top], [""])
+    ax.annotate(
+        f"{top:.0f} N",
+        (0.25 * np.pi, hub + 1.05 * top),
+        xytext=(4, 4),
+        textcoords="offset points",
+        fontsize=7.5,
+        annotation_clip=False,
+    )
     ax.tick_params(axis="x", labelsize=8.5, pad=-1)
 
 

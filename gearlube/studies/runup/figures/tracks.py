@@ -17,6 +17,7 @@ ORDER_LOOKS = (
     {"color": GREEN, "lw": 1.6, "ls": (0, (1.5, 1.0))},
     {"color": PURPLE, "lw": 1.2, "ls": (0, (6, 1.5, 1.5, 1.5))},
 )
+_NAMES = 0.3  # of the axis, free of curves for the names of critical speeds
 _MARKED = 3  # mesh orders whose critical speeds are marked
 _OVERALL = {"color": "black", "lw": 1.0, "ls": "-"}
 _SHOWN = 60.0  # dB below the overall level's peak
@@ -43,6 +44,8 @@ def order_tracks(dataset: xr.Dataset) -> Any:
             levels.LENGTH,
         )
         below.set_ylabel(f"transmission error [{levels.LENGTH_TEXT}]")
+        low, high = above.get_ylim()
+        above.set_ylim(low - _NAMES * (high - low), high)  # room for the names of the marks
         _mark_critical(above, dataset, named=True)
         _mark_critical(below, dataset, named=False)
         levels.speed_axis(above, dataset, label=False)

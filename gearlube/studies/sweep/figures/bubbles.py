@@ -174,10 +174,10 @@ def _guides(ax: Any, row: xr.Dataset, top: float) -> None:
             ax.annotate(
                 name,
                 (speed[inside[-1]], values[inside[-1]]),
-                xytext=(-9, 4),
+                xytext=(7, 0),
                 textcoords="offset points",
-                ha="right",
-                va="bottom",
+                ha="left",
+                va="center",
                 fontsize=8.5,
             )
 

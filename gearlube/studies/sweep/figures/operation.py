@@ -38,7 +38,7 @@ def _torques(ax: Any, row: xr.Dataset) -> None:
     ax.set_xlim(*speed_limits(row))
     ax.plot(speed, row["wheel_torque"], color=VERMILLION, marker="s", label="wheel gear, load")
     ax.plot(speed, row["pinion_torque"], color=BLUE, marker="o", label="pinion, drive")
-    ax.set_ylabel("mean torque [N m]")
+    ax.set_ylabel("mean torque [N·m]")
     ax.set_ylim(bottom=0.0)
     ax.legend(loc="upper left")
     ax.set_title("torques from the road load")

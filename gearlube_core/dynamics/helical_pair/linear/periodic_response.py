@@ -145,37 +145,40 @@ def periodic_response(
     *,
     throw: bool = True,
 ) -> PeriodicResponse:
-    """Return the periodic steady state at a pinion speed [rad/s].
+    """Return the periodic steady state of a helical pair at a pinion speed.
 
     z0 = (1 - M)^-1 z_forced with the monodromy matrix M, in relative coordinates. Film friction
-    follows the loads of the response itself; multipliers hold its coefficients fixed in phase.
+    follows the loads of the response itself; the multipliers are computed with its coefficients
+    fixed in phase.
 
     Parameters
     ----------
     parameters
-        Their contact is taken as linear: read the loads of a light torque with care.
+        Parameters of the pair. Its contact is linear, so the loads at a light torque must be read
+        with care.
     pinion_speed
-        Of the steady rotation [rad/s], above zero.
+        Speed of the steady rotation [rad/s], above zero.
     settings
         Resolution.
     throw
-        Whether an unstable pair raises; otherwise its unstable periodic motion is returned.
+        True: raise an error if the pair is unstable; False: return its unstable periodic motion.
 
     Raises
     ------
     ConvergenceError
-        A Floquet multiplier lies on the unit circle or outside: no motion settles there. Or film
-        friction and motion do not find each other.
+        A Floquet multiplier is on or outside the unit circle, so that no motion settles there; or
+        the iteration between film friction and motion does not converge.
 
     Notes
     -----
-    He et al. 2007 integrate their equations of motion until transients are gone. Their pair turns
-    on without limit under friction, see `linear_system`; its vibration does not depend on that.
+    He et al. 2007 integrate their equations of motion until transients are gone. With friction the
+    free rotation of their pair grows without limit, see `linear_system`; its vibration does not
+    depend on that.
 
-    As in the paper, the pinion does not feel that loaded springs enter, leave and change; the march
-    has it as an option, see `HelicalMarchParameters.equations` for the difference. It is quadratic
-    in the motion, and an impulse where whole lines of a spur pair enter or leave under load, so
-    that it is no part of a linear system with moments of the mesh.
+    As in the paper, no torque acts back on the pinion when loaded springs enter, leave or change.
+    The time march can include it, see `HelicalMarchParameters.equations`. This torque is quadratic
+    in the motion, and an impulse where whole lines of a spur pair enter or leave under load.
+    So it cannot be part of a linear system with moments of the mesh.
 
     Examples
     --------
@@ -199,7 +202,7 @@ def periodic_response(
     multipliers = floquet_multipliers(march.transition[-1])
     if throw and not abs(multipliers[0]) < 1.0 - _SETTLES:
         raise ConvergenceError(
-            "the pair must be stable to have a steady state, got a Floquet multiplier of modulus "
+            "The pair must be stable to have a steady state, got a Floquet multiplier of modulus "
             f"{abs(multipliers[0]):.6g} at {pinion_speed:g} rad/s. Raise the damping ratios or "
             "move the speed; `instability_map` shows where it is stable."
         )
@@ -235,8 +238,9 @@ def _with_film(
         if np.all(np.abs(strain - before).max(axis=0) <= _FILM_TOLERANCE * np.ptp(strain, axis=0)):
             return system, march
     raise ConvergenceError(
-        f"film friction and motion must agree within {_FILM_ITERATIONS} iterations; they do not at "
-        f"{pinion_speed:g} rad/s. Raise the damping ratios or move the speed off a resonance."
+        f"Film friction and motion must agree within {_FILM_ITERATIONS} iterations, but they do "
+        f"not at {pinion_speed:g} rad/s. Raise the damping ratios or move the speed off a "
+        "resonance."
     )
 
 

@@ -28,19 +28,19 @@ _ZERO = "0 takes the value of the gear file."
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReplacedBearings:
-    """What takes the place of the gear file's bearings, the same for both members.
+    """Bearing stiffnesses and distances used instead of those of the gear file, for both members.
 
     Parameters
     ----------
     radial_stiffness, axial_stiffness : float
-        Of both bearings of a member together [N/m], 0 to 1e12; 0: those of the file.
+        Stiffness of both bearings of a member together [N/m], 0 to 1e12; 0: those of the file.
     bearing_distance : float
-        From mid-face to each bearing [m], 0 to 10; 0: that of the file.
+        Distance from mid-face to each bearing [m], 0 to 10; 0: that of the file.
 
     Raises
     ------
     ParameterError
-        A value out of range.
+        A value is out of range.
 
     Examples
     --------
@@ -71,9 +71,9 @@ def helical_march_parameters(
     oil: str = "mohammadpour_2015",
     bearings: ReplacedBearings | None = None,
 ) -> HelicalMarchParameters:
-    """Return the marching model of a gear file.
+    """Return the parameters of `HelicalPairModel` from a gear file.
 
-    Backlash is that of the file, options of the model keep the defaults of
+    Backlash is that of the file. Options of the model have the defaults of
     `HelicalMarchParameters`; change them with `replace`.
 
     Parameters
@@ -81,18 +81,18 @@ def helical_march_parameters(
     gear : HelicalGearFile
         Geometry, bodies and bearings.
     line_mesh : LineMesh, optional
-        Stiffness along its contact lines; by default one density.
+        Stiffness along its contact lines; by default one constant stiffness density.
     stiffness_density : float
-        That density [N/m2], 0 to 1e12; 0: that of ISO 6336-1. With a line mesh it must be 0.
+        This density [N/m2], 0 to 1e12; 0: that of ISO 6336-1. With a line mesh it must be 0.
     oil : str
         Name in the lubricant library.
     bearings : ReplacedBearings, optional
-        In place of the file's.
+        Bearings used instead of those of the file.
 
     Raises
     ------
     ParameterError
-        A value out of range, a mesh of another pair, or no bearings anywhere.
+        A value is out of range, the mesh is of another pair, or there are no bearings at all.
 
     Examples
     --------
@@ -141,8 +141,8 @@ def _support(gear: HelicalGearFile, role: Role, instead: ReplacedBearings) -> Sh
     springs = gear.body(role).supports
     if not springs and 0.0 in (radial, axial, distance):
         raise ParameterError(
-            f"the {role} must have bearings, the gear file {role}.bearing_1 is missing. "
-            "Add them, or give radial and axial stiffness and the bearings' distance."
+            f"the {role} must have bearings, but {role}.bearing_1 is missing in the gear file. Add "
+            "them, or give radial and axial stiffness and the bearings' distance."
         )
     first, second = springs or 2 * (_NO_BEARING,)
 

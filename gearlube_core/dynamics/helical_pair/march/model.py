@@ -73,7 +73,9 @@ def torque_limits(parameters: HelicalMarchParameters) -> TorqueLimits:
 
 
 class HelicalPairModel(SteppedModel[StepControl]):
-    """Lubricated helical or spur pair in motion: 12 degrees of freedom.
+    """Lubricated helical or spur pair in motion: give torques, step it in time, read its outputs.
+
+    The model has 12 degrees of freedom.
 
     Parameters
     ----------
@@ -81,9 +83,10 @@ class HelicalPairModel(SteppedModel[StepControl]):
 
     Notes
     -----
-    The contact lines follow the actual angle of the pinion; flanks press on either side of the
-    backlash. Integrated by fixed-step RK4 tied to the mesh period and the highest mode. Same
-    input, same bits. Instances share nothing.
+    The contact lines follow the actual angle of the pinion. The flanks can touch on either side of
+    the backlash. Equations of motion are integrated by RK4 with a fixed step, which follows from
+    the mesh period and the highest natural frequency. The same input gives the same output to the
+    bit. Instances share nothing.
 
     References
     ----------

@@ -1,0 +1,87 @@
+"""Headings over the options of a long help text."""
+
+from __future__ import annotations
+
+from typing import Any
+
+MANY = 12  # options from which on they are grouped
+_HEAT, _MODEL, _COMPUTING, _RESULTS = "Oil and heat", "Model", "Computing", "Results"
+
+# The heading of an option, the same in all commands. What is not here, such as speeds and torques,
+# says what is run and stands first, under "Options".
+GROUPS = {
+    "--oil": _HEAT,
+    "--oil-temperature": _HEAT,
+    "--oil-temperatures": _HEAT,
+    "--temperatures": _HEAT,
+    "--steady-temperature": _HEAT,
+    "--air-temperature": _HEAT,
+    "--start-temperature": _HEAT,
+    "--conductance-at-rest": _HEAT,
+    "--conductance-at-100": _HEAT,
+    "--heat-capacity": _HEAT,
+    "--roughness-um": _MODEL,
+    "--equations": _MODEL,
+    "--friction": _MODEL,
+    "--bearing-torque-loss": _MODEL,
+    "--driver": _MODEL,
+    "--fmu": _MODEL,
+    "--mesh": _MODEL,
+    "--density": _MODEL,
+    "--mismatch": _MODEL,
+    "--radii": _MODEL,
+    "--calibrated-bearings": _MODEL,
+    "--newtonian": _MODEL,
+    "--load-sharing": _MODEL,
+    "--flow": _MODEL,
+    "--temperature": _MODEL,
+    "--cavitation": _MODEL,
+    "--jobs": _COMPUTING,
+    "--scheduler": _COMPUTING,
+    "--block": _COMPUTING,
+    "--quick": _COMPUTING,
+    "--draws": _COMPUTING,
+    "--seed": _COMPUTING,
+    "--check-grid": _COMPUTING,
+    "--positions": _COMPUTING,
+    "--nodes": _COMPUTING,
+    "--nodes-across": _COMPUTING,
+    "--nodes-along": _COMPUTING,
+    "--nodes-minor": _COMPUTING,
+    "--nodes-major": _COMPUTING,
+    "--spacing": _COMPUTING,
+    "--stencil": _COMPUTING,
+    "--film-error": _COMPUTING,
+    "--time-error": _COMPUTING,
+    "--order-resolution": _COMPUTING,
+    "--out": _RESULTS,
+    "--overwrite": _RESULTS,
+    "--export": _RESULTS,
+    "--animate": _RESULTS,
+    "--snapshots": _RESULTS,
+    "--regulation-grid": _RESULTS,
+    "--regulation-raised": _RESULTS,
+    "--keys": _RESULTS,
+    "--example": _RESULTS,
+}
+_ORDER = (_HEAT, _MODEL, _COMPUTING, _RESULTS)
+
+
+def group_options(command: Any) -> None:
+    """Put the options of a command with many of them, and of its subcommands, under headings.
+
+    Options keep their order within a heading; the headings have the order of this file.
+    """
+    for one in getattr(command, "commands", {}).values():
+        group_options(one)
+    options = [one for one in command.params if one.param_type_name == "option"]
+    if len(options) < MANY:
+        return
+    for option in options:
+        option.rich_help_panel = GROUPS.get(option.opts[0], option.rich_help_panel)
+    command.params.sort(key=_place)
+
+
+def _place(parameter: Any) -> int:
+    panel = getattr(parameter, "rich_help_panel", None)
+    return 1 + _ORDER.index(panel) if panel in _ORDER else 0

@@ -1,0 +1,1 @@
+"""Surrogate of solved films for the axle: training set, fit, audit."""

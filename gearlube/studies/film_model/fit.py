@@ -1,0 +1,253 @@
+"""From solved films to a frozen model: processes, grid correction, net, calibration, test."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlube.studies.film_model.calibration import Misses, conformal_bounds
+from gearlube.studies.film_model.fit_settings import FitSettings
+from gearlube.studies.film_model.net_fit import fit_net
+from gearlube.studies.film_model.plan import TRAINING, FilmPlan
+from gearlube.studies.film_model.process import FilmProcess, fit_process
+from gearlube.studies.film_model.provenance import provenance_of
+from gearlube.studies.film_model.samples import (
+    DOMAIN,
+    TRAINED,
+    Box,
+    axle_contacts,
+    box_contact,
+    box_contacts,
+    widened_box,
+)
+from gearlube.studies.film_model.solves import SolveRow
+from gearlube.studies.film_model.targets import (
+    Targets,
+    expected_friction,
+    grid_corrections,
+    solved_rows,
+    targets_of,
+)
+from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.groups import FilmContact, FilmGroups, contact_groups
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.solved_film import solved_film
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.oil.oil_file import read_oil
+from gearlube_core.progress import Progress, no_progress, part_of
+
+_BORDER = 0.1  # of a group's range, where the model fades
+_FEWEST = {"box": 100, "axle": 20, "calibration": 39, "fresh": 20}
+_FEWEST_PAIRS = 20
+_PAIR_NOISE = 0.1  # first guess, of the corrections' variance
+_AXLE_SHARE = 0.3  # of the points that the net learns from
+_TRAINED_WEIGHT = 4.0  # of a solved contact over a point of the process
+
+
+class Fitted(NamedTuple):
+    """A model with what judges it."""
+
+    model: FilmModel
+    calibration: Misses
+    fresh: Misses
+    predicted: dict[str, Array]  # kind: (n, 2) film [m] and friction [-] of the model
+    solved: dict[str, Array]  # kind: the same, solved and led to the limit of the grid
+
+
+def fit_model(
+    rows: Sequence[SolveRow],
+    plan: FilmPlan,
+    settings: FitSettings | None = None,
+    *,
+    name: str = "",
+    state: str = "final",
+    start: FilmModel | None = None,
+    progress: Progress = no_progress,
+) -> Fitted:
+    """Return the frozen model of a training set.
+
+    Parameters
+    ----------
+    rows
+        Of `SolveTable`.
+    plan
+        That they were solved for.
+    settings
+        Of the net.
+    name
+        Of the model, for its provenance.
+    state
+        "final", or "first" of a trial.
+    start
+        A model of the same box, from whose net the fit goes on.
+    progress
+        Called with the share done and a sentence.
+
+    Raises
+    ------
+    ParameterError
+        There are too few rows, or `start` has another domain.
+    GearLubeError
+        scikit-learn is not installed.
+
+    Notes
+    -----
+    Two Gaussian processes learn the logarithms of film and friction over their references on the
+    coarse grid, two more what leads to the limit of fine grids. A net learns both sums at many
+    points. Bounds: split conformal, the quantile of the errors at contacts drawn from the domain
+    that nothing has learnt from, joined in quadrature with twice the error of the grid's
+    correction. They hold for 95 % of contacts drawn so [vovk_2005].
+    """
+    settings = settings or FitSettings()
+    check_rows(rows)
+    progress(0.02, "processes")
+    trained = targets_of(solved_rows(rows, *TRAINING))
+    processes = [fit_process(trained.groups, trained.values[:, n]) for n in range(2)]
+    progress(0.3, "grid")
+    pairs, steps = grid_corrections(rows, *TRAINING)
+    corrections = [fit_process(pairs.groups, steps[:, n], noise=_PAIR_NOISE) for n in range(2)]
+    grid_left = [_rms(one.left_out()) for one in corrections]
+    progress(0.4, "points of the net")
+    oils = tuple(read_oil(oil).lubricant for oil in plan.oils)
+    box = widened_box(oils)
+    mesh = shipped_mesh_table(plan.mesh_table)
+    on_axle = int(_AXLE_SHARE * settings.points)
+    drawn = [
+        *box_contacts(box, settings.points - on_axle, 1000 + settings.seed),
+        *axle_contacts(on_axle, 2000 + settings.seed, mesh, oils, TRAINED),
+    ]
+    groups = np.array([contact_groups(one) for one in drawn])
+    low, high = domain_of(box, groups)
+    points = np.vstack([groups, trained.groups])
+    corrected = trained.values + _at(corrections, trained.groups)
+    values = np.vstack([_at(processes, groups) + _at(corrections, groups), corrected])
+    weights = np.ones_like(values)
+    weights[len(groups) :] = _TRAINED_WEIGHT
+    progress(0.45, "net")
+    blocks = _net(
+        points, values, weights, low, high, settings, start, part_of(progress, 0.45, 0.95)
+    )
+    modulus = drawn[0].contact_modulus
+    model = FilmModel.of_blocks(
+        {**blocks, **_frame(low, high, modulus), "bounds": np.array([1.0, 1.0])}, {}
+    )
+    progress(0.95, "calibration")
+    kept = {kind: targets_of(solved_rows(rows, kind)) for kind in ("calibration", "fresh")}
+    limits = {kind: at_limit(one, corrections) for kind, one in kept.items()}
+    found = {kind: evaluated(model, one.contacts) for kind, one in kept.items()}
+    misses = {kind: Misses(found[kind] / limits[kind] - 1.0) for kind in kept}
+    spread = conformal_bounds(misses["calibration"].values)
+    bounds = tuple(math.hypot(b, 2.0 * g) for b, g in zip(spread, grid_left, strict=True))
+    provenance = provenance_of(rows, plan, settings, (name, state), misses, bounds, grid_left, box)
+    model = FilmModel.of_blocks({**model.blocks, "bounds": np.array(bounds)}, provenance)
+    return Fitted(model, misses["calibration"], misses["fresh"], found, limits)
+
+
+def check_rows(rows: Sequence[SolveRow]) -> None:
+    """Refuse a training set that is too small."""
+    for kind, least in _FEWEST.items():
+        count = len(solved_rows(rows, kind))
+        if count < least:
+            raise ParameterError(
+                f"A fit needs at least {least} solved contacts of the kind {kind}, got {count}. "
+                "Let `gearlube film-model train` go on."
+            )
+    pairs = len(grid_corrections(rows, *TRAINING)[0].contacts)
+    if pairs < _FEWEST_PAIRS:
+        raise ParameterError(
+            f"A fit needs at least {_FEWEST_PAIRS} contacts solved on both grids, got {pairs}. "
+            "Let `gearlube film-model train` go on."
+        )
+
+
+def domain_of(box: Box, groups: Array) -> tuple[Array, Array]:
+    """Return the lowest and highest value of each group in the domain."""
+    corners = [contact_groups(box_contact(box, np.full(len(box), t))) for t in (0.0, 1.0)]
+    low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+    # groups that follow from the others: down to what was met, up to their limit
+    for name, most in (("heat", math.log(DOMAIN.most_heat)), ("thickness", DOMAIN.most_thickness)):
+        n = FilmGroups._fields.index(name)
+        least = groups[:, n].min()
+        low[n], high[n] = least - _BORDER * (most - least), most
+    low[0] += math.log(DOMAIN.least_pressure / TRAINED.least_pressure)
+    return low, high
+
+
+def evaluated(model: FilmModel, contacts: Sequence[FilmContact]) -> Array:
+    """Return film [m] and friction [-] of a model, (n, 2)."""
+    numbers = model.copied_numbers()
+    return np.array([solved_film(numbers, one)[:2] for one in contacts])
+
+
+def at_limit(targets: Targets, corrections: Sequence[FilmProcess]) -> Array:
+    """Return film and friction of coarse solutions, led to the limit of fine grids, (n, 2)."""
+    step = _at(corrections, targets.groups)
+    film = targets.film * np.exp(step[:, 0])
+    # the correction of friction is that over its reference, which follows the film
+    values = targets.values + step
+    expected = [expected_friction(*one) for one in zip(targets.contacts, film, strict=True)]
+    return np.stack([film, np.array(expected) * np.exp(values[:, 1])], axis=1)
+
+
+def _at(processes: Sequence[FilmProcess], groups: Array) -> Array:
+    return np.stack([one(groups) for one in processes], axis=1)
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt((values**2).mean()))
+
+
+def _frame(low: Array, high: Array, modulus: float) -> dict[str, Array]:
+    return {
+        "domain_low": low,
+        "domain_high": high,
+        "shift": 0.5 * (low + high),
+        "scale": 2.0 / (high - low),
+        "border": np.array([_BORDER]),
+        "contact_modulus": np.array([modulus]),
+    }
+
+
+def _net(
+    points: Array,
+    values: Array,
+    weights: Array,
+    low: Array,
+    high: Array,
+    settings: FitSettings,
+    start: FilmModel | None,
+    progress: Progress,
+) -> dict[str, Array]:
+    """Return the weights of the net that learns values (n, 2) at points (n, N_GROUPS)."""
+    inputs = (points - 0.5 * (low + high)) * 2.0 / (high - low)
+    spread = values.std(axis=0)
+    first = None if start is None else _scaled(_same_box(start, low, high).blocks, 1.0 / spread)
+    blocks = fit_net(
+        inputs,
+        values / spread,
+        weights,
+        seed=settings.seed,
+        steps=settings.steps,
+        start=first,
+        progress=progress,
+    )
+    return _scaled(blocks, spread)
+
+
+def _scaled(blocks: dict[str, Array], factor: Array) -> dict[str, Array]:
+    """Return the weights of a net whose two outputs are multiplied."""
+    scaled = {name: blocks[name] * factor[:, None] for name in ("straight", "last")}
+    return {**blocks, **scaled, "last_offset": blocks["last_offset"] * factor}
+
+
+def _same_box(start: FilmModel, low: Array, high: Array) -> FilmModel:
+    blocks = start.blocks
+    if not np.allclose(np.stack([blocks["domain_low"], blocks["domain_high"]]), [low, high]):
+        raise ParameterError(
+            "The model to start from must have the domain of the training set. Leave --start out."
+        )
+    return start

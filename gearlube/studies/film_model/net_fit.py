@@ -1,0 +1,157 @@
+"""Fit of the small net of the film kernel to given outputs, by Levenberg and Marquardt."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from gearlube_core.arrays import Array
+from gearlube_core.film_model.net import N_GROUPS, N_OUTPUTS, WIDTH
+from gearlube_core.progress import Progress, no_progress
+
+_PULL = 1e-10  # of the squares of the weights, for each point
+_LEAST = 1e-6  # of the mean diagonal, that damps weights without effect
+_TRIES = 12  # of a step, each damped more
+_CHUNK = 2000  # points whose slopes are held at once
+
+_SHAPES = {
+    "first": (N_GROUPS, WIDTH),
+    "first_offset": (WIDTH,),
+    "second": (WIDTH, WIDTH),
+    "second_offset": (WIDTH,),
+    "straight": (N_OUTPUTS, N_GROUPS),
+    "last": (N_OUTPUTS, WIDTH),
+    "last_offset": (N_OUTPUTS,),
+}
+
+
+def net_blocks(x: Array) -> dict[str, Array]:
+    """Return weights by name from one flat array."""
+    blocks, start = {}, 0
+    for name, shape in _SHAPES.items():
+        size = int(np.prod(shape))
+        blocks[name] = x[start : start + size].reshape(shape)
+        start += size
+    return blocks
+
+
+def flat_blocks(blocks: dict[str, Array]) -> Array:
+    """Return weights by name as one flat array."""
+    return np.concatenate([np.asarray(blocks[name]).ravel() for name in _SHAPES])
+
+
+def net_values(blocks: dict[str, Array], inputs: Array) -> Array:
+    """Return the outputs (n, 2) of inputs (n, N_GROUPS), scaled as the kernel scales them."""
+    a = inputs @ blocks["first"] + blocks["first_offset"]
+    s = a / np.sqrt(1.0 + a * a)
+    b = s @ blocks["second"] + blocks["second_offset"]
+    t = b / np.sqrt(1.0 + b * b)
+    return inputs @ blocks["straight"].T + t @ blocks["last"].T + blocks["last_offset"]
+
+
+def fit_net(
+    inputs: Array,
+    targets: Array,
+    weights: Array,
+    *,
+    seed: int,
+    steps: int,
+    start: dict[str, Array] | None = None,
+    progress: Progress = no_progress,
+) -> dict[str, Array]:
+    """Return the weights that fit targets with the least weighted square.
+
+    Parameters
+    ----------
+    inputs : ndarray, shape (n, N_GROUPS)
+    targets : ndarray, shape (n, 2)
+        Of order one.
+    weights : ndarray, shape (n, 2)
+        Of the squares.
+    seed
+        Of the first weights.
+    steps
+        Steps of Levenberg and Marquardt, each a second of a processor for some thousand points.
+    start
+        Weights to go on from; None: random ones.
+    progress
+        Called with the share done and a sentence.
+
+    Notes
+    -----
+    Gauss-Newton steps on the normal equations, damped as by [marquardt_1963]; a step that makes the
+    sum of squares larger is not taken. A weak pull to zero keeps the equations regular.
+    """
+    if start is None:
+        start = _first_weights(seed, targets)
+    x, damping = flat_blocks(start), 1e-1
+    value = _squares(x, inputs, targets, weights)
+    for step in range(steps):
+        matrix, pull = _normal_equations(x, inputs, targets, weights)
+        diagonal = matrix.diagonal().copy()
+        for _ in range(_TRIES):
+            damped = matrix + np.diag(damping * (diagonal + _LEAST * diagonal.mean()))
+            trial = x + cho_solve(cho_factor(damped, check_finite=False), pull)
+            found = _squares(trial, inputs, targets, weights)
+            if found < value:
+                x, value, damping = trial, found, max(damping / 3.0, 1e-9)
+                break
+            damping = min(4.0 * damping, 1e6)
+        else:
+            break
+        rms = math.sqrt(value / targets.size)
+        progress((step + 1) / steps, f"net, {rms:.2g} of the spread left")
+    return net_blocks(x)
+
+
+def _first_weights(seed: int, targets: Array) -> dict[str, Array]:
+    rng = np.random.default_rng(seed)
+    start = {
+        name: rng.normal(size=shape) / np.sqrt(shape[0] if len(shape) > 1 else 4.0)
+        for name, shape in _SHAPES.items()
+    }
+    start["last"] *= 0.1
+    start["straight"] *= 0.0
+    start["last_offset"] = targets.mean(axis=0)
+    return start
+
+
+def _squares(x: Array, inputs: Array, targets: Array, weights: Array) -> float:
+    miss = net_values(net_blocks(x), inputs) - targets
+    return float((weights * miss * miss).sum()) + _PULL * len(inputs) * float(x @ x)
+
+
+def _normal_equations(
+    x: Array, inputs: Array, targets: Array, weights: Array
+) -> tuple[Array, Array]:
+    """Return the matrix (p, p) and the right-hand side (p,) of a Gauss-Newton step."""
+    w = net_blocks(x)
+    pull = _PULL * len(inputs)
+    matrix, right = pull * np.eye(x.size), -pull * x
+    for rows in np.array_split(np.arange(len(inputs)), max(1, len(inputs) // _CHUNK)):
+        z = inputs[rows]
+        a = z @ w["first"] + w["first_offset"]
+        s = a / np.sqrt(1.0 + a * a)
+        s_slope = (1.0 + a * a) ** -1.5
+        b = s @ w["second"] + w["second_offset"]
+        t = b / np.sqrt(1.0 + b * b)
+        t_slope = (1.0 + b * b) ** -1.5
+        miss = targets[rows] - net_values(w, z)
+        for out in range(N_OUTPUTS):
+            g_b = w["last"][out] * t_slope
+            g_a = (g_b @ w["second"].T) * s_slope
+            parts = {name: np.zeros((len(z), *shape)) for name, shape in _SHAPES.items()}
+            parts["first"] = z[:, :, None] * g_a[:, None, :]
+            parts["first_offset"] = g_a
+            parts["second"] = s[:, :, None] * g_b[:, None, :]
+            parts["second_offset"] = g_b
+            parts["straight"][:, out] = z
+            parts["last"][:, out] = t
+            parts["last_offset"][:, out] = 1.0
+            slopes = np.concatenate([parts[name].reshape(len(z), -1) for name in _SHAPES], axis=1)
+            weighed = slopes * weights[rows, out, None]
+            matrix += weighed.T @ slopes
+            right += weighed.T @ miss[:, out]
+    return matrix, right

@@ -1,0 +1,90 @@
+"""Gaussian processes over the features of contacts, by scikit-learn."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube.studies.film_model.features import film_features
+from gearlube_core.arrays import Array
+from gearlube_core.errors import GearLubeError
+
+_LENGTHS = (0.3, 300.0)  # limits, in standard deviations of a feature
+_NOISE = (1e-9, 0.1)  # limits of its variance over that of the values
+
+_LEARNT = 500  # values, about, of which lengths and noise are learnt; all give the mean
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FilmProcess:
+    """A straight part and a Gaussian process for one output."""
+
+    shift: Array
+    scale: Array
+    straight: Array
+    process: Any
+    spread: float
+
+    def __call__(self, groups: Array) -> Array:
+        """Return the mean (n,) at groups (n, N_GROUPS)."""
+        x = (film_features(groups) - self.shift) / self.scale
+        return np.asarray(_lines(x) @ self.straight + self.spread * self.process.predict(x))
+
+    def left_out(self) -> Array:
+        """Return what each value of the fit misses when it is left out of it, (n,).
+
+        Lengths and noise stay: a little too good.
+        """
+        covariance = self.process.kernel_(self.process.X_train_)
+        inverse = np.linalg.inv(covariance)
+        misses = inverse @ self.process.y_train_ / np.diag(inverse)
+        return np.asarray(misses * self.spread)
+
+
+def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmProcess:
+    """Return the process through values (n,) at groups (n, N_GROUPS) [rasmussen_williams_2006].
+
+    Parameters
+    ----------
+    groups, values
+        Of the fit.
+    noise
+        First guess of the noise's variance over that of the values.
+
+    Raises
+    ------
+    GearLubeError
+        scikit-learn is not installed.
+    """
+    try:
+        from sklearn.exceptions import ConvergenceWarning
+        from sklearn.gaussian_process import GaussianProcessRegressor
+        from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
+    except ImportError as error:
+        raise GearLubeError(
+            "Fitting a film model needs scikit-learn, which is not installed. Install it with "
+            "pip install 'gearlube[film-model]'."
+        ) from error
+    x = film_features(groups)
+    shift, scale = x.mean(axis=0), x.std(axis=0)
+    scale = np.where(scale > 1e-9 * np.abs(shift), scale, 1.0)
+    x = (x - shift) / scale
+    straight = np.asarray(np.linalg.lstsq(_lines(x), values, rcond=None)[0], dtype=np.float64)
+    rest = values - _lines(x) @ straight
+    spread = float(rest.std())
+    kernel = ConstantKernel(4.0, (1e-2, 1e5)) * RBF(np.full(x.shape[1], 5.0), _LENGTHS)
+    process = GaussianProcessRegressor(kernel + WhiteKernel(noise, _NOISE))
+    some = slice(None, None, max(1, len(x) // _LEARNT))
+    with warnings.catch_warnings():
+        # lengths at their limit belong to features that do not matter
+        warnings.simplefilter("ignore", ConvergenceWarning)
+        process.fit(x[some], rest[some] / spread)
+    process = GaussianProcessRegressor(process.kernel_, optimizer=None).fit(x, rest / spread)
+    return FilmProcess(shift, scale, straight, process, spread)
+
+
+def _lines(x: Array) -> Array:
+    return np.hstack([np.ones((len(x), 1)), x])

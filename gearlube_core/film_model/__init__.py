@@ -1,0 +1,1 @@
+"""Films of elliptical contacts by a surrogate of solved thermal Eyring films."""

@@ -1,0 +1,231 @@
+"""A frozen model of solved films: numbers for the kernel, with where they come from."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.errors import FileError, ParameterError, why
+from gearlube_core.film_model import net
+from gearlube_core.film_model.groups import FilmGroups
+from gearlube_core.storage.atomic_file import write_text
+
+FORMAT = "gearlube film model"
+VERSION = 1
+_SHIPPED = Path(__file__).parent / "data"
+_CURE = "Make one with `gearlube film-model fit`, or name a model of the package."
+
+# blocks of the numbers with their shapes, in order
+_BLOCKS: dict[str, tuple[int, ...]] = {
+    "domain_low": (net.N_GROUPS,),
+    "domain_high": (net.N_GROUPS,),
+    "shift": (net.N_GROUPS,),
+    "scale": (net.N_GROUPS,),
+    "first": (net.N_GROUPS, net.WIDTH),
+    "first_offset": (net.WIDTH,),
+    "second": (net.WIDTH, net.WIDTH),
+    "second_offset": (net.WIDTH,),
+    "straight": (net.N_OUTPUTS, net.N_GROUPS),
+    "last": (net.N_OUTPUTS, net.WIDTH),
+    "last_offset": (net.N_OUTPUTS,),
+    "bounds": (net.N_OUTPUTS,),
+    "contact_modulus": (1,),
+    "border": (1,),
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FilmModel:
+    """A surrogate of solved thermal Eyring films with its domain, bounds and provenance.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (N_ARRAY,)
+        For `solved_film`: domain, weights, bounds, and scratch that every call overwrites.
+    provenance : dict
+        Texts and numbers: `state` ("final" or "first", a trial), `oils`, `grid`, `solves`,
+        `seed`, `date`, `errors` and whatever else says how it was made.
+
+    Raises
+    ------
+    ParameterError
+        The numbers have another shape, are not finite, or a domain is empty.
+
+    Examples
+    --------
+    >>> model = FilmModel.named("hypoid_flank")
+    >>> low, high = model.domain["psi"]
+    >>> 0.0 < low < high < 1.6
+    True
+    """
+
+    numbers: Array
+    provenance: dict[str, Any]
+
+    def __post_init__(self) -> None:
+        shape = self.numbers.shape
+        if shape != (net.N_ARRAY,):
+            raise ParameterError(
+                f"numbers of a film model must be of shape ({net.N_ARRAY},), got {shape}. {_CURE}"
+            )
+        if not np.isfinite(self.numbers[: net.N_NUMBERS]).all():
+            raise ParameterError(f"numbers of a film model must be finite. {_CURE}")
+        for group, (low, high) in self.domain.items():
+            if not low < high:
+                raise ParameterError(
+                    f"the domain of {group} must not be empty, got {low:g} to {high:g}. {_CURE}"
+                )
+        bounds = (self.film_bound, self.friction_bound, *self.blocks["border"])
+        if not (min(bounds) > 0.0 and self.contact_modulus > 0.0):
+            raise ParameterError(
+                "bounds, border and contact_modulus of a film model must be above 0, got "
+                f"{bounds} and {self.contact_modulus:g} Pa. {_CURE}"
+            )
+
+    @property
+    def blocks(self) -> dict[str, Array]:
+        """Return the numbers by name, without the scratch."""
+        parts, start = {}, 0
+        for name, shape in _BLOCKS.items():
+            end = start + int(np.prod(shape))
+            parts[name] = self.numbers[start:end].reshape(shape).copy()
+            start = end
+        return parts
+
+    @property
+    def domain(self) -> dict[str, tuple[float, float]]:
+        """Return the lowest and highest value of each group [-]."""
+        low, high = self.numbers[net.LOW : net.HIGH], self.numbers[net.HIGH : net.SHIFT]
+        return {name: (float(low[n]), float(high[n])) for n, name in enumerate(FilmGroups._fields)}
+
+    @property
+    def film_bound(self) -> float:
+        """Return the half-width of the 95 % band of the central film, relative [-]."""
+        return float(self.numbers[net.BOUNDS])
+
+    @property
+    def friction_bound(self) -> float:
+        """Return the half-width of the 95 % band of the friction, relative [-]."""
+        return float(self.numbers[net.BOUNDS + 1])
+
+    @property
+    def contact_modulus(self) -> float:
+        """Return E* of the solids of the training [Pa]."""
+        return float(self.numbers[net.MODULUS])
+
+    def copied_numbers(self) -> Array:
+        """Return the numbers with a scratch of their own, for one user of the kernel."""
+        return self.numbers.copy()
+
+    @classmethod
+    def of_blocks(cls, blocks: dict[str, Array], provenance: dict[str, Any]) -> FilmModel:
+        """Return a model from its numbers by name; shapes as in `blocks`.
+
+        Raises
+        ------
+        ParameterError
+            A block is missing, is not known or has another shape.
+        """
+        unknown, missing = sorted(set(blocks) - set(_BLOCKS)), sorted(set(_BLOCKS) - set(blocks))
+        if unknown or missing:
+            raise ParameterError(
+                f"A film model needs the numbers {', '.join(_BLOCKS)}; missing "
+                f"{missing or 'nothing'}, unknown {unknown or 'nothing'}. {_CURE}"
+            )
+        parts = []
+        for name, shape in _BLOCKS.items():
+            block = np.asarray(blocks[name], dtype=np.float64)
+            if block.shape != shape:
+                raise ParameterError(
+                    f"{name} of a film model must be of shape {shape}, got {block.shape}. {_CURE}"
+                )
+            parts.append(block.ravel())
+        scratch = np.zeros(net.N_ARRAY - net.N_NUMBERS)
+        return cls(np.concatenate([*parts, scratch]), provenance)
+
+    @classmethod
+    def read(cls, path: Path | str) -> FilmModel:
+        """Return the model of a file.
+
+        Raises
+        ------
+        FileError
+            The file is missing, is no film model, is of another version or is damaged.
+        """
+        path = Path(path)
+        try:
+            content = json.loads(path.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise FileError(f"Film model {path} cannot be read: {why(error)}. {_CURE}") from error
+        except ValueError as error:
+            raise FileError(
+                f"{path} must be a film model in JSON, got a file that is not JSON ({error}). "
+                f"{_CURE}"
+            ) from error
+        if not isinstance(content, dict) or content.get("format") != FORMAT:
+            raise FileError(f"{path} must have the format '{FORMAT}', got another file. {_CURE}")
+        if content.get("version") != VERSION:
+            raise FileError(
+                f"{path} must be of version {VERSION}, got {content.get('version')}. {_CURE}"
+            )
+        try:
+            blocks = {name: np.array(values) for name, values in content["numbers"].items()}
+            provenance, checksum = dict(content["provenance"]), content["checksum"]
+            model = cls.of_blocks(blocks, provenance)
+        except (KeyError, TypeError, AttributeError, ValueError) as error:
+            raise FileError(f"Film model {path} is damaged: {error}. {_CURE}") from error
+        if checksum != model.checksum:
+            raise FileError(
+                f"Film model {path} is damaged: its numbers do not belong to its checksum "
+                f"{checksum}. Do not edit it. {_CURE}"
+            )
+        return model
+
+    @classmethod
+    def named(cls, name: str) -> FilmModel:
+        """Return a model of the package by name, or of a file (.json).
+
+        Raises
+        ------
+        FileError
+        """
+        shipped = _SHIPPED / f"{name}.json"
+        if shipped.exists():
+            return cls.read(shipped)
+        if name.endswith(".json"):
+            return cls.read(name)
+        raise FileError(
+            f"Film model must be one of {', '.join(model_names())} or a file (.json), got {name}. "
+            f"{_CURE}"
+        )
+
+    @property
+    def checksum(self) -> str:
+        """Return the first 16 digits of SHA-256 of the numbers."""
+        return hashlib.sha256(self.numbers[: net.N_NUMBERS].tobytes()).hexdigest()[:16]
+
+    def write(self, path: Path | str) -> None:
+        """Write the model as a file (.json)."""
+        content = {
+            "format": FORMAT,
+            "version": VERSION,
+            "provenance": self.provenance,
+            "checksum": self.checksum,
+            "numbers": {name: block.tolist() for name, block in self.blocks.items()},
+        }
+        text = json.dumps(content, indent=1)
+        # rows of numbers on one line each
+        rows = re.sub(r"\[[-+\s\d.,e]*\]", lambda row: re.sub(r"\s+", " ", row.group()), text)
+        write_text(rows + "\n", Path(path))
+
+
+def model_names() -> tuple[str, ...]:
+    """Return the names of the models in the package."""
+    return tuple(sorted(path.stem for path in _SHIPPED.glob("*.json")))

@@ -1,0 +1,123 @@
+"""A small net as one flat array of numbers: layout and kernel.
+
+Two hidden layers of softly bounded units x/(1 + x^2)^(1/2), smooth at any order and cheaper than
+tanh; a straight part; two outputs.
+"""
+
+from __future__ import annotations
+
+import math
+
+from gearlube_core.arrays import Array
+from gearlube_core.film_model.groups import N_GROUPS, FilmGroups
+from gearlube_core.kernels.jit import kernel
+
+WIDTH = 24  # units of a hidden layer
+N_OUTPUTS = 2
+
+# places in the array of numbers
+LOW = 0  # domain of each group
+HIGH = LOW + N_GROUPS
+SHIFT = HIGH + N_GROUPS  # group - shift, times scale: input of the net
+SCALE = SHIFT + N_GROUPS
+FIRST = SCALE + N_GROUPS  # (groups, width), by group
+FIRST_OFFSET = FIRST + N_GROUPS * WIDTH
+SECOND = FIRST_OFFSET + WIDTH  # (width, width), by unit of the first layer
+SECOND_OFFSET = SECOND + WIDTH * WIDTH
+STRAIGHT = SECOND_OFFSET + WIDTH  # (outputs, groups)
+LAST = STRAIGHT + N_OUTPUTS * N_GROUPS  # (outputs, width)
+LAST_OFFSET = LAST + N_OUTPUTS * WIDTH
+BOUNDS = LAST_OFFSET + N_OUTPUTS  # of film and friction [-]
+MODULUS = BOUNDS + N_OUTPUTS  # E* that the model was trained with [Pa]
+RAMP = MODULUS + 1  # width of the border of the domain over the domain's [-]
+N_NUMBERS = RAMP + 1
+SCRATCH = N_NUMBERS  # groups and two rows of units, overwritten by every call
+N_ARRAY = SCRATCH + N_GROUPS + 2 * WIDTH
+
+
+@kernel
+def smooth_step(t: float) -> float:
+    """Return 0 up to t = 0 and 1 from t = 1 on, smooth once between."""
+    t = min(max(t, 0.0), 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
+@kernel
+def take_groups(numbers: Array, g: FilmGroups) -> None:
+    """Write the groups into the scratch of the numbers, shape (N_ARRAY,)."""
+    numbers[SCRATCH] = g.pressure
+    numbers[SCRATCH + 1] = g.ellipse
+    numbers[SCRATCH + 2] = g.psi
+    numbers[SCRATCH + 3] = g.slide_roll
+    numbers[SCRATCH + 4] = g.delta
+    numbers[SCRATCH + 5] = g.viscosity
+    numbers[SCRATCH + 6] = g.exponent
+    numbers[SCRATCH + 7] = g.stress
+    numbers[SCRATCH + 8] = g.rate
+    numbers[SCRATCH + 9] = g.peclet
+    numbers[SCRATCH + 10] = g.cooling
+    numbers[SCRATCH + 11] = g.warmth
+    numbers[SCRATCH + 12] = g.conductivity
+    numbers[SCRATCH + 13] = g.capacity
+    numbers[SCRATCH + 14] = g.heat
+    numbers[SCRATCH + 15] = g.thickness
+
+
+@kernel
+def share_outside(numbers: Array) -> float:
+    """Return 0 inside the domain, rising smoothly to 1 one border's width outside.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (N_ARRAY,)
+        Their scratch has the groups. Where a group lies beyond the border it is moved back to it:
+        nothing of the model is used there.
+    """
+    inside = 1.0
+    for i in range(N_GROUPS):
+        low, high = numbers[LOW + i], numbers[HIGH + i]
+        border = numbers[RAMP] * (high - low)
+        group = numbers[SCRATCH + i]
+        excess = max(low - group, group - high) / border
+        if excess > 0.0:
+            inside *= 1.0 - smooth_step(excess)
+            numbers[SCRATCH + i] = min(max(group, low - border), high + border)
+    return 1.0 - inside
+
+
+@kernel
+def net_outputs(numbers: Array) -> tuple[float, float]:
+    """Return both outputs of the net for the groups in the scratch.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (N_ARRAY,)
+        Weights, and behind them the scratch, whose rows of units this call overwrites.
+    """
+    first = SCRATCH + N_GROUPS
+    second = first + WIDTH
+    for j in range(WIDTH):
+        numbers[first + j] = numbers[FIRST_OFFSET + j]
+        numbers[second + j] = numbers[SECOND_OFFSET + j]
+    y_0, y_1 = numbers[LAST_OFFSET], numbers[LAST_OFFSET + 1]
+    for i in range(N_GROUPS):
+        x = (numbers[SCRATCH + i] - numbers[SHIFT + i]) * numbers[SCALE + i]
+        y_0 += numbers[STRAIGHT + i] * x
+        y_1 += numbers[STRAIGHT + N_GROUPS + i] * x
+        row = FIRST + i * WIDTH
+        for j in range(WIDTH):
+            numbers[first + j] += numbers[row + j] * x
+    for j in range(WIDTH):
+        a = numbers[first + j]
+        numbers[first + j] = a / math.sqrt(1.0 + a * a)
+    for i in range(WIDTH):
+        x = numbers[first + i]
+        row = SECOND + i * WIDTH
+        for j in range(WIDTH):
+            numbers[second + j] += numbers[row + j] * x
+    for j in range(WIDTH):
+        a = numbers[second + j]
+        b = a / math.sqrt(1.0 + a * a)
+        y_0 += numbers[LAST + j] * b
+        y_1 += numbers[LAST + WIDTH + j] * b
+    return y_0, y_1

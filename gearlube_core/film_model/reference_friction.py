@@ -1,0 +1,93 @@
+"""Friction of a heated Eyring film under Hertz's pressure: what the film model corrects."""
+
+from __future__ import annotations
+
+import math
+
+from gearlube_core.film_model.groups import FilmInlet
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA, ROELANDS_PRESSURE
+
+_LARGEST_OVER_MEAN = 1.5  # Hertz pressure
+# Gauss's three points of p/p_max over the ellipse, whose area is evenly spread over (p/p_max)^2
+_HALF = 0.5 * math.sqrt(0.6)
+_LOW, _MIDDLE, _HIGH = 0.5 - _HALF, 0.5, 0.5 + _HALF
+_OUTER_WEIGHT, _MIDDLE_WEIGHT = 5.0 / 9.0, 8.0 / 9.0
+_FILM_PART = 1.0 / 8.0  # middle of an evenly heated film over its surfaces
+_SURFACE_PART = 0.3665  # of both surfaces; the model corrects least with it
+_LOG_LARGE = 18.0  # asinh(exp(y)) = y + ln 2 to double precision above
+_LN2 = math.log(2.0)
+
+
+@kernel
+def _asinh_exp(y: float) -> float:
+    if y > _LOG_LARGE:
+        return y + _LN2
+    e = math.exp(y)
+    return math.asinh(e)
+
+
+@kernel
+def _heated_stress(log_rate: float, log_viscosity: float, softening: float) -> float:
+    # s = asinh(exp(log_rate + G/(1 + k s/G))), G = ln(eta/kappa) of the cold film, k softening:
+    # that of asinh(exp(x)) = x + c with c of the cold film, then one step of Newton
+    G, k = log_viscosity, softening
+    cold = _asinh_exp(log_rate + G)
+    b = G * (1.0 + k) - k * cold
+    s = 2.0 * cold * G / (b + math.sqrt(b * b + 4.0 * k * cold * G))
+    fall = 1.0 / (1.0 + k * s / G)
+    y = log_rate + G * fall
+    if y > _LOG_LARGE:
+        return s - (s - y - _LN2) / (1.0 + k * fall * fall)
+    e = math.exp(y)
+    slope = k * fall * fall * e / math.sqrt(1.0 + e * e)
+    return s - (s - math.asinh(e)) / (1.0 + slope)
+
+
+@kernel
+def reference_friction(
+    film: float, p: float, speed: float, slip: float, semi_axis: float, inlet: FilmInlet
+) -> float:
+    """Return the friction coefficient that the model corrects [-].
+
+    mu = <tau>/p,  tau = tau0 asinh[eta slip/(h tau0)],
+    ln(eta/kappa) = G/[1 + beta(p') dT/G],  dT = tau slip R,
+    R = h/(8 k) + 0.37 [a_x/(K rho c u)]^(1/2)
+
+    Parameters
+    ----------
+    film
+        Central film h [m].
+    p
+        Mean Hertz pressure [Pa].
+    speed
+        u across the contact, u cos(psi) [m/s].
+    slip
+        Amount of sliding [m/s].
+    semi_axis
+        a_x, half of the way across the contact [m].
+    inlet
+        Oil and solids.
+
+    Notes
+    -----
+    The mean is over the ellipse with Hertz's pressures p', by three points. G = ln(eta/kappa) at
+    p' and the inlet's temperature after Roelands; with heat it falls as Houpert's law with an
+    exponent S0 of one. R, the film's rise over the heat flux, is rough, and one Newton step ends
+    each stress: what the model corrects need only be smooth and near.
+    """
+    top = ROELANDS_PRESSURE * _LARGEST_OVER_MEAN * p
+    resistance = film * _FILM_PART / inlet.oil_conductivity
+    resistance += _SURFACE_PART * math.sqrt(semi_axis / speed) / inlet.effusivity
+    softening = inlet.beta * slip * resistance * inlet.tau0
+    log_rate = math.log(max(slip, 1e-300) * ROELANDS_KAPPA / (film * inlet.tau0))
+    mean = 0.0
+    for q, weight in (
+        (_LOW, _OUTER_WEIGHT),
+        (_MIDDLE, _MIDDLE_WEIGHT),
+        (_HIGH, _OUTER_WEIGHT),
+    ):
+        growth = math.exp(inlet.Z * math.log(1.0 + q * top))
+        stress = _heated_stress(log_rate, inlet.viscosity * growth, softening * growth)
+        mean += weight * q * stress
+    return inlet.tau0 / p * mean

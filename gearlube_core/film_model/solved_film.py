@@ -1,0 +1,104 @@
+"""Film and friction of one contact by a frozen model of solved thermal Eyring films."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.film_model.groups import (
+    LEAST_LOAD,
+    LEAST_SPEED,
+    FilmContact,
+    FilmInlet,
+    FilmPlace,
+    contact_parts,
+    film_groups,
+    reference_film,
+    semi_minor_axis,
+)
+from gearlube_core.film_model.net import (
+    BOUNDS,
+    MODULUS,
+    net_outputs,
+    share_outside,
+    smooth_step,
+    take_groups,
+)
+from gearlube_core.film_model.reference_friction import reference_friction
+from gearlube_core.kernels.jit import kernel
+
+_MODULUS_MARGIN = 0.02  # of E*, to the full share outside
+# share of the limiting stress that the mean stress may reach: where it begins to matter and where
+# the model, which has none, says nothing
+_LIMIT_BEGINS, _LIMIT_ENDS = 0.5, 0.8
+
+
+class SolvedFilm(NamedTuple):
+    """Film and friction of one contact; all floats."""
+
+    central_film: float  # [m]
+    friction_coefficient: float  # of the film alone [-]
+    outside: float  # of what the model was trained for: 0 inside, 1 well outside [-]
+    film_bound: float  # half-width of the 95 % band of the central film, relative [-]
+    friction_bound: float  # the same of the friction [-]
+
+
+@kernel
+def solved_film_at(
+    numbers: Array, load: float, speed: float, slip: float, place: FilmPlace, inlet: FilmInlet
+) -> SolvedFilm:
+    """Return film and friction of a contact by the model.
+
+    h = h_ref exp(y_1),  mu = mu_ref(h) exp(y_2), with y of `net_outputs`
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (N_ARRAY,)
+        `FilmModel.numbers`. The call writes into its scratch: threads must not share it.
+    load
+        [N]; below 1e-3 N film and friction are those of 1e-3 N.
+    speed, slip
+        Amounts of entrainment and sliding [m/s].
+    place, inlet
+        From `film_place`, once for each place, and `film_inlet`, once for each temperature.
+
+    Returns
+    -------
+    SolvedFilm
+        Smooth once where `outside` is below 1. Blend with a formula by `outside`; at 1 film and
+        friction are finite but mean nothing. The bounds are the same numbers everywhere and hold
+        where `outside` is 0.
+
+    Notes
+    -----
+    Steady, fully flooded, smooth flanks in bulk at the oil's temperature, no limiting stress: a
+    contact whose mean stress comes near the limiting one counts as outside. The bounds hold for
+    95 % of contacts drawn from the domain, not for each one.
+    """
+    load = max(load, LEAST_LOAD)
+    speed = max(speed, LEAST_SPEED)
+    p = place.pressure_coefficient * math.exp(math.log(load) / 3.0)
+    film = reference_film(load, speed, place, inlet)
+    take_groups(numbers, film_groups(film, load, p, speed, slip, place, inlet))
+    outside = share_outside(numbers)
+    y_film, y_friction = net_outputs(numbers)
+    film *= math.exp(y_film)
+    across = speed * place.cos_psi
+    semi_axis = semi_minor_axis(load, p, place)
+    friction = reference_friction(film, p, across, slip, semi_axis, inlet) * math.exp(y_friction)
+    other = abs(inlet.contact_modulus / numbers[MODULUS] - 1.0) / _MODULUS_MARGIN
+    inside = (1.0 - outside) * (1.0 - smooth_step(other))
+    limit = inlet.limiting_stress + inlet.limiting_slope * p
+    if limit > 0.0:
+        reached = (friction * p / limit - _LIMIT_BEGINS) / (_LIMIT_ENDS - _LIMIT_BEGINS)
+        inside *= 1.0 - smooth_step(reached)
+    return SolvedFilm(film, friction, 1.0 - inside, numbers[BOUNDS], numbers[BOUNDS + 1])
+
+
+@kernel
+def solved_film(numbers: Array, contact: FilmContact) -> SolvedFilm:
+    """Return film and friction of a contact from its plain numbers; see `solved_film_at`."""
+    place, inlet = contact_parts(contact)
+    load, speed, slip = contact.load, contact.entrainment_speed, contact.sliding_speed
+    return solved_film_at(numbers, load, speed, slip, place, inlet)
