@@ -29,9 +29,10 @@ def gear_for_ramp(parameters: DrivelineParameters, ramp: SpeedRamp) -> int:
     fitting = [g for g, r in enumerate(ratios, 1) if r * slow >= low and r * fast <= high]
     if not fitting:
         raise ParameterError(
-            f"One gear must keep the engine within {low:g} to {high:g} rpm from {slow:.0f} to "
-            f"{fast:.0f} rpm of the pinion, got none of the ratios {ratios}: the ends may differ "
-            f"by a factor of {high / low:.3g}. Take a shorter ramp, or leave the engine out."
+            f"The car needs one gear that keeps the engine within {low:g} to {high:g} rpm from "
+            f"{slow:.0f} to {fast:.0f} rpm of the pinion, but none of the ratios does: {ratios}: "
+            f"the ends may differ by a factor of {high / low:.3g}. Take a shorter ramp, or leave "
+            "the engine out."
         )
     floor = parameters.gearbox.lowest_cruising_speed_rpm
     lively = [gear for gear in fitting if ratios[gear - 1] * slow >= floor]

@@ -31,7 +31,9 @@ class FinalDrive:
         for name in ("pinion_teeth", "gear_teeth"):
             value = getattr(self, name)
             if not isinstance(value, int):
-                raise ParameterError(f"{name} must be a whole number, got {value!r}. Count teeth.")
+                raise ParameterError(
+                    f"{name} must be a whole number, got {value!r}. Give the number of teeth."
+                )
             check_within(name, value, 5, 500, "", "Count the teeth.")
 
     @property

@@ -161,8 +161,8 @@ def steady_temperatures(
     axle.oil.check_temperature(air, "air_temperature")
     if air >= high:
         raise ParameterError(
-            f"The air must be colder than the end of the oil's data, {high:g} K, got {air:g} K. "
-            "Take colder air."
+            f"The air temperature must be below the upper limit of the oil's data, {high:g} K, got "
+            f"{air:g} K. Give a lower air temperature."
         )
     looks = np.linspace(air, high, _LOOKS_OF_MANY + 1)
     lost = axle_losses(

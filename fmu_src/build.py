@@ -186,9 +186,12 @@ def build_models(
     wanted = {model} if model else of_files or set(MODELS)
     for name, owners in given.items():
         if not wanted & set(owners):
-            raise ParameterError(f"{name} must come with --model {owners[0]}, got {model}.")
+            raise ParameterError(f"{name} can only be given with --model {owners[0]}, got {model}.")
     if native is None and model == "driveline":
-        raise ParameterError("--model driveline must come without --python: it is native only.")
+        raise ParameterError(
+            "--model driveline cannot be combined with --python: this FMU is "
+            "native only. Leave out --python."
+        )
     definitions = []
     if "hypoid-axle" in wanted:
         definitions.append(axle_definition(mesh_table, axle))

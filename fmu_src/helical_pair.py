@@ -153,7 +153,9 @@ def definition_with(gear: str | Path | None, line_mesh: str | Path | None = None
     """
     if gear is None:
         if line_mesh is not None:
-            raise ParameterError("--line-mesh must come with the --gear file of its pair.")
+            raise ParameterError(
+                "--line-mesh needs --gear: give the gear file of the same pair too."
+            )
         return DEFINITION
     content = _read(gear, "gear file")
     mesh = b"" if line_mesh is None else _read(line_mesh, "line mesh")

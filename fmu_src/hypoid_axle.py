@@ -69,6 +69,7 @@ DEFINITION = Definition(
     shipped_data=(
         "gearlube_core/mesh_table/data/mohammadpour_2015.nc",
         "gearlube_core/oil/lubricants.toml",
+        "gearlube_core/film_model/data/hypoid_flank.json",
     ),
 )
 
@@ -135,8 +136,8 @@ def check_one_table(mesh_table: str | Path | None) -> None:
     """Raise ParameterError if there is a mesh table beside an axle file."""
     if mesh_table is not None:
         raise ParameterError(
-            f"--mesh-table must not come with an axle file, which names its own, got {mesh_table}. "
-            "Write it into the file as gear_set.mesh_table."
+            "--mesh-table cannot be combined with an axle file, which names its own table, got "
+            f"{mesh_table}. Write it into the file as gear_set.mesh_table."
         )
 
 

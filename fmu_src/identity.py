@@ -87,8 +87,8 @@ def check_identity(definition: Definition, resources: str) -> str:
     cure = "Rebuild it with `gearlube build-fmu`."
     if built[0] != installed[0]:
         raise ParameterError(
-            f"{definition.name}.fmu must have the variables of the installed gearlube, "
-            f"it was built from another version. {cure}"
+            f"{definition.name}.fmu must have the variables of the installed gearlube, but it was "
+            f"built from another version. {cure}"
         )
     if built != installed:
         return (

@@ -18,7 +18,8 @@ def check_finite(name: str, value: float, unit: str = "", cure: str = "") -> flo
     try:
         number = float(value)
     except (TypeError, ValueError):
-        message = f"{name} must be a number in {unit or '1'}, got {value!r}."
+        kind = "a number" if unit in ("", "1") else f"a number in {unit}"
+        message = f"{name} must be {kind}, got {value!r}."
         raise ParameterError(f"{message} {cure}".strip()) from None
     if not math.isfinite(number):
         raise ParameterError(

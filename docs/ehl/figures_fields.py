@@ -92,9 +92,10 @@ def sections(store: Store) -> Any:
             above.set_title(f"y = {y:g} mm")
         axes[0, 0].set(xlim=(-0.6, 0.5), ylim=(0.0, 1.0), ylabel="pressure [GPa]")
         axes[1, 0].set(ylim=(0.0, 0.6), ylabel="film [µm]")
-        figure.supxlabel("across the line, x [mm]", fontsize=10)
+        for below in axes[1]:
+            below.set_xlabel("x [mm]")
         figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=3, loc="outside lower center")
-        figure.suptitle("Design B, step 300", fontsize=11)
+        figure.suptitle("Design B, step 300: sections across the line", fontsize=11)
     return figure
 
 

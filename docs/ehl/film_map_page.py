@@ -66,21 +66,22 @@ def film_map_section(store: Store) -> str:
             _state(films),
             "\n![Solved films over formulas](images/ehl_film_map.png)\n",
             "\nBands of 10 % and 20 %; open markers: rigid contacts, see below.\n",
-            "\nFilm over formula. *Rigid*: the film of rigid solids and constant viscosity is the "
-            "thickest by Nijenbanning's chart, which the formulas of Hamrock and Dowson and of "
-            "Chittenden et al. do not know. *Fitted*: W from 1e-7 to 1e-6 and U from 5e-13 to "
-            "1e-10, about where they were fitted. What failed lies outside every limit.\n",
+            "\nSolved film divided by the formula. *Rigid*: in Nijenbanning's chart the film of "
+            "rigid solids and constant viscosity is the thickest; the formulas of Hamrock and "
+            "Dowson and of Chittenden et al. do not cover this case. *Fitted*: W from 1e-7 to "
+            "1e-6 and U from 5e-13 to 1e-10, about the range of their fits. Failed contacts count "
+            "as outside every limit.\n",
             _spread_table(along),
-            "\nBy ellipticity, load and material where not rigid, film over Hamrock and Dowson's, "
-            "mean and standard deviation:\n",
+            "\nBy ellipticity, load and material where not rigid, film divided by Hamrock and "
+            "Dowson's, mean and standard deviation:\n",
             _trend_table(along),
             "\nEvery contact, film over Hamrock and Dowson's: central / smallest.\n",
             _map_table(films),
             "\nEntrainment at an angle to the short axis, film over Chittenden's: central / "
             "smallest.\n",
             _angle_table(films),
-            "\nWhat the grid decides: nm on three grids, the order between them and the value "
-            "that they go to.\n",
+            "\nEffect of the grid: films in nm on three grids, the order of convergence between "
+            "them, and their limit.\n",
             _grid_table(films),
         )
     )

@@ -94,12 +94,13 @@ def _in_words(store: Store) -> str:
     whole = thinnest(store, VARIANTS[-4]).moving
     nodes = VARIANTS[-1].nodes
     return (
-        f"\nOn {nodes[0]} x {nodes[1]} nodes the steps go to {UM * film:.3f} um, with an error of "
-        f"{UM * error:.3f} um; the thesis' own steps leave it {100.0 * (whole / film - 1.0):.0f} % "
-        "too thick.\n\n**The printed film is probably thick by numerics.** The thesis names three "
-        "wedges (sec. 3.7.1),\none of first order, and does not say which made these films. "
-        "That of first order on the thesis' own spacing gives\nits films in motion again, and its "
-        "finding that more time steps change little: the wedge spreads out what\npasses.\n"
+        f"\nOn {nodes[0]} x {nodes[1]} nodes the films of shorter steps approach {UM * film:.3f} "
+        f"um, with an error of {UM * error:.3f} um; the thesis' own steps give a film that is "
+        f"{100.0 * (whole / film - 1.0):.0f} % too thick.\n\n**The printed film is probably too "
+        "thick because of numerical errors.** The thesis names three wedges (sec. 3.7.1),\none of "
+        "first order, and does not say which was used for these films. The one of first order on "
+        "the thesis' own\nspacing gives the same films in motion as the thesis. It also gives its "
+        "result that more time steps change little,\nbecause the wedge smooths out what passes.\n"
     )
 
 

@@ -137,10 +137,12 @@ class BearingSection(ModelSection):
             )
         races = [key for key in _RACES if self.has(key)]
         if len(races) == 1:
-            problems.append(f"the race diameters come in pairs, got {races[0]} alone; give both")
+            problems.append(
+                f"the two race diameters must be given together, got only {races[0]}; give both"
+            )
         if races and self.has("pitch_diameter_mm"):
             problems.append(
-                "pitch_diameter_mm and the race diameters are two ways to give it; give one"
+                "pitch_diameter_mm and the race diameters describe the same size; give one of them"
             )
         if not problems:
             try:

@@ -67,8 +67,7 @@ class VehicleSection(ModelSection):
             self.has("frontal_area_m2") or self.has("drag_coefficient")
         ):
             raise ValueError(
-                "drag_area_m2 and frontal_area_m2 with drag_coefficient are "
-                "two ways to give it; give one"
+                "drag_area_m2 is frontal_area_m2 times drag_coefficient; give one: it or these two"
             )
         if problems := or_problem(self.vehicle):
             raise ValueError(problems[0])
@@ -113,7 +112,7 @@ class TyreSection(ModelSection):
     @model_validator(mode="after")
     def _check_tyre(self) -> TyreSection:
         if self.has("size") and (self.has("rolling_radius_mm") or self.has("unladen_radius_mm")):
-            raise ValueError("size and the radii are two ways to give one value; give one")
+            raise ValueError("size and the radii describe the same tyre; give one of them")
         if problems := or_problem(self.tyre):
             raise ValueError(problems[0])
         return self

@@ -102,8 +102,8 @@ class Seals(ModelSection):
         for shaft in ("pinion", "wheel"):
             if self.has(f"{shaft}_diameter_mm") and self.has(f"{shaft}_torque_n_m"):
                 raise ValueError(
-                    f"{shaft}_diameter_mm and {shaft}_torque_n_m are two ways "
-                    f"to give one value; give one of them"
+                    f"{shaft}_diameter_mm and {shaft}_torque_n_m describe the same loss; give one "
+                    "of them"
                 )
         return self
 

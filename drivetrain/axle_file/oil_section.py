@@ -7,9 +7,11 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
+from drivetrain.axle_file.field_units import field_value, unit_of
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.units import celsius_to_kelvin
@@ -31,6 +33,12 @@ Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False)]
 OIL = "mohammadpour_2015"
 _SHEET = ("viscosity_40_degc_mm2_s", "viscosity_100_degc_mm2_s")
 _WALTHER = ("walther_a", "walther_b")
+_RHEOLOGY = (
+    "alpha_per_gpa",
+    "eyring_stress_mpa",
+    "conductivity_w_m_k",
+    "heat_capacity_j_kg_k",
+)
 
 
 class OilSection(ModelSection):
@@ -104,7 +112,8 @@ class OilSection(ModelSection):
             others = [key for key in type(self).model_fields if key != "file" and self.has(key)]
             if others:
                 raise ValueError(
-                    f"file comes alone, got {', '.join(others)} beside it; write them into the file"
+                    f"file must be the only field of this section, got also {', '.join(others)}; "
+                    "write these into the oil file"
                 )
             return self
         if self.name is not None and self.name not in lubricant_names():
@@ -115,7 +124,9 @@ class OilSection(ModelSection):
         for pair in (_SHEET, _WALTHER):
             given = [key for key in pair if self.has(key)]
             if len(given) == 1:
-                problems.append(f"{pair[0]} and {pair[1]} come together, got {given[0]} alone")
+                problems.append(
+                    f"{pair[0]} and {pair[1]} must be given together, got only {given[0]}"
+                )
         if self.has(_SHEET[0]) and self.has(_WALTHER[0]):
             problems.append(
                 "the two viscosities and walther_a, walther_b are "
@@ -152,6 +163,24 @@ class OilSection(ModelSection):
             )
             changes |= {"walther_a": line.walther_a, "walther_b": line.walther_b}
         return replace(base, **changes)
+
+    def rheology_notes(self, prefix: str, made: Lubricant) -> list[InputNote]:
+        """Return notes on what solved films take of a shipped oil, which its name alone hides.
+
+        Of another oil `oil_notes` has them.
+        """
+        if self.name is None or not self.is_shipped:
+            return []
+        data = read_library()[made.name]["data"]
+        notes = []
+        for key in _RHEOLOGY:
+            name = self.attribute(key)
+            _, tag, source = data[name]
+            origin: Origin = "assumed" if tag == "assumed" else "inferred"
+            value = field_value(key, getattr(made, name))
+            why = f"shipped oil {made.name}, {tag}: {source}"
+            notes.append(InputNote(prefix + key, value, unit_of(key), origin, why))
+        return notes
 
     def oil_notes(
         self, prefix: str, made: Lubricant, of_file: DescribedOil | None = None

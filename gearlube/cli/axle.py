@@ -49,4 +49,7 @@ def show(
             value = f"{note.value_text} {note.unit}".strip()
             line = f"{note.field:{wide}}  {value:28}  {note.origin:8}  {note.why}"
             typer.echo(line.rstrip())
-        typer.echo(f"{len(described.assumed)} of {len(described.inputs)} inputs are not given.")
+        typer.echo(
+            f"{len(described.assumed)} of {len(described.inputs)} inputs are not given in "
+            "the file: they are assumed or inferred."
+        )

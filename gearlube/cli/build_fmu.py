@@ -72,7 +72,9 @@ def build_fmu(
     began = time.monotonic()
     with exit_on_error("Stopped; no FMU was built."):
         if python and (fmi or platform):
-            raise ParameterError("--python must come without --fmi and --platform.")
+            raise ParameterError(
+                "--python cannot be combined with --fmi or --platform. Leave one of them out."
+            )
         native = None
         if not python:
             native = NativeOptions(

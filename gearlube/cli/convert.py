@@ -82,7 +82,7 @@ def convert(
             wanted = "in .toml" if reads else "in .rexs"
             raise ParameterError(f"--out must end {wanted}, got {path}")
         if path.exists() and not overwrite:
-            raise ParameterError(f"{path} is there already. Choose another --out, or --overwrite")
+            raise ParameterError(f"{path} exists already. Choose another --out, or add --overwrite")
         if not reads:
             if stage is not None or given:
                 raise ParameterError("--stage and --set are for REXS files only. Leave them out")

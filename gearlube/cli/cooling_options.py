@@ -52,8 +52,8 @@ def given_cooling(
         idle = [name for name, value in given.items() if value is not None]
         if idle:
             raise ParameterError(
-                f"{idle[0]} needs --steady-temperature, got it alone. Add that option, or remove "
-                "this one."
+                f"{idle[0]} works only with --steady-temperature. Add that option, or leave this "
+                "one out."
             )
         return None
     usual = SumpHeat()

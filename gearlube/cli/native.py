@@ -34,7 +34,7 @@ def native(
         found = shutil.which(program[0])
         if found is None:
             raise ParameterError(
-                f"The program must be on PATH or given by its path, got {program[0]}."
+                f"The program must be on PATH, or be given with its path, got {program[0]}."
             )
         if sys.platform != "win32":
             os.execve(found, program, environment)

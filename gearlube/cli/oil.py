@@ -65,7 +65,10 @@ def show(
         typer.echo(f"{described.name}{f' ({described.source})' if described.source else ''}")
         for line in note_lines(described, assumed):
             typer.echo(line)
-        typer.echo(f"{len(described.assumed)} of {len(described.inputs)} numbers are not given.")
+        typer.echo(
+            f"{len(described.assumed)} of {len(described.inputs)} numbers are not given in "
+            "the file: they are assumed or inferred."
+        )
         typer.echo("")
         for line in property_lines(described):
             typer.echo(line)

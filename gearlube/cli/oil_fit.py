@@ -70,7 +70,10 @@ def fit(
         check_within("--radius-mm", radius_mm, 0.1, 1e4, "mm", "20 mm is 20.")
         file = OilFile.given(oil)
         if out.exists() and not overwrite:
-            raise ParameterError(f"--out must be a new file, got {out}. Add --overwrite.")
+            raise ParameterError(
+                f"--out must be a file that does not exist yet, got {out}. Choose "
+                "another name, or add --overwrite."
+            )
         measured = read_traction(measurements, contact)
         found = fit_traction(
             measured, file.described().lubricant, contact=contact, radius=1e-3 * radius_mm

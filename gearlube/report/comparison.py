@@ -67,14 +67,13 @@ def comparison(first: Data, second: Data, names: tuple[str, str]) -> Report:
     return Report(
         study="compare",
         title=f"{names[0]} and {names[1]}: {first['study']}",
-        subtitle=f"{first['title']} (A: {names[0]}, of {first['made']}) beside {second['title']} "
-        f"(B: {names[1]}, of {second['made']}).",
+        subtitle=f"{first['title']} (A: {names[0]}, of {first['made']}) compared with "
+        f"{second['title']} (B: {names[1]}, of {second['made']}).",
         findings=_findings(changes, differing, names),
         figures=_figures(first, second),
         tables=[_numbers(changes), _inputs(differing), _said(first, "A"), _said(second, "B")],
         limits=(
-            "A number that is the largest or the least of a run may be at another place in the "
-            "other run.",
+            "A largest or smallest number may occur at another place in the other run.",
             "The limits of the study hold for both; see their reports.",
         ),
         facts=[("A", names[0]), ("B", names[1])],

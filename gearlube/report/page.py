@@ -129,5 +129,5 @@ def _groups(report: Report) -> list[tuple[str, list[Input]]]:
     """Return the inputs as given, and as inferred or assumed."""
     given = [one for one in report.inputs if one.origin == GIVEN]
     others = [one for one in report.inputs if one.origin != GIVEN]
-    groups = (("Given", given), ("Inferred or assumed, give those that you know", others))
+    groups = (("Given", given), ("Inferred or assumed: give the values that you know", others))
     return [(name, group) for name, group in groups if group]

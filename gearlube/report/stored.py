@@ -64,7 +64,7 @@ def read_report(folder: Path | str) -> dict[str, Any]:
     """
     path = Path(folder)
     page = path / PAGE if path.is_dir() else path
-    cure = "Give a folder of results; its study's command writes the report anew."
+    cure = "Give a folder of results; run the command of its study again to write the report."
     if not page.is_file():
         raise ParameterError(f"{path} must hold a {PAGE}, got none. {cure}")
     found = _DATA.search(page.read_text(encoding="utf-8", errors="replace"))

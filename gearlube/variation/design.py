@@ -44,7 +44,7 @@ class Axis:
     def __post_init__(self) -> None:
         if not self.values or len(set(self.values)) < len(self.values):
             raise ParameterError(
-                f"{self.key} must take one or more values, each once, got {self.values}."
+                f"{self.key} must have one or more different values, got {self.values}."
             )
 
 
@@ -166,7 +166,10 @@ class Design:
     def __post_init__(self) -> None:
         twice = sorted({key for key in self.keys if self.keys.count(key) > 1})
         if twice:
-            raise ParameterError(f"{', '.join(twice)} must be varied once, got it twice.")
+            raise ParameterError(
+                f"{', '.join(twice)} must be varied only once, got it twice. "
+                "Remove one --vary of it."
+            )
         if not self.keys:
             raise ParameterError(
                 "A variation needs a parameter to vary, got none. Give --vary, for instance "

@@ -213,7 +213,7 @@ class _Tally:
         self.blocks += 1
         if not result.status.size:
             self.lost += points
-            logger.warning("Block %d is lost: %s", number, result.messages[0])
+            logger.warning("Block %d of points is lost: %s", number, result.messages[0])
         else:
             self.computed += points
             self.failed += int((result.status != FINISHED).sum())

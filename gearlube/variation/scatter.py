@@ -34,7 +34,7 @@ def scatter_of(
     """
     if not tolerances:
         raise ParameterError(
-            f"--scatter needs [tolerances] in the file, got none in that of {name}. Write there "
+            f"--scatter needs [tolerances] in the file, got none in the file of {name}. Add "
             "a field and its width, for instance gear_set.backlash_um = { plus_minus = 30.0 }."
         )
     spreads = []
@@ -43,7 +43,7 @@ def scatter_of(
         if not isinstance(value, int | float):
             raise ParameterError(
                 f"The tolerance of {field} needs a value to scatter about, got none: {name} does "
-                "not use this field. Give it in the file, or take its tolerance away."
+                "not use this field. Give it in the file, or remove its tolerance."
             )
         spreads.append(spread_about(field, float(value), tolerance))
     return tuple(spreads)

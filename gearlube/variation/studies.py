@@ -43,7 +43,7 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
     check_option("STUDY", name, STUDIES)
     if quick and name not in _QUICK:
         raise ParameterError(
-            f"--quick is for {', '.join(_QUICK)}, got it with {name}. Leave it out."
+            f"--quick is only for {', '.join(_QUICK)}, not for {name}. Leave it out."
         )
     file = SHIPPED[name] if file is None else file
     if name == "bearing":

@@ -142,7 +142,7 @@ class TaperedRollerBearing:
     def _check_fit(self) -> None:
         if self.preload is not None and self.interference is not None:
             raise ParameterError(
-                "preload and interference both set the approach of the rollers at rest, got "
+                "preload and interference both set the approach of the rollers at standstill, got "
                 f"{self.preload:g} N and {self.interference:g} m. Give one of them."
             )
         if self.preload is not None:

@@ -123,7 +123,7 @@ def dang_van_number(
             f"history must have the shape (steps, 6, ...), steps from 2 on, got {stress.shape}."
         )
     if not np.isfinite(stress).all():
-        raise ParameterError("history must be finite. Leave out steps that were not solved.")
+        raise ParameterError("history must be finite. Leave out steps without a solution.")
     check_within("tolerance", tolerance, 1e-8, 0.1)
     steps, places = stress.shape[0], stress.shape[2:]
     flat = stress.reshape(steps, 6, -1)

@@ -116,13 +116,13 @@ class Problem:
         file = read_gear_file(given.gear)
         if given.limits.force_swing is not None and isinstance(file, HelicalGearFile):
             raise ParameterError(
-                f"limits.force_swing must be of a hypoid pair, got {file.name}, a helical one: its "
-                "force keeps its arm. Leave it out."
+                f"limits.force_swing is only for a hypoid pair, got {file.name}, a helical one, "
+                "whose force has a constant arm. Leave it out."
             )
         if given.limits.other_side_torques_n_m and isinstance(file, HelicalGearFile):
             raise ParameterError(
-                f"limits.other_side_torques_n_m must be of a hypoid pair, got {file.name}, a "
-                "helical one: both its flanks are alike. Leave them out."
+                f"limits.other_side_torques_n_m is only for a hypoid pair, got {file.name}, a "
+                "helical one, whose two flanks are equal. Leave it out."
             )
         allowed = {**_free_settings(file, given), **given.parameters}
         names = tuple(allowed)
@@ -246,7 +246,7 @@ def _scenarios(file: GearFile, errors: Errors) -> list[Scenario]:
         if getattr(errors, key):
             kind = "hypoid" if isinstance(file, HypoidGearFile) else "helical"
             raise ParameterError(
-                f"errors.{key} is not of a {kind} pair. Give one of {', '.join(own)}, or "
+                f"errors.{key} is not for a {kind} pair. Give one of {', '.join(own)}, or "
                 "errors.fields."
             )
     for key in own:
@@ -278,7 +278,7 @@ def _free_settings(file: GearFile, given: OptimisationFile) -> dict[str, Range]:
         return {}
     if not isinstance(file, HypoidGearFile):
         raise ParameterError(
-            f"[settings] must be of a hypoid pair, got {file.name}, a helical one. Name reliefs, "
+            f"[settings] is only for a hypoid pair, got {file.name}, a helical one. Name reliefs, "
             "crowns and slopes in [parameters]."
         )
     found: dict[str, Range] = {}
@@ -333,8 +333,9 @@ def _check_parameter(file: GearFile, name: str, given: OptimisationFile) -> None
     if parts[0] not in ("pinion", "gear") or parts[1] not in allowed:
         sections = ", ".join(f"{role}.{one}" for role in ("pinion", "gear") for one in allowed)
         raise ParameterError(
-            f"A parameter must be a field of {sections}, got {name!r}: the blank stays, and so do "
-            "flanks that do not carry. limits.other_side_torques_n_m lets the other flanks carry."
+            f"A parameter must be a field of {sections}, got {name!r}. The blank cannot change, "
+            "and flanks without load cannot either. limits.other_side_torques_n_m puts load on "
+            "the other flanks."
         )
 
 
@@ -355,7 +356,8 @@ def _start(file: GearFile, name: str, given: Range) -> float:
     value = given.start if given.start is not None else _value(file, name)
     if value is None:
         raise ParameterError(
-            f"parameters.{name} must have a start, for {file.name} has no value of it. Give start."
+            f"parameters.{name} must have a start, because {file.name} has no value of it. Give "
+            "start."
         )
     if not given.low <= value <= given.high:
         raise ParameterError(

@@ -142,8 +142,8 @@ class Limits(Section):
             raise ValueError(f"other_side_torques_n_m must rise, got {list(torques)}")
         if self.other_side_edge_share is not None and not torques:
             raise ValueError(
-                "other_side_edge_share needs other_side_torques_n_m, and got none of them. Give "
-                "torques of the pinion, or leave it out"
+                "other_side_edge_share needs other_side_torques_n_m, got none. Give torques of "
+                "the pinion, or leave it out"
             )
         return self
 

@@ -157,8 +157,9 @@ def table_line_load(points: LinePoints, mesh: LineMesh, pinion_torque: float) ->
     ) > _SAME_PITCH:
         raise ParameterError(
             f"mesh must be of the pair {pair.name} ({pair.pinion_teeth}/{pair.gear_teeth} teeth, "
-            f"base pitch {pair.base_pitch:.7g} m), got {mesh.name} ({mesh.pinion_teeth}/"
-            f"{mesh.gear_teeth}, {mesh.base_pitch:.7g} m). Use the table of this pair."
+            f"base pitch {pair.base_pitch:.7g} m), got {mesh.name} "
+            f"({mesh.pinion_teeth}/{mesh.gear_teeth}, {mesh.base_pitch:.7g} m). Use the mesh of "
+            "this pair."
         )
     if mesh.lines < points.x.shape[1]:
         raise ParameterError(

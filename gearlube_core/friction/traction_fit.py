@@ -167,7 +167,7 @@ def fit_traction(
         raise ParameterError(
             f"The points do not determine the Eyring stress: got {1e-6 * stress:.3g} MPa within a "
             f"factor of {factors[0]:.3g}, limits 0.1 to 100 MPa and a factor of 10. Measure where "
-            "the film shears beyond its Newtonian range: more pressure, more sliding."
+            "the film thins with shear: at more pressure and more sliding."
         )
     fitted = _model(points, best.x)
     curve, films = measured.curve, [one.film_thickness for one in points]

@@ -268,8 +268,8 @@ def _number(file: HelicalGearFile, name: str) -> float:
     known = field_notes(HelicalGearFile)
     if role not in ("pinion", "gear") or section != "flank" or name not in known:
         raise ParameterError(
-            f"A rate is by a field of pinion.flank or gear.flank, as gear.flank.crown_um, got "
-            f"{name!r}. docs/helical_gear_file.md lists them."
+            "A derivative is taken by a field of pinion.flank or gear.flank, such as "
+            f"gear.flank.crown_um, got {name!r}. docs/helical_gear_file.md lists them."
         )
     value = getattr(getattr(file, role).flank, key)
     if not isinstance(value, float):
@@ -288,7 +288,7 @@ def _step(file: HelicalGearFile, name: str) -> float:
             file.varied({name: value + way})
     except ParameterError as reason:
         raise ParameterError(
-            f"{name} must lie inside its range to have a rate, got {value:g} {note.unit}: {reason} "
-            "Give the flank some of it first."
+            f"{name} must be inside its range to have a derivative, got {value:g} {note.unit}: "
+            f"{reason} Give the field a value inside the range first."
         ) from None
     return step

@@ -59,7 +59,7 @@ def line_mesh(modified: ModifiedPair, settings: CycleSettings, cycle: Record) ->
     stiff = arm**2 * (density * part).sum(axis=(2, 3))
     if not (inside > 0.5 * np.array(settings.torques)).all():
         raise ParameterError(
-            "more than half of a torque is carried outside the plane of contact. Lower the "
+            "More than half of a torque is carried outside the plane of contact. Lower the "
             "torques, or relieve the tips."
         )
     load = load * (np.array(settings.torques) / inside)[..., None, None]

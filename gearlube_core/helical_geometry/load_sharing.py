@@ -69,8 +69,8 @@ def unrelieved_plane(modified: ModifiedPair) -> ContactPlane:
     start, end = modified.contact_start, modified.contact_end
     if not start < end:
         raise ParameterError(
-            f"tip relief must leave part of the path of contact, {1e3 * (end - start):.4g} mm is "
-            "left (limit 0 mm). Shorten the relief."
+            "Tip relief must leave part of the path of contact without relief, but "
+            f"{1e3 * (end - start):.4g} mm is left (limit 0 mm). Shorten the relief."
         )
     return modified.pair.plane._replace(A=start, D=end)
 

@@ -92,9 +92,9 @@ class HelicalPair:
             check_within(f"{member}_root_radius", root, 0.3 * base, tip, "m", _METRES)
         if self.contact_start < 0.0 or self.contact_end > self.tangent_length:
             raise ParameterError(
-                "tip radii must keep contact between the base circles' tangent points, "
-                f"0 to {1e3 * self.tangent_length:.4g} mm, got {1e3 * self.contact_start:.4g} to "
-                f"{1e3 * self.contact_end:.4g} mm. Shorten the teeth: they interfere."
+                "Contact must lie between the tangent points of the base circles, 0 to "
+                f"{1e3 * self.tangent_length:.4g} mm, got {1e3 * self.contact_start:.4g} to "
+                f"{1e3 * self.contact_end:.4g} mm. Reduce the tip radii: the teeth interfere."
             )
         if not self.transverse_contact_ratio + self.overlap_ratio > 1.0:
             raise ParameterError(

@@ -74,7 +74,7 @@ def analyse_contact(
     """
     progress(0.0, "checking the gear file")
     check_pair(file, settings.cycle.misalignment)
-    progress(0.0, "tooth compliance")
+    progress(0.0, "elastic teeth")
     stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)
     progress(0.0, "loaded contact")
     cycle = run_cycle(file, stiffness, settings.cycle, store=store, jobs=jobs, progress=progress)

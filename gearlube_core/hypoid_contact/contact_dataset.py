@@ -151,8 +151,8 @@ def side_contact(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dic
     closing = cycle["rotation"] - touching[:, None]
     if np.any(closing <= 0.0):
         raise ParameterError(
-            f"The {pair.side} flanks close by {np.min(closing):.3g} rad under load, less than "
-            "nothing: unloaded and loaded contact disagree. Use more cells or higher torques."
+            f"The {pair.side} flanks close by {np.min(closing):.3g} rad under load, which must not "
+            "be below 0: unloaded and loaded contact disagree. Use more cells or higher torques."
         )
     pair_torque = cycle["pair_torque"]
     result = {

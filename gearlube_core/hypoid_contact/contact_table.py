@@ -147,8 +147,9 @@ def _window_start(node: NDArray[np.int_], share: Array, nodes: int, where: str) 
     if lost > _LOST:
         raise TableError(
             f"{where}: a tooth pair still carries {lost:.1%} of the torque more than {PAIRS} mesh "
-            "periods after another position. A mesh table holds that many pairs, so it ends below "
-            "this torque; contact.nc has all. Relieve tips and ends, as cut gears are, to go on."
+            "periods after another position. A mesh table can hold only that many pairs, so it "
+            "ends below this torque; contact.nc has all torques. Give tips and ends some relief, "
+            "as real gears have, to reach higher torques."
         )
     return int(node.min()) + best
 

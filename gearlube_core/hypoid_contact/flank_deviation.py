@@ -66,7 +66,7 @@ def flank_deviation(nominal: Flank, other: Flank, s: Array, t: Array) -> Array:
     if not changes.size:
         raise ParameterError(
             f"the other {nominal.role} flank must meet the nominal one in the middle of the grid "
-            f"within {_FURTHEST:g} rad of rotation, it does not. Change settings by less."
+            f"within {_FURTHEST:g} rad of rotation, but it does not. Change the settings by less."
         )
     k = int(changes[np.argmin(np.abs(_SEARCH[changes]))])
     turn = brentq(

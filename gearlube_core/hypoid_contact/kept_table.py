@@ -199,8 +199,8 @@ def _tags_in(path: Path) -> dict[str, str]:
     tags = {tag: str(settings[tag]) for tag in _TAGS if tag in settings}
     if not tags:
         raise TableError(
-            f"{path} must be the mesh table that is kept of the gear file beside it, got one of "
-            "other origin. Give it another name, or name it as gear_set.mesh_table in place of "
+            f"{path} must be the mesh table of the gear file beside it, but it comes from "
+            "elsewhere. Give it another name, or use it as gear_set.mesh_table instead of "
             "gear_file."
         )
     return tags

@@ -166,8 +166,8 @@ class MeshPosition:
         check_positive("torque", torque, "N.m", "Coast flanks carry positive torque too.")
         if not math.isfinite(self.unloaded_rotation):
             raise ConvergenceError(
-                f"the teeth must meet at mesh phase {self.phase:.3f}, turning the pinion closes no "
-                "gap there. Check blank and machine settings: the flanks pass each other."
+                f"The teeth must meet at mesh phase {self.phase:.3f}, but turning the pinion "
+                "closes no gap there. Check blank and machine settings: the flanks pass each other."
             )
         arm = float(np.nanmedian(np.abs(self.maps[len(self.maps) // 2].arm)))
         closing = closing or torque / arm / _FIRST_STIFFNESS

@@ -84,9 +84,9 @@ class FlankPair:
         """Raise ParameterError where flanks have corrections, for what knows none."""
         if self.is_corrected:
             raise ParameterError(
-                "Derivatives of the unloaded contact must be taken of flanks without reliefs, "
-                f"crowns and twist, got a pair with corrected {self.side} flanks. Take "
-                "`pair.uncorrected()`, or differences of two analyses."
+                "Derivatives of the unloaded contact need flanks without reliefs, crowns and "
+                f"twist, got a pair with corrected {self.side} flanks. Take `pair.uncorrected()`, "
+                "or differences of two analyses."
             )
 
     @property

@@ -103,8 +103,8 @@ def fit_settings(
         move, _, _, singular = np.linalg.lstsq(slopes, wanted - here, rcond=None)
         if singular[-1] < _ALIKE * singular[0]:
             raise ParameterError(
-                f"settings must change the flanks in ways that differ, {', '.join(names)} do not. "
-                "Leave one of them out."
+                f"settings must change the flanks in different ways, but {', '.join(names)} do "
+                "not. Leave one of them out."
             )
         change = change + scale * move
         if np.max(np.abs(move)) < _DONE:

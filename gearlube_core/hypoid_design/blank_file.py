@@ -91,8 +91,7 @@ class BlankFile(InputFile):
         if sorted(given) != sorted(_NEEDS[method]):
             raise ValueError(
                 f"method {method} needs {_listed(_NEEDS[method])} and no other diameter or spiral "
-                f"angle, got {_listed(given) or 'none of them'}. What is left follows from the "
-                "cones"
+                f"angle, got {_listed(given) or 'none of them'}. The others follow from the cones"
             )
         length = self.contact.ellipse_length_mm
         if length is not None and not length <= 2.0 * pair.face_width_mm:

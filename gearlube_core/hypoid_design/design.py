@@ -103,7 +103,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress, jobs: int | N
         When the blank cannot exist, the contact lies outside of the mesh, or no settings were
         found with which both flanks touch; the sentence says how near it came.
     """
-    progress(0.0, "blank")
+    progress(0.0, "pitch cones and blank")
     designed = DesignedBlank.from_file(file)
     warnings = check_blank(designed)
     start = start_pair(designed)
@@ -134,7 +134,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress, jobs: int | N
         designed, fitted, lambda share, said: progress(_FITTED + (1 - _FITTED) * share, said), jobs
     )
     found = named_file(designed, fitted, relief)
-    progress(1.0, "checks")
+    progress(1.0, "checking teeth and contact")
     return Design(
         designed=designed,
         file=found,

@@ -71,7 +71,9 @@ class LineMesh:
         for name in ("torque", "phase", "station", "density", "offset"):
             values = np.array(getattr(self, name), dtype=np.float64)
             if not np.isfinite(values).all():
-                raise TableError(f"{name} must be finite; some entries are not. Write it anew.")
+                raise TableError(
+                    f"{name} must be finite, but some entries are not. Write the file again."
+                )
             values.setflags(write=False)
             object.__setattr__(self, name, values)
         shape = (self.torque.size, self.phase.size, self.density.shape[2], self.station.size)

@@ -53,7 +53,7 @@ class Provenance(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshTable:
-    """Periodic mesh data against pinion angle and load.
+    """Mesh data of a gear pair over pinion angle and load, from contact analysis to dynamics.
 
     A *series* is periodic in one mesh period: value(phi) = sum_h [c_h cos(h z_p phi) +
     s_h sin(h z_p phi)], h = 0 .. H. A *window* follows one tooth pair over `PAIRS` mesh periods;
@@ -68,8 +68,8 @@ class MeshTable:
     torque : ndarray of shape (L,)
         Signed pinion torque of each load level [N.m], increasing, none zero. Positive levels hold
         the drive flanks, negative ones the coast flanks; without negative levels the drive flanks'
-        data serve both. Between levels of one side data are interpolated linearly, outside held:
-        nothing is interpolated across zero.
+        data serve both. Between levels of one side data are interpolated linearly, outside them
+        the value at the end is kept. Nothing is interpolated across zero torque.
     contact_ratio : float
         Length of contact of a pair in mesh periods [-], at most `PAIRS`.
     series : mapping of str to ndarray of shape (L, H + 1, 2)
@@ -84,8 +84,8 @@ class MeshTable:
         (entrainment from the minor axis), entrainment_arm [m] (mean surface speed per pinion
         speed), friction_arm_p/g [m], xi [-] (unit sliding direction, pinion relative to gear),
         chi [rad] (sliding direction from the minor axis), pressure_max [Pa] (highest contact
-        pressure of the pair). Where the share is zero the others must hold the nearest loaded
-        value: they are interpolated from there to the first loaded node.
+        pressure of the pair). Where the share is zero the others must have the nearest loaded
+        value, because they are interpolated from there to the first loaded node.
     provenance : mapping of str to Provenance
         One entry for each series and window.
     source : str
@@ -101,11 +101,11 @@ class MeshTable:
     Raises
     ------
     TableError
-        When a datum is missing, has the wrong shape, is not finite or contradicts another.
+        A datum is missing, has the wrong shape, is not finite or contradicts another.
 
     Notes
     -----
-    chi and pressure_max are kept for reading; the dynamics does not use them.
+    chi and pressure_max are for reading only; the dynamics does not use them.
 
     References
     ----------
@@ -142,17 +142,17 @@ class MeshTable:
         if np.any(self.torque == 0.0) or self.torque[-1] < 0.0:
             raise TableError(
                 f"{self.name}: torque must have a level above 0 N.m and none at 0 N.m, got "
-                f"{self.torque}. Load the drive flanks with about 5 N.m in place of none."
+                f"{self.torque}. Give the drive flanks about 5 N.m instead of no load."
             )
         if min(self.pinion_teeth, self.gear_teeth) < 1:
             raise TableError(
                 f"{self.name}: numbers of teeth must be at least 1, got {self.pinion_teeth} and "
-                f"{self.gear_teeth}. Count the teeth of the gear pair."
+                f"{self.gear_teeth}. Give the numbers of teeth of the gear pair."
             )
         if not 1.0 <= self.contact_ratio <= PAIRS:
             raise TableError(
                 f"{self.name}: contact_ratio must be within 1 to {PAIRS}, got "
-                f"{self.contact_ratio:g}. More simultaneous pairs need a longer window."
+                f"{self.contact_ratio:g}. A mesh table cannot hold more tooth pairs in contact."
             )
         self._check("series", self.series, SERIES_UNITS, 3)
         self._check("windows", self.windows, WINDOW_UNITS, 2)

@@ -102,7 +102,8 @@ def viscosity_at_100(nu_40: float, index: float) -> float:
 
     if not low < high or excess(low) > 0.0 or excess(high) < 0.0:
         raise ParameterError(
-            f"viscosity_index {index:g} with {nu_40 / MM2_S:g} mm2/s at 40 degC has no viscosity "
-            "at 100 degC within 2 to 1000 mm2/s. Give the viscosity at 100 degC in its place."
+            f"viscosity_index {index:g} with {nu_40 / MM2_S:g} mm2/s at 40 degC gives no viscosity "
+            "at 100 degC within 2 to 1000 mm2/s. Give the viscosity at 100 degC instead of the "
+            "index."
         )
     return float(brentq(excess, low, high, xtol=1e-15, rtol=1e-12))

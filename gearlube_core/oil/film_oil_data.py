@@ -95,7 +95,7 @@ def film_oil(
     check_within("temperature_exponent", temperature_exponent, 0.0, 5.0)
     if law != "houpert" and temperature_exponent > 0.0:
         raise ParameterError(
-            f"law must be houpert where temperature_exponent is above 0, got {law} and "
+            f"law must be houpert if temperature_exponent is above 0, got {law} and "
             f"{temperature_exponent:g}. Take houpert, or leave the exponent out."
         )
     limit, slope = (0.0, 0.0) if limiting_shear is None else limiting_shear
@@ -120,8 +120,8 @@ def _viscosity_law(law: Any, eta0: float, alpha: float | None, S0: float) -> Any
     if not isinstance(law, str):
         if alpha is not None:
             raise ParameterError(
-                f"alpha must be left out beside a viscosity law, which has its own, got {alpha:g} "
-                "1/Pa."
+                "alpha must be left out with a viscosity law of your own, which has its own "
+                f"coefficient, got {alpha:g} 1/Pa."
             )
         _check_law("law", law, "log_viscosity")
         _check_start("ln(eta/eta0)", log_viscosity(law, 0.0, 1.0)[0], 0.0)
@@ -151,7 +151,7 @@ def _shear_law(law: Any, eyring_stress: float | None) -> Any:
         )
     if eyring_stress is not None:
         raise ParameterError(
-            f"eyring_stress must be left out beside shear_law, got {eyring_stress:g} Pa."
+            f"eyring_stress must be left out if shear_law is given, got {eyring_stress:g} Pa."
         )
     _check_law("shear_law", law, "rate_ratio")
     check_positive("tau0 of the shear law", law.tau0, "Pa", "5 MPa is 5e6 Pa.")

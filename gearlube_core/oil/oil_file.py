@@ -180,12 +180,12 @@ class OilFile(InputFile):
         if given != 2:
             raise ValueError(
                 "two of viscosity_40_degc_mm2_s, viscosity_100_degc_mm2_s and viscosity_index "
-                f"make the viscosity line, got {given}"
+                f"must be given, got {given}"
             )
         if cold is not None and hot is not None and cold <= hot:
             raise ValueError(
                 f"viscosity must fall with temperature, got {cold:g} mm2/s at 40 degC and {hot:g} "
-                "mm2/s at 100 degC. Are they exchanged?"
+                "mm2/s at 100 degC. Are they swapped?"
             )
         try:
             self.described()

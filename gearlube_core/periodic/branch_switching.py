@@ -68,8 +68,8 @@ def switch_branch(
     if values[-1] > _SINGULAR * max(values[0], 1.0):
         raise ParameterError(
             f"No branch of this period leaves the {point.kind} at parameter {point.parameter:g}: "
-            f"smallest singular value {values[-1]:.2g}, must be near 0. At a period doubling give "
-            "the problem over two periods."
+            f"smallest singular value {values[-1]:.2g}, but it must be near 0. At a period "
+            "doubling give the problem over two periods."
         )
     plane = directions[-2:]
     across = np.array([plane[1] @ point.tangent, -(plane[0] @ point.tangent)]) @ plane

@@ -84,7 +84,7 @@ def _hand(stage: Stage) -> str:
     if hands[0] and hands[0] == hands[1]:
         raise ParameterError(
             "spiral_angle_pitch_direction of pinion and gear must be left and right, got "
-            f"{hands[0]} of both. Correct one"
+            f"{hands[0]} for both. Correct one of them"
         )
     if hands[0] not in ("left", "right"):
         reason = "spiral_angle_pitch_direction of the pinion is absent: taken as right"

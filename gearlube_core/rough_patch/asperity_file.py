@@ -48,8 +48,8 @@ def asperities_from_bytes(content: bytes, name: str) -> GreenwoodTrippFit:
     missing += [] if "roughness" in table.attrs else ["the attribute roughness"]
     if missing:
         raise TableError(
-            f"{name} must hold computed asperities, it lacks {', '.join(missing)}. Write it with "
-            f"`{_WRITER}`, without --no-contact."
+            f"{name} must have computed asperities, but it lacks {', '.join(missing)}. Write it "
+            f"with `{_WRITER}`, without --no-contact."
         )
     for key in needed:
         values = np.asarray(table[key].values, dtype=float)

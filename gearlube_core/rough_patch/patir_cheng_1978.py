@@ -94,5 +94,5 @@ def _check_ratio(film_ratio: Array, least: float) -> None:
     if not float(np.min(film_ratio)) >= least:
         raise ParameterError(
             f"film_ratio h/sigma must be at least {least:g} for this Peklenik number, got "
-            f"{float(np.min(film_ratio)):.3g}. Below, the fit was not made."
+            f"{float(np.min(film_ratio)):.3g}. The published fit does not cover smaller values."
         )

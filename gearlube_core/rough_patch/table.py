@@ -129,8 +129,9 @@ def patch_table(
     rising = ratios.size > 0 and ratios.min() > 0.0 and bool((np.diff(ratios) > 0.0).all())
     if not patches or not rising or not np.isfinite(ratios).all() or ratios.max() > _WIDEST:
         raise ParameterError(
-            f"patch_table must have at least one patch and rising film ratios above 0 and up to "
-            f"{_WIDEST:g}, got {len(patches)} patches and {ratios.tolist()}. Usual are 0.5 to 6."
+            "patch_table must have at least one patch and rising film ratios above 0 and up to "
+            f"{_WIDEST:g}, got {len(patches)} patches and {ratios.tolist()}. Typical film ratios "
+            "are 0.5 to 6."
         )
     total = len(patches) * (ratios.size + (_LOADS.size if contact else 0))
     done = 0
@@ -211,7 +212,7 @@ def greenwood_tripp_fit(
     if used.sum() < 2:
         raise ParameterError(
             f"table must hold asperities at two film ratios within {low:g} to {high:g}, got "
-            f"{int(used.sum())}. Take more film ratios."
+            f"{int(used.sum())}. Give more film ratios to patch_table."
         )
     integrals = np.array([asperity_integrals(float(one)) for one in ratios[used]])
     area_rest = np.log(area[used] / integrals[:, 0])

@@ -93,7 +93,9 @@ class ResultStore(Generic[Result]):
             logger.warning("%s It will be computed again.", error)
             return None
         if stored not in (None, key):
-            logger.warning("%s holds another result than its name says; computing again.", path)
+            logger.warning(
+                "%s has another result than its name says. It will be computed again.", path
+            )
             return None
         return result
 

@@ -109,7 +109,7 @@ def _computed(
                     yield task, result
         except BrokenExecutor as error:
             if attempt < _ATTEMPTS:
-                logger.warning("A worker process died; trying its tasks again: %s", error)
+                logger.warning("A worker process died. Its tasks are tried again: %s", error)
                 continue
             if failed is None:
                 raise
@@ -142,7 +142,10 @@ def _in_pool(
                 break
             if interrupt.requested and not stopping:
                 stopping = True
-                logger.info("Stopping; tasks under way will be kept (Ctrl-C again drops them).")
+                logger.info(
+                    "Stopping. Tasks that are running will be finished and kept; press "
+                    "Ctrl-C again to drop them."
+                )
                 waiting = {f: task for f, task in waiting.items() if not f.cancel()}
             done, _ = wait(waiting, timeout=_POLL, return_when=FIRST_COMPLETED)
             for future in done:

@@ -65,22 +65,23 @@ def filtered(
     cutoff_short: float | None = None,
     ends: str = "regression",
 ) -> Filtered[S]:
-    """Return the roughness of a surface: waves between two cut-offs.
+    """Return roughness and waviness of a surface, separated by Gaussian filters with two cut-offs.
 
-    Periodic sides are filtered by the transmission curve itself. A map is filtered along x and y
-    in turn, which is the areal filter, as the Gaussian is a product.
+    Along periodic sides the filter is applied to the waves themselves. A map is filtered along x
+    and y in turn, which is the areal filter, because the Gaussian is a product.
 
     Parameters
     ----------
     surface
         Levelled profile or map.
     cutoff_long
-        lambda_c [m]: longer waves are waviness. None: all stay.
+        lambda_c [m]: longer waves count as waviness. None: all are kept.
     cutoff_short
-        lambda_s [m]: shorter waves are noise. None: all stay.
+        lambda_s [m]: shorter waves count as noise. None: all are kept.
     ends
-        Of sides that are not periodic. regression: near an end a line is fitted with the
-        Gaussian's weights, so that all points stay; cut: half a cut-off is dropped at each end.
+        Treatment of the ends of sides that are not periodic. regression: near an end a line is
+        fitted with the Gaussian's weights, so that all points are kept; cut: half a cut-off is
+        dropped at each end.
 
     Raises
     ------
@@ -133,7 +134,7 @@ def _check_cutoffs(surface: Surface, long: float | None, short: float | None) ->
                 raise ParameterError(
                     f"{name} must be at most half the length of {surface.name}, "
                     f"{0.5 * length / MICROMETRE:.4g} um, got {cutoff / MICROMETRE:.4g} um. "
-                    "Measure farther or take a shorter cut-off."
+                    "Measure a longer profile or take a shorter cut-off."
                 )
         if short is not None and short < 2.0 * spacing:
             raise ParameterError(
@@ -144,7 +145,7 @@ def _check_cutoffs(surface: Surface, long: float | None, short: float | None) ->
     if long is not None and short is not None and long <= short:
         raise ParameterError(
             f"cutoff_long must exceed cutoff_short, {short / MICROMETRE:.4g} um, got "
-            f"{long / MICROMETRE:.4g} um. Usual are 800 and 2.5 um."
+            f"{long / MICROMETRE:.4g} um. Typical values are 800 and 2.5 um."
         )
 
 

@@ -174,8 +174,8 @@ def check_plausible(surface: Surface) -> None:
     if rq < _LOWEST_RQ:
         raise ParameterError(
             f"{surface.name}: heights must have a root mean square of at least 1 nm, got "
-            f"{1e9 * rq:.3g} nm. Give heights in um; mm written for um are a thousand times too "
-            "small."
+            f"{1e9 * rq:.3g} nm. Give heights in um; if mm are written instead, they are a "
+            "thousand times too small."
         )
     for axis, step in enumerate(spacings):
         slope = float(np.sqrt(np.mean((np.diff(surface.height, axis=axis) / step) ** 2)))
@@ -232,8 +232,8 @@ def _check_heights(name: str, height: Array, dimensions: int) -> None:
     wrong = int((~np.isfinite(height)).sum())
     if wrong:
         raise ParameterError(
-            f"{name}: heights must be finite, {wrong} of {height.size} are not. "
-            "Fill the holes of the measurement before."
+            f"{name}: heights must be finite, {wrong} of {height.size} are not. Fill the gaps of "
+            "the measurement first."
         )
 
 

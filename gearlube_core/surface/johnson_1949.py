@@ -30,7 +30,7 @@ def check_moments(skewness: float, kurtosis: float) -> None:
     if not kurtosis > lowest:
         raise ParameterError(
             f"kurtosis must be above skewness^2 + 1 = {lowest:.4g}, got {kurtosis:g}. No "
-            "distribution of heights has less. Normally distributed ones have 3."
+            "distribution of heights has less. Normally distributed heights have 3."
         )
 
 

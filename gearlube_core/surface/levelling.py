@@ -38,8 +38,8 @@ def levelled(surface: S, degree: int = 1) -> S:
     """
     if isinstance(degree, bool) or degree not in range(_HIGHEST + 1):
         raise ParameterError(
-            f"degree must be a whole number within 0 to {_HIGHEST}, got {degree!r}. Take longer "
-            "waves off with a filter."
+            f"degree must be a whole number within 0 to {_HIGHEST}, got {degree!r}. Use a filter "
+            "to remove waviness."
         )
     height = surface.height
     if min(height.shape) <= degree:

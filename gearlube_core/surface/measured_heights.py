@@ -203,7 +203,7 @@ def _check_finite(name: str, what: str, values: Array) -> None:
         where = first[0] if len(first) == 1 else first
         raise ParameterError(
             f"{name}: {what} must be finite, {wrong} of {values.size} numbers are not, the first "
-            f"at index {where}. Fill the holes of the measurement before."
+            f"at index {where}. Fill the gaps of the measurement first."
         )
 
 
@@ -215,7 +215,7 @@ def _check_serves(name: str, axis: str, places: Array, grid: Array) -> None:
         )
         raise ParameterError(
             f"{name} must cover the domain {low:.5g} to {high:.5g} mm along {axis}, got "
-            f"{first:.5g} to {last:.5g} mm. Measure farther, or give a smaller [domain]."
+            f"{first:.5g} to {last:.5g} mm. Measure a larger part, or give a smaller [domain]."
         )
     near = (places[1:] > grid[0]) & (places[:-1] < grid[-1])
     widest, step = float(np.diff(places)[near].max()), float(np.diff(grid).min())

@@ -228,8 +228,9 @@ class MovingRoughness:
             self._check_step(one)
             if fed and not one.speed > 0.0:
                 raise ParameterError(
-                    f"The speed of {one.heights.name} must be above 0 m/s to be fed from the "
-                    f"inlet, got {one.speed:g} m/s. Turn the x axis, or let it grow in place."
+                    f"The speed of {one.heights.name} must be above 0 m/s so that its roughness "
+                    f"enters from the inlet, got {one.speed:g} m/s. Turn the x axis, or let the "
+                    "roughness grow in place."
                 )
 
     @cached_property

@@ -221,8 +221,8 @@ def _rms(surface: Surface, height: Array) -> float:
     rms = float(np.sqrt(np.mean(height**2)))
     if rms <= 1e-12 * float(np.abs(surface.height).max()):
         raise ParameterError(
-            f"{surface.name} must have heights that differ, got a flat one. Its statistics have "
-            "no meaning."
+            f"{surface.name} must have different heights, got a flat surface, whose statistics "
+            "have no meaning."
         )
     return rms
 

@@ -77,7 +77,7 @@ def normal_hat_loads(
     except Exception as error:  # the library has no class of its own for it
         raise ParameterError(
             f"The elements on the {side} flank of a tooth must be nearly bricks, got distorted "
-            f"ones ({error}). A pinion that is undercut deep or nearly pointed makes them so: give "
+            f"ones ({error}). A deeply undercut or nearly pointed pinion has such elements: give "
             "it more addendum, more teeth or another pressure angle."
         ) from error
     s_all, t_all = mesh.flank_parameters()

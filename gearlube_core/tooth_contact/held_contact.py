@@ -148,6 +148,6 @@ def solve_held(
             first = int(np.argmin([np.min(g / r) for g, r in zip(gaps, arms, strict=True)]))
             there[first][np.argmin(gaps[first] / arms[first])] = True
     raise ConvergenceError(
-        f"The contact of held cells must settle within {_PASSES} passes, and some still open and "
-        "close. Take fewer or larger cells."
+        f"The contact of held cells must settle within {_PASSES} passes, but some cells still open "
+        "and close. Take fewer or larger cells."
     )

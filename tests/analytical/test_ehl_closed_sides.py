@@ -286,7 +286,7 @@ def test_deflection_of_single_precision_is_that_of_double():
         ({"nodes": (129, 17)}, "nodes along y must be even, within 16 to 2048"),
         ({"nodes": (129, 14)}, "got 14. Take 16"),
         ({"entrainment": (6.71, 1.0)}, "entrainment along y must be 0 m/s"),
-        ({"inlet_layer": 1e-6}, "oil_beyond and inlet_layer do not go with sides cyclic"),
+        ({"inlet_layer": 1e-6}, "oil_beyond and inlet_layer cannot be combined with sides cyclic"),
         ({"sides": "round"}, "sides must be one of"),
         ({"sides": "no_flow", "sliding": (1.0, 1.0)}, "drives oil through them"),
     ],

@@ -77,8 +77,8 @@ def test_inputs_are_checked() -> None:
     with pytest.raises(ParameterError, match="pressure must have shape"):
         solid(np.zeros((3, 3)))
     for at, spacing, match in (
-        ((1.0, -1.0), (1.0, 2.0), "two rising places"),
-        ((1.0,), (1.0,), "two rising places"),
+        ((1.0, -1.0), (1.0, 2.0), "two rising positions"),
+        ((1.0,), (1.0,), "two rising positions"),
         ((-1.0, 1.0), (1.0, 0.0), "spacing must be"),
         ((-1.0, 1.0), (1.0, 21.0), "largest over smallest"),
     ):

@@ -64,7 +64,10 @@ def test_with_noise_they_come_back_within_what_is_said(grids):
     [
         (["gear.machine.horizontal_setting_mm"], "must be of pinion.machine or pinion.cutter"),
         ([TILT, "pinion.machine.tilt_angle"], "must be a number of the gear file"),
-        (["pinion.machine.basic_cradle_angle_deg", TILT], "must change the flanks in ways"),
+        (
+            ["pinion.machine.basic_cradle_angle_deg", TILT],
+            "must change the flanks in different ways",
+        ),
     ],
 )
 def test_foreign_and_idle_settings_are_refused(grids, fields, words):

@@ -143,8 +143,8 @@ def test_usual_parameters_are_all_misalignments_and_settings_once():
     [
         ("misalignment.offset", "pinion_offset"),
         ("pinion.machine.radial", "docs/gear_file.md"),
-        ("pinion.cutter.blade_groups", "counts"),
-        ("pinion.cutter.convex_flank_edge_radius_mm", "leaves it open"),
+        ("pinion.cutter.blade_groups", "Counts"),
+        ("pinion.cutter.convex_flank_edge_radius_mm", "does not give it"),
     ],
 )
 def test_what_cannot_be_differentiated_is_refused_by_its_name(name, reason):

@@ -65,7 +65,7 @@ def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path, monke
     axle = tomllib.loads((out / "axle.toml").read_text())
     assert axle["gear_set"]["gear_file"] == "mine.toml"
     report = (out / "report.html").read_text(encoding="utf-8")
-    for part in ("asked and found", "undercut", "blade points", "a third of the face width"):
+    for part in ("wanted and found", "undercut", "blade points", "a third of the face width"):
         assert part in report
     with xr.open_dataset(out / "design.nc") as dataset:
         errors = [dataset["error"].sel(side=side).values for side in ("drive", "coast")]

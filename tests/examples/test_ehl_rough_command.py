@@ -177,7 +177,7 @@ def test_too_small_a_disk_is_told_before_the_march(case, tmp_path, monkeypatch, 
     monkeypatch.setattr(plan.shutil, "disk_usage", lambda _: usage)
     ended = command("rough", str(case), "--out", str(tmp_path / "out"))
     assert ended.exit_code == BAD_ARGUMENT
-    assert "MB free, got 1 MB. Keep fewer films" in caplog.text
+    assert "MB free space, got 1 MB. Keep fewer films" in caplog.text
 
 
 def test_the_disk_need_bounds_what_is_written(whole, case):
@@ -194,7 +194,7 @@ def test_records_of_another_case_and_damaged_ones_are_refused(case, tmp_path, wh
     given = ("rough", str(case), "--out", str(out), "--overwrite")
     ended = command(*given, "--rows", "18")
     assert ended.exit_code == BAD_ARGUMENT
-    assert "of another case" in caplog.text
+    assert "from another case" in caplog.text
     (record,) = out.glob("march_*.npz")
     record.write_bytes(record.read_bytes()[:1000])
     ended = command(*given)

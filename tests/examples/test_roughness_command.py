@@ -67,7 +67,9 @@ def test_a_map_and_a_stand_in_are_written(tmp_path, caplog):
         assert "Model of running-in" in caplog.text
         assert run("stand-in", "C", "--out", tmp_path / "c").exit_code == 0
     assert read_surface(tmp_path / "map" / "surface.npz").height.shape == (128, 48)
-    assert "Stand-in. Lay: fast surface 6.504 deg, slow 7.463 deg" in caplog.text
+    assert (
+        "Made-up profiles. Lay: faster surface 6.504 deg, slower surface 7.463 deg" in caplog.text
+    )
     assert statistics(tmp_path / "c" / "full_statistics.csv")["Ra"] == pytest.approx(0.31)
 
 
@@ -78,8 +80,8 @@ def test_a_map_and_a_stand_in_are_written(tmp_path, caplog):
         (("make", "--ra-um", "nan"), "--ra-um must be finite"),
         (("make", "--ra-um", 0.3, "--skewness", 1, "--kurtosis", 1.5), "skewness^2 + 1"),
         (("make", "--ra-um", 310), "--ra-um must be within 0 to 100 um, got 310 um"),
-        (("make", "--ra-um", 0.3, "--along-um", 40), "got no --width-mm"),
-        (("make", "--ra-um", 0.3, "--lay-deg", 8), "got no --width-mm"),
+        (("make", "--ra-um", 0.3, "--along-um", 40), "--width-mm is missing"),
+        (("make", "--ra-um", 0.3, "--lay-deg", 8), "--width-mm is missing"),
         (("extrude", "missing.csv"), "not a readable CSV file: there is no such file."),
         (("read", "missing.x3p"), "missing.x3p"),
         (("stand-in", "D"), "A, B, C"),

@@ -328,9 +328,9 @@ def test_one_gear_set_one_source(
     monkeypatch.chdir(tmp_path)
     table = str(axle_file.with_name("own.nc"))
     for arguments, message in (
-        (["sweep", str(axle_file), "--mesh-table", table], "must not come with an axle file"),
+        (["sweep", str(axle_file), "--mesh-table", table], "cannot be combined with an axle file"),
         (["build-fmu", "--axle", str(axle_file), "--mesh-table", table], "gear_set.mesh_table"),
-        (["sweep", str(axle_file), "--fmu", str(fmu)], "must not be given with --fmu"),
+        (["sweep", str(axle_file), "--fmu", str(fmu)], "cannot be combined with --fmu"),
         (["build-fmu", "--axle", str(axle_file), "--model", "helical-pair"], "--axle must come"),
     ):
         caplog.clear()

@@ -166,7 +166,7 @@ def test_wrong_files_are_named(gear_file: Path, line_mesh: Path, tmp_path: Path)
     ):
         with pytest.raises(ParameterError, match=message):
             definition_with(path)
-    with pytest.raises(ParameterError, match="--line-mesh must come with the --gear file"):
+    with pytest.raises(ParameterError, match="--line-mesh needs --gear: give the gear file"):
         definition_with(None, line_mesh)
     with pytest.raises(TableError, match=r"bad\.toml"):
         definition_with(gear_file, bad)
@@ -204,8 +204,11 @@ def test_the_commands_build_what_is_asked_for(
     ("options", "message"),
     [
         (["--model", "spur"], "--model must be one of hypoid-axle, helical-pair"),
-        (["--model", "hypoid-axle", "--gear", "GEAR"], "--gear must come with --model helical"),
-        (["--line-mesh", "MESH"], "--line-mesh must come with the --gear file"),
+        (
+            ["--model", "hypoid-axle", "--gear", "GEAR"],
+            "--gear can only be given with --model helical",
+        ),
+        (["--line-mesh", "MESH"], "--line-mesh needs --gear: give the gear file"),
         (["--gear", "MESH"], "not a readable TOML file"),
     ],
 )

@@ -236,7 +236,7 @@ def test_a_table_beside_an_fmu_is_refused(
 ) -> None:
     options = ["sweep", "--mesh-table", str(table), "--fmu", str(axle_path)]
     assert CliRunner().invoke(cli.app, options).exit_code == BAD_ARGUMENT
-    assert "--mesh-table must not be given with --fmu" in caplog.text
+    assert "--mesh-table cannot be combined with --fmu" in caplog.text
 
 
 def test_the_cache_keeps_one_fmu_for_each_table(

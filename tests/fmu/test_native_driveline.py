@@ -162,6 +162,6 @@ def test_the_car_of_an_axle_file_is_built_beside_its_axle(
 
 
 def test_the_driveline_has_no_fmu_that_computes_in_python(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="--model driveline must come without --python"):
+    with pytest.raises(ParameterError, match="--model driveline cannot be combined with --python"):
         build.build_models(tmp_path, "driveline")
     assert list(tmp_path.iterdir()) == []

@@ -114,9 +114,11 @@ def test_what_changes_the_table_makes_it_anew_and_is_said(tmp_path, analysed, ca
 def test_a_table_of_other_origin_is_not_overwritten(tmp_path, analysed):
     own = write_mesh_table(SHIPPED, tmp_path / "gears.mesh.nc")
     content = own.read_bytes()
-    with pytest.raises(TableError, match=r"gears\.mesh\.nc must be the mesh table that is kept"):
+    with pytest.raises(
+        TableError, match=r"gears\.mesh\.nc must be the mesh table of the gear file"
+    ):
         read_axle(axle_file(tmp_path))
-    with pytest.raises(TableError, match="got one of other origin"):
+    with pytest.raises(TableError, match="but it comes from elsewhere"):
         KeptTable(tmp_path / "gears.toml").keep(SHIPPED)
     assert own.read_bytes() == content
     assert analysed == []
@@ -137,12 +139,12 @@ def test_where_nothing_can_be_written_the_cache_keeps_the_table(tmp_path, analys
         ("backlash_um = 100.0", "mesh_table or gear_file must be given, got neither"),
         (
             'gear_file = "a.toml"\nmesh_table = "b.nc"',
-            "mesh_table and gear_file must not come together, got 'b.nc' and 'a.toml'",
+            "give mesh_table or gear_file, not both, got 'b.nc' and 'a.toml'",
         ),
-        ('gear_file = "table.nc"', r"name ends in \.toml, got 'table\.nc'"),
+        ('gear_file = "table.nc"', r"a name that ends in \.toml, got 'table\.nc'"),
         (
             'mesh_table = "mohammadpour_2015"\ncontact_torques_n_m = [5.0]',
-            "contact_torques_n_m must come with gear_file",
+            "contact_torques_n_m is only for gear_file",
         ),
         (
             'gear_file = "gears.toml"\ncontact_torques_n_m = [50.0, 5.0]',

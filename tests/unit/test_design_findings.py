@@ -85,8 +85,8 @@ def told(dataset, part):
 def test_what_was_asked_and_found_is_told_for_both_flanks():
     drive, coast = findings(design())[:2]
     assert (drive.level, coast.level) == (GOOD, GOOD)
-    assert "transmission error 49.0 µrad (50.0 asked)" in drive.headline
-    assert "ellipse 10.4 mm (10.0 asked), mean contact 0.010 mm off" in drive.headline
+    assert "transmission error 49.0 µrad (50.0 wanted)" in drive.headline
+    assert "ellipse 10.4 mm (10.0 wanted), mean contact 0.010 mm off" in drive.headline
     assert "63.0 µrad" in drive.detail
     assert "no extreme" in coast.detail
 
@@ -116,15 +116,15 @@ def test_warnings_on_contact_and_teeth_have_their_cure_behind_the_headline():
     assert (relax.level, relax.detail) == (WARNING, "Relax: more.")
     thin = told(dataset, "Pinion topland is thin: 0.40 mm")
     assert thin.level == WARNING
-    assert told(dataset, "least toplands").level == NOTE
+    assert told(dataset, "smallest toplands").level == NOTE
 
 
 def test_sound_teeth_say_their_least_widths_and_that_nothing_is_undercut():
-    sound = told(design(), "least toplands")
+    sound = told(design(), "smallest toplands")
     assert sound.level == GOOD
     assert "pinion 0.400 mm, gear 2.00 mm; no flank is undercut" in sound.headline
     assert "gear 0.900 mm" in sound.detail
-    cut = told(design(undercut=0.2), "least toplands")
+    cut = told(design(undercut=0.2), "smallest toplands")
     assert "no flank" not in cut.headline
 
 
@@ -151,5 +151,5 @@ def test_what_was_chosen_is_told_and_the_report_has_it_all(tmp_path):
     found = {one.name: one.value for one in numbers(design())}
     assert found["least topland, pinion"] == pytest.approx(0.4)
     html = report_html(design_report(design(undercut=0.2), tmp_path, "gearlube design"))
-    for part in ("Contact: asked and found", "below s = 0.20", "tilt_angle_deg", "working depth"):
+    for part in ("Contact: wanted and found", "below s = 0.20", "tilt_angle_deg", "working depth"):
         assert part in html

@@ -146,7 +146,7 @@ def changed(row, value, values=STEADY):
         ({"grade": STEADY}, "got none of them"),
         (
             {"pinion_speed": STEADY, "pinion_torque": STEADY, "grade": STEADY},
-            "got a grade as well",
+            "but got a grade too",
         ),
         (
             {"pinion_speed": changed(2, -5.0), "pinion_torque": STEADY},

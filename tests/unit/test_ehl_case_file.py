@@ -158,7 +158,7 @@ def test_a_starved_point_needs_its_cavitation():
             {"inlet_layer_um": 0.25, "solver": solver, "domain": {"oil_beyond": True}},
             "oil_beyond floods the border",
         ),
-        ({"solver": {**solver, "discretisation": "elements"}}, "elements have no flux"),
+        ({"solver": {**solver, "discretisation": "elements"}}, "elements cannot be combined"),
     ):
         with pytest.raises(ParameterError, match=words):
             point(**changes)

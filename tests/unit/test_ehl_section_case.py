@@ -61,7 +61,7 @@ def test_waves_that_repeat_over_the_length_are_taken_and_others_refused():
         ({"side_conditions": "ambient"}, "radius_y_mm must be given and length_mm left out"),
         ({"solver.nodes_y": 33}, "nodes along y must be even"),
         ({"side_speed_1_m_s": 1.0}, "entrainment along y must be 0 m/s"),
-        ({"domain.oil_beyond": True}, "oil_beyond and inlet_layer do not go with"),
+        ({"domain.oil_beyond": True}, "oil_beyond and inlet_layer cannot be combined with"),
         ({"solver.cavitation": "mass_conserving"}, "needs sides ambient, got cyclic"),
     ],
 )

@@ -256,15 +256,15 @@ def test_command_writes_once_and_says_what_has_no_unit(run, tmp_path, caplog):
     caplog.set_level(logging.INFO, logger="gearlube")
     command = ["export", str(run / "small.nc"), "--to", "mat", "--out", str(tmp_path / "a.mat")]
     assert CliRunner().invoke(app, command).exit_code == 0
-    assert "No unit is stated for: share" in caplog.text
+    assert "These variables have no unit: share" in caplog.text
     assert CliRunner().invoke(app, command).exit_code == 2
-    assert "is there already" in caplog.text
+    assert "exists already" in caplog.text
     assert CliRunner().invoke(app, [*command, "--overwrite"]).exit_code == 0
 
 
 def test_a_folder_needs_one_dataset(run, tmp_path):
     DATASET.to_netcdf(run / "other.nc")
-    with pytest.raises(gl.ParameterError, match=r"has 2: other.nc, small.nc. Name one"):
+    with pytest.raises(gl.ParameterError, match=r"has 2: other.nc, small.nc. Give one"):
         gl.export_results(run, "csv", tmp_path / "out")
     with pytest.raises(gl.GearLubeError, match="got none"):
         gl.export_results(tmp_path, "csv", tmp_path / "out")

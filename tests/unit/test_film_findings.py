@@ -107,7 +107,7 @@ def test_film_pressure_and_friction_of_a_line_are_told_in_everyday_units():
     assert "0.250 µm" in film.headline
     pressure = headline(line(), "largest pressure")
     assert "1.10 GPa" in pressure.headline
-    assert "+10.0 % against Hertz" in pressure.detail
+    assert "+10.0 % relative to Hertz" in pressure.detail
     assert "0.0300" in headline(line(), "friction").headline
 
 

@@ -34,5 +34,5 @@ def test_the_first_contact_is_not_where_flanks_part():
 def test_teeth_that_meet_nowhere_are_said_to_do_so():
     nowhere = gaps([math.inf], [0.02])
     position = MeshPosition(None, 0.25, (0.25,), (nowhere,))
-    with pytest.raises(ConvergenceError, match=r"the teeth must meet at mesh phase 0\.250"):
+    with pytest.raises(ConvergenceError, match=r"The teeth must meet at mesh phase 0\.250"):
         position.load(50.0, None, LoadedSettings())

@@ -93,7 +93,10 @@ def test_every_number_has_a_unit_or_needs_none_and_a_meaning(name):
         ({"gear.flank.tip_relief_form": "cubic"}, "text, blended or power, got 'cubic'"),
         ({"pair.helix_angle": 20.0}, r"is it pair\.helix_angle_deg\?"),
         ({"pair.centre_distance_mm": 75.0}, "SI units: centre_distance must be within 0.08"),
-        ({"pinion.tip_diameter_mm": 120.0}, "tip radii must keep contact.* Shorten the teeth"),
+        (
+            {"pinion.tip_diameter_mm": 120.0},
+            "Contact must lie between the tangent points.* Reduce the tip radii",
+        ),
         ({"completed": {"gear.colour": "as it is"}}, "'gear.colour', which is not a field"),
         ({"inferred": {"gear.body": ""}}, r"inferred\.gear\.body"),
         ({"compared_with": ["he_2008"]}, "compared_with must name shipped .* got 'he_2008'"),

@@ -33,7 +33,10 @@ HE = named_pair("he_2007")
         ({"centre_distance": 0.07}, "centre_distance must be within .* sum of the base radii"),
         ({"pinion_tip_radius": 0.03}, "pinion_tip_radius must be within"),
         ({"gear_root_radius": 0.06}, "gear_root_radius must be within"),
-        ({"gear_tip_radius": 0.060}, "tip radii must keep contact.* they interfere"),
+        (
+            {"gear_tip_radius": 0.060},
+            "Contact must lie between the tangent points.* the teeth interfere",
+        ),
         (
             {"pinion_tip_radius": 0.0405, "gear_tip_radius": 0.0499, "face_width": 1e-3},
             "total contact ratio must exceed 1, got 0.4",

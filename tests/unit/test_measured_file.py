@@ -85,8 +85,8 @@ def wrong(rows, index, line):
     ("rows", "parts"),
     [
         (lines()[:-3], ["gear, drive flank, tooth 1: all 5 x 9 points", "3 are missing", "5, 7"]),
-        ([*lines(), lines()[4]], ["line 48", "point 1, 5", "is there twice"]),
-        ([*lines(), *lines("convex")], ["is there twice", "or check flank and tooth"]),
+        ([*lines(), lines()[4]], ["line 48", "point 1, 5", "occurs twice"]),
+        ([*lines(), *lines("convex")], ["occurs twice", "or check flank and tooth"]),
         (wrong(lines(), 3, "gear,left,1,1,4,2.0"), ["flank must be drive, coast", "got 'left'"]),
         (wrong(lines(), 3, "ring,drive,1,1,4,2.0"), ["member must be pinion or gear, got 'ring'"]),
         (wrong(lines(), 3, "pinion,drive,1,1,4,2.0"), ["Add the section [pinion.grid], or its"]),

@@ -206,7 +206,7 @@ STEEP = 1e-6 * np.cos(2.0 * math.pi * np.arange(40) / 10)
         (lambda: moving(Profile(height=STEEP, spacing=1e-6, periodic=True)), "rms slope along x"),
         (
             lambda: moving(Profile(height=1e-3 * waves().height, spacing=2.5e-6, periodic=True)),
-            "mm written for um",
+            "if mm are written instead",
         ),
         (lambda: rough(moving(waves()), y=WIDTH / 14 * np.arange(14.0)), "got 14. Take 16"),
         (lambda: rough(moving(waves()), y=WIDTH / 127 * np.arange(127.0)), "got 127. Take 128"),
@@ -217,7 +217,7 @@ STEEP = 1e-6 * np.cos(2.0 * math.pi * np.arange(40) / 10)
         (lambda: rough(), "one or two, got 0"),
         (
             lambda: rough(moving(waves(), 0.0), feed=FedFromInlet(inlet=X[0], growth=A)),
-            "must be above 0 m/s to be fed",
+            "must be above 0 m/s so that its roughness enters",
         ),
         (
             lambda: MovingSurface(

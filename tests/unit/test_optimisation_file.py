@@ -79,7 +79,7 @@ def test_amounts_that_a_gear_file_does_not_take_are_tried_but_not_written():
         (
             "he_2007",
             {"parameters": {"pinion.tip_diameter_mm": {"low": 80.0, "high": 90.0}}},
-            "the blank stays",
+            "The blank cannot change",
         ),
         (
             "he_2007",
@@ -91,17 +91,17 @@ def test_amounts_that_a_gear_file_does_not_take_are_tried_but_not_written():
             {"parameters": {"pinion.flank.crown_um": {"low": 2.0, "high": 3.0}}},
             "within low and high, 2 to 3, got 0",
         ),
-        ("he_2007", {"errors": {"pinion_axial_um": 5.0}}, "is not of a helical pair"),
-        ("he_2007", {"settings": {}}, "must be of a hypoid pair"),
+        ("he_2007", {"errors": {"pinion_axial_um": 5.0}}, "is not for a helical pair"),
+        ("he_2007", {"settings": {}}, "is only for a hypoid pair"),
         (
             "mohammadpour_2015",
             {"parameters": TWIST, "errors": {"lead_slope_um": 5.0}},
-            "is not of a hypoid pair",
+            "is not for a hypoid pair",
         ),
         (
             "mohammadpour_2015",
             {"parameters": {"pinion.coast_flank.twist_um": {"low": 1.0, "high": 2.0}}},
-            "flanks that do not carry",
+            "flanks without load",
         ),
         (
             "mohammadpour_2015",

@@ -138,7 +138,11 @@ def test_a_known_loss_is_not_raised(found):
 @pytest.mark.parametrize(
     ("changed", "raised", "words"),
     [
-        ({"draws": 0}, True, "draws must be at least 20 for a raised loss, got 0"),
+        (
+            {"draws": 0},
+            True,
+            "draws must be at least 20 if the loss is raised by its error bar, got 0",
+        ),
         ({"speeds": np.array([5.0])}, False, "wheel speed of 50 rpm.*got pinion speeds up to 47"),
         ({"torques": np.array([1.0, 50.0])}, False, "torque of 250 N.m, got.* 1 to 50 N.m"),
     ],

@@ -79,7 +79,7 @@ def test_oil_that_comes_to_no_rest_has_no_temperature():
 
 
 @pytest.mark.parametrize(
-    ("air", "words"), [(200.0, "air_temperature"), (423.15, "colder than the end of the oil")]
+    ("air", "words"), [(200.0, "air_temperature"), (423.15, "below the upper limit of the oil")]
 )
 def test_air_that_the_oil_does_not_know_is_refused(air, words):
     with pytest.raises(ParameterError, match=words):
@@ -123,7 +123,7 @@ def test_the_command_writes_the_steady_temperature(tmp_path, caplog):
 @pytest.mark.parametrize(
     ("more", "words"),
     [
-        (["--air-temperature", "10"], "--air-temperature needs --steady-temperature"),
+        (["--air-temperature", "10"], "--air-temperature works only with --steady-temperature"),
         (["--steady-temperature", "--air-temperature", "283"], "air_temperature"),
         (["--steady-temperature", "--conductance-at-100", "-1"], "conductance_at_100_kmh"),
     ],

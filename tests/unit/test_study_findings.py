@@ -79,7 +79,7 @@ def a_map():
 def test_loss_map_says_its_best_largest_drag_and_error_bar(a_map):
     said = loss_map.findings(a_map)
     # 100 N.m at 2000 rpm are 20944 W: flanks 1 % of it and 5 W at 80 degC
-    best = found(said, "at best 99.0 % efficient")
+    best = found(said, "at most 99.0 % efficient")
     assert "at 100 N·m, 2000 rpm and 80 °C oil" in best.headline
     largest = found(said, "largest loss")
     assert "is 429 W, at 100 N·m, 2000 rpm and 40 °C oil" in largest.headline  # 418.9 + 10
@@ -163,7 +163,7 @@ def a_cycle():
 def test_cycle_says_energy_lost_with_its_parts_oil_and_brakes(a_cycle):
     said = cycle.findings(a_cycle)
     lost = found(said, "axle loses")
-    assert "4.00 kJ (1.11 Wh) in the cycle, 5.0 % of what goes in" in lost.headline
+    assert "4.00 kJ (1.11 Wh) in the cycle, 5.0 % of the energy put in" in lost.headline
     assert "flank friction, fluid 75 %, bearing drag 25 %" in lost.headline
     assert "3.50 to 4.50 kJ" in lost.detail
     oil = found(said, "The oil goes from 20 to 25 °C")

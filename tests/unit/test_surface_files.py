@@ -163,7 +163,7 @@ def waves(amplitude, **more):
         (lambda: check_plausible(waves(3e-10)), "at least 1 nm, got 0.212 nm"),
         (lambda: check_plausible(waves(3e-6)), "rms slope along x must be at most 0.2, got 0.33"),
         (lambda: check_closed(waves(3e-7)), "must be periodic"),
-        (lambda: profile_statistics(Profile(height=np.ones(9), spacing=1e-6)), "a flat one"),
+        (lambda: profile_statistics(Profile(height=np.ones(9), spacing=1e-6)), "a flat surface"),
         (lambda: Profile(height=np.zeros((3, 3)), spacing=1e-6), "must have 1 dimension"),
         (lambda: Profile(height=np.zeros(1), spacing=1e-6), "at least 4 points"),
         (lambda: Profile(height=np.full(5, math.inf), spacing=1e-6), "5 of 5 are not"),

@@ -123,10 +123,10 @@ def test_quick_run_is_short(calls):
             ["0 to 150 degC", "got 400 degC", "The data of"],
         ),
         (["--roughness-um", "500"], ["got 0.0005 m", "0.5 um"]),
-        (["--air-temperature", "5"], ["--air-temperature needs --steady-temperature"]),
+        (["--air-temperature", "5"], ["--air-temperature works only with --steady-temperature"]),
         (
             ["--steady-temperature", "--oil-temperature", "60"],
-            ["--oil-temperature must not be given with --steady-temperature", "60 degC"],
+            ["--oil-temperature cannot be combined with --steady-temperature", "60 degC"],
         ),
         (
             ["--steady-temperature", "--air-temperature", "200"],

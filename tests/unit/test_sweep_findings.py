@@ -70,10 +70,10 @@ def test_orders_meet_natural_frequencies_where_their_frequencies_are_equal(sweep
 
 def test_margin_is_told_where_no_order_meets_a_mode(sweep):
     far = sweep.assign(mode_frequency=sweep["mode_frequency"].isel(mode=[1]))
-    one = found(far, "the least margin is 9 %")
+    one = found(far, "the smallest margin is 9 %")
     assert one.level == NOTE  # below 10 %
     farther = far.assign(mode_frequency=2.0 * far["mode_frequency"])
-    assert found(farther, "the least margin is 55 %").level == GOOD  # (220 - 100) / 220
+    assert found(farther, "the smallest margin is 55 %").level == GOOD  # (220 - 100) / 220
 
 
 def test_loss_and_its_largest_parts(sweep):
@@ -86,7 +86,7 @@ def test_loss_and_its_largest_parts(sweep):
 
 
 def test_film_contact_and_rollers_have_the_levels_of_their_numbers(sweep):
-    film = found(sweep, "least film ratio")
+    film = found(sweep, "smallest film ratio")
     assert "is 1.0, at" in film.headline  # 1.1 - 0.1
     assert film.level == NOTE
     assert found(sweep.assign(film_ratio_min=sweep["film_ratio_min"] * 0.5), "ratio").level == (
@@ -117,7 +117,7 @@ def test_ranges_balance_and_failed_points(sweep):
     assert found(sweep, "energy balance closes").level == GOOD
     opened = sweep.copy(deep=True)
     opened["energy_closure_error"][0, 1] = -0.02
-    assert "up to 20000 ppm" in found(opened, "energy balance is open").headline
+    assert "up to 20000 ppm" in found(opened, "energy balance has an error").headline
     failed = merge([PRELOAD], [20.0], {(20.0, PRELOAD): failed_point(20.0, PRELOAD, "no")})
     (only,) = findings(failed)
     assert only.headline == "1 of 1 points failed."

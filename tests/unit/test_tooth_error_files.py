@@ -47,7 +47,11 @@ def test_single_pitch_is_the_step_from_the_tooth_before(csv):
 @pytest.mark.parametrize(
     ("lines", "kind", "parts"),
     [
-        (LINES[:-2], "cumulative", ["pinion, drive flank: all 5 teeth", "missing are 4, 5"]),
+        (
+            LINES[:-2],
+            "cumulative",
+            ["pinion, drive flank: all 5 teeth", "but these are missing: 4, 5"],
+        ),
         ([*LINES, LINES[0]], "cumulative", ["line 7: tooth 1 of the pinion, drive", "twice"]),
         ([*LINES[:-1], "pinion,drive,6,1.0"], "cumulative", ["tooth must be", "from 1 to 5"]),
         (LINES, "single", ["must sum to 0 within 2 um", "got 5 um", 'pitch_kind = "cumulative"']),
@@ -77,7 +81,7 @@ def test_waves_are_read_in_metres_and_radians(csv):
 @pytest.mark.parametrize(
     ("line", "part"),
     [
-        ("gear,drive,83,0.2,0", "83 waves of the gear's drive flank are there twice"),
+        ("gear,drive,83,0.2,0", "83 waves of the gear's drive flank occur twice"),
         ("gear,drive,8.5,0.2,0", "waves must be a whole number"),
         ("gear,drive,84,-0.2,0", "amplitude_um must be a number from 0 to 50"),
         ("gear,drive,84,0.2,400", "phase_deg must be a number from -360 to 360"),

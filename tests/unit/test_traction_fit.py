@@ -241,4 +241,4 @@ def test_the_command_writes_an_oil_file_that_gives_the_stress(tmp_path, caplog):
     assert "7 points" in done.output
     again = CliRunner().invoke(app, words)
     assert again.exit_code == 2
-    assert "Add --overwrite" in caplog.text
+    assert "add --overwrite" in caplog.text

@@ -81,7 +81,7 @@ def test_scatter_samples_the_tolerances_of_the_file_that_are_not_varied_otherwis
     assert [one.key for one in made[0].spreads] == ["gear_set.backlash_um"]
     assert (made[0].sampling.method, made[0].sampling.count) == ("lhs", 1000)
     for words, reason in (
-        (("vary", "bearing", "--scatter"), "got none in that of wingertszahn_2023"),
+        (("vary", "bearing", "--scatter"), "got none in the file of wingertszahn_2023"),
         (("vary", "map", "--scatter"), "needs [tolerances] in the file"),
     ):
         code, said = run(*words)

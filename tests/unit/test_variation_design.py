@@ -73,13 +73,13 @@ def test_a_seed_repeats_the_samples_and_another_changes_them():
     ("made", "said"),
     [
         (lambda: Design(), "got none. Give --vary"),
-        (lambda: Design(axes=(A, A)), "a must be varied once"),
+        (lambda: Design(axes=(A, A)), "a must be varied only once"),
         (lambda: Design(spreads=(U,)), "range without steps"),
         (lambda: Design(axes=(A,), sampling=Sampling("lhs", 5)), "needs ranges to sample"),
         (lambda: Sampling("sobol", 100), "Take 64 or 128"),
         (lambda: Sampling("lhs", 0), "within 1 to"),
         (lambda: Spread(key="u", low=2.0, high=2.0), "must be above the lower, 2, got 2"),
-        (lambda: Axis("a", ()), "one or more values"),
+        (lambda: Axis("a", ()), "one or more different values"),
     ],
 )
 def test_a_wrong_design_is_refused(made, said):

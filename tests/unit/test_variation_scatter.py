@@ -93,7 +93,7 @@ def test_a_wrong_tolerance_is_refused(tolerances, said):
 def test_scatter_without_tolerances_or_values_is_refused():
     with pytest.raises(ParameterError, match="needs \\[tolerances\\] in the file"):
         scatter(point_study("map"))
-    with pytest.raises(ParameterError, match="got none in that of wingertszahn_2023"):
+    with pytest.raises(ParameterError, match="got none in the file of wingertszahn_2023"):
         scatter(point_study("bearing"))
     tolerances = {"housing.immersion_mm": {"plus_minus": 1.0}}
     file = AxleFile.named("mohammadpour_2015").varied({"tolerances": tolerances})
@@ -120,7 +120,7 @@ def test_fields_of_gear_and_bearing_files_scatter_about_their_values(study, fiel
     assert replace(shipped, file=file).varied({field: value}).tolerances == {}
     if unread is not None:
         file = shipped.file.varied({"tolerances": {unread: {"plus_minus": 1.0}}})
-        with pytest.raises(ParameterError, match=f"of a field that the study {study} reads"):
+        with pytest.raises(ParameterError, match=f"but the study {study} does not use"):
             scatter(replace(shipped, file=file))
     with pytest.raises(ParameterError, match="fields that are numbers"):
         shipped.file.varied({"tolerances": {"nothing_mm": {"plus_minus": 1.0}}})

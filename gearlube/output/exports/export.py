@@ -80,14 +80,14 @@ def export_results(
     file = dataset_file(Path(run))
     path = Path(f"{file.stem}{ending}") if out is None else Path(out)
     if path.exists() and not overwrite:
-        raise ParameterError(f"{path} is there already. Choose another --out, or --overwrite.")
+        raise ParameterError(f"{path} exists already. Choose another --out, or add --overwrite.")
     if path.exists() and path.is_dir() != ending.startswith("_"):
         wanted = "a folder" if ending.startswith("_") else "a file"
         raise ParameterError(f"--out must be {wanted} for {to}, got {path}. Choose another.")
     with read_dataset(file) as dataset:
         part = chosen(dataset, variables, spans)
         if unknown := without_unit(part):
-            logger.warning("No unit is stated for: %s", ", ".join(unknown))
+            logger.warning("These variables have no unit: %s", ", ".join(unknown))
         if not path.parent.is_dir():
             path.parent.mkdir(parents=True)
         return write(part, path)

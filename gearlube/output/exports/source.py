@@ -27,7 +27,9 @@ def dataset_file(run: Path) -> Path:
     if run.is_file():
         return run
     if not run.is_dir():
-        raise FileError(f"RUN must be a folder of results or a NetCDF file, {run} is not there.")
+        raise FileError(
+            f"RUN must be a folder of results or a NetCDF file, but {run} does not exist."
+        )
     found = sorted(run.glob("*.nc"))
     if not found:
         raise FileError(
@@ -37,8 +39,8 @@ def dataset_file(run: Path) -> Path:
     if len(found) > 1:
         names = ", ".join(path.name for path in found)
         raise ParameterError(
-            f"One dataset is exported at a time, {run} has {len(found)}: {names}. Name one, such "
-            f"as {found[0]}."
+            f"One dataset can be exported at a time, but {run} has {len(found)}: {names}. Give one "
+            f"of them, for example {found[0]}."
         )
     return found[0]
 

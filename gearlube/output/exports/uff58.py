@@ -45,7 +45,9 @@ def write_uff58(dataset: xr.Dataset, path: Path) -> list[Path]:
             f"{', '.join(others) or 'none'}. Choose another format, such as csv or mat."
         )
     if others:
-        logger.info("No time history or spectrum, left out: %s", ", ".join(others))
+        logger.info(
+            "Left out, because they are no time histories or spectra: %s", ", ".join(others)
+        )
     count = sum(record_count(dataset, name) for name in names)
     if count > RECORD_LIMIT:
         raise ParameterError(
@@ -75,8 +77,8 @@ def write_uff58(dataset: xr.Dataset, path: Path) -> list[Path]:
                 written += 1
         if not written:
             raise ParameterError(
-                f"A universal file must hold values, got none in {', '.join(names)}. Were all "
-                "points computed?"
+                f"A universal file must hold values, got none in {', '.join(names)}. Check whether "
+                "all points were computed."
             )
     if written < count:
         logger.warning("%d of %d records have no value and were left out", count - written, count)
@@ -135,7 +137,7 @@ def _words(place: tuple[str, int, object, str]) -> str:
 def _check(record: Record) -> None:
     if record.x.size < 2:
         raise ParameterError(
-            f"A record of a universal file must have two points at least, got {record.x.size} of "
+            f"A record of a universal file must have at least two points, got {record.x.size} of "
             f"{record.name}. Take a longer --span, or leave it out with --variable."
         )
     lacking = int(np.count_nonzero(~np.isfinite(record.y)))

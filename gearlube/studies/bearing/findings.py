@@ -82,7 +82,7 @@ def _laws(dataset: xr.Dataset) -> list[Finding]:
             f"The laws differ by a factor of {_spread(dataset):.2g}: {_name(low)} has the least "
             f"mean torque, {quantity_text(float(low), 'N·m')}, {_name(high)} the largest, "
             f"{quantity_text(float(high), 'N·m')}.",
-            "A measured torque in the bearing file removes this doubt.",
+            "A measured torque in the bearing file removes this uncertainty.",
         )
     ]
 

@@ -23,8 +23,8 @@ _AXES = {
     "temperature": Axis("oil temperature", "°C"),
 }
 _LIMITS = (
-    "The torque is known within the error bar only, unless the bearing file has a measured torque: "
-    "how much oil reaches the contacts, and how warm it is there, is not known.",
+    "Unless the bearing file has a measured torque, the torque is only known within the error "
+    "bar, because it is not known how much oil reaches the contacts and how warm it is there.",
     "Seals, churning of the oil around the bearing and misalignment are not in the torque.",
     "A law outside the range of its fit is extrapolated; see the findings.",
 )
@@ -51,8 +51,8 @@ def bearing_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
             Figure(
                 name="parts",
                 title="Parts of the torque of the first law",
-                caption="The axis is logarithmic, so that small parts show. What lies highest is "
-                "what a change should aim at.",
+                caption="The axis is logarithmic, so that small parts show. A change should aim "
+                "at the highest part.",
                 chart=part_chart(dataset),
             ),
         ],

@@ -51,12 +51,12 @@ class BearingSettings:
         for name in ("speeds", "axial_loads", "radial_loads", "temperatures", "models"):
             values = getattr(self, name)
             if not values:
-                raise ParameterError(f"{name} must hold at least one value, got none.")
+                raise ParameterError(f"{name} must have at least one value, got none.")
             if len(set(values)) < len(values):
-                raise ParameterError(f"{name} must hold each value once, got {values}.")
+                raise ParameterError(f"{name} must not have a value twice, got {values}.")
         laws = [model.law for model in self.models]
         if len(set(laws)) < len(laws):
-            raise ParameterError(f"models must hold each law once, got {', '.join(laws)}.")
+            raise ParameterError(f"models must not have a law twice, got {', '.join(laws)}.")
         check_within("the number of conditions times laws", self.points, 1, MOST_POINTS)
 
     @classmethod

@@ -86,8 +86,8 @@ def bearing_warnings(dataset: xr.Dataset) -> list[str]:
                     break
             found.append(
                 f"{law}: raceway contacts leave the range of the fit ({MATERIAL_LIMIT_WORDS}) from "
-                f"{worst:.4g} rpm on, up to {100 * out:.0f} % of them; the torque is computed all "
-                "the same."
+                f"{worst:.4g} rpm on, up to {100 * out:.0f} % of them; the torque is still "
+                "computed."
             )
         if str(law) in CATALOGUE_LAWS:
             continue

@@ -158,7 +158,7 @@ def contact(
                 command_line=command_line(),
             )
             if export:
-                progress(1.0, "gears")
+                progress(1.0, "writing flanks and gears")
                 write_gears(file, out / "gears")
         kept = None
         if gear.endswith(".toml") and replace(cycle, torques=CycleSettings().torques) == (
@@ -187,11 +187,13 @@ def _sensitivity_settings(
 
     if torques and len(torques) > 1:
         raise ParameterError(
-            f"--sensitivity must have one torque, got {len(torques)}. Give one of them and run it "
-            "again in another --out for the next."
+            f"--sensitivity must have one torque, got {len(torques)}. Give one torque; run the "
+            "command again with another --out for the next one."
         )
     if export:
-        raise ParameterError("--export must stand without --sensitivity. Run them one by one.")
+        raise ParameterError(
+            "--export cannot be combined with --sensitivity. Run the command once with each."
+        )
     usual = SensitivitySettings()
     return SensitivitySettings(
         torque=torques[0] if torques else usual.torque,

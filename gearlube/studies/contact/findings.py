@@ -51,9 +51,10 @@ def _edges(part: xr.Dataset, side: str) -> Finding:
         WARNING,
         f"Sharp edges press into the {side} flanks from {first:g} N·m on, with up to "
         f"{quantity_text(highest, 'GPa')}.",
-        "Such a pressure has no finite value, it rises with finer cells: read it as a place. Where "
-        f"a pair carries most, {top:g} N·m give {quantity_text(middle, 'GPa', 2)}. Relief of tips "
-        "and ends in the gear file removes edge contact; the command names the edges.",
+        "This pressure has no meaning as a number, because it rises with finer cells: it only "
+        f"shows the place. Where a pair carries most load, {top:g} N·m give "
+        f"{quantity_text(middle, 'GPa', 2)}. Relief of tips and ends in the gear file removes edge "
+        "contact; the command names the edges.",
     )
 
 
@@ -82,8 +83,9 @@ def _error(part: xr.Dataset, side: str) -> Finding:
         NOTE,
         f"The first mesh order of the loaded transmission error ({side}) is largest at "
         f"{torque[most]:g} N·m: {quantity_text(first[most], 'µm')}.",
-        f"It is least at {torque[least]:g} N·m: {quantity_text(first[least], 'µm')}. Without load "
-        f"the error is {quantity_text(unloaded, 'µm')} peak to peak. This order excites the whine.",
+        f"It is smallest at {torque[least]:g} N·m: {quantity_text(first[least], 'µm')}. Without "
+        f"load the error is {quantity_text(unloaded, 'µm')} peak to peak. This order excites the "
+        "whine.",
     )
 
 
@@ -104,7 +106,7 @@ def _pattern(part: xr.Dataset, side: str) -> Finding:
             WARNING,
             f"At {torque[-1]:g} N·m the {side} pattern runs off the {' and the '.join(reached)}: "
             f"{span}.",
-            f"{text} Lengthwise crowning, or another place of the contact, keeps it inside.",
+            f"{text} Lengthwise crowning, or another position of the contact, keeps it inside.",
         )
     return Finding(
         GOOD, f"At {torque[-1]:g} N·m the {side} pattern stays on the face: {span}.", text
@@ -120,7 +122,7 @@ def _stiffness(contact: xr.Dataset) -> Finding:
         NOTE,
         f"The mean mesh stiffness (drive, secant) is {quantity_text(low, 'N/µm')} at "
         f"{torque[0]:g} N·m and {quantity_text(high, 'N/µm')} at {torque[-1]:g} N·m.",
-        f"At {torque[-1]:g} N·m {float(pairs.mean()):.1f} pairs carry on the mean.",
+        f"At {torque[-1]:g} N·m {float(pairs.mean()):.1f} pairs carry load on average.",
     )
 
 

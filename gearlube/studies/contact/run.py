@@ -82,7 +82,7 @@ def run_contact(
     store = None if folder is None else folder / POSITIONS
     dataset = analyse_contact(file, settings, store=store, jobs=jobs, progress=progress)
     if folder is not None:
-        progress(1.0, "figures")
+        progress(1.0, "writing report and figures")
         write_dataset(dataset, folder / "contact.nc")
         save_contact_figures(dataset, folder / "figures")
         write_contact_report(dataset, folder, command_line)

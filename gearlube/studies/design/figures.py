@@ -17,18 +17,21 @@ _TITLES = {"drive": "drive flanks", "coast": "coast flanks"}
 
 def contact_patterns(dataset: xr.Dataset) -> Any:
     """Return ease-off, path and marked pattern on the gear tooth, with the place asked for."""
+    from matplotlib.ticker import MaxNLocator
+
     tooth = DrawnTooth.of_dataset(dataset)
     with house_style():
         figure = new_figure(9.6, 5.4)
         axes = figure.subplots(2, 1)
         top = float(np.nanpercentile(1e6 * dataset["ease_off"].values, 97))
+        levels = MaxNLocator(12).tick_values(0.0, top)
         for ax, side in zip(axes, _TITLES, strict=True):
             part = dataset.sel(side=side)
             grid = tooth.along(part["ease_t"]), tooth.up(part["ease_s"])
             filled = ax.contourf(
                 *grid,
                 1e6 * part["ease_off"].values,
-                levels=np.linspace(0.0, top, 13),
+                levels=levels,
                 cmap="viridis_r",
                 extend="max",
             )
@@ -44,9 +47,10 @@ def contact_patterns(dataset: xr.Dataset) -> Any:
             ax.plot(*asked, "o", color="white", mec="black", ms=7, zorder=7)
             ratio = float(part["path_contact_ratio"])
             tooth.draw(ax, f"{_TITLES[side]}: path over {ratio:.2f} pitches")
-        figure.colorbar(filled, ax=axes, label="ease-off [µm]", format="%.0f")
+        figure.colorbar(filled, ax=axes, label="ease-off [µm]")
         figure.suptitle(
-            "Gear tooth: ease-off, path (black), pattern at 6.35 µm (red), asked (white dot)",
+            "Gear tooth: ease-off, path (black), pattern at 6.35 µm (red), wanted place (white "
+            "dot)",
             fontsize=11.5,
         )
     return figure
@@ -104,20 +108,20 @@ DESIGN_CATALOGUE = {
     "contact_pattern": Picture(
         contact_patterns,
         "Contact on the gear tooth",
-        "How far the pinion flank stands off the conjugate one. Black: the way of the contact "
-        "without load; red: where marking compound of 6.35 µm would be wiped off; white dot: the "
-        "place asked for. White areas are out of reach of the pinion, on a grid of 21 x 41 points.",
+        "Gap between the pinion flank and the conjugate one. Black: path of contact without load; "
+        "red: where marking compound of 6.35 µm would be wiped off; white dot: the wanted place. "
+        "The pinion does not reach white areas. Grid of 21 x 41 points.",
     ),
     "transmission_error": Picture(
         transmission_error,
         "Transmission error without load",
-        "Of flanks as cut. Parabolas that meet low are quiet without load and take errors of "
-        "assembly. Gaps: edges would touch.",
+        "Flanks as cut. Parabolas that cross at a low error are quiet without load and tolerate "
+        "errors of assembly. Gaps: edges would touch.",
     ),
     "tooth_widths": Picture(
         tooth_widths,
         "Widths of the teeth",
-        "Normal width of topland, and of the slot at the root: blade points can be at most as wide "
-        "as its least.",
+        "Normal width of topland, and of the slot at the root: blade points must not be wider "
+        "than the narrowest slot.",
     ),
 }

@@ -65,7 +65,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
         return Finding(WARNING, f"{name}: no parabolic transmission error was found.")
     told = [
         f"{words} {number_text(float(part[f'found_{key}']) / scale)} {unit} "
-        f"({number_text(float(part[f'asked_{key}']) / scale)} asked)"
+        f"({number_text(float(part[f'asked_{key}']) / scale)} wanted)"
         for key, words, scale, unit in (
             ("error", "transmission error", _MICRO, "µrad"),
             ("path_angle", "path at", DEGREE, "°"),
@@ -74,7 +74,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
     ]
     centre = quantity_text(float(part["missed_centre"]) / MILLIMETRE, "mm", 2)
     missed = missed_targets(part, side)
-    verdict = f"missed: {', '.join(missed)}" if missed else "as asked"
+    verdict = f"missed: {', '.join(missed)}" if missed else "as wanted"
     relieved = float(part["relieved_error"]) / _MICRO
     relief = (
         "no extreme" if math.isnan(relieved) else f"an error of {quantity_text(relieved, 'µrad')}"
@@ -139,7 +139,7 @@ def _teeth(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     return [
         Finding(
             GOOD if sound else NOTE,
-            f"The least toplands are {told}{words}.",
+            f"The smallest toplands are {told}{words}.",
             f"Blade points may be as wide as the slot at its narrowest: {points}.",
         )
     ]

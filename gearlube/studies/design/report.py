@@ -24,7 +24,7 @@ _LIMITS = (
     "Contact without load of flanks as cut. `gearlube contact` computes it under load, with teeth "
     "that bend and reliefs.",
     "Blank by ISO 23509 with uniform depth; strength of the teeth is not checked.",
-    "The nearest settings that the search found, not all that there are.",
+    "The settings are the nearest that the search found; others may exist.",
     "Undercut, topland and slot are those of ideal cutters with sharp points.",
 )
 _ASKED = (
@@ -126,9 +126,9 @@ def _contact(dataset: xr.Dataset) -> Table:
             [side, "path of contact", "", _text(float(part["path_contact_ratio"])), "pitches"],
         ]
     return Table(
-        title="Contact: asked and found",
-        caption="Path directions on the gear flank, from the root line towards the heel, to the "
-        "tip positive. s: root 0 to tip 1; t: toe 0 to heel 1.",
+        title="Contact: wanted and found",
+        caption="Path directions on the gear flank, from the root line towards the heel and "
+        "positive towards the tip. s: root 0 to tip 1; t: toe 0 to heel 1.",
         columns=[Column(one) for one in ("flanks", "", "asked", "found", "unit")],
         rows=rows,
     )

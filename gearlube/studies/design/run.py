@@ -73,7 +73,7 @@ def run_design(
     >>> found.design.file.pinion.machine.tilt_angle_deg  # doctest: +SKIP
     """
     design = design_pair(file, lambda share, said: progress(_SHARE * share, said), jobs)
-    progress(_SHARE, "teeth")
+    progress(_SHARE, "form of the teeth")
     forms = {
         "pinion": tooth_form(design.file, "pinion"),
         "gear": tooth_form(design.file, "gear"),
@@ -81,7 +81,7 @@ def run_design(
     progress(_SHARE + 0.02, "ease-off and contact pattern")
     results = DesignResults(design=design, forms=forms, dataset=design_dataset(design, forms))
     if folder is not None:
-        progress(0.98, "figures")
+        progress(0.98, "writing report and figures")
         write_design(results, folder, command_line)
     return results
 

@@ -21,7 +21,7 @@ CENTRE_LIMIT = 0.5 * MILLIMETRE
 LENGTH_LIMIT = 0.25
 _MICRO = 1e-6
 _TORQUE = "0.2 N/mm2 times the cube of the gear's outer diameter, on the gear"
-_PATH = "44 deg from across the lines of contact; 30 or 15 where that fails"
+_PATH = "44 deg from the normal of the lines of contact; 30 or 15 if that fails"
 
 
 class AskedAndFound(NamedTuple):
@@ -69,7 +69,7 @@ def unmet_targets(design: Design) -> list[str]:
         across = MeanContact.at(pair, target.s, target.t).path_angle(0.0) / DEGREE
         cure = (
             f"Relax: a larger contact.{side}_error_urad, a longer contact.ellipse_length_mm, or "
-            f"contact.{side}_path_angle_deg nearer to {across:.0f} deg, across the lines of "
+            f"contact.{side}_path_angle_deg nearer to {across:.0f} deg, the normal of the lines of "
             "contact."
         )
         denied = design.designed.file.machine.denied
@@ -86,26 +86,24 @@ def unmet_targets(design: Design) -> list[str]:
         if abs(error) > ERROR_LIMIT[side]:
             said.append(
                 f"The transmission error of the {side} flanks came to {found.error / _MICRO:.0f} "
-                f"urad, asked {target.error / _MICRO:.0f} urad. {cure}"
+                f"urad, wanted {target.error / _MICRO:.0f} urad. {cure}"
             )
         if abs(turned) > PATH_LIMIT:
             said.append(
-                f"The path of contact of the {side} flanks came to "
-                f"{found.path_angle / DEGREE:.1f} deg, asked {target.path_angle / DEGREE:.1f} deg. "
-                f"{cure}"
+                f"The path of contact of the {side} flanks came to {found.path_angle / DEGREE:.1f} "
+                f"deg, wanted {target.path_angle / DEGREE:.1f} deg. {cure}"
             )
         if centre > CENTRE_LIMIT:
             said.append(
                 f"The mean contact of the {side} flanks came within {centre / MILLIMETRE:.2f} mm "
-                f"of the place asked for. {cure}"
+                f"of the wanted place. {cure}"
             )
         if abs(length) > LENGTH_LIMIT:
             if found.length < target.length:
                 cure = cure.replace("a longer contact.ellipse", "a shorter contact.ellipse")
             said.append(
-                f"The contact ellipse of the {side} flanks came to "
-                f"{found.length / MILLIMETRE:.1f} mm, asked {target.length / MILLIMETRE:.1f} mm. "
-                f"{cure}"
+                f"The contact ellipse of the {side} flanks came to {found.length / MILLIMETRE:.1f} "
+                f"mm, wanted {target.length / MILLIMETRE:.1f} mm. {cure}"
             )
     return said
 

@@ -111,6 +111,7 @@ def _check_torque(settings: DriveCycleSettings, torque: Array) -> None:
         raise ParameterError(
             f"The pinion torque of {settings.cycle.name} must be within {limits.pinion_low:g} to "
             f"{limits.pinion_high:g} N.m, got {torque[bad[0]]:.4g} N.m at {time:g} s. Check mass "
-            "and tyre of the axle file and the units of the trace. contact_torques_n_m of the axle "
-            f"file sets the torques at which a gear file is analysed. {limits.cure}"
+            "and tyre of the axle file and the units of the trace. If the axle file names a gear "
+            "file, its contact_torques_n_m set the torques at which that is analysed. "
+            f"{limits.cure}"
         )

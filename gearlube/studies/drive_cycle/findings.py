@@ -57,7 +57,7 @@ def _lost(dataset: xr.Dataset) -> Finding:
         for i in np.argsort(energy)[::-1][:_NAMED]
         if energy[i] > _LEAST_SHARE * lost
     )
-    share = f", {100.0 * lost / put_in:.1f} % of what goes in" if put_in > 0.0 else ""
+    share = f", {100.0 * lost / put_in:.1f} % of the energy put in" if put_in > 0.0 else ""
     low, high = (float(dataset[f"energy_lost_{end}"]) for end in ("low", "high"))
     return Finding(
         NOTE,

@@ -36,12 +36,16 @@ class LossesAlong:
     outside : ndarray of shape (n, k, ranges)
         Share of the points of the map around it that are outside each range of the axle [-];
         ranges as in `HypoidAxleParameters.ranges`.
+    film : ndarray of shape (n, k, 2)
+        Bound of the flanks' friction loss by a film model [W], and share of their load outside its
+        domain [-]; 0 with film formulas.
     """
 
     temperatures: Array
     power: Array
     torque: Array
     outside: Array
+    film: Array
 
 
 def losses_along(
@@ -62,7 +66,10 @@ def losses_along(
     power = np.zeros((count, temperatures.size, len(LOSS_SOURCES)))
     torque = np.repeat(demand.torque[:, None], temperatures.size, axis=1)
     outside = np.zeros((count, temperatures.size, len(axle.ranges)))
-    along = LossesAlong(temperatures=temperatures, power=power, torque=torque, outside=outside)
+    film = np.zeros((count, temperatures.size, 2))
+    along = LossesAlong(
+        temperatures=temperatures, power=power, torque=torque, outside=outside, film=film
+    )
     if not np.any(turning):
         return along
     torques = torque_nodes(settings, demand.torque[turning])
@@ -90,6 +97,8 @@ def losses_along(
         power[turning, k] = loss_torque(points) * speed[:, None]
         torque[turning, k] = carried
         outside[turning, k] = RegularGridInterpolator((speeds, torques), left[k])(points)
+        of_film = np.stack([found.friction_bound[k], found.share_outside[k]], axis=-1)
+        film[turning, k] = RegularGridInterpolator((speeds, torques), of_film)(points)
     return along
 
 
@@ -107,15 +116,15 @@ def _with_losses(
             break
     else:
         raise ParameterError(
-            f"The pinion torque must settle to {_SETTLED:g} N.m, got a change of {change:.2g} N.m "
-            "in the last round: the losses grow faster than the torque. Check the oil and the "
-            "roughness of the axle."
+            "The iteration of the pinion torque with the losses must settle to within "
+            f"{_SETTLED:g} N.m, got a change of {change:.2g} N.m in the last round. The losses "
+            "grow faster than the torque. Check the oil and the roughness of the axle."
         )
     if carried.max() > nodes[-1] or carried.min() < nodes[0]:
         raise ParameterError(
             f"The pinion torque with losses must be within {nodes[0]:g} to {nodes[-1]:g} N.m, got "
             f"{carried.min():.4g} to {carried.max():.4g} N.m. Run `gearlube contact` with higher "
-            "torques, or take a gentler trace."
+            "torques, or give a trace with smaller torques."
         )
     return carried
 
@@ -158,8 +167,8 @@ def _check_map(status: Array, temperatures: Array, speeds: Array, torques: Array
         return
     i, j, k = np.argwhere(status)[0]
     raise ParameterError(
-        f"The losses must be found at every point of the map, got {int((status != 0).sum())} "
-        f"without. The first is at {temperatures[i]:.1f} K, {speeds[j]:.4g} rad/s and "
+        f"The losses must be found at every point of the map, but {int((status != 0).sum())} "
+        f"points failed. The first is at {temperatures[i]:.1f} K, {speeds[j]:.4g} rad/s and "
         f"{torques[k]:.4g} N.m: {FAILURES[int(status[i, j, k])]}"
     )
 

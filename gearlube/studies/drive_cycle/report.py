@@ -26,11 +26,11 @@ _SETTINGS = {
     "conductance_at_100_kmh_w_k": ("conductance of the housing at 100 km/h", "W/K", ASSUMED),
 }
 _LIMITS = (
-    "Each step loses what the axle loses in steady running at the torque, speed and oil "
-    "temperature of its middle. Standing still loses nothing.",
+    "The loss in each step is that of steady running at the torque, speed and oil temperature in "
+    "the middle of the step. At standstill nothing is lost.",
     "One temperature for oil and housing; heat from brakes, gearbox and exhaust is left out.",
-    "With draws, low and high hold 95 % of the draws of all uncertain data; without, the assumed "
-    "heat data alone. The dashed temperatures hold the heat data alone.",
+    "With draws, low and high contain 95 % of the draws of all uncertain data; without draws they "
+    "contain only the assumed heat data. The dashed temperatures contain only the heat data.",
 )
 
 
@@ -64,7 +64,7 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
     return [
         Figure(
             name="demand",
-            title="What the cycle asks for",
+            title="Speed and torque of the cycle",
             caption="Vehicle speed, and the torque on the pinion; below zero the car coasts or "
             "brakes through the axle.",
             chart=demand_chart(dataset),
@@ -72,8 +72,7 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
         Figure(
             name="losses",
             title="Power lost by source",
-            caption="Areas add up. Peaks are pulls at high torque; what stays between them is "
-            "drag.",
+            caption="Areas add up. Peaks come from high torque; the level between them is drag.",
             chart=loss_chart(dataset),
         ),
         Figure(

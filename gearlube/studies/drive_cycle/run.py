@@ -96,7 +96,7 @@ def run_cycle(
         spread = cycle_spread(settings, demand, losses, bars)
     dataset = cycle_dataset(settings, demand, losses, warming, others, spread)
     if folder is not None:
-        progress(1.0, "files and figures")
+        progress(1.0, "writing files and figures")
         folder.mkdir(parents=True, exist_ok=True)
         write_dataset(dataset, folder / "drive_cycle.nc")
         write_text(csv_text(*series_rows(dataset)), folder / "drive_cycle.csv")
@@ -119,6 +119,6 @@ def _check_oil(settings: DriveCycleSettings, temperature: np.ndarray) -> None:
     if beyond.size:
         raise ParameterError(
             f"The oil temperature must be at most {oil.temperature_high:g} K, the end of the data "
-            f"of {oil.name}; it is above from {settings.cycle.time[beyond[0]]:g} s on, up to "
+            f"of {oil.name}; it is above this from {settings.cycle.time[beyond[0]]:g} s on, up to "
             f"{temperature.max():.4g} K. Take larger conductances or a larger heat capacity."
         )

@@ -103,13 +103,13 @@ def _number(path: Path, column: str, i: int, row: list[str], place: int, width: 
     where = f"row {i + 1} of {path}"
     if len(row) != width:
         raise ParameterError(
-            f"{where} must have {width} fields, got {len(row)}. Put one mark between the columns, "
-            "and a point in decimal numbers."
+            f"{where} must have {width} fields, got {len(row)}. Separate columns by one character, "
+            "and write decimal numbers with a point."
         )
     try:
         return float(row[place])
     except ValueError:
         raise ParameterError(
             f"{column} in {where} must be a number, got {row[place]!r}. Write 3.5, not 3,5, and "
-            "leave nothing empty."
+            "leave no field empty."
         ) from None

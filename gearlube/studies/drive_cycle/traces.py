@@ -73,8 +73,8 @@ class DriveCycle:
             )
         if measured and self.grade is not None:
             raise ParameterError(
-                f"{self.name} has a measured torque, got a grade as well, which that torque "
-                "holds already. Remove the grade."
+                f"{self.name} has a measured torque, which includes the effect of the grade, but "
+                "got a grade too. Remove the grade."
             )
         for name in ("time", *self._given(), "grade"):
             values = getattr(self, name)
@@ -140,10 +140,9 @@ class DriveCycle:
         if np.any(bad):
             row = int(np.argmax(bad)) + 1
             raise ParameterError(
-                f"The acceleration of {self.name} must be within {-HARDEST[1]:g} to "
-                f"{HARDEST[0]:g} m/s2, which is what tyres hold; got {gained[row - 1]:.3g} m/s2 "
-                f"before row {row + 1}. Smooth the speed if it is noise. {kmh} Times are in "
-                "seconds."
+                f"The acceleration of {self.name} must be within {-HARDEST[1]:g} to {HARDEST[0]:g} "
+                f"m/s2, the most that tyres can transmit; got {gained[row - 1]:.3g} m/s2 before "
+                f"row {row + 1}. Smooth the speed if it is noise. {kmh} Times are in seconds."
             )
 
     def _within(self, name: str, low: float, high: float, unit: str, cure: str) -> None:

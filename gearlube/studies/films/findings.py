@@ -128,13 +128,13 @@ def _steady(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             NOTE,
             f"The largest pressure is {quantity_text(1e-9 * of['pressure_max'], 'GPa')}.",
-            f"{100.0 * hertz:+.1f} % against Hertz {dry}.",
+            f"{100.0 * hertz:+.1f} % relative to Hertz {dry}.",
         ),
     ]
     friction = abs(of["friction_coefficient"])
     if friction > 0.0:
         power = of.get("sliding_power", math.nan)
-        lost = f"{quantity_text(power, 'W')} are lost to sliding. " if power > 0.0 else ""
+        lost = f"{quantity_text(power, 'W')} are lost by sliding. " if power > 0.0 else ""
         warm = "With" if math.isfinite(of.get("temperature_max", math.nan)) else "Without"
         found.append(
             Finding(
@@ -227,7 +227,7 @@ def _hypoid(dataset: xr.Dataset) -> list[Finding]:
             _asperities(dataset),
         ),
     ]
-    return found + _compared(mean_ratios(dataset), "is on the mean")
+    return found + _compared(mean_ratios(dataset), "is on average")
 
 
 def _asperities(dataset: xr.Dataset) -> str:

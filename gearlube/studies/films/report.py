@@ -27,8 +27,8 @@ _KINDS = {
 }
 _LIMITS = (
     "The bodies are elastic half-spaces; the oil is that of the case, without history.",
-    "The film fills its inlet: starvation is in it only where the case has it.",
-    "Where the film is thinner than the roughness, asperities carry load that is not in it.",
+    "The inlet is full of oil; starvation is included only if the case has it.",
+    "Where the film is thinner than the roughness, asperities carry load; this is not included.",
 )
 _UNITS = {
     "m": (1e6, "µm"), "Pa": (1e-9, "GPa"), "N/m": (1e-3, "N/mm"), "1": (1.0, ""),

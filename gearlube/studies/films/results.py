@@ -76,7 +76,7 @@ def finished(
     `share` of the run was done before.
     """
     if folder is not None:
-        progress(share, "files and figures")
+        progress(share, "writing files and figures")
         write_film_results(dataset, folder)
     progress(1.0, "done")
     return dataset
@@ -95,8 +95,7 @@ def read_march(path: Path) -> xr.Dataset:
         dataset = xr.load_dataset(path, engine="scipy")
     except (OSError, ValueError, TypeError) as reason:
         raise ParameterError(
-            f"{path} is not the cycle of a march: {reason}. March before with "
-            "gearlube ehl helical --march."
+            f"{path} is not the cycle of a march: {reason}. Run gearlube ehl helical --march first."
         ) from None
     if dataset.attrs.get("contact") != "helical_cycle":
         raise ParameterError(f"{path} must be the cycle.nc of a march, got another dataset.")

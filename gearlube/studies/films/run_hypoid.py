@@ -67,7 +67,7 @@ def run_hypoid(
     if thermal and march:
         raise ParameterError(
             "temperature must be isothermal for a march, got thermal: transient thermal films are "
-            "not implemented. Leave the march out (--no-march)."
+            "not implemented. Add --no-march."
         )
     flank = hypoid_flank(case)
     _warn_of_separation(flank)
@@ -125,4 +125,6 @@ def run_hypoid(
 
 def _warn_of_separation(flank: HypoidFlank) -> None:
     if flank.case.load == "dynamic" and not np.isfinite(flank.drive.axle_film).all():
-        logger.warning("The axle gives no film at some samples: its teeth separate there.")
+        logger.warning(
+            "The axle model gives no film at some samples, because its teeth separate there."
+        )

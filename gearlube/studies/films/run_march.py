@@ -122,7 +122,9 @@ def run_helical_march(
     for step in steps.snapshots:
         check_within("snapshots", step, first, last, "", "Name steps of the march.")
     if steps.snapshots and folder is None:
-        raise ParameterError("snapshots need a folder to write them to, got None. Give a folder.")
+        raise ParameterError(
+            "snapshots need a folder in which they are written, got none. Give a folder."
+        )
     warn_of_ends(film)
     key = march_key(film, first)
     begin(folder, progress, "steady film at the first step")
@@ -157,7 +159,7 @@ def run_helical_march(
     start = solve_helical_line(film, float(first), MARCH_SETTINGS, throw=False)
     steady: dict[int, FilmSolution] = {}
     for done, step in enumerate(steps.snapshots, last - first):
-        report(done, f"step {step} at rest")
+        report(done, f"steady film at step {step}")
         steady[step] = solve_helical_line(film, float(step), MARCH_SETTINGS, throw=False)
         if folder is not None:
             _finish_snapshot(folder, step, key, steady[step])
@@ -174,8 +176,8 @@ def _finish_snapshot(folder: Path, step: int, key: str, steady: FilmSolution) ->
     stored = xr.load_dataset(path, engine="scipy") if path.exists() else None
     if stored is None or stored.attrs.get("march") != key:
         logger.warning(
-            "The march passed step %d before its film was asked for. For %s, march into another "
-            "folder.", step, path.name,
+            "The march has already passed step %d, so its film cannot be kept. For %s, run it "
+            "with another folder.", step, path.name,
         )  # fmt: skip
         return
     write_film_results(with_steady_film(stored, steady), folder)

@@ -180,7 +180,8 @@ def warn_of_ends(film: HelicalFilm) -> None:
     """Warn where lines end at the full face width."""
     if film.modified.pinion.crown is None and film.modified.gear.crown is None:
         logger.warning(
-            "Neither flank is crowned: the line ends abruptly, where the film may not converge."
+            "Neither flank is crowned, so the contact line ends abruptly. The film may not "
+            "converge there."
         )
 
 
@@ -190,7 +191,7 @@ def warn_of_grid(dataset: xr.Dataset) -> None:
     large = {name: error for name, error in largest.items() if error > LARGE_ERROR}
     if large:
         logger.warning(
-            "The grid makes an estimated error of %s. Take more nodes, or ask for an error of the "
+            "The estimated error by the grid is %s. Take more nodes, or ask for an error of the "
             "films (film_error, --film-error).",
             ", ".join(f"{100.0 * error:.2g} % of the {name}" for name, error in large.items()),
         )
@@ -199,6 +200,6 @@ def warn_of_grid(dataset: xr.Dataset) -> None:
 def _warn_of_heights(case: LineCase | PointCase) -> None:
     if case.heights_travel:
         logger.warning(
-            "The heights are held at rest while both surfaces move. Those that do not lie along "
-            "the motion would travel through the contact and squeeze its film."
+            "The heights do not move, but both surfaces do. Heights that vary along the motion "
+            "would in fact travel through the contact and squeeze the film."
         )

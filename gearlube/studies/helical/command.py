@@ -38,6 +38,9 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
 
 logger = logging.getLogger("gearlube")
 
+# units of the table on the terminal; the summary file stays in SI
+_SHOWN = {"m": (1e6, "µm"), "N/m": (1e-6, "N/µm"), "1": (1.0, "")}
+
 
 class HelicalCommand(MultiValueCommand):
     """A command with options that take several values."""
@@ -213,20 +216,22 @@ def helical(
     for name, reason in results.failures.items():
         logger.error("%s: %s", name, reason)
     if results.interrupted:
-        logger.warning("Stopped. Run the same command again to go on from %s.", out / run.PARTS)
+        logger.warning("Stopped. Run the same command again to continue from %s.", out / run.PARTS)
         raise typer.Exit(INTERRUPTED)
     if results.failures:
         raise typer.Exit(FAILED)
 
 
 def _table(name: str, rows: list[Row]) -> Table:
+    from gearlube.report.numbers import number_text
+
     table = Table(title=f"{name}: helical pair")
     for heading in ("", "quantity", "value", "unit"):
         table.add_column(heading, justify="right" if heading == "value" else "left")
     topic = ""
     for row in rows:
-        table.add_row(
-            "" if row.topic == topic else row.topic, row.quantity, f"{row.value:.4g}", row.unit
-        )
+        factor, unit = _SHOWN.get(row.unit, (1.0, row.unit))
+        value = number_text(factor * row.value, 4)
+        table.add_row("" if row.topic == topic else row.topic, row.quantity, value, unit)
         topic = row.topic
     return table

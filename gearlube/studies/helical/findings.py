@@ -122,7 +122,8 @@ def _transmission_error(sweep: xr.Dataset) -> list[Finding]:
             Finding(
                 WARNING,
                 "The vibration is unstable at some speeds of the sweep.",
-                "There sweep.nc has no values. More damping or less swing of the stiffness helps.",
+                "sweep.nc has no values there. More damping or a smaller swing of the stiffness "
+                "helps.",
             )
         )
     return found
@@ -204,8 +205,8 @@ def _edges(contact: xr.Dataset) -> list[Finding]:
             WARNING,
             f"Sharp edges of tips or ends press at {torque:.4g} N·m, with up to "
             f"{quantity_text(highest, 'GPa')}.",
-            "Such a pressure has no finite value, it rises with finer cells: read it as a place. "
-            "Tip and end relief in the gear file remove it.",
+            "This pressure has no meaning as a number, because it rises with finer cells: it only "
+            "shows the place. Tip and end relief in the gear file remove it.",
         )
     ]
 
@@ -243,7 +244,7 @@ def _film(film: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             film_ratio_level(ratio),
-            f"The least film ratio λ is {ratio:.2f}, the mean coefficient of friction "
+            f"The smallest film ratio λ is {ratio:.2f}, the mean coefficient of friction "
             f"{of['operating_mean_coefficient']:.4f}, and the mesh loses "
             f"{quantity_text(of['operating_power_loss'], 'W')}.",
             f"Film over a composite roughness of {1e6 * of['roughness_rms']:.3g} µm, at "

@@ -24,11 +24,11 @@ from gearlube.studies.helical.settings import RPM
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 
 _LIMITS = (
-    "Response and sweep are linear with a stiffness that varies over the mesh: they hold while the "
-    "teeth stay in contact. Where they separate, see tooth separation.",
+    "Response and sweep are linear with a stiffness that varies over the mesh: they are valid "
+    "while the teeth stay in contact. For separating teeth see tooth separation.",
     "Supports are springs at the bearings; shafts and housing are rigid.",
-    "Loads of film and losses are static. Bearings, seals, churning and windage are not in the "
-    "losses.",
+    "Loads of film and losses are static. The losses do not include bearings, seals, churning and "
+    "windage.",
     "Pressures are those of an elastic half-space on cells; at sharp edges they have no finite "
     "value.",
 )

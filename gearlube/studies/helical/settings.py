@@ -132,11 +132,11 @@ class HelicalSettings:
             if any(np.diff(values) <= 0.0):
                 raise ParameterError(f"{name} must rise, got {values}. Sort them.")
         if not self.mu:
-            raise ParameterError("mu must name one coefficient at least, got none. Try 0:0.3:0.01.")
+            raise ParameterError("mu must have at least one coefficient, got none. Try 0:0.3:0.01.")
         if self.density is not None:
             if self.mesh == "contact":
                 raise ParameterError(
-                    "density must not be given with mesh contact, which computes it, got "
+                    "density cannot be given with mesh contact, which computes the stiffness, got "
                     f"{self.density:g} N/m2. Leave it out, or take mesh density."
                 )
             cure = "About 1.3e10 N/m2 is usual for steel."
@@ -154,7 +154,9 @@ class HelicalSettings:
         for temperature in self.oil_temperatures:
             self.film().oil.check_temperature(temperature, "oil_temperatures")
         if any(np.diff(self.oil_temperatures) <= 0.0):
-            raise ParameterError(f"oil_temperatures must rise, got {self.oil_temperatures}.")
+            raise ParameterError(
+                f"oil_temperatures must rise, got {self.oil_temperatures}. Sort them."
+            )
         check_within("draws", self.draws, 0, 10_000, "", "60 are usual.")
         check_within("separation_speeds", self.separation_speeds, 0, 5000)
         check_within("speed_count", self.speed_count, 2, 2000)

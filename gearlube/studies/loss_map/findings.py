@@ -94,7 +94,7 @@ def _best(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             NOTE,
-            f"The axle is at best {100.0 * float(best['efficiency']):.1f} % efficient, at "
+            f"The axle is at most {100.0 * float(best['efficiency']):.1f} % efficient, at "
             f"{words_of(best)}.",
             f"Over the map the mean is {100.0 * float(efficiency.mean()):.1f} %, where less than "
             "half of the input is lost.",
@@ -208,10 +208,10 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             film_ratio_level(least),
-            f"The least film ratio λ of a flank is {quantity_text(least, '', 2)}, at "
+            f"The smallest film ratio λ of a flank is {quantity_text(least, '', 2)}, at "
             f"{words_of(worst)}.",
-            f"Below {MIXED:g}, where asperities carry much of the load, are {mixed:.0f} % of the "
-            "points.",
+            f"It is below {MIXED:g}, where asperities carry much of the load, at {mixed:.0f} % of "
+            "the points.",
         )
     ]
 

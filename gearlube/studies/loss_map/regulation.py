@@ -99,8 +99,8 @@ def regulation_map(
     """
     if raised and settings.draws < _LEAST_DRAWS:
         raise ParameterError(
-            f"draws must be at least {_LEAST_DRAWS} for a raised loss, got {settings.draws}. "
-            "Take 60, or leave the raise out."
+            f"draws must be at least {_LEAST_DRAWS} if the loss is raised by its error bar, got "
+            f"{settings.draws}. Take 60, or do not raise the loss."
         )
     axle, ratio = settings.axle, settings.axle.mesh.ratio
     torques, speeds, _ = settings.grid
@@ -119,13 +119,13 @@ def regulation_map(
         )
     carried, lost = np.empty((count, wheels.size)), np.empty((count, wheels.size))
     for j in range(count):
-        progress(j / count, "wheel torques")
+        progress(j / count, "losses at wheel torques")
         turning = rpm_to_rads(SPEED_STEP * (j + 1)) * ratio
         carried[j], lost[j] = _at_wheels(settings, wheels / ratio, turning, low, high)
     within = np.all((carried >= low) & (carried <= high), axis=0)
     if raised:
         for j in range(count):
-            progress(j / count, "uncertainty")
+            progress(j / count, "error bars")
             turning = rpm_to_rads(SPEED_STEP * (j + 1)) * ratio
             lost[j, within] += _excess(settings, carried[j, within], lost[j, within], turning)
     # pinion torque and loss at the lowest speed hold at rest as well
@@ -162,8 +162,8 @@ def _at_wheels(
         failed = np.flatnonzero(found.status[0, 0])
         if failed.size:
             raise ParameterError(
-                f"The loss must be found at every point, got none at {speed:.4g} rad/s and "
-                f"{carried[failed[0]]:.4g} N.m: {FAILURES[int(found.status[0, 0, failed[0]])]}"
+                f"The loss must be found at every point, but none was found at {speed:.4g} rad/s "
+                f"and {carried[failed[0]]:.4g} N.m: {FAILURES[int(found.status[0, 0, failed[0]])]}"
             )
         lost = found.total[0, 0] / speed
         change = float(np.abs(asked + lost - carried).max())
@@ -171,8 +171,9 @@ def _at_wheels(
         if change < _SETTLED:
             return carried, lost
     raise ParameterError(
-        f"The pinion torque must settle to {_SETTLED:g} N.m, got a change of {change:.2g} N.m in "
-        "the last round: the losses grow faster than the torque. Check oil and roughness."
+        f"The iteration of the pinion torque with the losses must settle to within {_SETTLED:g} "
+        f"N.m, got a change of {change:.2g} N.m in the last round. The losses grow faster than the "
+        "torque. Check oil and roughness."
     )
 
 

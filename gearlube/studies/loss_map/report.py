@@ -24,12 +24,12 @@ _COOLING = {
     "conductance_at_100_kmh_w_k": ("conductance of the housing at 100 km/h", "W/K"),
 }
 _LIMITS = (
-    "Steady running: each point is at rest in torque, speed and oil temperature. Vibration adds "
+    "Steady running: torque, speed and oil temperature are constant at each point. Vibration adds "
     "no loss here.",
     "Films and friction are from formulas, not from a solution of the film; the oil temperature is "
     "that at the inlet of the flanks.",
-    "The error bar holds the uncertain data and laws of the table; what is not modelled is not in "
-    "it.",
+    "The error bar contains the uncertain data and laws of the table, but not what is left out of "
+    "the model.",
 )
 
 

@@ -83,7 +83,7 @@ def run_loss_map(
         )
         dataset = with_steady_temperature(dataset, settings.cooling, *steady)
     if folder is not None:
-        progress(1.0, "files and figures")
+        progress(1.0, "writing files and figures")
         folder.mkdir(parents=True, exist_ok=True)
         write_dataset(dataset, folder / "map.nc")
         write_exports(dataset, folder)

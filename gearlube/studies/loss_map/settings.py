@@ -80,8 +80,8 @@ class LossMapSettings:
             chosen = default if values is None else np.atleast_1d(np.asarray(values, dtype=float))
             if chosen.ndim != 1 or chosen.size == 0 or np.any(np.diff(chosen) <= 0.0):
                 raise ParameterError(
-                    f"{name} must be a list of rising numbers, got {chosen}. Sort it, and remove "
-                    "what stands twice."
+                    f"{name} must be a list of rising numbers, got {chosen}. Sort the list, and "
+                    "remove values that occur twice."
                 )
             object.__setattr__(self, name, chosen)
         if self.cooling is not None:

@@ -26,7 +26,7 @@ def flank_findings(flanks: xr.Dataset) -> list[Finding]:
     """
     found = [_flank(flanks.sel(flank=name), str(name)) for name in flanks["flank"].values]
     if not found:
-        found = [Finding(NOTE, "No deviations of flanks were given: the flanks stay nominal.")]
+        found = [Finding(NOTE, "No deviations of flanks were given, so the flanks are nominal.")]
     if "setting" in flanks:
         found.append(_settings(flanks))
     if flanks.attrs["single_teeth"]:
@@ -34,8 +34,8 @@ def flank_findings(flanks: xr.Dataset) -> list[Finding]:
             Finding(
                 NOTE,
                 "Pitch, eccentricity or waves of single teeth are not in the gear file.",
-                "`gearlube contact` takes all teeth alike; then `gearlube measured --table` adds "
-                "what single teeth do.",
+                "`gearlube contact` treats all teeth as equal; after it, `gearlube measured "
+                "--table` adds the differences from tooth to tooth.",
             )
         )
     return found
@@ -55,7 +55,7 @@ def _flank(part: xr.Dataset, name: str) -> Finding:
         f"Mean of {int(part['teeth'])} teeth, which are {quantity_text(_MICRO * apart, 'µm', 2)} "
         "rms from it."
         + (
-            " What is left is as large as a mesh order: raise the degree, or look for a bad point."
+            " The rest is as large as a mesh order: raise the degree, or look for a wrong point."
             if rough
             else ""
         ),
@@ -153,9 +153,9 @@ def tooth_findings(teeth: xr.Dataset) -> list[Finding]:
     found.append(
         Finding(
             NOTE,
-            "What repeats with the hunting turn alone is at most "
+            "The part that repeats only when the same teeth meet again (hunting turn) is at most "
             f"{quantity_text(float(rest.max()), 'µm', 2)} rms.",
-            "It is left out of the mesh table.",
+            "It is not in the mesh table.",
         )
     )
     return found

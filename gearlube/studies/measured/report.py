@@ -31,7 +31,7 @@ def flank_report(flanks: xr.Dataset, picture: Path) -> Report:
         study="measured",
         title=f"Measured flanks of {attributes['name']}",
         subtitle=f"{flanks.sizes['flank']} flanks, {attributes['source']}; smooth surfaces of "
-        f"degree {attributes['degree']} are laid on the nominal flanks.",
+        f"degree {attributes['degree']} are added to the nominal flanks.",
         findings=flank_findings(flanks),
         numbers=flank_numbers(flanks),
         figures=[
@@ -39,16 +39,17 @@ def flank_report(flanks: xr.Dataset, picture: Path) -> Report:
             Figure(
                 name="flanks",
                 title="Deviations, smooth surfaces and what they leave",
-                caption="Red: more material than nominal. A pattern in the rest is a form that the "
-                "surface is too smooth for; noise without pattern is that of measuring.",
+                caption="Red: more material than nominal. A pattern in the rest is a form that "
+                "the smooth surface cannot follow; noise without a pattern comes from "
+                "measuring.",
                 picture=picture.read_bytes(),
             ),
         ],
         tables=[*tables, _flank_table(flanks)],
         inputs=file_inputs(HypoidGearFile.model_validate_json(attributes["gear_file"])),
         limits=(
-            "The mean of the measured teeth is laid on all teeth.",
-            "Outside of the measured grid the surface is carried on; keep its degree low.",
+            "All teeth get the mean of the measured teeth.",
+            "Outside the measured grid the surface is extrapolated; keep its degree low.",
             "Roughness is not in a smooth surface.",
         ),
         facts=[("source", str(attributes["source"]))],
@@ -81,7 +82,9 @@ def _map(flanks: xr.Dataset, name: str) -> Figure:
 def _flank_table(flanks: xr.Dataset) -> Table:
     return Table(
         title="Measured flanks",
-        caption="Rest: what the smooth surface leaves. Apart: how far teeth are from their mean.",
+        caption=(
+            "Rest: difference from the smooth surface. Apart: how far teeth are from their mean."
+        ),
         columns=[
             Column("flank"),
             Column("teeth"),
@@ -138,8 +141,8 @@ def tooth_report(teeth: xr.Dataset) -> Report:
                 name="orders",
                 title="Orders of the turns",
                 caption="Amplitudes added to the transmission error, by orders of each member's "
-                "turn, at the highest torque on the drive flanks. Sidebands stand on both sides of "
-                "the mesh orders.",
+                "turn, at the highest torque on the drive flanks. Sidebands are on both "
+                "sides of the mesh orders.",
                 chart=_order_chart(teeth),
             ),
             *(_turn(teeth, member) for member in members_of(teeth)),
@@ -154,7 +157,8 @@ def tooth_report(teeth: xr.Dataset) -> Report:
         ],
         limits=(
             "Quasi-static: the mesh table carries these errors into the dynamics.",
-            "What repeats with the hunting turn alone is not in the mesh table; a table shows it.",
+            "The part that repeats only when the same teeth meet again (hunting turn) is not in "
+            "the mesh table; a table shows it.",
             "Orders above a quarter of the positions times the teeth are not kept.",
         ),
         files=(f"{attributes['name']}.nc", "tooth_errors.nc", "tooth_errors.png"),

@@ -39,8 +39,8 @@ def fitted_settings(
         if not grids:
             measured = ", ".join(grid.name for grid in flanks.grids.values()) or "none"
             raise ParameterError(
-                f"settings of {role!r} need its measured flanks, measured are: {measured}. Fit "
-                "fields of pinion or gear whose deviations are there."
+                f"settings of {role!r} can be fitted only if its flanks were measured; measured "
+                f"flanks: {measured}. Fit fields of a member whose deviations are in the file."
             )
         own = [field for field in fields if field.partition(".")[0] == role]
         found.append(fit_settings(flanks.nominal, grids, own))

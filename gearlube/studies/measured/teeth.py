@@ -100,14 +100,14 @@ def run_tooth_errors(
     flanks = read_measured_flanks(path)
     if flanks.errors.is_none:
         raise ParameterError(
-            f"{path} must name pitch, waviness or an eccentricity, got none: all teeth are alike. "
-            "The table of `gearlube contact` is complete then."
+            f"{path} must name pitch, waviness or an eccentricity, got none, so all its teeth are "
+            "equal. Use the table of `gearlube contact` as it is."
         )
     file, nominal = flanks.gear_file(), read_mesh_table(table).without_shaft_error()
     settings = CycleSettings(positions=positions)
-    progress(0.0, "tooth compliance")
+    progress(0.0, "elastic teeth")
     stiffness = pair_stiffness(file, body or ToothBodySettings(), jobs=jobs)
-    progress(0.0, "single pairs")
+    progress(0.0, "loaded contact of single tooth pairs")
     cycle = tooth_error_cycle(
         file,
         stiffness,

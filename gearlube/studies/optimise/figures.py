@@ -93,7 +93,7 @@ def whine_against_loss(dataset: xr.Dataset) -> Any:
         ax = figure.subplots()
         ax.plot(dataset["front_whine"], dataset["front_loss"], "o-", color=BLUE, label="after")
         ax.plot(1.0, 1.0, "s", color=VERMILLION, label="before")
-        ax.set(xlabel="mesh orders over those before", ylabel="sliding loss over that before")
+        ax.set(xlabel="mesh orders, relative to before", ylabel="sliding loss, relative to before")
         ax.set_xlim(left=0.0)
         ax.legend()
     return figure

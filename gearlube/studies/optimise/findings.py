@@ -78,7 +78,7 @@ def _decibels(dataset: xr.Dataset) -> Finding:
     return Finding(
         GOOD if max(changes.values()) < 0.0 else WARNING,
         f"All mesh orders together change by {_told(changes)}.",
-        f"Of the pair without errors: {sizes}; the root of the sum of squares.",
+        f"For the pair without errors: {sizes} (root of the sum of squares).",
     )
 
 
@@ -101,7 +101,7 @@ def _errors(dataset: xr.Dataset) -> list[Finding]:
             GOOD if max(changes.values()) < 0.0 else WARNING,
             f"With the worst of {dataset.sizes['error'] - 1} errors they change by "
             f"{_told(changes)}.",
-            f"Most is left under the error {_error_words(dataset['error'].values[error])}.",
+            f"They are largest with the error {_error_words(dataset['error'].values[error])}.",
         )
     ]
 
@@ -129,7 +129,7 @@ def _limits(rows: list[MeasureRow]) -> list[Finding]:
             Finding(
                 NOTE,
                 f"{len(active)} of {len(limited)} limits are active: {told}.",
-                "They hold the result back: looser ones would give lower mesh orders.",
+                "They limit the result: looser ones would give lower mesh orders.",
             )
         )
     elif limited and not broken:

@@ -24,7 +24,8 @@ _MOST_FIELDS = 8  # that a table of the front shows
 _UNITS = {"um": "µm", "deg": "°", "urad": "µrad", "1": ""}
 _LIMITS = (
     "Mesh orders are those of the static loaded transmission error, not at a resonance.",
-    "The best near the start of the search, not the best of all: try other starts.",
+    "The result is the best pair near the start of the search, perhaps not the best of all: try "
+    "other starts.",
     "The elastic teeth are those of the pair as it is; shafts, bearings and housing are rigid.",
     "Errors are taken one at a time, with both signs.",
 )
@@ -52,9 +53,9 @@ def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:
         study="optimise",
         title=f"Quieter flanks: {attributes['name']}",
         subtitle=f"Better flanks of {attributes['pair']}: {sizes['parameter']} fields may change, "
-        f"at {torques} N·m, with {'no' if count == 0 else count} errors of assembly and making, "
-        f"aim {attributes['aim']}. All numbers are from the plain loaded analysis with "
-        f"{sizes['phase']} mesh phases; errors are rotations of the pinion.",
+        f"at {torques} N·m, with {'no' if count == 0 else count} errors of assembly and "
+        f"making, aim {attributes['aim']}. All numbers come from the full loaded analysis "
+        f"with {sizes['phase']} mesh phases; errors are rotations of the pinion.",
         findings=findings(dataset),
         numbers=numbers(dataset),
         figures=_figures(dataset),
@@ -91,8 +92,8 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
             Figure(
                 name="errors",
                 title="Mesh orders with errors",
-                caption="All orders together under each error of assembly and making. The nearer "
-                "the points of a pair are to each other, the less errors matter.",
+                caption="All orders together under each error of assembly and making. The closer "
+                "together the points of a pair are, the less the errors matter.",
                 chart=_scatter_chart(dataset),
             )
         )
@@ -104,8 +105,8 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
             Figure(
                 name="front",
                 title="Mesh orders against loss",
-                caption="The least loss for each level of the mesh orders, on the coarse cells of "
-                "the search.",
+                caption="The smallest loss for each level of the mesh orders, with the coarse "
+                "cells of the search.",
                 chart=line_chart([front, before], *axes),
             )
         )
@@ -261,8 +262,8 @@ def _error_tables(dataset: xr.Dataset) -> list[Table]:
         found.append(
             Table(
                 title="Mesh orders against loss",
-                caption="Over those before, on the coarse cells of the search, with the fields of "
-                "each pair; optimise.nc has them all.",
+                caption="Relative to before, with the coarse cells of the search, and with the "
+                "fields of each pair; optimise.nc has all pairs.",
                 columns=[
                     Column("mesh orders"),
                     Column("sliding loss", digits=4),

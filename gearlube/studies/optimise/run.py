@@ -76,7 +76,7 @@ def run_optimise(
     found = optimise(problem, settings, folder=folder, jobs=jobs, progress=progress)
     results = OptimiseResults(optimised=found, dataset=optimise_dataset(found))
     if folder is not None:
-        progress(1.0, "figures")
+        progress(1.0, "writing report and figures")
         write_optimise(results, folder, command_line)
     return results
 

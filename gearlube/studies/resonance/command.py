@@ -134,7 +134,7 @@ def resonance(
         page = write_resonance_report(results.response, out, results.load, command_line())
         tell_findings(findings(results.response, results.load), page)
     if results.interrupted:
-        logger.warning("Stopped. What was found until then is in %s.", out)
+        logger.warning("Stopped. The results found so far are in %s.", out)
         raise typer.Exit(INTERRUPTED)
 
 
@@ -146,8 +146,8 @@ def _mesh(name: str, mismatch: float, radii: str, torque: float) -> MeshTable:
     check_within("--mismatch", mismatch, -5.0, 5.0, "percent", "0.3 is usual.")
     if mismatch != 0.0 and (name != "synthetic" or radii != "paper"):
         raise ParameterError(
-            f"--mismatch must be 0 with --mesh {name} and --radii {radii}, got {mismatch:g}. "
-            "It is of use with --mesh synthetic and --radii paper."
+            f"--mismatch must be 0 with --mesh {name} and --radii {radii}, got {mismatch:g}. It "
+            "works only with --mesh synthetic and --radii paper."
         )
     if name == "shipped":
         return shipped_mesh_table("mohammadpour_2015")

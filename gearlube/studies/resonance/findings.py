@@ -217,7 +217,7 @@ def _beside(every: dict[str, ModelSummary], model: str) -> list[Finding]:
         Finding(
             NOTE,
             f"The largest response of simpler models is {', '.join(told)}.",
-            f"Beside {quantity_text(_MICRO * own, 'µm')}, {MODELS[model]}.",
+            f"Compared with {quantity_text(_MICRO * own, 'µm')}, {MODELS[model]}.",
         )
     ]
 

@@ -27,8 +27,8 @@ _LIMITS = (
     "add natural frequencies.",
     "Periodic motions that repeat after one mesh period, or two where they double; motions that "
     "never repeat are seen in the sweeps in time only.",
-    "While flanks are apart no film damps them; impacts have the damping of the mesh.",
-    "Teeth are all alike.",
+    "While flanks are apart there is no damping by a film; impacts have the damping of the mesh.",
+    "All teeth are equal.",
 )
 _COLUMNS = (
     Column("model"),

@@ -83,10 +83,10 @@ def run_resonance(
         interrupted=study.interrupted,
     )
     if folder is not None:
-        progress(1.0, "figures")
+        progress(1.0, "writing report and figures")
         write_resonance(results, folder)
     if settings.load_at is not None and not study.interrupted:
-        progress(1.0, "load")
+        progress(1.0, "response over load")
         results = replace(results, load=load_response(settings, settings.load_at, study.responses))
         if folder is not None:
             _write_load(results, folder)

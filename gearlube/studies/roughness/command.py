@@ -167,8 +167,8 @@ def make(
             raise ParameterError("Give --ra-um or --rq-um, the height of the roughness in um.")
         if width_mm is None and (along_um is not None or lay_deg != 0.0):
             raise ParameterError(
-                "--along-um and --lay-deg are of a map, got no --width-mm. Give the width of the "
-                "map, or leave them out for a profile."
+                "--along-um and --lay-deg are only for a map, but --width-mm is missing. Give the "
+                "width of the map, or leave them out for a profile."
             )
         check_within("--seed", seed, 0, 2**63)
         check_within("--points", points, 16, 1_000_000)
@@ -272,7 +272,9 @@ def stand_in(
 
         made = stand_ins.stand_in(case, seed, same_mean=same_ra)
         fast, slow = (lay.angle / DEGREE for lay in made.lays)
-        logger.info("Stand-in. Lay: fast surface %.3f deg, slow %.3f deg.", fast, slow)
+        logger.info(
+            "Made-up profiles. Lay: faster surface %.3f deg, slower surface %.3f deg.", fast, slow
+        )
         return {"full": made.full.surface, "fast": made.fast, "slow": made.slow}
 
     _run("stand-in", surfaces, out, overwrite=overwrite)

@@ -102,7 +102,8 @@ def _patch(file: str) -> HeightMap:
     surface = read_surface(file)
     if not isinstance(surface, HeightMap):
         raise ParameterError(
-            f"{file} must hold a map, got a profile. Draw it out with gearlube roughness extrude."
+            f"{file} must hold a map, got a profile. Make a map of it with gearlube roughness "
+            "extrude."
         )
     return replace(surface, periodic=(True, True), name=file)
 

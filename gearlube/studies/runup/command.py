@@ -168,7 +168,7 @@ def runup(
                 run_runup(one, folder=out, progress=part_of(progress, i / count, (i + 1) / count))
                 for i, one in enumerate(ramps)
             ]
-            progress(1.0, "report")
+            progress(1.0, "writing the report")
             write_text(summary_csv(datasets), out / "summary.csv")
             command_line = shlex.join(["gearlube", *sys.argv[1:]])
             report = write_runup_report(datasets, out, command_line)
@@ -205,11 +205,11 @@ def _check_together(
     if rate is not None:
         check_positive("--rate", rate, "rpm/s" if rpm else "km/h per s")
     if coast_torque is not None and not coast_down:
-        raise ParameterError("--coast-torque needs --coast-down, got it alone. Add that option.")
+        raise ParameterError("--coast-torque works only with --coast-down. Add that option.")
     if coast_down and (torque is None) != (coast_torque is None):
         raise ParameterError(
-            "--coast-down needs --torque and --coast-torque, or neither of them, got one. Without "
-            "both the car's own torques are taken."
+            "--coast-down needs --torque and --coast-torque, or neither of them, got one of them. "
+            "Without both, the torques follow from the car."
         )
 
 

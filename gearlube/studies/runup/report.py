@@ -25,12 +25,12 @@ from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 _DPI = 130
 _LIMITS = (
     "The axle has 8 degrees of freedom; housing and shafts do not bend. Forces are those of the "
-    "bearings on the shafts; noise of the housing is not in them.",
+    "bearings on the shafts; noise of the housing is not included.",
     "On the bench the torque on the pinion is smooth; with `--engine-orders` those of the engine "
     "act, in one gear.",
     "Natural frequencies are undamped, at the mean mesh stiffness, along the ramp's torque.",
-    "Teeth are all alike unless the mesh table has errors of single teeth, so between the mesh "
-    "orders there is no noise floor as in a measurement.",
+    "All teeth are equal unless the mesh table has errors of single teeth. So there is no noise "
+    "floor between the mesh orders, as a measurement would have.",
     "Films and friction are from formulas, see docs/ehl_hypoid.md for their error.",
 )
 _INPUTS = (

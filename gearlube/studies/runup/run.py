@@ -68,7 +68,7 @@ def run_runup(
     progress(_OF_MARCH, "orders and spectra")
     dataset = runup_dataset(settings, record)
     if out is not None:
-        progress(1.0, "file")
+        progress(1.0, "writing the file")
         out.mkdir(parents=True, exist_ok=True)
         write_compressed_dataset(dataset, out / FILES[settings.name])
         shutil.rmtree(out / "parts", ignore_errors=True)

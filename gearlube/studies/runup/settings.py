@@ -216,8 +216,8 @@ class RunupSettings:
             status = int(found.status[0, 0, 0])
             if status:
                 raise ParameterError(
-                    f"The axle must balance along the ramp, got {torque:.4g} N m at "
-                    f"{rads_to_rpm(float(speed)):.0f} rpm: {FAILURES[status]}"
+                    "The axle must have a static equilibrium along the ramp, but it has none with "
+                    f"{torque:.4g} N m at {rads_to_rpm(float(speed)):.0f} rpm: {FAILURES[status]}"
                 )
             loss[i] = found.total[0, 0, 0] / speed
         return (asked if self.pinion_torque is not None else asked + loss), loss

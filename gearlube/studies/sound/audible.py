@@ -46,7 +46,7 @@ def contributions(
         whole[i] = steady_loudness(pressure.signal[piece], field)
         for q, part in enumerate(parts):
             without[q, i] = steady_loudness((pressure.signal - part)[piece], field)
-        progress((i + 1) / count, "which order is heard")
+        progress((i + 1) / count, "finding the order that is heard")
     return (starts + 0.5 * size) / RATE, np.maximum(whole - without, 0.0), whole
 
 

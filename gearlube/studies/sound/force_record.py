@@ -130,8 +130,8 @@ def _record(dataset: xr.Dataset, name: str, where: str) -> ForceRecord:
     )
     if np.any(speed <= 0.0):
         raise ParameterError(
-            f"{SPEED} in {where} must be above 0 rad/s throughout, got {np.min(speed):.4g} rad/s. "
-            "Start the run after the pinion turns."
+            f"{SPEED} in {where} must be above 0 rad/s all the time, got {np.min(speed):.4g} "
+            "rad/s. Start the record when the pinion already turns."
         )
     teeth = dataset.attrs.get("pinion_teeth")
     return ForceRecord(
@@ -176,14 +176,14 @@ def _values(dataset: xr.Dataset, name: str, where: str, extra: tuple[str, ...] =
     unit, allowed = variable.attrs.get("units"), _UNITS[name]
     if unit not in allowed:
         raise ParameterError(
-            f"{name} in {where} must say its unit, units = {allowed[0]!r}, got "
+            f"{name} in {where} must have a unit, units = {allowed[0]!r}, got "
             f"{'none' if unit is None else repr(unit)}. Convert it and set the attribute."
         )
     values = variable.transpose(*wanted).values.astype(np.float64)
     bad = np.flatnonzero(~np.isfinite(values.reshape(values.shape[0], -1)).all(axis=1))
     if bad.size:
         raise ParameterError(
-            f"{name} in {where} must be finite throughout, got a gap of {bad.size} samples, the "
+            f"{name} in {where} must be finite all the time, got a gap of {bad.size} samples, the "
             f"first at sample {bad[0]}. Cut the record before it, or run the study again."
         )
     return values

@@ -77,7 +77,7 @@ def engine() -> str:
             return name
     raise ParameterError(
         "Loudness and the other metrics need the package phonometry (Python 3.13 or newer) or "
-        f"mosqito, none is installed. Install them: {INSTALL}. Or leave the metrics out: "
+        f"mosqito, but neither is installed. Install one: {INSTALL}. Or leave the metrics out: "
         "--metrics none."
     )
 

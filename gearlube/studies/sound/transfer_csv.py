@@ -104,7 +104,7 @@ def _meaning(heading: str, file: Path) -> tuple[str, str, str]:
     """Return path, part and unit of a heading."""
     found = _HEADING.match(heading)
     if found is None:
-        raise ParameterError(f"The heading {heading!r} of {file} must say its unit. {_CURE}")
+        raise ParameterError(f"The heading {heading!r} of {file} must contain its unit. {_CURE}")
     what, unit = found["what"], found["unit"].strip().replace("µ", "u").replace("μ", "u")
     if what.lower() == "frequency":
         if unit != "Hz":

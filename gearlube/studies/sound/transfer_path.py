@@ -40,7 +40,7 @@ class TransferPath:
         if f.ndim != 1 or f.size < 2 or not np.all(np.diff(f) > 0.0) or f[0] < 0.0:
             raise ParameterError(
                 f"The frequencies of {self.source} must rise from 0 Hz or above, at least two of "
-                f"them, got {f.size}. Sort the rows and drop what is double."
+                f"them, got {f.size}. Sort the rows and remove repeated ones."
             )
         for path, response in self.responses.items():
             if response.shape != f.shape or not np.all(np.isfinite(response)):
@@ -62,7 +62,7 @@ class TransferPath:
             raise ParameterError(
                 f"The transfer path {self.source} must have a response for every force of the run; "
                 f"missing: {', '.join(missing)}; got {', '.join(self.responses) or 'none'}. Name "
-                "the columns so; for a path that is not measured give zeros."
+                "the columns like this; give zeros for a path that was not measured."
             )
 
     def at(self, path: str, frequency: Array) -> Complex:

@@ -54,7 +54,7 @@ def chosen_axle(
     for name, path in given.items() if fmu is not None else ():
         if path is not None:
             raise ParameterError(
-                f"{name} must not be given with --fmu, which has its own, got both. Build the "
+                f"{name} cannot be combined with --fmu, which has its own, got both. Build the "
                 "FMU with it by `gearlube build-fmu`, or leave out --fmu."
             )
     if fmu is not None:
@@ -118,8 +118,9 @@ def check_operation(
             )
         if not low <= torque <= high:
             logger.warning(
-                "At %g km/h the road takes %.4g N.m at the pinion; the mesh table ends at %g and "
-                "%g N.m, and its data hold beyond. Analyse the contact at higher torques.",
+                "At %g km/h the road takes %.4g N.m at the pinion. The mesh table ends at %g and "
+                "%g N.m, and outside the values at its ends are used. Analyse the contact at "
+                "higher torques.",
                 speed, torque, low, high,
             )  # fmt: skip
 

@@ -31,7 +31,9 @@ class FmuOnWorker(NamedPlugin):
     def of_file(cls, fmu: Path) -> FmuOnWorker:
         """Return the plugin for an FMU; raise ParameterError unless it is a single file."""
         if not fmu.is_file():
-            raise ParameterError(f"A cluster needs the FMU as one file, {fmu} is none.")
+            raise ParameterError(
+                f"A cluster needs the FMU as one file, but {fmu} is no file. Give the .fmu file."
+            )
         return cls(fmu.read_bytes())
 
     def setup(self, worker: Worker) -> None:

@@ -178,8 +178,8 @@ def sweep(
         if oil is not None and oil.endswith(".toml"):
             if fmu is not None:
                 raise ParameterError(
-                    f"--oil must not be a file with --fmu, which has its oil, got {oil}. Build the "
-                    "FMU with it by `gearlube build-fmu`, or leave out --fmu."
+                    "--oil cannot be a file if --fmu is given, because the FMU has its own oil; "
+                    f"got {oil}. Build the FMU with it by `gearlube build-fmu`, or leave out --fmu."
                 )
             axle = str(axle_with_oil(axle, mesh_table, oil, Path(folder)))
             mesh_table, oil = None, None
@@ -190,8 +190,8 @@ def sweep(
         )
         if cooling is not None and oil_temperature is not None:
             raise ParameterError(
-                "--oil-temperature must not be given with --steady-temperature, which finds it, "
-                f"got {oil_temperature:g} degC. Leave one of them out."
+                "--oil-temperature cannot be combined with --steady-temperature, which computes "
+                f"it, got {oil_temperature:g} degC. Leave one of them out."
             )
         car_axle = chosen_axle(fmu, mesh_table, axle)
         if scheduler is not None:
@@ -244,7 +244,7 @@ def sweep(
                 progress=progress,
                 command_line=shlex.join(["gearlube", *sys.argv[1:]]),
             )
-            progress(1.0, "report")
+            progress(1.0, "writing the report")
             report = write_sweep_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
         computed = dataset.attrs["computed_points"]
         logger.info("%d points computed in %.1f s.", computed, dataset.attrs["wall_time"])

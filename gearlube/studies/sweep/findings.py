@@ -128,7 +128,7 @@ def _resonance(dataset: xr.Dataset) -> list[Finding]:
         return [
             Finding(
                 level,
-                f"No mesh order 1 to {ORDERS[-1]} meets a natural frequency {span}; the least "
+                f"No mesh order 1 to {ORDERS[-1]} meets a natural frequency {span}; the smallest "
                 f"margin is {100.0 * nearest.margin:.0f} %.",
                 f"That is {_crossing(nearest)}.",
             )
@@ -163,7 +163,7 @@ def _contact(dataset: xr.Dataset) -> list[Finding]:
             Finding(
                 GOOD,
                 "The teeth stay in contact at every point.",
-                f"The least transmission error is {quantity_text(least, 'µm')}; contact is lost "
+                f"The smallest transmission error is {quantity_text(least, 'µm')}; contact is lost "
                 "below zero.",
             )
         ]
@@ -225,7 +225,7 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             film_ratio_level(least),
-            f"The least film ratio λ of a loaded flank is {quantity_text(least, '', 2)}, at "
+            f"The smallest film ratio λ of a loaded flank is {quantity_text(least, '', 2)}, at "
             f"{float(point['speed_kmh']):g} km/h and preload {float(point['preload']):g} N "
             f"(film {film}).",
             film_ratio_words(least),
@@ -283,7 +283,7 @@ def _balance(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             WARNING,
-            f"The energy balance is open by up to {size}.",
+            f"The energy balance has an error of up to {size}.",
             "Use more time steps per mesh period.",
         )
     ]

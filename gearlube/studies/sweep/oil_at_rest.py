@@ -58,6 +58,6 @@ def oil_at_rest(car: CarAxle, speed_kmh: float, settings: SweepSettings) -> Swee
         if abs(found - before) < _SETTLED:
             return replace(settings, oil_temperature=found)
     raise ConvergenceError(
-        f"The oil temperature at {speed_kmh:g} km/h must settle within {_ROUNDS} rounds, got "
-        f"{abs(found - before):.3g} K in the last. Change the speed a little."
+        f"The oil temperature at {speed_kmh:g} km/h must settle within {_ROUNDS} rounds, but it "
+        f"changed by {abs(found - before):.3g} K in the last one. Change the speed a little."
     )

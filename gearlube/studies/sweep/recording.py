@@ -139,9 +139,10 @@ def record(
     while beyond < _MARGIN:
         if size == capacity:
             raise StepError(
-                f"The pinion must sweep {revolutions} rev in {capacity * h:.3f} s, it fell short: "
-                f"{float(now[b]):.2f} rad/s at the end, {speed:.2f} rad/s at the start. The driver "
-                "does not hold the speed; settle for longer or use driver 'hold'."
+                f"The pinion must turn through {revolutions} rev in {capacity * h:.3f} s, but it "
+                f"turned less: {float(now[b]):.2f} rad/s at the end, {speed:.2f} rad/s at the "
+                "start. The driver does not hold the speed; settle for longer or use driver "
+                "'hold'."
             )
         torques = driver.step(h, now[a], now[b], now[c], now[d])
         axle.step(h, *torques)

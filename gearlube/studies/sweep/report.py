@@ -46,7 +46,7 @@ _LIMITS = (
     "coasting.",
     "Natural frequencies are undamped, about the static state at the middle speed.",
     "Spectra end at 4000 Hz. Extremes are taken over the whole record.",
-    "A source of loss that is not modelled is not in the efficiency: see the findings.",
+    "The efficiency does not include sources of loss that are not modelled: see the findings.",
 )
 
 

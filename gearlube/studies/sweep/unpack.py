@@ -17,14 +17,16 @@ def unpack(fmu: Path, directory: Path) -> Path:
     """Unzip `fmu` into `directory` and return it."""
     if not fmu.is_file():
         raise ParameterError(
-            f"The FMU must be a file or an unzipped folder, {fmu} is neither. "
-            "Build it with `gearlube build-fmu`."
+            f"The FMU must be a file or an unzipped folder, but {fmu} is neither. Build it with "
+            "`gearlube build-fmu`."
         )
     try:
         with zipfile.ZipFile(fmu) as archive:
             archive.extractall(directory)
     except zipfile.BadZipFile as error:
-        raise ParameterError(f"{fmu} is no FMU: {error}. Build it again.") from error
+        raise ParameterError(
+            f"{fmu} is no FMU: {error}. Build it again with `gearlube build-fmu`."
+        ) from error
     return directory
 
 
@@ -46,7 +48,10 @@ def _description(directory: Path) -> Any:
 
     description = directory / "modelDescription.xml"
     if not description.is_file():
-        raise ParameterError(f"{directory} is no unzipped FMU: modelDescription.xml is missing.")
+        raise ParameterError(
+            f"{directory} is no unzipped FMU: modelDescription.xml is missing. "
+            "Give the .fmu file, or unzip it again."
+        )
     return etree.parse(str(description)).getroot()
 
 

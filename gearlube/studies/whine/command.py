@@ -126,8 +126,8 @@ def whine(
         hypoid = isinstance(file, HypoidGearFile)
         if hypoid and gear.endswith(".toml") and None in (pinion_inertia, gear_inertia):
             logger.warning(
-                "Inertias are those of the shipped pair, %g and %g kg m2. Give --pinion-inertia "
-                "and --gear-inertia.",
+                "The moments of inertia are those of the shipped pair, %g and %g kg m2. Give your "
+                "own with --pinion-inertia and --gear-inertia.",
                 *settings.inertias(file),
             )
         with (

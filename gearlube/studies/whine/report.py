@@ -22,11 +22,11 @@ from gearlube_core.units import rads_to_rpm
 _SPEED = Axis("pinion speed", "rpm")
 _RPM, _MICRO = rads_to_rpm(1.0), 1e6
 _LIMITS = (
-    "The pair turns with two degrees of freedom on rigid shafts and bearings; flank friction is "
-    "not in it. A car has more natural frequencies.",
+    "The pair turns with two degrees of freedom on rigid shafts and bearings; there is no flank "
+    "friction. A car has more natural frequencies.",
     "Changes are to first order: those of a small error. A change of more than a third of the "
     "amplitude is a hint only.",
-    "One torque, drive flanks. Teeth are all alike.",
+    "One torque, drive flanks. All teeth are equal.",
     "The mesh table has the orders that its positions resolve: fewer than half of them.",
 )
 
@@ -92,8 +92,9 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
             name="changes",
             title="What small errors change of the first order",
             caption="Change of the mesh force in percent of it, by a growth of each parameter by "
-            "its tolerance; point at a cell to read it. Red: louder, blue: quieter. The largest on "
-            "the mean of the speeds stand on top. Where the force is small, percents are large.",
+            "its tolerance; point at a cell to read it. Red: louder, blue: quieter. "
+            "Parameters with the largest mean over the speeds are on top. Where the force "
+            "is small, percents are large.",
             chart=_changes(dataset),
         ),
         Figure(

@@ -235,8 +235,8 @@ def _motions(
         found.append(one)
     if not any(found):
         raise ConvergenceError(
-            f"A periodic motion must exist at one of {len(settings.speeds)} speeds, none was "
-            "found. Give speeds off the resonance, or more damping."
+            f"No periodic motion was found at any of the {len(settings.speeds)} speeds. Give "
+            "speeds farther from the resonance, or more damping."
         )
     return found
 

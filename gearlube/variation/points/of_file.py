@@ -89,8 +89,8 @@ class FilePoint(Generic[File]):
         unread = [name for name in tolerances if name.startswith(self.unused)]
         if unread:
             raise ParameterError(
-                f"The tolerance of {unread[0]} must be of a field that the study {self.name} "
-                "reads, got one that it does not. Take it away, or vary an operand of `--keys`."
+                f"The file has a tolerance of {unread[0]}, but the study {self.name} does not use "
+                "this field. Remove the tolerance; `--keys` lists what can be varied."
             )
         return scatter_of(self.subject, tolerances, values_of(self.file.model_dump()))
 

@@ -130,7 +130,7 @@ class ResonancePoint:
         summary, rows = summaries(dataset)[0], dataset.sel(model=_MODEL)
         stable = rows["stable"].values > 0.5
         if not stable.any():
-            raise ConvergenceError("no motion of the range is stable. Widen the range.")
+            raise ConvergenceError("No motion in the range is stable. Widen the range.")
         top = int(np.argmax(np.where(stable, rows["peak_to_peak"].values, -np.inf)))
         model = response.segments[0].problem.model
         rising, falling = summary.separated_up, summary.separated_down

@@ -166,8 +166,8 @@ class BearingGeometry:
             )
             raise ParameterError(
                 f"The rollers overlap: {self.n_rollers} rollers on a pitch diameter of "
-                f"{mm * self.pitch_diameter:.4g} mm leave {mm * room:.4g} mm for each, got rollers "
-                f"of {mm * self.roller_diameter:.4g} mm; at most {most} fit."
+                f"{mm * self.pitch_diameter:.4g} mm leave room for {mm * room:.4g} mm for each, "
+                f"got rollers of {mm * self.roller_diameter:.4g} mm; at most {most} fit."
             )
         across = self.roller_diameter * math.cos(self.outer_angle)
         if not (

@@ -219,7 +219,7 @@ def check_condition(
         raise ParameterError(
             f"axial_load must be at least {radial_load * tan / LARGEST_RATIO:.4g} N to balance "
             f"radial_load {radial_load:g} N, got {axial_load:g} N: with less, fewer than half of "
-            "the rollers carry load and the rings part. Give more axial load."
+            "the rollers carry load and the rings separate. Give more axial load."
         )
     loads = np.zeros(geometry.n_rollers)
     rows = geometry.rows
@@ -230,8 +230,8 @@ def check_condition(
     if pressure > LARGEST_PRESSURE:
         share = (LARGEST_PRESSURE / pressure) ** 2
         raise ParameterError(
-            f"The load must leave the largest pressure on the inner race below "
+            "The load must leave the largest pressure on the inner race below "
             f"{1e-9 * LARGEST_PRESSURE:g} GPa, got {1e-9 * pressure:.3g} GPa from axial_load "
-            f"{axial_load:g} N and radial_load {radial_load:g} N. At most {share:.2g} of this "
+            f"{axial_load:g} N and radial_load {radial_load:g} N. Use at most {share:.2g} of this "
             "load."
         )

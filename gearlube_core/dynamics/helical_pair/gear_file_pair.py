@@ -26,7 +26,7 @@ def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
     springs = file.body(role).supports
     if len(springs) != 2:
         raise ParameterError(
-            f"{role} must have two bearings to vibrate in, the gear file has {len(springs)}. Add "
+            f"{role} must have two bearings, but the gear file has {len(springs)}. Add "
             f"[{role}.bearing_1] and [{role}.bearing_2]."
         )
     first, second = (Bearing(**spring._asdict()) for spring in springs)
@@ -73,8 +73,8 @@ def helical_pair_parameters(
     """
     if file.damping.translation != file.damping.tilt:
         raise ParameterError(
-            "damping.tilt must equal damping.translation, the model has one ratio for both; got "
-            f"{file.damping.tilt:g} and {file.damping.translation:g}. Give one value."
+            "damping.tilt must equal damping.translation, because the model has one ratio for "
+            f"both; got {file.damping.tilt:g} and {file.damping.translation:g}. Give one value."
         )
     pinion, gear = file.body("pinion"), file.body("gear")
     geometry = file.helical_pair() if pair is None else pair

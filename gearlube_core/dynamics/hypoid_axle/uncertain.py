@@ -149,7 +149,8 @@ def uncertain_of(
     if calibrated_bearings and law not in ("palmgren", "palmgren_loaded"):
         raise ParameterError(
             "Calibrated bearings must have the law palmgren or palmgren_loaded, whose f0 and f1 "
-            f"hold the measured torque, got {law}. Leave the calibration out, or take palmgren."
+            f"come from the measured torque, got {law}. Do not set the bearings as calibrated, or "
+            "take palmgren."
         )
     of_oil = f"of {oil.name}".replace(";", ",")
     own = {"alpha": (oil.alpha_factor, of_oil), "eyring_stress": (oil.eyring_stress_factor, of_oil)}

@@ -165,8 +165,8 @@ class HypoidTorsionalParameters:
             )
         if self.mesh.shaft_error:
             raise ParameterError(
-                f"mesh must repeat with the mesh, {self.mesh.name} has errors that repeat with a "
-                "shaft: the motions sought here have the mesh period. Give "
+                "The mesh table must repeat with the mesh period, as the wanted motions do, but "
+                f"{self.mesh.name} has errors that repeat with a shaft. Give "
                 "`mesh.without_shaft_error()`, or simulate the axle."
             )
 

@@ -216,8 +216,8 @@ def time_sweep(
     )
     if done < order.size:
         raise StepError(
-            f"the transmission error is no longer finite or beyond 0.1 m at {order[done]:g} Hz. "
-            "Refine steps_per_mesh_period or check the damping."
+            f"The transmission error is infinite, not a number or above 0.1 m at {order[done]:g} "
+            "Hz. Raise steps_per_mesh_period or check the damping."
         )
     record[:, :, 1] *= UM
     x = record[:, :, 1]

@@ -122,7 +122,7 @@ class ContactCase(FilmCase):
         mean = 0.5 * (self.speed_1_m_s + self.speed_2_m_s)
         if mean == 0.0:
             raise ParameterError(
-                f"{self.name} has a mean speed of 0 m/s along x, so no slide-roll ratio. "
+                f"{self.name} has a mean speed of 0 m/s along x, so it has no slide-roll ratio. "
                 "Give both speeds in the case file."
             )
         ratio = (self.speed_1_m_s - self.speed_2_m_s) / mean if slide_roll is None else slide_roll

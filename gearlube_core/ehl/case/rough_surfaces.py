@@ -169,8 +169,8 @@ class RoughSurface(Section):
         if isinstance(surface, HeightMap):
             if self.period_um is not None:
                 raise ParameterError(
-                    f"period_um is for a profile, got it for {surface.name}, a map. Leave it out: "
-                    "a map is one period."
+                    f"period_um is only for a profile, but {surface.name} is a map. Leave "
+                    "period_um out: a map is one period."
                 )
             return replace(surface, periodic=(True, True))
         if self.period_um is None:

@@ -110,8 +110,8 @@ class Oil(Section):
         numbers = [name for name in _OWN_DATA if getattr(self, name) is not None]
         if self.library is not None and numbers:
             raise ValueError(
-                f"{', '.join(numbers)} must be left out beside library = {self.library!r}, "
-                "which has its own"
+                f"{', '.join(numbers)} must be left out if library is given, because library = "
+                f"{self.library!r} has its own values"
             )
         if self.library is None:
             for name in _OWN_DATA[:2]:

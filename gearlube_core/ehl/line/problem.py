@@ -196,6 +196,6 @@ class LineSettings:
         check_within("contact_film", self.contact_film, 0.0, 1e-6, "m")
         if self.stencil == "galerkin" and self.cavitation == "mass_conserving":
             raise ParameterError(
-                "stencil galerkin has no flux between nodes that a void share could follow. "
-                "Take upwind-2 with mass-conserving cavitation."
+                "stencil galerkin cannot be combined with mass-conserving cavitation, which needs "
+                "fluxes between nodes. Take upwind-2."
             )

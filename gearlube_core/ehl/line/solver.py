@@ -78,8 +78,8 @@ def solve_line(
     settings = settings or LineSettings()
     if problem.entrainment_speed == 0.0:
         raise ParameterError(
-            "A steady film needs entrainment, but speed_1 + speed_2 is 0 m/s. "
-            "Solve squeeze with the transient solver."
+            "A steady film needs entrainment, but speed_1 + speed_2 is 0 m/s. Use the transient "
+            "solver for pure squeeze."
         )
     if problem.inlet_fill < 1.0 and settings.cavitation != "mass_conserving":
         raise ParameterError(

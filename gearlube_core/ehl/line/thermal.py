@@ -159,13 +159,13 @@ def solve_thermal_line(
     settings = settings or LineSettings()
     if not problem.speed_1 * problem.speed_2 > 0.0:
         raise ParameterError(
-            "A thermal film needs both surfaces to move along entrainment, got "
-            f"{problem.speed_1:g} and {problem.speed_2:g} m/s."
+            "In a thermal line contact both surfaces must move in the direction of entrainment, "
+            f"got {problem.speed_1:g} and {problem.speed_2:g} m/s."
         )
     if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
         raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. "
-            "Take law houpert."
+            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. Give "
+            "temperature_exponent and take law houpert."
         )
     check_search(film_error, most_nodes, MOST_NODES)
     solids = solid_1, solid_2

@@ -33,7 +33,8 @@ def check_cavitation(problem: PointContactProblem, settings: PointSolverSettings
         )
     if problem.solids is not None:
         raise ParameterError(
-            "mass-conserving cavitation does not go with solids that touch. Leave one out."
+            "Mass-conserving cavitation cannot be combined with touching solids. Leave one of "
+            "them out."
         )
     if problem.lubricant.shear.tau0 > 0.0 and problem.sliding is not None:
         along, across = problem.sliding
@@ -54,6 +55,6 @@ def refuse_rupture(settings: PointSolverSettings, film: str) -> None:
     """
     if settings.cavitation == "mass_conserving":
         raise ParameterError(
-            "mass-conserving cavitation is for isothermal point contacts at rest, got it for a "
-            f"film {film}. Take cavitation reynolds."
+            "Mass-conserving cavitation is only for steady isothermal point contacts, got a film "
+            f"{film}. Take cavitation reynolds."
         )

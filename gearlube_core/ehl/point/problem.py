@@ -152,8 +152,8 @@ class PointContactProblem:
             check_positive(f"{axis}_limits[1] - {axis}_limits[0]", limits[1] - low, "m")
             if self.oil_beyond and not low < 0.0 < limits[1]:
                 raise ParameterError(
-                    f"{axis}_limits must lie on both sides of 0 m where oil goes on beyond them, "
-                    f"got {low:.4g} to {limits[1]:.4g} m."
+                    f"{axis}_limits must be on both sides of 0 m if there is oil beyond them, got "
+                    f"{low:.4g} to {limits[1]:.4g} m."
                 )
         sides = Sides(self.sides)
         if sides.closed:

@@ -73,8 +73,8 @@ class PointSolverSettings:
         check_option("cavitation", self.cavitation, CAVITATION)
         if self.discretisation == "elements" and self.cavitation == "mass_conserving":
             raise ParameterError(
-                "elements have no flux between nodes that oil in broken film could follow. Take "
-                "differences with mass-conserving cavitation."
+                "elements cannot be combined with mass-conserving cavitation, which needs fluxes "
+                "between nodes. Take differences."
             )
         check_within("tolerance", self.tolerance, 1e-11, 1e-2)
         check_within("load_tolerance", self.load_tolerance, 1e-11, 1e-2)

@@ -80,7 +80,8 @@ class Sides:
             )
         if beyond:
             raise ParameterError(
-                f"oil_beyond and inlet_layer do not go with sides {self.name}. Leave them out."
+                f"oil_beyond and inlet_layer cannot be combined with sides {self.name}. Leave them "
+                "out."
             )
         if entrainment != 0.0:
             raise ParameterError(

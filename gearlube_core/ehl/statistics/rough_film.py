@@ -164,7 +164,7 @@ class RoughFilmStatistics:
         if count < 1 or rest <= 0 or rest % count:
             raise ParameterError(
                 f"gathered must hold statistics of at least one film, got {gathered.size} numbers. "
-                "Start anew."
+                "Start again."
             )
         rows = gathered[1 : 1 + rest].reshape(count, -1)
         self._rows = [tuple(row) for row in rows.tolist()]

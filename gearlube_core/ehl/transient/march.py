@@ -234,14 +234,14 @@ class FilmMarch:
                 f"the record must belong to this march: its grid has the shape "
                 f"{record.pressure.shape}, its scheme is {record.scheme} and its step "
                 f"{record.time_step:.6g} s, got {level.shape}, {self.scheme} and "
-                f"{self.time_step:.6g} s. Start anew."
+                f"{self.time_step:.6g} s. Start again."
             )
         if not np.allclose(
             record.positions, level.grid.positions, rtol=0.0, atol=1e-9 * level.grid.dx
         ):
             raise ParameterError(
-                "the record must belong to this march, got nodes at other places along x. "
-                "Start anew, or take the grading that it was made with."
+                "the record must belong to this march, got nodes at other places along x. Start "
+                "again, or take the grid from which it was made."
             )
         self.steps, self._start_pressure = record.steps, record.start_pressure
         set_conditions(self.film, self._grids, self.time)

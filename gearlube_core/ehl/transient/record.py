@@ -50,6 +50,6 @@ class MarchRecord:
             values = {name: stored[name] for name in cls.__dataclass_fields__}
         except (FileError, KeyError) as error:
             raise ParameterError(
-                f"{path} must be the record of a march, got {error}. Start anew."
+                f"{path} must be the record of a march, got {error}. Start again."
             ) from error
         return cls(**{k: v.item() if v.ndim == 0 else v for k, v in values.items()})

@@ -141,7 +141,7 @@ def contact_sensitivity(
     for side in SIDES:
         pair = FlankPair.from_file(file, side, settings.misalignment)
         variations[side] = Variations.of(file, pair, names)
-    progress(0.0, "tooth compliance")
+    progress(0.0, "elastic teeth")
     stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)
     progress(0.0, "loaded contact")
     with single_threaded():

@@ -86,12 +86,13 @@ class Parameter:
             value = getattr(value, part, None)
         if value is None:
             raise ParameterError(
-                f"{name} must have a value to be changed, and this file leaves it open. Give it."
+                f"{name} must have a value to be changed, but this file does not give it. Give it "
+                "in the file."
             )
         if not isinstance(value, float):
             raise ParameterError(
-                f"{name} must be a length, an angle or a ratio, got {value!r}: there is no "
-                "derivative by counts and words."
+                f"{name} must be a length, an angle or a ratio, got {value!r}. Counts and words "
+                "have no derivative."
             )
         unit = notes[name].unit or "1"
         step = _EDGE_STEP * value if _is_blade_edge(name) else _STEPS.get(unit, _RATIO_STEP)

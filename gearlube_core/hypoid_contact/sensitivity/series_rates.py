@@ -109,7 +109,7 @@ def series_rates(
     check_pair(file, settings.misalignment)
     pair = FlankPair.from_file(file, SIDE, settings.misalignment)
     variations = Variations.of(file, pair, settings.parameters or usual_parameters(file))
-    progress(0.0, "tooth compliance")
+    progress(0.0, "elastic teeth")
     stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)[SIDE]
     phases = (np.arange(settings.positions) / settings.positions).tolist()
     with single_threaded():

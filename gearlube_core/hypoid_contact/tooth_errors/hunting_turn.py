@@ -94,8 +94,8 @@ class TurnProblem:
         if np.any(carried(high) < self.torque):
             raise ConvergenceError(
                 f"teeth at mesh phase {self.phase:.3f} must carry {self.torque:g} N.m within the "
-                "reach of their curves, they do not: errors of single teeth are too large beside "
-                "the deflection. Check their unit, or leave high torques out."
+                "range of their curves, but they do not: errors of single teeth are too large "
+                "compared with the deflection. Check their unit, or leave high torques out."
             )
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)

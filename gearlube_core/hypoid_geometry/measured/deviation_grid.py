@@ -140,7 +140,7 @@ def read_deviation_grids(
         if np.isfinite(grid[i, j]):
             raise ParameterError(
                 f"{row.where}: the point {i + 1}, {j + 1} of the {role}'s tooth {tooth}, {side} "
-                "flank, is there twice. Keep one, or check flank and tooth."
+                "flank, occurs twice. Keep one, or check flank and tooth."
             )
         grid[i, j] = value
     found = {}
@@ -171,7 +171,7 @@ def _check(where: str, grid: Array, middle_is_zero: bool) -> None:
         named = "; ".join(f"{i}, {j}" for i, j in missing[:_NAMED].tolist())
         more = f" and {len(missing) - _NAMED} more" if len(missing) > _NAMED else ""
         raise ParameterError(
-            f"{where}: all {grid.shape[0]} x {grid.shape[1]} points must be there, "
+            f"{where}: all {grid.shape[0]} x {grid.shape[1]} points must be in the file, but "
             f"{len(missing)} are missing: row, column {named}{more}. Measure them, or leave this "
             "tooth out."
         )

@@ -126,7 +126,8 @@ def check_nominal_points(
         if spread > _SPREAD or np.any(np.diff(s) <= 0.0) or np.any(np.diff(t) <= 0.0):
             raise ParameterError(
                 f"{path}: rows of the {role}'s {side} flank must rise from root to tip at one "
-                "height, columns from toe to heel at one place, they do not. Check their order."
+                "height, columns from toe to heel at one place, but they do not. Check their "
+                "order."
             )
         places[role, side] = GridPlaces(s=s, t=t)
     return places
@@ -168,7 +169,9 @@ def _read(path: str | Path) -> dict[tuple[Role, Side], Array]:
         found = values.setdefault((role, row.side(role)), {})
         place = row.whole("row", 1, MOST_POINTS), row.whole("column", 1, MOST_POINTS)
         if place in found:
-            raise ParameterError(f"{row.where}: the point {place[0]}, {place[1]} is there twice.")
+            raise ParameterError(
+                f"{row.where}: the point {place[0]}, {place[1]} occurs twice. Keep one."
+            )
         found[place] = [
             row.number(name, -_FARTHEST, _FARTHEST, "Give millimetres.")
             for name in ("x_mm", "y_mm", "z_mm")
@@ -179,7 +182,7 @@ def _read(path: str | Path) -> dict[tuple[Role, Side], Array]:
         if len(points) != rows * columns:
             raise ParameterError(
                 f"{path}: all {rows} x {columns} nominal points of the {role}'s {side} flank must "
-                f"be there, {rows * columns - len(points)} are missing."
+                f"be in the file, but {rows * columns - len(points)} are missing."
             )
         grid = [[points[i + 1, j + 1] for j in range(columns)] for i in range(rows)]
         grids[role, side] = MILLIMETRE * np.array(grid)

@@ -53,7 +53,7 @@ def read_pitch(
         found = values.setdefault((role, side), np.full(teeth[role], np.nan))
         if np.isfinite(found[tooth]):
             raise ParameterError(
-                f"{row.where}: tooth {tooth + 1} of the {role}, {side} flank, is there twice. Keep "
+                f"{row.where}: tooth {tooth + 1} of the {role}, {side} flank, occurs twice. Keep "
                 "one, or check the flank."
             )
         found[tooth] = row.number("deviation_um", -_MOST, _MOST, "Give micrometres.")
@@ -64,7 +64,7 @@ def read_pitch(
         if missing:
             more = f" and {len(missing) - _NAMED} more" if len(missing) > _NAMED else ""
             raise ParameterError(
-                f"{where}: all {teeth[role]} teeth must be there, missing are "
+                f"{where}: all {teeth[role]} teeth must be in the file, but these are missing: "
                 f"{', '.join(map(str, missing[:_NAMED]))}{more}."
             )
         largest = float(np.max(np.abs(found)))
@@ -107,8 +107,7 @@ def read_waves(path: str | Path) -> dict[tuple[Role, Side], tuple[Wave, ...]]:
         found = values.setdefault((role, side), {})
         if count in found:
             raise ParameterError(
-                f"{row.where}: {count} waves of the {role}'s {side} flank are there twice. Add "
-                "them up."
+                f"{row.where}: {count} waves of the {role}'s {side} flank occur twice. Add them up."
             )
         found[count] = wave
     return {key: tuple(waves.values()) for key, waves in sorted(values.items())}

@@ -20,8 +20,8 @@ CONTACT_CATALOGUE = {
         pressure_maps,
         "Contact pattern and pressure on the gear tooth",
         "Highest pressure at each place of the gear tooth while it passes through the mesh, for "
-        "each side and torque. A pattern inside the outline is sound; blue lines at tip or root "
-        "are sharp edges that press into the flank, there tip relief helps.",
+        "each side and torque. A good pattern stays inside the outline. Blue lines at tip or root "
+        "are sharp edges that press into the flank; tip relief helps there.",
     ),
     "ease_off": Picture(
         ease_off_map,
@@ -34,31 +34,32 @@ CONTACT_CATALOGUE = {
         transmission_errors,
         "Transmission error",
         "Static error over two mesh periods along the line of action, for some torques. The swing "
-        "of a curve excites the whine at its torque; the torque with the least swing is quietest.",
+        "of a curve excites the whine at its torque; the torque with the smallest swing is "
+        "quietest.",
     ),
     "load_share": Picture(
         load_shares,
         "A tooth pair from entry to exit",
-        "Share of the torque that one pair carries, and its highest pressure. Humps of pressure at "
-        "entry or exit are contacts of edges.",
+        "Share of the torque that one pair carries, and its highest pressure. Pressure peaks at "
+        "entry or exit come from edge contact.",
     ),
     "stiffness": Picture(
         stiffness_and_radii,
         "Mesh stiffness and contact radii",
-        "Over two mesh periods, for some torques. Secant: force over closing; tangent: its slope, "
-        "on which vibration lives.",
+        "Over two mesh periods, for some torques. Secant: force over closing; tangent: slope of "
+        "force over closing, which governs vibration.",
     ),
     "stiffness_torque": Picture(
         stiffness_against_torque,
         "Mesh stiffness over torque",
-        "Means over the mesh, bands from least to largest, and how many pairs carry. Both grow "
-        "with the torque, as the contact spreads.",
+        "Mean values over the mesh with bands from smallest to largest, and the number of pairs "
+        "that carry load. Both grow with the torque, because the contact spreads.",
     ),
     "contact_properties": Picture(
         contact_properties,
         "Curvature and motion in the contact",
         "At the centre of force of one pair from entry to exit: relative radii, entrainment and "
-        "sliding per pinion speed. Films form from the entrainment, heat from the sliding.",
+        "sliding per pinion speed. Entrainment builds the film; sliding makes heat.",
     ),
 }
 

@@ -17,7 +17,7 @@ _LOADED = 1e-3
 
 def transmission_chart(dataset: xr.Dataset) -> Any:
     """Return the loaded transmission error of both sides over two mesh periods, mean removed."""
-    y = Axis("closing less its mean", "µm")
+    y = Axis("closing minus its mean", "µm")
     figure = panels([_SIDES[side] for side in _SIDES], _PERIODS, [y, y])
     for panel, side in enumerate(_SIDES, 1):
         part = dataset.sel(side=side)

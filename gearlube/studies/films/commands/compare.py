@@ -49,7 +49,7 @@ def compare(
             label = name if given else where.name
             if label in folders:
                 raise ParameterError(
-                    f"Names of marches must differ, got {label!r} twice. Write NAME=FOLDER."
+                    f"The names of the marches must differ, got {label!r} twice. Write NAME=FOLDER."
                 )
             folders[label] = where
         check_within("--film-exponent", film_exponent, -5.0, 5.0)

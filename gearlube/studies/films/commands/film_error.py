@@ -40,5 +40,7 @@ def film_error_of(text: str | None) -> float | None:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise ParameterError(f"--film-error must be a share, got {text!r}. Write 1% or 0.01.")
+        raise ParameterError(
+            f"--film-error must be a percentage or a fraction, got {text!r}. Write 1% or 0.01."
+        )
     return check_within("--film-error", value, 1e-4, 1.0, "", "1 % is 1% or 0.01.")

@@ -136,8 +136,8 @@ def helical(
         goal = film_error_of(film_error)
         if goal is not None and march is not None:
             raise ParameterError(
-                f"--film-error must not be given with --march, got {film_error!r}: only a film at "
-                "rest is refined. Leave one out, or give --nodes-across."
+                f"--film-error cannot be combined with --march, got {film_error!r}: the error is "
+                "only estimated for steady films. Leave one out, or give --nodes-across."
             )
         file = with_flanks(
             HelicalGearFile.given(gear), facets, crown_start, relief_parabola, relief_exponent
@@ -194,12 +194,10 @@ def _check_options(
 ) -> None:
     """Raise ParameterError if options exclude each other."""
     if march is None and snapshots is not None:
-        raise ParameterError(
-            f"--snapshots must be given with --march, got {snapshots!r} alone. Give both."
-        )
+        raise ParameterError(f"--snapshots needs --march, got {snapshots!r} without it. Give both.")
     if march is not None and (step is not None or position is not None):
         raise ParameterError(
-            f"--march must not be given with --step or --position, got {march!r}. Leave one out."
+            f"--march cannot be combined with --step or --position, got {march!r}. Leave one out."
         )
 
 

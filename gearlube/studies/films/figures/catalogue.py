@@ -33,7 +33,7 @@ from gearlube.studies.films.figures.point_contact import (
 _RESIDUALS = Picture(
     residual_history,
     "Residuals",
-    "Unbalanced flow over the iterations. It falls, but for jumps where the grid gets finer.",
+    "Unbalanced flow over the iterations. It falls, with jumps where the grid becomes finer.",
 )
 # by the attribute `contact` of a dataset
 CATALOGUES: dict[str, dict[str, Picture]] = {
@@ -41,18 +41,19 @@ CATALOGUES: dict[str, dict[str, Picture]] = {
         "profile": Picture(
             line_profile,
             "Pressure and film",
-            "The oil enters on the left. The pressure has a spike and the film its smallest place "
-            "near the outlet. Dashed or dotted: the dry contact of Hertz.",
+            "The oil enters on the left. Near the outlet the pressure has a spike and the film is "
+            "thinnest. Dashed or dotted: the dry contact of Hertz.",
         ),
         "profile_hertz": Picture(
             line_profile_hertz,
-            "Beside the dry contact",
-            "Dashed: dry contact of Hertz, its gap raised by the central film.",
+            "Comparison with the dry contact",
+            "Dashed: dry contact of Hertz, its gap plus the central film.",
         ),
         "shear": Picture(
             line_shear,
             "Shear stress",
-            "On both bodies and at mid-film. Sliding makes most of it in the middle of the film.",
+            "Shear stress on both bodies and at mid-film. In the middle of the film most of it "
+            "comes from sliding.",
         ),
         "temperature": Picture(
             line_temperature, "Temperature", "Of the film and of both surfaces above the inlet."
@@ -71,7 +72,9 @@ CATALOGUES: dict[str, dict[str, Picture]] = {
             "Sections through the centre",
             "Along and across the motion. Outside the contact the gap leaves the axis.",
         ),
-        "shear": Picture(point_shear, "Shear stress", "At mid-film, along the sliding velocity."),
+        "shear": Picture(
+            point_shear, "Shear stress", "Shear stress at mid-film, along the sliding velocity."
+        ),
         "temperature": Picture(
             point_temperature, "Temperature", "Of the film and of both surfaces above the inlet."
         ),
@@ -81,7 +84,7 @@ CATALOGUES: dict[str, dict[str, Picture]] = {
         "along": Picture(
             helical_along,
             "Pressure and film along the line",
-            "Of each section across the line its largest pressure and its smallest film.",
+            "Largest pressure and smallest film of each section across the line.",
         ),
         "contours": Picture(
             helical_contours,
@@ -91,14 +94,14 @@ CATALOGUES: dict[str, dict[str, Picture]] = {
         "sections": Picture(
             helical_sections,
             "Sections across the line",
-            "The oil enters on the left; the film has its smallest place near the outlet.",
+            "The oil enters on the left; the film is thinnest near the outlet.",
         ),
     },
     "helical_cycle": {
         "cycle": Picture(
             cycle_curves,
             "The line through its cycle",
-            "With squeeze. Where the load changes fast, the film lags behind that at rest.",
+            "With squeeze. Where the load changes fast, the film lags behind the steady film.",
         ),
         "cycle_map": Picture(
             cycle_map,
@@ -114,12 +117,13 @@ CATALOGUES: dict[str, dict[str, Picture]] = {
         "curves": Picture(
             hypoid_curves,
             "Film and friction through the engagement",
-            "Solved films beside the formulas that the axle model uses.",
+            "Solved films, and the formulas that the axle model uses.",
         ),
         "ratios": Picture(
             hypoid_ratios,
-            "Formulas over the solution",
-            "1: the formula gives the solved value. Entrainment at an angle is their weak point.",
+            "Formulas divided by the solution",
+            "1: the formula gives the solved value. The formulas are least accurate if "
+            "entrainment is at an angle to the axes.",
         ),
         "contours": Picture(
             hypoid_contours,

@@ -195,7 +195,9 @@ def rough_difference(first: xr.Dataset, second: xr.Dataset, x: float = 0.0) -> A
     for name in ("time", "x", "y"):
         one, other = (np.atleast_1d(run[name].values) for run in (first, second))
         if one.shape != other.shape or not np.allclose(one, other, rtol=1e-9, atol=1e-12):
-            raise ParameterError(f"{name} of both runs must be the same. Take the same case.")
+            raise ParameterError(
+                f"{name} of both runs must be the same. Compare runs of the same case."
+            )
     difference = (first[["film", "pressure"]] - second[["film", "pressure"]]).sel(
         x=x, method="nearest"
     )

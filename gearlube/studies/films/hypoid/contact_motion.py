@@ -52,7 +52,7 @@ def contact_motion(gear: str, torque: float, phase: Array) -> Array:
     if found.sum() < 2:
         raise ParameterError(
             f"The unloaded flanks of {gear} do not touch over phases {phase.min():.2f} to "
-            f"{phase.max():.2f}. Take the entrainment of the mesh table."
+            f'{phase.max():.2f}. Set entrainment = "mesh_table" in the case.'
         )
     return np.stack(
         [np.interp(phase, places[found], along[found, axis]) for axis in range(2)], axis=1

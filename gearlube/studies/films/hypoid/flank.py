@@ -65,7 +65,10 @@ def hypoid_flank(case: HypoidCase) -> HypoidFlank:
     """
     torque, speed = case.pinion_torque_n_m, case.pinion_speed
     if torque == 0.0:
-        raise ParameterError("pinion_torque_n_m must not be 0 N.m. Load a flank.")
+        raise ParameterError(
+            "pinion_torque_n_m must not be 0 N.m. Give a torque above 0 for the "
+            "drive flank, below 0 for the coast flank."
+        )
     parameters = mohammadpour_2015_axle(
         mesh=case.table(), oil=case.oil, roughness_rms=1e-6 * case.roughness_um
     )
@@ -111,7 +114,11 @@ def check_table_torque(torque: float, ends: tuple[float, float]) -> None:
         "pinion_torque_n_m", torque, TORQUE_MARGIN * low, TORQUE_MARGIN * high, "N.m", cure
     )
     if not low <= torque <= high:
-        logger.warning("The pinion torque is %g N.m. %s Its data hold at the end.", torque, cure)
+        logger.warning(
+            "The pinion torque is %g N.m. %s Outside the table the values at its end are used.",
+            torque,
+            cure,
+        )
 
 
 def loaded_span(case: HypoidCase, phase: Array, load: Array) -> slice:
@@ -122,7 +129,7 @@ def loaded_span(case: HypoidCase, phase: Array, load: Array) -> slice:
     if not carries.any():
         raise ParameterError(
             f"The pair carries no load between phases {case.first_phase:g} and "
-            f"{case.last_phase:g}. Widen them."
+            f"{case.last_phase:g}. Widen first_phase and last_phase."
         )
     top = int(np.where(carries, load, -1.0).argmax())
     gaps = np.flatnonzero(~carries)
@@ -143,7 +150,10 @@ def _cycle(
     motion = contact.entrainment
     if case.entrainment == "moving_contact":
         if case.gear_file is None:
-            raise ParameterError("moving_contact needs gear_file, of which the table was made.")
+            raise ParameterError(
+                'entrainment = "moving_contact" needs gear_file. Give the gear '
+                "file from which the mesh table was made."
+            )
         motion = motion - contact_motion(case.gear_file, case.pinion_torque_n_m, phase)
     return FlankCycle(
         time=drive.time - drive.time[0],

@@ -71,7 +71,8 @@ def read_frames(folder: Path, key: str, most: int | None = None) -> Iterator[xr.
     files = frame_files(folder)
     if not files:
         raise ParameterError(
-            f"{folder / FRAMES} must hold kept films, got none. March with [frames] every or steps."
+            f"{folder / FRAMES} must hold kept films, got none. Run the case with every or steps "
+            "in [frames]."
         )
     if most is not None and len(files) > most:
         files = [files[k * (len(files) - 1) // (most - 1)] for k in range(most)]
@@ -82,8 +83,8 @@ def read_frames(folder: Path, key: str, most: int | None = None) -> Iterator[xr.
             raise ParameterError(f"{path} must be a kept film, got {reason}. Remove it.") from None
         if frame.attrs.get("march") != key:
             raise ParameterError(
-                f"{path} must be a film of this case, got one of another. Give the case that it "
-                "was marched with, or another --out."
+                f"{path} must be a film of this case, got one of another. Give the case from which "
+                "it was computed, or another --out."
             )
         yield frame
 

@@ -103,7 +103,7 @@ class Gathered:
         if count < 1 or packed.size <= end:
             raise ParameterError(
                 f"the record must hold the statistics of a rough march, got {packed.size} numbers. "
-                "Remove it and start anew."
+                "Remove it and start again."
             )
         self._work = packed[1:end].reshape(count, len(WORK)).tolist()
         self.statistics.resume(packed[end:])

@@ -62,7 +62,7 @@ def disk_need(case: RoughCase, folder: Path) -> DiskNeed:
     )
     if need.total > need.free:
         raise ParameterError(
-            f"{folder} must have {need.total / _MEGABYTE:.0f} MB free, got "
+            f"{folder} must have {need.total / _MEGABYTE:.0f} MB free space, got "
             f"{need.free / _MEGABYTE:.0f} MB. Keep fewer films ([frames]), or give --out on "
             "another disk."
         )

@@ -106,7 +106,7 @@ def run_rough(
         gathered.add(march.solution)
         _keep(case, folder, 0, march.solution, key)
     else:
-        logger.info("Going on from step %d.", march.steps)
+        logger.info("Continuing from step %d.", march.steps)
     lost = 0
     while march.steps < last:
         solution = march.step(throw=False)
@@ -129,7 +129,7 @@ def run_rough(
         )
     dataset = _with_attributes(gathered.dataset(), case, key)
     if folder is not None:
-        progress(last / (last + 1), "files and figures")
+        progress(last / (last + 1), "writing files and figures")
         with _told(folder, march.steps):
             write_rough_results(dataset, folder)
     progress(1.0, "done")
@@ -166,7 +166,7 @@ def _record(folder: Path, key: str) -> MarchRecord | None:
     others = sorted(one.name for one in folder.glob("march_*.npz") if one != path)
     if others:
         raise ParameterError(
-            f"{folder} must hold marches of this case alone, got {others[0]} of another case. "
+            f"{folder} must hold only results of this case, got {others[0]} from another case. "
             "Give another --out, or remove that file and the folder frames."
         )
     return MarchRecord.read(path) if path.exists() else None
@@ -188,16 +188,17 @@ def _told(folder: Path, step: int) -> Iterator[None]:
     except OSError as reason:
         why = "the disk is full" if reason.errno == errno.ENOSPC else (reason.strerror or reason)
         raise FileError(
-            f"Step {step} could not be written to {folder}: {why}. The record before it is whole. "
-            "Make space and run the same command again: it goes on from there."
+            f"Step {step} could not be written to {folder}: {why}. The previous record is "
+            "complete. Free some disk space and run the same command again: it continues from "
+            "there."
         ) from reason
 
 
 def _check_finite(step: int, solution: FilmSolution) -> None:
     if not (np.isfinite(solution.film).all() and np.isfinite(solution.pressure).all()):
         raise ConvergenceError(
-            f"Step {step}: the film is not finite. Take more nodes or shorter time steps; the last "
-            "record stays."
+            f"Step {step}: the film is not finite. Take more nodes or shorter time steps. The last "
+            "record is kept."
         )
 
 

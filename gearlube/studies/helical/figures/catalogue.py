@@ -31,14 +31,15 @@ HELICAL_CATALOGUE: dict[str, Picture] = {
     "load_sharing": Picture(
         load_sharing,
         "Load sharing and highest pressure",
-        "Left: one tooth pair from entry to exit. Right: all pairs. Where pressures are beyond the "
-        "axis, sharp edges press.",
+        "Left: one tooth pair from entry to exit. Right: all pairs. Pressures beyond the axis "
+        "come from sharp edges.",
         "contact",
     ),
     "harris_map": Picture(
         harris_map,
         "Loaded transmission error",
-        "Its range and its mesh orders over the torque. Where they are least, reliefs fit best.",
+        "Its range and its mesh orders over the torque. Where they are smallest, the reliefs fit "
+        "best.",
         "contact",
     ),
     "tooth_stiffness_loaded": Picture(
@@ -87,7 +88,7 @@ HELICAL_CATALOGUE: dict[str, Picture] = {
     "bearing_forces": Picture(
         bearing_forces,
         "Bearing forces at the operating point",
-        "What the gears pass on to the housing, and its mesh orders.",
+        "Forces that the gears pass on to the housing, and their mesh orders.",
         "response",
     ),
     "friction_harmonics": Picture(
@@ -117,7 +118,7 @@ HELICAL_CATALOGUE: dict[str, Picture] = {
     ),
     "film_on_lines": Picture(
         film_on_lines,
-        "Film and friction of a pair on its way",
+        "Film and friction of a tooth pair from entry to exit",
         "A pair enters on the left. Friction is zero on the dashed pitch line, where the teeth "
         "only roll.",
         "film",
@@ -131,7 +132,7 @@ HELICAL_CATALOGUE: dict[str, Picture] = {
     "losses": Picture(
         pair_losses,
         "Losses of the pair",
-        "Power lost in the mesh over speed. Bearings, seals and churning are not in it.",
+        "Power lost in the mesh over speed. Bearings, seals and churning are not included.",
         "losses",
     ),
 }

@@ -60,7 +60,7 @@ def film_on_lines(film: xr.Dataset) -> Any:
         for ax in axes[:, 0]:
             ax.set_ylabel("from mid-face [mm]")
         mean = film.attrs["operating_mean_coefficient"]
-        axes[0, 0].set_title(f"µ = {mean:.4f} everywhere loses the same", fontsize=9)
+        axes[0, 0].set_title(f"µ = {mean:.4f} everywhere has the same loss", fontsize=9)
         figure.suptitle(
             f"{_heading(film, 'Film on the contact lines')}; dashed: pitch line, where µ is zero",
             fontsize=10.5,

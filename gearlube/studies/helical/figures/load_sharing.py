@@ -90,8 +90,8 @@ def _cut_edge_pressures(ax: Any, phase: Array, highest: Sequence[Array]) -> None
         )
     ax.set_ylim(0.0, top)
     ax.set_title(
-        f"grey: sharp edges press; triangles: beyond the axis, up to {greatest:.3g} GPa.\n"
-        "Such a pressure has no finite value, it rises with finer cells",
+        f"grey: sharp edges press; triangles: beyond the axis, up to {greatest:.3g} GPa.\nThis "
+        "pressure has no meaning as a number: it rises with finer cells",
         fontsize=8.5,
     )
 
@@ -117,7 +117,9 @@ def harris_map(contact: xr.Dataset) -> Any:
             values = error[:, int(np.argmin(np.abs(torque - one)))]
             x, y = closed(phase, values - values.mean())
             left.plot(x, y, color=SERIES[row], label=f"{one:.4g} N·m")
-        left.set(xlim=(0.0, 2.0), xlabel="time [mesh periods]", ylabel="closing less its mean [µm]")
+        left.set(
+            xlim=(0.0, 2.0), xlabel="time [mesh periods]", ylabel=("closing minus its mean [µm]")
+        )
         left.set_title("transmission error")
         right.plot(torque, np.ptp(error, axis=0), "o-", color="black", label="peak to peak")
         orders = 2.0 * np.abs(np.fft.rfft(error, axis=0)) / phase.size

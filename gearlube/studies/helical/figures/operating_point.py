@@ -66,7 +66,7 @@ def _histories(
                 left.plot(x, y, color=colour, label=label, lw=1.3)
                 means.append(f"{values.mean():.4g}")
                 sets.append((_amplitude(response, name, case, scale), colour, label))
-            left.set_ylabel(f"{symbol} less mean [{unit}]")
+            left.set_ylabel(f"{symbol} minus mean [{unit}]")
             if not name.endswith("_rate"):
                 left.set_title(f"means {', '.join(means)} {unit}", fontsize=8.5, loc="right")
             stems(right, order, sets)

@@ -33,7 +33,7 @@ def instability(stability: xr.Dataset) -> Any:
             f"damping ratio {at['mesh_damping_ratio']:g}",
         ),
         ("growth_variation_light", "variation", f"damping ratio {LIGHT_DAMPING:g}"),
-        ("growth_damping", "damping_ratio", "variation as it is"),
+        ("growth_damping", "damping_ratio", "actual variation"),
     )
     modes = distinct(1e-3 * stability["natural_frequency"].values, 0.02)
     with house_style():
@@ -63,7 +63,9 @@ def instability(stability: xr.Dataset) -> Any:
         axes[2].minorticks_off()
         axes[2].set_ylim(*stability["damping_ratio"].values[[0, -1]])
         axes[2].set_xlim(frequency[0], frequency[-1])
-        axes[2].set_xlabel("mesh frequency [kHz]; dotted: twice a natural one; others: sums of two")
+        axes[2].set_xlabel(
+            "mesh frequency [kHz]; dotted: twice a natural frequency; others: sums of two"
+        )
         figure.suptitle(
             f"Parametric instability, black line its limit: {at['name']}, "
             f"{at['pinion_torque']:.4g} N·m, mesh {mesh_description(stability)}",

@@ -37,6 +37,7 @@ def gem_text(dataset: xr.Dataset) -> str:
                 )
     if not rows:
         raise ParameterError(
-            "A table for GEM must have a point, got none that was computed. See map.csv."
+            "A table for GEM needs at least one computed point, got none. map.csv gives the "
+            "reasons."
         )
     return csv_text(HEAD, rows)

@@ -76,8 +76,8 @@ def lossy_gear_text(dataset: xr.Dataset) -> str:
     table = lossy_gear_table(dataset)
     if not len(table.rows):
         raise ParameterError(
-            "A lossTable must have two torques on one side at one speed at least, got none that "
-            "were computed. Take more torques, or see the reasons in map.csv."
+            "A lossTable needs at least two computed torques on one side at one speed, got none. "
+            "Take more torques, or see the reasons in map.csv."
         )
     name = f"AxleLosses{float(dataset['temperature']):.0f}degC".replace("-", "minus")
     lines = ",\n    ".join(", ".join(f"{value:.7g}" for value in row) for row in table.rows)

@@ -53,8 +53,8 @@ RESONANCE_CATALOGUE: dict[str, Picture] = {
     "stability": Picture(
         lambda response, _: stability(response),
         "Stability",
-        "By which factor a small disturbance grows or dies in one mesh period. Above 1 the motion "
-        "is unstable and does not run by itself. Near 1 a disturbance rings for long.",
+        "Factor by which a small disturbance grows or dies out in one mesh period. Above 1 the "
+        "motion is unstable and does not run by itself. Near 1 a disturbance dies out slowly.",
         "multiplier",
     ),
     "time_histories": Picture(
@@ -105,14 +105,14 @@ RESONANCE_CATALOGUE: dict[str, Picture] = {
     "traction_curves": Picture(
         _of_cycle(traction_curves),
         "Traction over shear rate",
-        "Of the hardest loaded contact, by four laws. Heat bends the curves down.",
+        "Traction of the most heavily loaded contact, by four laws. Heat bends the curves down.",
         "load",
     ),
     "contact_properties": Picture(
         _of_cycle(contact_properties),
         "A tooth pair from entry to exit",
-        "Load, film, temperature and friction of one pair over its life, a line for each case. "
-        "Warm oil: thinner film, boundary friction appears.",
+        "Load, film, temperature and friction of one pair from entry to exit, one line for each "
+        "case. Warm oil: thinner film, boundary friction appears.",
         "load",
     ),
 }

@@ -185,7 +185,7 @@ def dry_and_lubricated(cycle: xr.Dataset) -> Any:
             for dry, wet in zip(*pairs, strict=False):
                 right.plot(dry["sample"], 1e9 * (wet["x"] - dry["x"]), color="black")
             left.set(title=_TITLE.format(relative), ylabel="x [µm]", xlim=(0.0, 2.0))
-            right.set(title="lubricated less dry", ylabel="difference [nm]")
+            right.set(title="lubricated minus dry", ylabel="difference [nm]")
             _no_contact(left)
         for ax in axes[-1]:
             ax.set_xlabel("pinion rotation [mesh periods]")

@@ -120,5 +120,7 @@ def traction_curves(cycle: xr.Dataset) -> Any:
         left.legend(loc="upper left", fontsize=7.5)
         right.set(xscale="log", yscale="log", xlabel="shear rate [1/s]", ylabel="viscosity [Pa s]")
         right.legend(loc="lower left")
-        figure.suptitle("Film of the hardest loaded contact at other shear rates", fontsize=11.5)
+        figure.suptitle(
+            "Film of the most heavily loaded contact at other shear rates", fontsize=11.5
+        )
     return figure

@@ -18,8 +18,8 @@ from gearlube.studies.runup.figures.spectra import bearing_spectra
 from gearlube.studies.runup.figures.tracks import bearing_tracks, order_tracks
 
 _ALL = (
-    "All forces means the root of the sum of squares over pinion and gear and their three "
-    "directions. Levels are of rms values; +120 dB gives dB re 1 µN (ISO 1683)."
+    "All forces: root of the sum of squares over pinion and gear and their three directions. "
+    "Levels are of rms values; +120 dB gives dB re 1 µN (ISO 1683)."
 )
 
 
@@ -49,7 +49,7 @@ CATALOGUE = (
         name="waterfall",
         title="Waterfall: speed and frequency",
         caption="Level of all bearing forces. H1, H2 and so on: mesh orders, which rise with the "
-        "speed. Dotted: natural frequencies, which stay. Look where they cross. "
+        "speed. Dotted: natural frequencies, which are constant. Look where they cross. "
         f"{_ALL}",
         draw=frequency_map,
         chart=map_chart,
@@ -73,16 +73,17 @@ CATALOGUE = (
         name="operating_shape",
         title="Operating deflection shape",
         caption="Motion of pinion and gear at the speed and mesh order with the largest bearing "
-        "forces, at two instants a quarter of a period apart. Turning counts as displacement at "
-        "the contact. Right: how much of its kinetic energy each natural mode has.",
+        "forces, at two instants a quarter of a period apart. Rotation counts as "
+        "displacement at the contact. Right: how much of its kinetic energy each natural "
+        "mode has.",
         draw=operating_shape,
     ),
     Entry(
         name="mode_shapes",
         title="Mode shapes",
         caption="Displacements of pinion (blue) and gear (red) in each natural mode, the largest "
-        "1; turning as displacement at the contact. Axes of the fixed frame: x is axial for the "
-        "pinion, z for the gear.",
+        "is 1; rotation as displacement at the contact. Axes of the fixed frame: x is "
+        "axial for the pinion, z for the gear.",
         draw=mode_shapes,
     ),
     Entry(
@@ -103,16 +104,16 @@ CATALOGUE = (
         name="roller_loads",
         title="Loads of the rollers",
         caption="Load of every roller where the bearing forces are largest, as bars outwards from "
-        "a ring; black marks: the largest of each over one turn of the pinion. Each bearing has "
-        "its own scale. A roller without a bar carries nothing. `--animate` shows the turn.",
+        "a ring; black marks: the largest of each over one turn of the pinion. Each "
+        "bearing has its own scale. A roller without a bar carries no load. `--animate` "
+        "shows the turn.",
         draw=roller_loads,
         needs="roller_load",
     ),
     Entry(
         name="overview",
         title="Course of the ramp",
-        caption="Speed and torque that were run, and the power lost, source by source, means over "
-        "20 ms.",
+        caption="Speed and torque of the run, and the power lost by source, as means over 20 ms.",
         draw=overview,
     ),
 )

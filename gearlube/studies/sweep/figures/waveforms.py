@@ -69,7 +69,7 @@ def roller_zone(dataset: xr.Dataset) -> Any:
                 ax.plot(angle, mean, color=colour, ls=_DASHES[number], label=f"{speed:g} km/h")
             ax.set_xlim(0.0, 360.0)
             ax.set_xticks(range(0, 361, 60))
-            ax.set_xlabel("place of the roller, from z towards y [°]")
+            ax.set_xlabel("position of the roller, from z towards y [°]")
             ax.set_title(preload_label(preload))
         axes[0].set_ylabel("load of the roller [N]")
         handles, labels = axes[0].get_legend_handles_labels()

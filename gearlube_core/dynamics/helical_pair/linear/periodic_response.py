@@ -202,7 +202,7 @@ def periodic_response(
     multipliers = floquet_multipliers(march.transition[-1])
     if throw and not abs(multipliers[0]) < 1.0 - _SETTLES:
         raise ConvergenceError(
-            "the pair must be stable to have a steady state, got a Floquet multiplier of modulus "
+            "The pair must be stable to have a steady state, got a Floquet multiplier of modulus "
             f"{abs(multipliers[0]):.6g} at {pinion_speed:g} rad/s. Raise the damping ratios or "
             "move the speed; `instability_map` shows where it is stable."
         )
@@ -238,8 +238,9 @@ def _with_film(
         if np.all(np.abs(strain - before).max(axis=0) <= _FILM_TOLERANCE * np.ptp(strain, axis=0)):
             return system, march
     raise ConvergenceError(
-        f"film friction and motion must agree within {_FILM_ITERATIONS} iterations; they do not at "
-        f"{pinion_speed:g} rad/s. Raise the damping ratios or move the speed off a resonance."
+        f"Film friction and motion must agree within {_FILM_ITERATIONS} iterations, but they do "
+        f"not at {pinion_speed:g} rad/s. Raise the damping ratios or move the speed off a "
+        "resonance."
     )
 
 

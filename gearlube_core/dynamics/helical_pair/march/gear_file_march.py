@@ -141,8 +141,8 @@ def _support(gear: HelicalGearFile, role: Role, instead: ReplacedBearings) -> Sh
     springs = gear.body(role).supports
     if not springs and 0.0 in (radial, axial, distance):
         raise ParameterError(
-            f"the {role} must have bearings, the gear file {role}.bearing_1 is missing. "
-            "Add them, or give radial and axial stiffness and the bearings' distance."
+            f"the {role} must have bearings, but {role}.bearing_1 is missing in the gear file. Add "
+            "them, or give radial and axial stiffness and the bearings' distance."
         )
     first, second = springs or 2 * (_NO_BEARING,)
 

@@ -89,7 +89,8 @@ class PointGrid:
         self.workers = ALONE  # who share the rows
         if self.graded and sides.closed:
             raise ParameterError(
-                f"a grading does not go with sides {sides.name}. Leave the spacing uniform."
+                f"A grid that is graded cannot be combined with sides {sides.name}. Use a uniform "
+                "spacing."
             )
         self.modes: Array | None = None
         if sides.closed:

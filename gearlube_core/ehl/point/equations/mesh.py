@@ -47,8 +47,8 @@ class Grading:
         rising = all(a < b for a, b in pairwise(self.at))
         if len(self.at) < 2 or len(self.spacing) != len(self.at) or not rising:
             raise ParameterError(
-                f"a grading needs two rising places or more with a spacing each, got {self.at} m "
-                f"and {self.spacing}. Sort the places."
+                "A graded grid needs at least two rising positions, each with a spacing, got "
+                f"{self.at} m and {self.spacing}. Sort the positions."
             )
         for spacing in self.spacing:
             check_positive("spacing", spacing, "")

@@ -275,17 +275,17 @@ def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -
     refuse_rupture(settings, "with heat")
     if problem.sides != "ambient":
         raise ParameterError(
-            f"a thermal film needs sides ambient, got {problem.sides}. Leave heat out."
+            f"a thermal film needs sides ambient, got {problem.sides}. Take an isothermal film."
         )
     if problem.sliding is None:
         raise ParameterError(
-            "A thermal film needs `sliding`: the velocity of body 2 against body 1, (0, 0) where "
-            "the surfaces roll."
+            "A thermal film needs `sliding`: the velocity of body 2 relative to body 1, (0, 0) in "
+            "pure rolling."
         )
     if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
         raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. "
-            "Take law houpert."
+            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. Give "
+            "temperature_exponent and take law houpert."
         )
 
 
