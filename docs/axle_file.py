@@ -23,6 +23,7 @@ SECTIONS = {
     "housing": "[housing]: the gear in its oil",
     "seals": "[seals]: of the shafts",
     "model": "[model]: how the axle is computed",
+    "film": "[film]: film and friction of the oil on the flanks",
     "vehicle": "[vehicle]",
     "tyre": "[tyre]",
     "gearbox": "[gearbox]",
@@ -120,6 +121,16 @@ for note in paper.assumed:
 - An `asperity_table` of surfaces pressed together without oil puts far more load on the asperities
   than the usual constants do. It does not include the oil pressure that flattens the roughness
   before the surfaces touch. See [loss_map.md](loss_map.md#mixed-friction-of-the-flanks).
+- `film.model` says where film and friction of the oil on the flanks come from. `formula` is
+  Chittenden 1985 with Evans and Johnson 1986. `solved` is a model of solved thermal Eyring films.
+  It knows the oil by its viscosity, `alpha_per_gpa`, `eyring_stress_mpa`, conductivity and heat
+  capacity. Outside its domain the formulas come in. The results then have the share of load
+  outside, and bounds of losses and efficiency. [film_model_axle.md](film_model_axle.md) compares
+  both. `gearlube axle show` tells which of the oil's data are assumed: they matter more than the
+  model's own error.
+- `film.limiting_slope` is the limiting shear stress of the film divided by pressure. The film model
+  knows no such limit: contacts that come near it count as outside. It does not change the junctions
+  of `limiting_shear_stress_mpa` and `boundary_friction`.
 - Rolling friction of the flanks is only modelled if `flank_rolling` of `[model]` names its law.
 - `bearing_torque_loss` of `[model]` selects the law of the bearing drag. All laws except palmgren
   use the forces of each bearing or the load of each roller, updated at least once in 12 integrator
@@ -205,6 +216,8 @@ _FIELDS = {
     "pinion_seal_torque": "`seals.pinion_torque_n_m`",
     "wheel_seal_torque": "`seals.wheel_torque_n_m`",
     "rolling": "`model.flank_rolling`",
+    "film": "`film.model`",
+    "film_limiting_slope": "`film.limiting_slope`",
     "bearing_approach": "`model.bearing_approach`",
 }
 

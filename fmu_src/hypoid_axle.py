@@ -69,6 +69,7 @@ DEFINITION = Definition(
     shipped_data=(
         "gearlube_core/mesh_table/data/mohammadpour_2015.nc",
         "gearlube_core/oil/lubricants.toml",
+        "gearlube_core/film_model/data/hypoid_flank.json",
     ),
 )
 

@@ -31,6 +31,7 @@ from fmu_src.variable_kinds import (
 from gearlube_core.drag.churning import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
+from gearlube_core.friction.flank_laws import FILM_MODELS
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS
 
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
@@ -249,6 +250,25 @@ _ROLLING_LOSSES = (
 _ROLLING_ENERGIES = energies(
     {"friction_rolling": "Energy lost in rolling of the flanks since initialisation"}
 )
+# films by a model of solved films, youngest
+_FILM = (
+    option("film.model", "Film and oil friction of the flanks: by formulas, or by a model of "
+           "solved films", *FILM_MODELS, start="formula", argument="film"),
+    parameter("film.limiting_slope", "1", "Limiting shear stress of a solved film over pressure; "
+              "0: none. Near it the formulas come in",
+              start=0.0, minimum=0.0, maximum=1.0, nominal=0.1, argument="film_limiting_slope"),
+)  # fmt: skip
+_FILM_OUTPUTS = (
+    output("film.share_outside", "1", "Share of the flanks' load outside the domain of the model "
+           "of solved films; 0 with formulas"),
+    *(output(f"flank[{i}].{name}_bound", "1", f"Bound of the {words} of tooth pair {i}, relative; "
+             "0 with formulas", 0.05)
+      for i in (1, 2, 3)
+      for name, words in (("film", "film thickness"), ("friction", "friction"))),
+    output("friction.power_loss_bound", "W", "Bound of friction.power_loss by those of the flanks; "
+           "0 with formulas", 10.0),
+    output("efficiency_bound", "1", "The same of efficiency and axle.efficiency", 0.001),
+)  # fmt: skip
 _LATER_ENERGIES = _DRAG_ENERGIES + _ROLLING_ENERGIES
 _LATER_STATES = tuple(variable.name for variable in _LATER_ENERGIES)
 _BY_NAME |= {variable.name: variable for variable in _LATER_ENERGIES}
@@ -268,4 +288,7 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *_ROLLING_LOSSES,
     *_ROLLING_ENERGIES,
     *rates(_ROLLING_ENERGIES),
+    *_FILM,
+    *options_by_number(_FILM),
+    *_FILM_OUTPUTS,
 )

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.axle_sections import GearSet, ModelOptions, Steel
+from drivetrain.axle_file.axle_sections import FilmSection, GearSet, ModelOptions, Steel
 from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.car_sections import DrivelineSection, TyreSection, VehicleSection
 from drivetrain.axle_file.drag_sections import Housing, Seals
@@ -106,6 +106,7 @@ class AxleFile(InputFile):
     housing: Housing = Housing()
     seals: Seals = Seals()
     model: ModelOptions = ModelOptions()
+    film: FilmSection = FilmSection()
     vehicle: VehicleSection = VehicleSection()
     tyre: TyreSection = TyreSection()
     gearbox: GearboxSection = GearboxSection()
@@ -229,7 +230,7 @@ class AxleFile(InputFile):
             )
         bearing, gear_bearing = self._bearings()
         density = float(bearing.solid.density)
-        given = self.gear_set.changes(base) | self.model.changes(base)
+        given = self.gear_set.changes(base) | self.model.changes(base) | self.film.changes(base)
         given |= self.pinion.member_changes("pinion", density)
         given |= self.gear.member_changes("gear", density)
         given |= self.housing.housing_changes(base) | self.seals.seal_changes()
@@ -293,6 +294,9 @@ class AxleFile(InputFile):
         notes += self.housing.housing_notes("housing.", axle)
         notes += self.seals.seal_notes("seals.", axle)
         notes += self.model.notes("model.", axle, _MODEL)
+        notes += self.film.notes("film.", axle, _MODEL)
+        if axle.film == "solved":
+            notes += self.oil.rheology_notes("oil.", axle.oil)
         if self.model.bearing_approach is None:
             value = TaperedRollerBearing.mohammadpour_2015().approach
             notes.append(InputNote("model.bearing_approach", value, "", "assumed", _MODEL))

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
-from gearlube_core.dynamics.hypoid_axle.parameters import Friction
+from gearlube_core.dynamics.hypoid_axle.parameters import Film, Friction
 
 Text = Annotated[str, Field(min_length=1)]
 Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False)]
@@ -24,6 +24,7 @@ Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False)]
 Poisson = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Density = Annotated[float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False)]
 Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False)]
+LimitingSlope = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 HeatCapacity = Annotated[float, Field(ge=50.0, le=5000.0, allow_inf_nan=False)]
 
 
@@ -140,6 +141,25 @@ class Steel(ModelSection):
     )
     heat_capacity_j_kg_k: HeatCapacity | None = Field(
         default=None, description="Specific heat capacity"
+    )
+
+
+class FilmSection(ModelSection):
+    """Film and friction of the oil on the flanks."""
+
+    renamed: ClassVar[Mapping[str, str]] = {
+        "model": "film",
+        "limiting_slope": "film_limiting_slope",
+    }
+
+    model: Film | None = Field(
+        default=None,
+        description="formula: Chittenden 1985 with Evans and Johnson 1986; solved: a model of "
+        "solved thermal Eyring films, and the formulas outside its domain",
+    )
+    limiting_slope: LimitingSlope | None = Field(
+        default=None,
+        description="Limiting shear stress of the film over pressure, for solved films; 0: none",
     )
 
 

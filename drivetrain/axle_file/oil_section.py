@@ -7,9 +7,11 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
+from drivetrain.axle_file.field_units import field_value, unit_of
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.units import celsius_to_kelvin
@@ -31,6 +33,12 @@ Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False)]
 OIL = "mohammadpour_2015"
 _SHEET = ("viscosity_40_degc_mm2_s", "viscosity_100_degc_mm2_s")
 _WALTHER = ("walther_a", "walther_b")
+_RHEOLOGY = (
+    "alpha_per_gpa",
+    "eyring_stress_mpa",
+    "conductivity_w_m_k",
+    "heat_capacity_j_kg_k",
+)
 
 
 class OilSection(ModelSection):
@@ -155,6 +163,24 @@ class OilSection(ModelSection):
             )
             changes |= {"walther_a": line.walther_a, "walther_b": line.walther_b}
         return replace(base, **changes)
+
+    def rheology_notes(self, prefix: str, made: Lubricant) -> list[InputNote]:
+        """Return notes on what solved films take of a shipped oil, which its name alone hides.
+
+        Of another oil `oil_notes` has them.
+        """
+        if self.name is None or not self.is_shipped:
+            return []
+        data = read_library()[made.name]["data"]
+        notes = []
+        for key in _RHEOLOGY:
+            name = self.attribute(key)
+            _, tag, source = data[name]
+            origin: Origin = "assumed" if tag == "assumed" else "inferred"
+            value = field_value(key, getattr(made, name))
+            why = f"shipped oil {made.name}, {tag}: {source}"
+            notes.append(InputNote(prefix + key, value, unit_of(key), origin, why))
+        return notes
 
     def oil_notes(
         self, prefix: str, made: Lubricant, of_file: DescribedOil | None = None

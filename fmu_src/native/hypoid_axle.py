@@ -36,7 +36,9 @@ from gearlube_core.dynamics.hypoid_axle.model import (
 )
 from gearlube_core.dynamics.hypoid_axle.outputs import MOTION_OUTPUTS, N_OUTPUTS, POWERS
 from gearlube_core.dynamics.hypoid_axle.parameters import (
+    FILM_MODEL,
     NO_MODAL_LOSS,
+    PRINTED_WITH_SOLVED_FILM,
     HypoidAxleParameters,
     MeshStiffness,
     Radii,
@@ -49,17 +51,21 @@ from gearlube_core.dynamics.hypoid_axle.start import (
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.hypoid_axle.step_control import NO_MODES, NO_MODES_WORDS
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
-from gearlube_core.friction.flank_laws import MixedFlankFriction
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.friction.flank_data import CONSISTENT, ZHOU_HOEPRICH_SHARE
+from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model
+from gearlube_core.friction.flank_laws import SOLVED, MixedFlankFriction
 from gearlube_core.friction.thermal_eyring_data import PRESSURES
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 
-MODAL_WITHOUT_LOSS = 6  # status, beside those of the kernels
+MODAL_WITHOUT_LOSS, PRINTED_FILM = 6, 7  # statuses, beside those of the kernels
 REFUSALS: Mapping[int, str] = {
     **STEP_REFUSALS,
     NO_EQUILIBRIUM: f"no static equilibrium at this pinion torque. {NO_EQUILIBRIUM_CURE}",
     NO_MODES: NO_MODES_WORDS,
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
+    PRINTED_FILM: PRINTED_WITH_SOLVED_FILM,
 }
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, Operation)
 _N_INPUTS = 3
@@ -79,6 +85,7 @@ class _Places(NamedTuple):
     levels: int
     series: int  # for each of `Radii`, for each of `MeshStiffness`
     windows: int  # for each of `PRESSURES`
+    film_model: int
     data_end: int
     # in work
     settings: int
@@ -86,6 +93,7 @@ class _Places(NamedTuple):
     trial: int
     control: int
     rollers: int
+    films: int  # the film model, whose numbers are written into
     scratch: int
     work_end: int
     # packed floats that kernels derive
@@ -155,8 +163,13 @@ def _write_parameters(parameters: Array, data: Array, at: _Places, work: Array) 
     for i in range(_N_PARAMETERS):
         value = data[at.lossless + i]
         work[at.without_losses + i] = value if value == value else work[i]
+    for i in range(N_FLANK_MODEL):
+        work[at.films + i] = data[at.film_model + i]
     if settings.modal != 0.0 and settings.modal_loss_factor == 0.0:
         return MODAL_WITHOUT_LOSS
+    law: Any = p.flank_law
+    if law.film == SOLVED and law.form != CONSISTENT and law.form != ZHOU_HOEPRICH_SHARE:
+        return PRINTED_FILM
     return OK
 
 
@@ -173,6 +186,7 @@ def _chosen_mesh(data: Array, at: _Places, work: Array) -> MeshFields:
         at.orders,
         data[windows : windows + at.windows_size],
         at.nodes,
+        work[at.films : at.scratch],
     )
 
 
@@ -207,7 +221,7 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
         packed = values[0 : at.settings]
         s = kept[0:N_STATE]
         trial = values[at.trial : at.control]
-        rollers = values[at.rollers : at.scratch]
+        rollers = values[at.rollers : at.films]
         scratch = values[at.scratch : at.work_end]
         if operation == _STEP:
             control = kept[_CONTROL_AT:_STATE_SIZE]
@@ -286,7 +300,9 @@ def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
     without = _N_PARAMETERS + _N_SETTINGS
     trial = without + _N_PARAMETERS
     rollers = trial + N_STATE + _N_CONTROL
-    scratch = rollers + ROLLERS_MAX
+    films = rollers + ROLLERS_MAX
+    scratch = films + N_FLANK_MODEL
+    film_model = windows + len(PRESSURES) * mesh.windows.size
     return _Places(
         options=ends[0],
         rows=ends[1],
@@ -295,12 +311,14 @@ def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
         levels=levels,
         series=series,
         windows=windows,
-        data_end=windows + len(PRESSURES) * mesh.windows.size,
+        film_model=film_model,
+        data_end=film_model + N_FLANK_MODEL,
         settings=_N_PARAMETERS,
         without_losses=without,
         trial=trial,
         control=trial + N_STATE,
         rollers=rollers,
+        films=films,
         scratch=scratch,
         work_end=scratch + max(work_size(mesh.series_size, mesh.nodes), START_WORK),
         **_DERIVED,
@@ -337,6 +355,7 @@ def native_model(definition: Definition) -> NativeModel:
             packed_mesh.levels,
             *series,
             *windows,
+            flank_film_model(FilmModel.named(FILM_MODEL)),
         ]
     )
     unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.contact.elliptical_hertz import ellipticity
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_rolling import rolling_geometry
 from gearlube_core.friction.thermal_eyring_data import circular_pressure_coefficient
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_G, R_P, E
+from gearlube_core.mesh_table.sliding_direction import pair_sliding_direction, turned_on
 from gearlube_core.mesh_table.table import MEMBERS, MeshTable
 
 # the series whose mean is the linear stiffness of the mesh
@@ -21,7 +23,10 @@ PACKED_SERIES = ("k_m", "R_p", "R_g", "n_x", "n_y", "n_z", "e")
 SHARE, R_E, SIDE_FLOW, PRESSURE, ENTRAIN, ARM_P, ARM_G, XI_X, XI_Y, XI_Z = range(10)
 # of the line that rolls: its radius, its length over load^(1/3), and the entrainment across it
 LINE_RADIUS, LINE_LENGTH, ROLL = range(10, 13)
-N_CHANNELS = 13
+# of the ellipse: its other radius, major over minor semi-axis, entrainment from the minor axis, and
+# sliding from the entrainment
+R_Y, ELLIPTICITY, PSI, DELTA = range(13, 17)
+N_CHANNELS = 17
 _SAMPLES_PER_ORDER = 8  # of the period, where a quotient of series is made a series again
 
 
@@ -47,6 +52,11 @@ class PackedMesh:
     windows: Array
     orders: int
     nodes: int
+
+    @property
+    def fields(self) -> tuple[Array, Array, int, Array, int]:
+        """The table as kernels take it."""
+        return self.levels, self.series, self.orders, self.windows, self.nodes
 
     @property
     def series_size(self) -> int:
@@ -92,6 +102,7 @@ def pack_mesh(
     levels, nodes = table.torque.size, table.nodes
     windows = np.empty((levels, nodes + 1, N_CHANNELS))
     data = table.windows
+    sliding = _sliding_angles(table)
     for level in range(levels):
         for node in range(nodes):
             R_x, R_y = data["R_x"][level, node], data["R_y"][level, node]
@@ -111,6 +122,10 @@ def pack_mesh(
                 data["xi_z"][level, node],
                 *rolling_geometry(R_x, R_y, contact_modulus),
                 data["entrainment_arm"][level, node] * np.cos(psi),
+                R_y,
+                ellipticity(max(R_x, R_y) / min(R_x, R_y)),
+                psi,
+                sliding[level, node] - psi,
             )
     windows[:, nodes] = windows[:, 0]
     return PackedMesh(
@@ -120,6 +135,20 @@ def pack_mesh(
         table.orders,
         nodes,
     )
+
+
+def _sliding_angles(table: MeshTable) -> Array:
+    """Return the angle of sliding from the minor axis of each pair [rad], (L, N); without jumps."""
+    by_level = [
+        {key: values[level] for key, values in table.windows.items()}
+        for level in range(table.torque.size)
+    ]
+    angles = np.stack([pair_sliding_direction(window, table.ratio) for window in by_level])
+    coast = table.torque < 0.0
+    for side in (coast, ~coast):
+        if side.any():
+            angles[side] = turned_on(angles[side])
+    return angles
 
 
 def pack_series(table: MeshTable, radii: str, stiffness: str) -> Array:

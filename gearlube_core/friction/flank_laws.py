@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.friction.flank import flank_friction
+from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse, ModelFilm
 from gearlube_core.friction.flank_data import (
     AS_PRINTED,
     CONSISTENT,
@@ -16,17 +18,28 @@ from gearlube_core.friction.flank_data import (
     ContactGeometry,
     FlankState,
 )
+from gearlube_core.friction.flank_film import flank_model_film
 from gearlube_core.friction.flank_law import FlankLawMaker
+from gearlube_core.friction.solved_flank import solved_flank_friction
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
+FORMULA, SOLVED = range(2)  # places in FILM_MODELS
+FILM_MODELS = ("formula", "solved")  # where film and friction of the oil are from
+
 
 class MixedFlankFriction(NamedTuple):
-    """Mixed friction of Mohammadpour et al. 2015; see `flank.flank_friction`."""
+    """Mixed friction of Mohammadpour et al. 2015; see `flank.flank_friction`.
+
+    With the film SOLVED its film and the friction of the oil are those of a film model, see
+    `solved_flank.solved_flank_friction`.
+    """
 
     surface: SurfaceParameters
     solid: SolidParameters
     form: float  # CONSISTENT, AS_PRINTED, PRINTED_TRACTION or ZHOU_HOEPRICH_SHARE [-]
+    film: float = 0.0  # FORMULA or SOLVED [-]
+    limiting_slope: float = 0.0  # of a solved film: limiting stress over pressure; 0: none [-]
 
     @kernel
     def flank_state(
@@ -37,7 +50,7 @@ class MixedFlankFriction(NamedTuple):
         geometry: ContactGeometry,
         oil: LubricantState,
     ) -> FlankState:
-        """Return film, friction and temperature of one flank."""
+        """Return film, friction and temperature of one flank by the formulas."""
         return flank_friction(
             load,
             entrainment_speed,
@@ -48,6 +61,67 @@ class MixedFlankFriction(NamedTuple):
             self.solid,
             int(self.form),
         )
+
+    @kernel
+    def model_film(
+        self,
+        load: float,
+        entrainment_speed: float,
+        sliding_speed: float,
+        geometry: ContactGeometry,
+        ellipse: FlankEllipse,
+        oil: LubricantState,
+        film_model: Array,
+    ) -> ModelFilm:
+        """Return what the film model says of one flank."""
+        return flank_model_film(
+            load,
+            entrainment_speed,
+            sliding_speed,
+            geometry,
+            ellipse,
+            oil,
+            self.solid,
+            self.limiting_slope,
+            film_model,
+        )
+
+    @kernel
+    def bounded_flank(
+        self,
+        load: float,
+        entrainment_speed: float,
+        sliding_speed: float,
+        geometry: ContactGeometry,
+        film: ModelFilm,
+        oil: LubricantState,
+        film_model: Array,
+    ) -> BoundedFlank:
+        """Return film, friction and temperature of one flank with bounds."""
+        if self.film == SOLVED:
+            return solved_flank_friction(
+                load,
+                entrainment_speed,
+                sliding_speed,
+                geometry,
+                film,
+                oil,
+                self.surface,
+                self.solid,
+                int(self.form),
+                film_model,
+            )
+        state = flank_friction(
+            load,
+            entrainment_speed,
+            sliding_speed,
+            geometry,
+            oil,
+            self.surface,
+            self.solid,
+            int(self.form),
+        )
+        return BoundedFlank(state, 0.0, 0.0, 0.0)
 
 
 def consistent(surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:

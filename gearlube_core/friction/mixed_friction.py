@@ -94,6 +94,120 @@ def contact_temperature_rise(
 
 
 @kernel
+def asperity_contact(
+    load: float,
+    area: float,
+    film_ratio: float,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+) -> tuple[float, float]:
+    """Return the load that asperities carry, at most `load`, and their area.
+
+    Parameters
+    ----------
+    load
+        Of the whole contact [N] or per unit length [N/m].
+    area
+        Of the contact [m2] or [m].
+    film_ratio
+        Film over composite roughness [-].
+    surface, solid, form
+        As in `mixed_friction`.
+
+    Returns
+    -------
+    tuple of float
+        W_a [N] or [N/m], A_a [m2] or [m].
+
+    Notes
+    -----
+    Range and sources as in `mixed_friction`.
+    """
+    load_factor = asperity_load_factor(surface)
+    if form == AS_PRINTED:
+        W_a = load_factor * (2.0 * solid.contact_modulus) * area * f_5_2_as_printed(film_ratio)
+        A_a = asperity_area_factor(surface) * area * f_2_as_printed(film_ratio)
+        return min(W_a, load), A_a
+    F_2, F_5_2 = asperity_integrals(film_ratio)
+    W_a = load_factor * solid.contact_modulus * area * F_5_2
+    if form == ZHOU_HOEPRICH_SHARE:
+        W_a = load * asperity_share(film_ratio, RACE_B, RACE_C)
+    A_a = asperity_area_factor(surface) * area * F_2
+    return min(W_a, load), A_a
+
+
+@kernel
+def boundary_friction(W_a: float, A_a: float, slip: float, lubricant: LubricantState) -> float:
+    """Return the friction of asperities, tau_l0 A_a + gamma W_a, built up over BOUNDARY_SPEED.
+
+    Parameters
+    ----------
+    W_a, A_a
+        Load and area of `asperity_contact`.
+    slip
+        Magnitude of the sliding speed [m/s].
+    lubricant
+        Strength of its boundary layers.
+
+    Returns
+    -------
+    float
+        [N] or [N/m], not negative.
+    """
+    f_b = lubricant.tau_l0 * A_a + lubricant.gamma * W_a
+    f_b = max(f_b, 0.0)  # the printed area integral is negative from a film ratio of 2 on
+    build_up = slip / BOUNDARY_SPEED
+    if build_up < _SATURATION:
+        f_b *= math.tanh(build_up)
+    return f_b
+
+
+@kernel
+def friction_with_asperities(
+    film_friction: float,
+    load: float,
+    film_load: float,
+    mean_pressure: float,
+    film_thickness: float,
+    slip: float,
+    resistance: float,
+    still_area: float,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+) -> MixedFriction:
+    """Return friction and temperature of a contact whose film's own friction is known.
+
+    Parameters
+    ----------
+    film_friction
+        Friction coefficient mu of the film where it carries all of the load [-].
+    resistance
+        r of `solid_resistance` [m2 K/W].
+
+    Others, result and notes as in `mixed_friction`.
+    """
+    W_a, A_a = asperity_contact(
+        load, load / mean_pressure, film_thickness / surface.sigma, surface, solid, form
+    )
+    F_viscous = load if form == AS_PRINTED else load - W_a
+    f_v = film_friction * F_viscous
+    f_b = boundary_friction(W_a, A_a, slip, lubricant)
+    friction = f_v + f_b
+    dT = contact_temperature_rise(
+        friction * slip * mean_pressure / film_load,
+        film_thickness,
+        still_area,
+        resistance,
+        lubricant.conductivity,
+        solid.conductivity,
+    )
+    return MixedFriction(f_v, f_b, friction / film_load, dT)
+
+
+@kernel
 def mixed_friction(
     load: float,
     film_load: float,
@@ -157,24 +271,7 @@ def mixed_friction(
     """
     reduced_modulus = 2.0 * solid.contact_modulus
     effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity
-    area = load / mean_pressure
-    film_ratio = film_thickness / surface.sigma
-    load_factor = asperity_load_factor(surface)
     beta = 1.0 if form in (AS_PRINTED, PRINTED_TRACTION) else lubricant.beta
-    if form == AS_PRINTED:
-        W_a = load_factor * reduced_modulus * area * f_5_2_as_printed(film_ratio)
-        A_a = asperity_area_factor(surface) * area * f_2_as_printed(film_ratio)
-        W_a = min(W_a, load)
-        F_viscous = load
-    else:
-        F_2, F_5_2 = asperity_integrals(film_ratio)
-        W_a = load_factor * solid.contact_modulus * area * F_5_2
-        if form == ZHOU_HOEPRICH_SHARE:
-            W_a = load * asperity_share(film_ratio, RACE_B, RACE_C)
-        A_a = asperity_area_factor(surface) * area * F_2
-        W_a = min(W_a, load)
-        F_viscous = load - W_a
-
     resistance = solid_resistance(R_e, mean_pressure, speed, reduced_modulus, effusivity_squared)
     zeta = surface_heating_number(film_thickness, lubricant.conductivity, resistance)
     mu = viscous_friction_coefficient(
@@ -188,19 +285,17 @@ def mixed_friction(
         lubricant.conductivity,
         zeta,
     )
-    f_v = mu * F_viscous
-    f_b = lubricant.tau_l0 * A_a + lubricant.gamma * W_a
-    f_b = max(f_b, 0.0)  # the printed area integral is negative from a film ratio of 2 on
-    build_up = slip / BOUNDARY_SPEED
-    if build_up < _SATURATION:
-        f_b *= math.tanh(build_up)
-    friction = f_v + f_b
-    dT = contact_temperature_rise(
-        friction * slip * mean_pressure / film_load,
+    return friction_with_asperities(
+        mu,
+        load,
+        film_load,
+        mean_pressure,
         film_thickness,
-        still_area,
+        slip,
         resistance,
-        lubricant.conductivity,
-        solid.conductivity,
+        still_area,
+        lubricant,
+        surface,
+        solid,
+        form,
     )
-    return MixedFriction(f_v, f_b, friction / film_load, dT)

@@ -210,6 +210,17 @@ def transmission_error(coefficients: Array, n_orders: int, z_p: float, phi: floa
 
 
 @kernel
+def pair_node(n_nodes: int, z_p: float, phi: float, pair: int) -> tuple[int, float]:
+    """Return the node of the window before a tooth pair, and how far it is on to the next one."""
+    position = z_p * phi * _WINDOWS_PER_RADIAN + pair * _THIRD
+    position = (position - math.floor(position)) * n_nodes
+    node = int(position)
+    if node >= n_nodes:
+        node = n_nodes - 1
+    return node, position - node
+
+
+@kernel
 def pair_channels(
     window: Array,
     n_nodes: int,
@@ -230,12 +241,7 @@ def pair_channels(
     Windows of whole mesh periods in place of the flank functions.
     Source: [karagiannis_2012 (27)] [karagiannis_2012 (28)] [karagiannis_2012 (29)]
     """
-    position = z_p * phi * _WINDOWS_PER_RADIAN + pair * _THIRD
-    position = (position - math.floor(position)) * n_nodes
-    node = int(position)
-    if node >= n_nodes:
-        node = n_nodes - 1
-    t = position - node
+    node, t = pair_node(n_nodes, z_p, phi, pair)
     a = node * n_channels
     b = a + n_channels
     out[0] = window[a] + t * (window[b] - window[a])

@@ -31,6 +31,7 @@ class LubricantParameters(NamedTuple):
     conductivity: float  # at conductivity_temperature [W/(m K)]
     conductivity_temperature: float  # [K]
     conductivity_slope: float  # [W/(m K2)]
+    heat_capacity: float  # [J/(kg K)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -200,6 +201,7 @@ class Lubricant:
             conductivity=float(self.conductivity),
             conductivity_temperature=float(self.conductivity_temperature),
             conductivity_slope=float(self.conductivity_slope),
+            heat_capacity=float(self.heat_capacity),
         )
 
 

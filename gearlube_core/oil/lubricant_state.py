@@ -21,6 +21,8 @@ class LubricantState(NamedTuple):
     tau_l0: float  # limiting shear stress at zero pressure [Pa]
     gamma: float  # boundary friction [-]
     conductivity: float  # [W/(m K)]
+    temperature: float  # of the oil [K]
+    volume_heat: float  # heat capacity by volume [J/(m3 K)]
 
 
 @kernel
@@ -60,4 +62,6 @@ def lubricant_state(parameters: LubricantParameters, temperature: float) -> Lubr
         parameters.tau_l0,
         parameters.gamma,
         conductivity,
+        temperature,
+        parameters.density * parameters.heat_capacity,
     )

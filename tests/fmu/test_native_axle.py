@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -16,12 +17,18 @@ from fmu_src.hypoid_axle import (
     definition_with_table,
     start_axle,
 )
-from fmu_src.native.hypoid_axle import MODAL_WITHOUT_LOSS, REFUSALS, native_model
+from fmu_src.native.hypoid_axle import (
+    MODAL_WITHOUT_LOSS,
+    PRINTED_FILM,
+    REFUSALS,
+    native_model,
+)
 from fmu_src.native.model import OK, Operation
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle.integrate import TOO_MANY_STEPS
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.dynamics.hypoid_axle.parameters import FRICTION_WITH_SOLVED_FILM
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
@@ -80,6 +87,8 @@ def drivable(rng):
         values[f"{role}_contact_angle"] = rng.uniform(0.2, 0.5)
         values[f"{role}_f0"], values[f"{role}_f1"] = rng.uniform(0.0, 12.0), rng.uniform(0.0, 1e-3)
     values["steps_per_mesh_period"], values["steps_per_highest_period"] = 64, 22
+    if values["friction"] not in FRICTION_WITH_SOLVED_FILM:
+        values["film"] = "formula"
     torque = rng.uniform(-400.0, 400.0)
     return values, [torque, torque * 36 / 13, rng.uniform(300.0, 380.0)]
 
@@ -108,8 +117,13 @@ def test_parameters_are_packed_bit_for_bit_as_in_python(native, count):
                 in_python(values)
             assert REFUSALS[status] == str(refusal.value)
             continue
-        assert status == OK
         axle = in_python(values)
+        if values["film"] == "solved" and values["friction"] not in FRICTION_WITH_SOLVED_FILM:
+            assert status == PRINTED_FILM
+            with pytest.raises(ParameterError, match=re.escape(REFUSALS[status])):
+                axle.film_model()
+            continue
+        assert status == OK
         parameters = axle.kernel_parameters()
         np.testing.assert_array_equal(run.work[:N], flatten(parameters), str(values))
         at_ranges = native.model.ranges_at
@@ -185,6 +199,24 @@ def test_steps_continue_as_in_python_and_outputs_of_a_restored_state_are_the_sam
     run.inputs[:] = other.inputs[:] = CURRENT
     assert run(Operation.STEP, 1e-3) == other(Operation.STEP, 1e-3) == OK
     np.testing.assert_array_equal(other.state, run.state)
+
+
+def test_solved_films_are_those_of_python(native):
+    values = {"film": "solved", "pinion_speed": 150.0}
+    run = native.instance(values, CURRENT)
+    assert run(Operation.START) == OK
+    axle = start_axle(values, CURRENT)
+    for k in range(20):
+        torque = 60.0 + k
+        run.inputs[0] = torque
+        assert run.step(1e-3) == OK
+        axle.step(1e-3, torque, *CURRENT[1:])
+    run(Operation.OUTPUTS)
+    assert_outputs_agree(run, axle, 1e-9)  # as above
+    assert 0.0 < axle.output("efficiency_bound") < 0.02
+    loaded = np.array([axle.output(f"flank[{i}].load") for i in (1, 2, 3)]) > 0.0
+    bounds = np.array([axle.output(f"flank[{i}].friction_bound") for i in (1, 2, 3)])
+    np.testing.assert_array_equal(bounds > 0.0, loaded)
 
 
 def test_an_axle_file_changes_constants_alone_and_is_the_axle_of_python_over_20_ms(

@@ -13,6 +13,7 @@ from gearlube_core.dynamics.hypoid_axle import (
     bearing_drag,
     bearing_outputs,
     continuous,
+    film_nodes,
     flank_outputs,
     flanks,
     force_derivatives,
@@ -28,7 +29,12 @@ from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
 from gearlube_core.dynamics.hypoid_axle.model import START_WORK
-from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, N_OUTPUTS, PINION_BEARINGS
+from gearlube_core.dynamics.hypoid_axle.outputs import (
+    FIRST_FLANK_BOUND,
+    FLANKS,
+    N_OUTPUTS,
+    PINION_BEARINGS,
+)
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     N_CONTINUOUS,
@@ -43,6 +49,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
+from gearlube_core.friction.flank_bound import NO_MODEL_FILM, ModelFilm
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table import kernels
@@ -63,6 +70,8 @@ def all_cases():
     for _ in range(20):
         axle.step(1e-4, torque_p, torque_g, OIL)
     state = axle.get_state()[:N_STATE]
+    solved = HypoidAxle(axle_with(film="solved"))
+    by_model, numbers = solved.kernel_parameters, solved.parameters.film_model()
     mesh = axle.packed
     p = axle.kernel_parameters
     printed = HypoidAxle(
@@ -80,6 +89,7 @@ def all_cases():
     force = mesh_force.mesh_force(state, series, mesh.orders, p.mesh).force
     channels, friction = np.zeros(N_CHANNELS), np.zeros(rhs.N_FRICTION)
     kernels.pair_channels(window, mesh.nodes, p.mesh.z_p, state[PHI_P], 0, N_CHANNELS, channels)
+    around = np.array([8.0, force, 145.0, -15.0, -4.0, 0.0, -15.1, -3.9, 0.2])
     control = axle.step_control
     scratch = np.zeros(rhs.SCRATCH)
     slope = np.zeros(N_ODE)
@@ -186,15 +196,49 @@ def all_cases():
             (state, 3.0, 5.0, bearing_drag.BearingDrag(0.2, 0.3), state_of_oil, p),
         ),
         (flanks.sliding_speed, (state, channels)),
-        (flanks.pair_friction, (state, 900.0, 0.7, channels, state_of_oil, p)),
+        (flanks.contact_of, (channels,)),
+        (flanks.pair_film, (state, 900.0, 0.7, channels, state_of_oil, by_model, numbers)),
+        *(
+            (
+                flanks.pair_friction,
+                (state, 900.0, 0.7, channels, state_of_oil, one, film, numbers),
+            )
+            for one, film in (
+                (p, NO_MODEL_FILM),
+                *((by_model, ModelFilm(-15.0, -4.0, outside)) for outside in (0.0, 0.3, 1.0)),
+            )
+        ),
+        (
+            flanks._film_at_node,
+            (7, state, force, window, mesh.nodes, state_of_oil, by_model, numbers),
+        ),
+        *(
+            (
+                flanks.film_between_nodes,
+                (0, state, one, window, mesh.nodes, state_of_oil, by_model, numbers, around),
+            )
+            for one in (force, 2.0 * force)
+        ),
+        *((film_nodes.nodes_on, (around, node, 60, force, 145.0)) for node in (6, 7, 9)),
+        (film_nodes.node_films, (zeros(film_nodes.N_FILMS), 1)),
+        (film_nodes.forget_films, (around.copy(),)),
+        (film_nodes.start_films, (around.copy(), 5, force, 145.0)),
+        (film_nodes.take_next, (around.copy(), 8)),
+        (film_nodes.keep_film, (around.copy(), 1, ModelFilm(-15.0, -4.0, 0.2))),
+        (film_nodes.film_between, (around, 0.4)),
+        (kernels.pair_node, (60, 13.0, 0.3, 1)),
+        (mesh_at_load.place_at_load, (table, series, window)),
         (flanks.pair_rolling, (900.0, -2.0, 0.7, channels, state_of_oil, p)),
         *(
             (
                 flanks.flank_sum,
-                (state, force, window, mesh.nodes, state_of_oil, one, refresh, friction, channels),
+                (
+                    *(state, force, window, mesh.nodes, state_of_oil, one, refresh, friction),
+                    *(channels, numbers if one is by_model else zeros(0)),
+                ),
             )
-            for refresh in (1.0, 0.0)
-            for one in (p, p._replace(rolling=1.0))
+            for refresh in (1.0, 2.0, 0.0)
+            for one in (p, p._replace(rolling=1.0), by_model)
         ),
         (rhs.pinion_motion, (state,)),
         (rhs.gear_motion, (state,)),
@@ -304,34 +348,34 @@ def all_cases():
             for levels in (table, both_sides)
         ),
         (outputs.write_derivatives, (state, torques, OIL, table, p, work, zeros(N_OUTPUTS))),
+        (outputs._write_rates, (state, torques, OIL, table, p, 2.0, work, zeros(N_OUTPUTS))),
         (outputs.stored_energy, (state, 5e8, state_of_oil, p)),
-        (
-            flank_outputs.write_flanks,
+        *(
             (
-                state,
-                force,
-                window,
-                mesh.nodes,
-                OIL,
-                state_of_oil,
-                p,
-                FLANKS,
-                channels,
-                zeros(N_OUTPUTS),
-            ),
+                flank_outputs.write_flanks,
+                (
+                    *(state, force, window, mesh.nodes, OIL, state_of_oil, one, model, asked),
+                    *(zeros(film_nodes.N_FILMS), FLANKS, FIRST_FLANK_BOUND, channels),
+                    zeros(N_OUTPUTS),
+                ),
+            )
+            for one, model, asked in ((p, zeros(0), 1.0), (by_model, numbers, 2.0))
         ),
         (bearing_outputs.write_shaft, (*write_shaft, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
         *(
             (mean_power.mean_power, (state, slope, PINION_WORK, WORK_MARK, duration))
             for duration in (0.0, 1e-4)
         ),
-        *((outputs.write_losses, (state, slope, zeros(N_OUTPUTS))) for state in (state, at_start)),
+        *(
+            (outputs.write_losses, (state, slope, 7.0, zeros(N_OUTPUTS)))
+            for state in (state, at_start)
+        ),
         *(
             (integrate.advance, (state, duration, torques, OIL, table, p, control, work))
             for duration in (1e-4, 1e9)
         ),
         *(
-            (outputs.write_motion, (one, slope, series, mesh.orders, p, zeros(N_OUTPUTS)))
+            (outputs.write_motion, (one, slope, 7.0, series, mesh.orders, p, zeros(N_OUTPUTS)))
             for one in (state, at_start, separated)
         ),
         (outputs.write_motion_after_step, (state, table, p, work, zeros(N_OUTPUTS))),

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.kernels.flat_tuples import flatten
-
 
 def numbers(value):
-    return np.ravel(flatten(value) if isinstance(value, tuple) else value)
+    """All numbers in a result: a number, an array, or tuples of these."""
+    if isinstance(value, tuple):
+        return np.concatenate([numbers(part) for part in value]) if value else np.zeros(0)
+    return np.ravel(np.asarray(value, dtype=float))
 
 
 def own_arrays(value):

@@ -70,8 +70,9 @@ def rates(monkeypatch, s, p, tractions=1.0, bearings=1.0):
     interpret(monkeypatch, rhs)
     expanded = []
 
-    def flank_sum(s, force, window, nodes, oil, p, fresh, friction, channels):
+    def flank_sum(s, force, window, nodes, oil, p, fresh, friction, channels, film_model):
         assert (force, window, nodes, oil, fresh) == (2500.0, "window", 3, "oil", tractions)
+        assert film_model == "film model"
         assert (friction.size, channels.size) == (rhs.N_FRICTION, rhs.AT_EXPANSION - rhs.N_FRICTION)
         return FRICTION
 
@@ -94,7 +95,7 @@ def rates(monkeypatch, s, p, tractions=1.0, bearings=1.0):
     ):  # fmt: skip
         monkeypatch.setattr(rhs, name, stand_in)
     ds = np.full(N_ODE, np.nan)
-    mesh = MeshAtLoad("series", 2, "window", 3)
+    mesh = MeshAtLoad("series", 2, "window", 3, "film model")
     force = source_of(rhs.axle_rhs)(
         s, INPUTS, mesh, "oil", p, tractions, bearings, np.zeros(rhs.SCRATCH), ds
     )
@@ -156,7 +157,9 @@ def test_outputs_after_a_step_read_all_orders_of_the_mesh_between_levels(monkeyp
     coefficients = np.random.default_rng(4).normal(size=(levels.size, size))
     seen = []
     monkeypatch.setattr(
-        outputs, "write_motion", lambda s, rates, series, *_: seen.append((rates, series.copy()))
+        outputs,
+        "write_motion",
+        lambda s, rates, _, series, *__: seen.append((rates, series.copy())),
     )
     s = np.zeros(N_STATE)
     s[LOAD_TORQUE], s[SIDE] = 50.0, side

@@ -6,28 +6,35 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.hypoid_axle import flank_outputs, flanks
+from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_contact_groups
+from gearlube_core.friction.flank_bound import NO_MODEL_FILM, BoundedFlank
 from gearlube_core.friction.flank_data import FlankState
 from gearlube_core.oil.lubricant_state import LubricantState
 from tests.helpers.source_of import source_of
 
-OIL = LubricantState(0.02, 1.8e-8, 0.04, 2.5e-5, 3e6, 0.0, 0.07, 0.14)
+OIL = LubricantState(0.02, 1.8e-8, 0.04, 2.5e-5, 3e6, 0.0, 0.07, 0.14, 350.0, 1.74e6)
 OIL_TEMPERATURE = 350.0
 FORCE = -2000.0  # N, on the coast flanks
 SHARES = np.array([0.3, 0.0, 0.7])
 FIRST = 4  # place of the first output
 # the rows are share, R_e, side flow, pressure, entrainment arm, arms, direction of sliding, and of
-# the line that rolls radius, length over load^(1/3) and arm of the entrainment across it
+# the line that rolls radius, length over load^(1/3) and arm of the entrainment across it; then the
+# ellipse: its other radius, ellipticity, angles of entrainment and of sliding from there
 PAIRS = np.array(
     [
-        [0.3, 0.011, 0.9, 2.1e7, -0.021, 0.012, 0.035, 0.6, -0.48, 0.64, 0.010, 1.1e-3, 0.013],
-        [0.0, 0.013, 0.7, 2.3e7, 0.023, 0.017, 0.031, 0.8, 0.36, 0.48, 0.011, 1.2e-3, 0.015],
-        [0.7, 0.017, 0.8, 2.7e7, 0.029, -0.019, 0.041, -0.36, 0.8, 0.48, 0.012, 1.3e-3, -0.018],
+        [0.3, 0.011, 0.9, 2.1e7, -0.021, 0.012, 0.035, 0.6, -0.48, 0.64, 0.010, 1.1e-3, 0.013,
+         0.51, 13.0, 0.7, 0.2],
+        [0.0, 0.013, 0.7, 2.3e7, 0.023, 0.017, 0.031, 0.8, 0.36, 0.48, 0.011, 1.2e-3, 0.015,
+         0.52, 14.0, 0.8, 0.3],
+        [0.7, 0.017, 0.8, 2.7e7, 0.029, -0.019, 0.041, -0.36, 0.8, 0.48, 0.012, 1.3e-3, -0.018,
+         0.53, 15.0, 0.9, 0.4],
     ]
-)
+)  # fmt: skip
+NO_MODEL = np.zeros(0)
 WINDOW = np.concatenate([PAIRS, PAIRS[:1]]).ravel()
 
 
@@ -53,31 +60,38 @@ def sliding_of(row):
 
 
 def flank_under(load, film_ratio=2.0):
-    """Made-up film and friction that tell the loads apart; f = 0.05 F viscous, 0.01 F boundary."""
-    return FlankState(
+    """Made-up film and friction that tell the loads apart; f = 0.05 F viscous, 0.01 F boundary.
+
+    Half of a load above 1 kN lies outside the film model's domain.
+    """
+    state = FlankState(
         3e-10 * load, film_ratio, 0.05 * load, 0.01 * load, 0.06, 0.01 * load, 5e5 * load
     )
+    return BoundedFlank(state, 0.5 if load > 1e3 else 0.0, 0.02, 0.03)
 
 
 def written(monkeypatch, friction=1.0, film_ratio=2.0, shares=SHARES, force=FORCE):
     """Outputs behind and before the flanks', and the most loaded flank."""
 
-    def pair_friction(s, load, sliding, channels, oil, p):
+    def pair_friction(s, load, sliding, channels, oil, p, film, film_model):
         i = int(np.argmin(np.abs(PAIRS[:, 1] - channels[1])))
         assert load == pytest.approx(abs(force) * shares[i], rel=1e-14)
         assert sliding == pytest.approx(sliding_of(PAIRS[i]), rel=1e-12)
         return flank_under(load, film_ratio)
 
     monkeypatch.setattr(flank_outputs, "pair_friction", pair_friction)
-    out = np.full(FIRST + 16, -7.0)
+    out = np.full(FIRST + 22, -7.0)
     window = np.concatenate([PAIRS, PAIRS[:1]])
     window[:3, 0], window[3, 0] = shares, shares[0]
     found = source_of(flank_outputs.write_flanks)(
-        moving(), force, window.ravel(), 3, OIL_TEMPERATURE, OIL, parameters(friction), FIRST,
-        np.zeros(N_CHANNELS), out,
+        moving(), force, window.ravel(), 3, OIL_TEMPERATURE, OIL, parameters(friction), NO_MODEL,
+        flanks.EXACT, np.zeros(N_FILMS), FIRST, FIRST + 16, np.zeros(N_CHANNELS), out,
     )  # fmt: skip
     assert np.all(out[:FIRST] == -7.0)
     assert out[FIRST + 15] == -7.0
+    on = out[FIRST : FIRST + 15 : 5] > 0.0
+    bounds = out[FIRST + 16 :].reshape(3, 2)
+    np.testing.assert_array_equal(bounds, np.outer(on, [0.02, 0.03 * friction]))
     return out[FIRST : FIRST + 15].reshape(3, 5), found
 
 
@@ -92,6 +106,7 @@ def test_outputs_of_every_flank(monkeypatch):
             row, [load, 3e-10 * load, 2.0 * on, 0.06 * on, temperature], rtol=1e-14
         )
     assert found.temperature == pytest.approx(OIL_TEMPERATURE + 14.0, rel=1e-14)
+    assert found.outside == pytest.approx(0.5 * 1400.0 / 2000.0, rel=1e-14)
 
 
 @pytest.mark.parametrize("shares", [SHARES, np.array([0.6, 0.4, 0.0]), np.array([0.2, 0.5, 0.3])])
@@ -141,18 +156,23 @@ def test_flanks_that_hardly_touch_have_films_and_ranges_too(monkeypatch):
 
 def test_no_flank_stands_out_without_load(monkeypatch):
     rows, found = written(monkeypatch, shares=np.zeros(3))
-    assert found == (0.0, 0.0, 0.0, 0.0, 0.0)
+    assert found == (0.0,) * 6
     np.testing.assert_array_equal(rows, [[0.0, 0.0, 0.0, 0.0, OIL_TEMPERATURE]] * 3)
 
 
 def test_law_meets_load_speeds_and_geometry_of_its_flank(monkeypatch):
     met = []
-    monkeypatch.setattr(flanks, "flank_state", lambda *arguments: met.append(arguments))
-    source_of(flanks.pair_friction)(moving(), 600.0, -0.7, PAIRS[0], OIL, parameters())
-    law, load, entrainment, sliding, geometry, oil = met[0]
-    assert (law, load, sliding, oil) == ("law", 600.0, -0.7, OIL)
-    assert entrainment == pytest.approx(-0.021 * 150.0, rel=1e-14)
-    assert tuple(geometry) == (0.011, 0.9, 2.1e7)
+    monkeypatch.setattr(flanks, "bounded_flank", lambda *arguments: met.append(arguments))
+    monkeypatch.setattr(flanks, "model_film", lambda *arguments: met.append(arguments))
+    arguments = moving(), 600.0, -0.7, PAIRS[0], OIL, parameters()
+    source_of(flanks.pair_friction)(*arguments, NO_MODEL_FILM, NO_MODEL)
+    source_of(flanks.pair_film)(*arguments, NO_MODEL)
+    for law, load, entrainment, sliding, geometry, _, oil, model in met:
+        assert (law, load, sliding, oil, model is NO_MODEL) == ("law", 600.0, -0.7, OIL, True)
+        assert entrainment == pytest.approx(-0.021 * 150.0, rel=1e-14)
+        assert tuple(geometry) == (0.011, 0.9, 2.1e7)
+    assert met[0][5] is NO_MODEL_FILM
+    assert tuple(met[1][5]) == (0.010, 0.51, 13.0, 0.7, 0.2)
 
 
 @pytest.mark.parametrize("force", [FORCE, 0.1])
@@ -160,11 +180,13 @@ def test_law_meets_load_speeds_and_geometry_of_its_flank(monkeypatch):
 def test_friction_of_all_flanks_is_the_sum_of_forces_against_sliding(monkeypatch, fresh, force):
     monkeypatch.setattr(flanks, "pair_friction", lambda s, load, *_: flank_under(load))
     # viscous and boundary of each flank, then what rolls, which is off
-    kept = np.array([0.02, 0.04, 0.03, 0.05, 0.07, 0.11, 9.0, 9.0, 9.0])
+    kept = np.zeros(flanks.N_FRICTION)
+    kept[:9] = 0.02, 0.04, 0.03, 0.05, 0.07, 0.11, 9.0, 9.0, 9.0
+    kept[flanks.BOUND : flanks.BOUND + 3] = 0.001, 0.002, 0.003
     mu = kept[:6].reshape(3, 2) if fresh == 0.0 else np.array([[0.05, 0.01]] * 3)
     s = moving()
     found = source_of(flanks.flank_sum)(
-        s, force, WINDOW, 3, OIL, parameters(), fresh, kept, np.zeros(N_CHANNELS)
+        s, force, WINDOW, 3, OIL, parameters(), fresh, kept, np.zeros(N_CHANNELS), NO_MODEL
     )
     expected = np.zeros(8)
     for row, load, coefficients in zip(PAIRS, abs(force) * SHARES, mu, strict=True):
@@ -182,18 +204,26 @@ def test_friction_of_all_flanks_is_the_sum_of_forces_against_sliding(monkeypatch
     assert sliding_of(PAIRS[0]) * sliding_of(PAIRS[2]) < 0.0
     if fresh != 0.0:
         np.testing.assert_allclose(kept[:6], [0.05, 0.01, 0.0, 0.0, 0.05, 0.01], rtol=1e-14)
+    bounds = [0.03 * 0.06] * 3 if fresh != 0.0 else [0.001, 0.002, 0.003]
+    lost = [
+        bound * abs(force) * share * abs(sliding_of(row))
+        for bound, share, row in zip(bounds, SHARES, PAIRS, strict=True)
+    ]
+    assert kept[flanks.BOUND_POWER] == pytest.approx(sum(lost), rel=1e-12)
 
 
 @pytest.mark.parametrize(("force", "friction"), [(0.0, 1.0), (FORCE, 0.0)])
 @pytest.mark.parametrize("fresh", [1.0, 0.0])
 def test_no_friction_without_force_or_with_friction_off(force, friction, fresh):
-    kept = np.full(9, 0.05)
+    kept = np.full(flanks.N_FRICTION, 0.05)
     found = source_of(flanks.flank_sum)(
-        moving(), force, WINDOW, 3, OIL, parameters(friction), fresh, kept, np.zeros(N_CHANNELS)
-    )
+        moving(), force, WINDOW, 3, OIL, parameters(friction), fresh, kept, np.zeros(N_CHANNELS),
+        NO_MODEL,
+    )  # fmt: skip
     assert found == (0.0,) * 8
     # a touch before the next refresh uses what stands there
-    np.testing.assert_array_equal(kept, 0.0 if fresh else 0.05)
+    np.testing.assert_array_equal(kept[: flanks.BOUND_POWER], 0.0 if fresh else 0.05)
+    assert kept[flanks.BOUND_POWER] == 0.0
 
 
 @pytest.mark.parametrize("friction", [0.0, 1.0])
@@ -212,11 +242,12 @@ def test_rolling_takes_two_forces_times_the_entrainment_across_the_line(
     monkeypatch.setattr(flanks, "pair_friction", lambda s, load, *_: flank_under(load))
     s = moving()
     s[[W_P, W_G]] *= turning
-    kept = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.2, 7.0, 2.8])
+    kept = np.zeros(flanks.N_FRICTION)
+    kept[6:9] = 1.2, 7.0, 2.8
     arguments = s, FORCE, WINDOW, 3, OIL
     with_it, without = (
         source_of(flanks.flank_sum)(
-            *arguments, parameters(friction, rolling), fresh, kept, np.zeros(N_CHANNELS)
+            *arguments, parameters(friction, rolling), fresh, kept, np.zeros(N_CHANNELS), NO_MODEL
         )
         for rolling in (1.0, 0.0)
     )

@@ -43,6 +43,7 @@ SUMMING |= {"expanded_shaft_forces"}
 # the same sums, 24 rollers of 1 kN that cancel to a few 1e-16 each, over a pinion of 12 kg
 ACCELERATING = {"axle_rhs", "rk4_step", "advance", "write_outputs"}
 ACCELERATING |= {"communication_step", "step_without_outputs", "outputs", "write_derivatives"}
+ACCELERATING |= {"_write_rates"}
 ACCELERATING |= {"continuous_rates"}
 
 

@@ -41,7 +41,7 @@ def all_cases():
     inputs = step_inputs(state, torque, wheel_torque, oil, p)
     work = np.zeros(mesh_cycle.cycle_work(mesh.orders, mesh.nodes))
     losses = np.zeros(mesh_cycle.N_LOSSES)
-    found = np.array([math.inf, OIL, 4.0])
+    found = np.array([math.inf, OIL, 4.0, 0.1, 0.2])
     cycle = (state, SPEED, torque, OIL, 3, table, p, without_losses(p), work, losses)
     coast = (state, SPEED, -torque, *cycle[3:])
     return (

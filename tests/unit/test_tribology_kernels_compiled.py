@@ -43,6 +43,15 @@ CASES: list[tuple[Any, tuple[Any, ...]]] = [
     (eyring_1936.eyring_stress_ratio, (0.3, 700.0)),
     (eyring_1936.eyring_stress_ratio, (0.0, 2.0)),
     (lubricant_state, (OIL, 350.0)),
+    *(
+        (mixed_friction.asperity_contact, (9e2, 1e-6, 1.1, SURFACE, SOLID, form))
+        for form in range(4)
+    ),
+    (mixed_friction.boundary_friction, (40.0, 1e-8, 2e-3, STATE)),
+    (
+        mixed_friction.friction_with_asperities,
+        (0.03, 1e3, 1e3, 7e8, 4e-7, 2.0, 3e-6, 1.7e-6, STATE, SURFACE, SOLID, 0),
+    ),
     (elliptic_integrals.complete_elliptic_k_d, (0.3,)),
     (elliptical_hertz.log_curvature_ratio, (1.2,)),
     (elliptical_hertz.ellipticity, (7.0,)),

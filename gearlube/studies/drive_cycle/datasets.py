@@ -102,6 +102,20 @@ def cycle_dataset(
             "efficiency of the axle over the cycle",
         ),
     }
+    if settings.car.axle.film == "solved":
+        bound, share = at_temperatures(losses.film, losses.temperatures, warming.mean).T
+        energy_bound = _energy(bound, demand)
+        variables |= {
+            "friction_bound": (step, bound, "W", "bound of the flanks' friction loss"),
+            "share_outside": (step, share, "1", "share of their load outside the film model"),
+            "energy_lost_bound": ((), energy_bound, "kJ", "bound of the energy lost by films"),
+            "efficiency_bound": (
+                (),
+                energy_bound / energy_in if energy_in > 0.0 else np.nan,
+                "1",
+                "the same of the efficiency",
+            ),
+        }
     if spread is not None:
         bounds = {
             "efficiency": (spread.efficiency, "1"),

@@ -36,12 +36,16 @@ class LossesAlong:
     outside : ndarray of shape (n, k, ranges)
         Share of the points of the map around it that are outside each range of the axle [-];
         ranges as in `HypoidAxleParameters.ranges`.
+    film : ndarray of shape (n, k, 2)
+        Bound of the flanks' friction loss by a film model [W], and share of their load outside its
+        domain [-]; 0 with film formulas.
     """
 
     temperatures: Array
     power: Array
     torque: Array
     outside: Array
+    film: Array
 
 
 def losses_along(
@@ -62,7 +66,10 @@ def losses_along(
     power = np.zeros((count, temperatures.size, len(LOSS_SOURCES)))
     torque = np.repeat(demand.torque[:, None], temperatures.size, axis=1)
     outside = np.zeros((count, temperatures.size, len(axle.ranges)))
-    along = LossesAlong(temperatures=temperatures, power=power, torque=torque, outside=outside)
+    film = np.zeros((count, temperatures.size, 2))
+    along = LossesAlong(
+        temperatures=temperatures, power=power, torque=torque, outside=outside, film=film
+    )
     if not np.any(turning):
         return along
     torques = torque_nodes(settings, demand.torque[turning])
@@ -90,6 +97,8 @@ def losses_along(
         power[turning, k] = loss_torque(points) * speed[:, None]
         torque[turning, k] = carried
         outside[turning, k] = RegularGridInterpolator((speeds, torques), left[k])(points)
+        of_film = np.stack([found.friction_bound[k], found.share_outside[k]], axis=-1)
+        film[turning, k] = RegularGridInterpolator((speeds, torques), of_film)(points)
     return along
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
@@ -44,6 +46,8 @@ def loss_map_dataset(
         "range_exceeded": (GRID, losses.exceeded, "1", "sum of 1, 2, 4, ... for each range left"),
         "status": (GRID, losses.status, "1", "0: computed; others: see the attribute reasons"),
     }
+    if settings.axle.film == "solved":
+        variables |= _of_film_model(losses, turning * torques, total)
     if spread is not None:
         names = [one.name for one in settings.uncertain]
         variables |= {
@@ -114,6 +118,27 @@ def not_modelled(axle: HypoidAxleParameters) -> tuple[str, ...]:
         "rolling of the flanks": axle.rolling == "none",
     }
     return (*(words for words, missing in left_out.items() if missing), *_NEVER_MODELLED)
+
+
+def _of_film_model(losses: AxleLosses, pinion_power: Array, total: Array) -> dict[str, Any]:
+    """Return what a model of solved films says of itself."""
+    put_in = np.where(pinion_power > 0.0, pinion_power, total - pinion_power)
+    bound = losses.friction_bound
+    return {
+        "friction_bound": (GRID, bound, "W", "bound of the flanks' friction loss"),
+        "efficiency_bound": (
+            GRID,
+            np.divide(bound, put_in, out=np.full(bound.shape, np.nan), where=put_in > 0.0),
+            "1",
+            "the same of the efficiency",
+        ),
+        "share_outside": (
+            GRID,
+            losses.share_outside,
+            "1",
+            "share of the flanks' load outside the domain of the film model",
+        ),
+    }
 
 
 def _about(unit: str, words: str) -> dict[str, str]:

@@ -37,4 +37,6 @@ CHANNELS = (
     "energy.wheel_work",
     *(f"energy.{loss}" for loss in LOSSES),
     "energy.stored",
+    "film.share_outside",
+    "friction.power_loss_bound",
 )

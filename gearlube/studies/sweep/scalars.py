@@ -131,7 +131,11 @@ def _power(recording: Recording) -> Variables:
     total = sum(loss.values())
     open_power = power_in - power_out - total - _slope(recording, "energy.stored")
     friction = loss["friction_viscous"] + loss["friction_boundary"]
+    bound = float(np.mean(recording["friction.power_loss_bound"]))
     return {
+        "friction_loss_bound": bound,
+        "efficiency_bound": bound / power_in if power_in > 0.0 else math.nan,
+        "share_outside": float(np.mean(recording["film.share_outside"])),
         "power_in": power_in,
         "loss": ("source", list(loss.values())),
         "efficiency_mesh": 1.0 - friction / power_in if power_in > 0.0 else math.nan,

@@ -14,6 +14,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     blend_mesh,
     follow_flank,
     gap_rotation,
+    place_at_load,
     series_size,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
@@ -117,6 +118,6 @@ def change_side(s: Array, table: MeshLevels, p: MeshForceConstants, work: Array)
     """
     if table.levels[0] < 0.0:
         at_window = series_size(table)
-        mesh = MeshAtLoad(work[0:at_window], table.n_orders, work[at_window:], table.n_nodes)
+        mesh = place_at_load(table, work[0:at_window], work[at_window:])
         blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
         follow_flank(s, table, p, mesh)

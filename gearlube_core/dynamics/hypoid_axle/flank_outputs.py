@@ -5,13 +5,21 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.flanks import pair_friction, sliding_speed
+from gearlube_core.dynamics.hypoid_axle.film_nodes import node_films
+from gearlube_core.dynamics.hypoid_axle.flanks import (
+    EXACT,
+    film_between_nodes,
+    pair_film,
+    pair_friction,
+    sliding_speed,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_P
 from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, SHARE
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_moes_groups
 from gearlube_core.friction.evans_johnson_1986 import traction_map_number
+from gearlube_core.friction.flank_bound import NO_MODEL_FILM
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
@@ -25,6 +33,9 @@ FLANK_QUANTITIES = (
     "friction_coefficient",
     "temperature",
 )
+# of each flank by a film model, in a group of their own
+BOUND_QUANTITIES = ("film_bound", "friction_bound")
+FLANK_BOUNDS = tuple(f"flank[{i}].{q}" for i in range(1, PAIRS + 1) for q in BOUND_QUANTITIES)
 FLANK_OUTPUTS = tuple(f"flank[{i}].{q}" for i in range(1, PAIRS + 1) for q in FLANK_QUANTITIES)
 
 # places within the outputs of one flank
@@ -45,6 +56,7 @@ class MostLoaded(NamedTuple):
     traction: float  # number of the traction map [-]
     temperature: float  # of the film [K]
     pressure: float  # largest Hertz pressure [Pa]
+    outside: float  # share of the load of all flanks outside the film model's domain [-]
 
 
 @kernel
@@ -56,17 +68,25 @@ def write_flanks(
     oil_temperature: float,
     oil: LubricantState,
     p: AxleParameters,
+    film_model: Array,
+    refresh: float,
+    films: Array,
     first: int,
+    first_bound: int,
     channels: Array,
     out: Array,
 ) -> MostLoaded:
     """Write load, film, film ratio, friction coefficient and temperature of every flank.
 
-    Their outputs begin at `first`. A flank without load has no film: zeros, and the temperature of
-    the oil. Returns the flank that carries most, for the ranges of the formulas.
+    Their outputs begin at `first`, those of their bounds at `first_bound`. A flank without load has
+    no film: zeros, and the temperature of the oil. Returns the flank that carries most, for the
+    ranges of the formulas. `refresh` and `films` say how a film model is asked, as in
+    `flank_sum`, and what it keeps.
     """
     most = 0.0
-    found = MostLoaded(0.0, 0.0, 0.0, 0.0, 0.0)
+    total = 0.0
+    beyond = 0.0
+    found = MostLoaded(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for pair in range(PAIRS):
         here = first + pair * N_FLANK_QUANTITIES
         pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
@@ -76,8 +96,23 @@ def write_flanks(
         out[here + FILM_RATIO] = 0.0
         out[here + FRICTION_COEFFICIENT] = 0.0
         out[here + TEMPERATURE] = oil_temperature
+        bounds = first_bound + pair * len(BOUND_QUANTITIES)
+        out[bounds] = 0.0
+        out[bounds + 1] = 0.0
         if load > 0.0:
-            flank = pair_friction(s, load, sliding_speed(s, channels), channels, oil, p)
+            sliding = sliding_speed(s, channels)
+            film = NO_MODEL_FILM
+            if film_model.size > 0 and refresh == EXACT:
+                film = pair_film(s, load, sliding, channels, oil, p, film_model)
+            elif film_model.size > 0:
+                kept = node_films(films, pair)
+                film = film_between_nodes(pair, s, force, window, n_nodes, oil, p, film_model, kept)
+            bounded = pair_friction(s, load, sliding, channels, oil, p, film, film_model)
+            flank = bounded.state
+            total += load
+            beyond += bounded.outside * load
+            out[bounds] = bounded.film_bound
+            out[bounds + 1] = p.friction * bounded.friction_bound
             out[here + FILM_THICKNESS] = flank.film_thickness
             out[here + FILM_RATIO] = flank.film_ratio
             if p.friction != 0.0:
@@ -109,5 +144,14 @@ def write_flanks(
                     in_use * p.friction * traction,
                     out[here + TEMPERATURE],
                     _LARGEST_OVER_MEAN * flank.mean_pressure,
+                    0.0,
                 )
-    return found
+    share = beyond / total if total > 0.0 else 0.0
+    return MostLoaded(
+        found.film_load,
+        found.film_material,
+        found.traction,
+        found.temperature,
+        found.pressure,
+        share,
+    )

@@ -5,17 +5,33 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.film_nodes import (
+    N_FILMS,
+    NEXT,
+    SAME,
+    film_between,
+    forget_films,
+    keep_film,
+    node_films,
+    nodes_on,
+    start_films,
+    take_next,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import (
     ARM_G,
     ARM_P,
+    DELTA,
+    ELLIPTICITY,
     ENTRAIN,
     LINE_LENGTH,
     LINE_RADIUS,
     N_CHANNELS,
     PRESSURE,
+    PSI,
     R_E,
+    R_Y,
     ROLL,
     SHARE,
     SIDE_FLOW,
@@ -23,15 +39,29 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Y,
     XI_Z,
 )
-from gearlube_core.friction.flank_data import ContactGeometry, FlankState
-from gearlube_core.friction.flank_law import flank_state
+from gearlube_core.friction.flank_bound import (
+    NO_MODEL_FILM,
+    BoundedFlank,
+    FlankEllipse,
+    ModelFilm,
+)
+from gearlube_core.friction.flank_data import ContactGeometry
+from gearlube_core.friction.flank_law import bounded_flank, model_film
 from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import pair_channels
+from gearlube_core.mesh_table.kernels import pair_channels, pair_node
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant_state import LubricantState
 
 _PAIRS = PAIRS
+# how film and traction of the flanks are evaluated: a film model at the contact itself, or
+# interpolated between the nodes of the mesh table
+EXACT, BETWEEN_NODES = 1.0, 2.0
+# places of what `flank_sum` keeps
+BOUND = 3 * PAIRS  # of the friction coefficient of each pair
+BOUND_POWER = 4 * PAIRS  # of the power lost in friction
+FILMS = BOUND_POWER + 1  # `film_nodes` of each pair
+N_FRICTION = FILMS + N_FILMS
 
 
 class FlankSum(NamedTuple):
@@ -64,6 +94,41 @@ def sliding_speed(s: Array, channels: Array) -> float:
 
 
 @kernel
+def contact_of(channels: Array) -> ContactGeometry:
+    """Return the geometry of a contact from the channels of the mesh table."""
+    return ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE])
+
+
+@kernel
+def pair_film(
+    s: Array,
+    load: float,
+    sliding: float,
+    channels: Array,
+    oil: LubricantState,
+    p: AxleParameters,
+    film_model: Array,
+) -> ModelFilm:
+    """Return what the film model says of one flank; arguments as in `pair_friction`."""
+    return model_film(
+        p.flank_law,
+        load,
+        channels[ENTRAIN] * s[W_P],
+        sliding,
+        contact_of(channels),
+        FlankEllipse(
+            channels[LINE_RADIUS],
+            channels[R_Y],
+            channels[ELLIPTICITY],
+            channels[PSI],
+            channels[DELTA],
+        ),
+        oil,
+        film_model,
+    )
+
+
+@kernel
 def pair_friction(
     s: Array,
     load: float,
@@ -71,16 +136,72 @@ def pair_friction(
     channels: Array,
     oil: LubricantState,
     p: AxleParameters,
-) -> FlankState:
-    """Return the state of one flank under `load` [N] that slides at `sliding` [m/s]."""
-    return flank_state(
+    film: ModelFilm,
+    film_model: Array,
+) -> BoundedFlank:
+    """Return the state of one flank under `load` [N] that slides at `sliding` [m/s].
+
+    `film` is what a film model says of it, and `film_model` its numbers, empty without one.
+    """
+    return bounded_flank(
         p.flank_law,
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,
-        ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE]),
+        contact_of(channels),
+        film,
         oil,
+        film_model,
     )
+
+
+@kernel
+def _film_at_node(
+    node: int,
+    s: Array,
+    force: float,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    p: AxleParameters,
+    film_model: Array,
+) -> ModelFilm:
+    first = (node % n_nodes) * N_CHANNELS
+    channels = window[first : first + N_CHANNELS]
+    load = abs(force) * channels[SHARE]
+    return pair_film(s, load, sliding_speed(s, channels), channels, oil, p, film_model)
+
+
+@kernel
+def film_between_nodes(
+    pair: int,
+    s: Array,
+    force: float,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    p: AxleParameters,
+    film_model: Array,
+    kept: Array,
+) -> ModelFilm:
+    """Return what the film model says of one flank, linear between the nodes of the mesh table.
+
+    As all data of the table are. It is evaluated at a node when the pair comes before it, and
+    anew when the mesh force or the speed has changed much since; `kept`, shape (N_NODE_FILM,),
+    holds it in between. Others as in `flank_sum`.
+    """
+    node, t = pair_node(n_nodes, p.mesh.z_p, s[PHI_P], pair)
+    step = nodes_on(kept, node, n_nodes, force, s[W_P])
+    if step == SAME:
+        pass
+    elif step == NEXT:
+        take_next(kept, node)
+        keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, p, film_model))
+    else:
+        start_films(kept, node, force, s[W_P])
+        keep_film(kept, 0, _film_at_node(node, s, force, window, n_nodes, oil, p, film_model))
+        keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, p, film_model))
+    return film_between(kept, t)
 
 
 @kernel
@@ -114,6 +235,7 @@ def flank_sum(
     refresh: float,
     friction: Array,
     channels: Array,
+    film_model: Array,
 ) -> FlankSum:
     """Return friction and rolling losses of all pairs that share the mesh force `force` [N].
 
@@ -128,12 +250,17 @@ def flank_sum(
     oil : LubricantState
     p : AxleParameters
     refresh : float
-        Not 0: evaluate film and traction anew; else keep the coefficients in `friction`, with
-        the loads, arms and directions of this state.
-    friction : ndarray of shape (3 PAIRS,)
-        Viscous and boundary friction over load of each pair [-], then the rolling forces [N].
+        0: keep the coefficients in `friction`, with the loads, arms and directions of this state;
+        else evaluate film and traction anew, a film model as EXACT or BETWEEN_NODES says.
+    friction : ndarray of shape (N_FRICTION,)
+        Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
+        of the friction over load [-], that of the power lost in friction, always anew [W], and
+        `film_nodes` of
+        all pairs.
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
+    film_model : ndarray
+        Numbers of the film model, or empty.
 
     References
     ----------
@@ -152,6 +279,7 @@ def flank_sum(
     viscous = 0.0
     boundary = 0.0
     rolled = 0.0
+    doubt = 0.0
     if (p.friction != 0.0 or p.rolling != 0.0) and force != 0.0:
         for pair in range(_PAIRS):
             pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
@@ -160,9 +288,30 @@ def flank_sum(
                 sliding = sliding_speed(s, channels)
                 if p.friction != 0.0:
                     if refresh != 0.0:
-                        flank = pair_friction(s, load, sliding, channels, oil, p)
+                        film = NO_MODEL_FILM
+                        if film_model.size > 0 and refresh == EXACT:
+                            film = pair_film(s, load, sliding, channels, oil, p, film_model)
+                        elif film_model.size > 0:
+                            film = film_between_nodes(
+                                pair,
+                                s,
+                                force,
+                                window,
+                                n_nodes,
+                                oil,
+                                p,
+                                film_model,
+                                node_films(friction[FILMS:], pair),
+                            )
+                        bounded = pair_friction(
+                            s, load, sliding, channels, oil, p, film, film_model
+                        )
+                        flank = bounded.state
                         friction[2 * pair] = flank.viscous_friction / load
                         friction[2 * pair + 1] = flank.boundary_friction / load
+                        friction[BOUND + pair] = bounded.friction_bound * (
+                            friction[2 * pair] + friction[2 * pair + 1]
+                        )
                     f_v = friction[2 * pair] * load
                     f_b = friction[2 * pair + 1] * load
                     f = f_v + f_b
@@ -175,6 +324,7 @@ def flank_sum(
                     f_z -= f * channels[XI_Z]
                     viscous += f_v * abs(sliding)
                     boundary += f_b * abs(sliding)
+                    doubt += friction[BOUND + pair] * load * abs(sliding)
                 if p.rolling != 0.0:
                     speed = s[W_P] + p.ratio * s[W_G]
                     rolling = 0.5 * channels[ROLL] * speed
@@ -192,8 +342,13 @@ def flank_sum(
                 friction[2 * pair] = 0.0
                 friction[2 * pair + 1] = 0.0
                 friction[2 * _PAIRS + pair] = 0.0
+                friction[BOUND + pair] = 0.0
+                forget_films(node_films(friction[FILMS:], pair))
     elif refresh != 0.0:
         # teeth may touch before the next refresh: what stands here is then used
-        for i in range(3 * _PAIRS):
+        for i in range(BOUND_POWER):
             friction[i] = 0.0
+        for pair in range(_PAIRS):
+            forget_films(node_films(friction[FILMS:], pair))
+    friction[BOUND_POWER] = doubt
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary, rolled)

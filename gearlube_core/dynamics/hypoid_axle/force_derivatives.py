@@ -89,7 +89,7 @@ def force_derivatives(
     oil = lubricant_state(p.oil, oil_temperature)
     mean_series(torque, mesh, series)
     series[R_G] = series[R_P] * p.ratio
-    at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes)
+    at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes, mesh.film_model)
     inputs = StepInputs(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for j in range(N_COORDINATES):
         step = ANGLE_STEP if j < 2 else LENGTH_STEP

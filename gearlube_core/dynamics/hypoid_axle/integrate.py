@@ -9,17 +9,22 @@ from gearlube_core.arrays import Array
 from gearlube_core.drag.churning import churning_torque
 from gearlube_core.drag.seals import seal_drag
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, BearingDrag, bearing_drag
+from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
+from gearlube_core.dynamics.hypoid_axle.flanks import BETWEEN_NODES, BOUND_POWER, FILMS
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
     blend_mesh,
     follow_flank,
+    place_at_load,
     series_size,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
+    FILM_NODES,
+    FRICTION_BOUND,
     LOAD_TORQUE,
     MICRO,
     N_ENERGIES,
@@ -122,11 +127,11 @@ def rk4_step(
     trial = stages[0:N_STATE]
     slope = stages[N_STATE : N_STATE + N_ODE]
     total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
-    axle_rhs(s, inputs, mesh, oil, p, first, first, scratch, slope)
+    axle_rhs(s, inputs, mesh, oil, p, BETWEEN_NODES * first, first, scratch, slope)
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, 1.0, expand, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, BETWEEN_NODES, expand, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
@@ -134,7 +139,7 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, 1.0, 0.0, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, BETWEEN_NODES, 0.0, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
@@ -250,7 +255,7 @@ def advance(
     at_window = at_series + series_size(table)
     stages = work[0:at_scratch]
     scratch = work[at_scratch:at_series]
-    mesh = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)
+    mesh = place_at_load(table, work[at_series:at_window], work[at_window:])
     oil = lubricant_state(p.oil, oil_temperature)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
     wanted = duration / step_limit(p, control, s[W_P], mesh.series[K_M])
@@ -261,6 +266,9 @@ def advance(
     for i in range(N_ENERGIES):
         s[WORK_MARK + i] = s[PINION_WORK + i]
     s[TIME_IN_STEP] = duration
+    s[FRICTION_BOUND] = 0.0
+    for i in range(N_FILMS):
+        scratch[FILMS + i] = s[FILM_NODES + i]
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
     expanded_at = displacements(s, 0.0)
     age = 0
@@ -289,10 +297,13 @@ def advance(
             scratch,
             stages,
         )
+        s[FRICTION_BOUND] += h * scratch[BOUND_POWER]
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
         if table.levels[0] < 0.0:
             follow_flank(s, table, p.mesh, mesh)
+    for i in range(N_FILMS):
+        s[FILM_NODES + i] = scratch[FILMS + i]
     total = 0.0
     for i in range(N_ODE):
         total += abs(s[i])

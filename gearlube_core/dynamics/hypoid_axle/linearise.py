@@ -12,7 +12,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import DERIVATIVES_WORK, N_COORDINATES
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL, MeshFields
 from gearlube_core.dynamics.packed_mesh import PackedMesh
 from gearlube_core.kernels.flat_tuples import flatten
 
@@ -86,7 +86,7 @@ def linearise(axle: AxleInState, oil_temperature: float, torque: float) -> Linea
     p = axle.kernel_parameters._replace(friction=0.0)
     derivatives = axle_kernels(type(p.bearing_p), type(p.flank_law)).derivatives
     mesh = axle.packed
-    fields: MeshFields = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+    fields: MeshFields = (*mesh.fields, NO_FILM_MODEL)
     state, work = np.array(axle.state_view), np.zeros(DERIVATIVES_WORK)
 
     def matrix(of_speeds: float, constants: AxleParameters) -> Array:

@@ -61,6 +61,10 @@ class AxleLosses:
     film_ratio, flank_temperature : ndarray
         Least film ratio [-] and largest temperature [K] of a flank under load; infinite and that
         of the oil where none carries load. Empty where they were not asked for.
+    friction_bound, share_outside : ndarray
+        Bound of the power lost in flank friction [W], and share of the flanks' load outside the
+        domain of the model of solved films [-], means over a mesh period; 0 with film formulas.
+        Empty where extremes were not asked for.
     exceeded : ndarray
         Sum of 1, 2, 4, ... for each range that was left, see `ranges.RANGE_OUTPUTS`.
     status : ndarray of int
@@ -71,6 +75,8 @@ class AxleLosses:
     carried: Array
     film_ratio: Array
     flank_temperature: Array
+    friction_bound: Array
+    share_outside: Array
     exceeded: Array
     status: Array
 
@@ -159,7 +165,7 @@ def axle_losses(
     )
     kernel = cycle_kernels(type(p.bearing_p), type(p.flank_law)).losses_along_torque
     constants = flatten(p), flatten(without_losses(p))
-    fields = mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes
+    fields = (*mesh.fields, parameters.film_model())
     shape = temperatures.size, speeds.size, torques.size
     power, carried = np.full((*shape, N_LOSSES), np.nan), np.full(shape, np.nan)
     found, status = np.full((*shape, N_EXTREMES), np.nan), np.zeros(shape)
@@ -188,5 +194,7 @@ def axle_losses(
         film_ratio=found[..., 0],
         flank_temperature=found[..., 1],
         exceeded=found[..., 2],
+        friction_bound=found[..., 3],
+        share_outside=found[..., 4],
         status=status.astype(int),
     )

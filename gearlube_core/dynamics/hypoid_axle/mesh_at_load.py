@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -27,15 +29,21 @@ from gearlube_core.mesh_table.kernels import (
     transmission_error,
 )
 
+NO_FILM_MODEL = np.zeros(0)
+
 
 class MeshLevels(NamedTuple):
-    """The mesh table at all its loads; shapes as in `packed_mesh.PackedMesh`."""
+    """The mesh table at all its loads, and the film model of its flanks.
+
+    Shapes as in `packed_mesh.PackedMesh`.
+    """
 
     levels: Array  # signed pinion torque [N.m]
     series: Array  # Fourier coefficients
     n_orders: int
     windows: Array  # data of the tooth pairs
     n_nodes: int
+    film_model: Array = NO_FILM_MODEL  # numbers of a film model, written into; else empty
 
 
 @kernel
@@ -45,7 +53,7 @@ def series_size(table: MeshLevels) -> int:
 
 
 # the same as a plain tuple: Python hands that over 0.6 us faster a call
-MeshFields = tuple[Array, Array, int, Array, int]
+MeshFields = tuple[Array, Array, int, Array, int, Array]
 
 
 class MeshAtLoad(NamedTuple):
@@ -55,6 +63,13 @@ class MeshAtLoad(NamedTuple):
     n_orders: int
     window: Array  # shape ((n_nodes + 1) * N_CHANNELS,)
     n_nodes: int
+    film_model: Array = NO_FILM_MODEL  # as in `MeshLevels`
+
+
+@kernel
+def place_at_load(table: MeshLevels, series: Array, window: Array) -> MeshAtLoad:
+    """Return the place of a table at one load, for `blend_mesh`, with the given arrays."""
+    return MeshAtLoad(series, table.n_orders, window, table.n_nodes, table.film_model)
 
 
 @kernel

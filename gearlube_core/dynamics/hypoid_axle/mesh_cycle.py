@@ -28,8 +28,15 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshFields,
     MeshLevels,
     blend_mesh,
+    place_at_load,
 )
-from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, RANGES, write_outputs
+from gearlube_core.dynamics.hypoid_axle.outputs import (
+    FLANKS,
+    LOSS_BOUND,
+    RANGES,
+    SHARE_OUTSIDE,
+    write_outputs,
+)
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.start import N_FREE, REST_WORK, rest_under
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -60,7 +67,8 @@ from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 NO_BALANCE = 6  # beside the statuses of `start.rest`
 FIRST_LOSS = 2  # of the energies; before it the work at pinion and wheel
 N_LOSSES = N_ENERGIES - FIRST_LOSS
-N_EXTREMES = 3
+N_EXTREMES = 5
+_EXTREME_ANGLES = 4  # of a mesh period, where outputs are looked at
 _MOST_BALANCES = 40
 _RESTS = 2  # of them that find the shafts' displacements anew; later ones change nothing
 _BALANCED = 1e-6  # of the torques on the pinion
@@ -165,7 +173,7 @@ def mesh_cycle(
         pinion [N.m]: `torque` less friction and drag on the pinion.
     """
     at_window = _AT_SERIES + N_SERIES * (2 * table.n_orders + 1)
-    data = MeshAtLoad(work[_AT_SERIES:at_window], table.n_orders, work[at_window:], table.n_nodes)
+    data = place_at_load(table, work[_AT_SERIES:at_window], work[at_window:])
     mean = work[_AT_MEAN:_AT_REST]
     oil = lubricant_state(p.oil, oil_temperature)
     # drag that takes the load of each roller feels the last hundredth of a micrometre
@@ -206,13 +214,14 @@ def mesh_cycle(
 
 @kernel
 def flank_extremes(out: Array, found: Array) -> None:
-    """Keep in `found` what the outputs exceed: least film ratio, hottest flank, ranges left.
+    """Keep in `found` what the outputs exceed, and means of what tells about a film model.
 
     Parameters
     ----------
     out : ndarray of shape (N_OUTPUTS,)
     found : ndarray of shape (N_EXTREMES,)
-        Film ratio [-], temperature [K], sum of `range.exceeded`.
+        Least film ratio [-], highest temperature [K], sum of `range.exceeded`; means of the bound
+        of the friction loss [W] and of the share of load outside the model's domain [-].
     """
     for pair in range(PAIRS):
         here = FLANKS + pair * N_FLANK_QUANTITIES
@@ -220,6 +229,8 @@ def flank_extremes(out: Array, found: Array) -> None:
             found[0] = min(found[0], out[here + FILM_RATIO])
             found[1] = max(found[1], out[here + TEMPERATURE])
     found[2] = float(int(found[2]) | int(out[RANGES]))
+    found[3] += out[LOSS_BOUND] / _EXTREME_ANGLES
+    found[4] += out[SHARE_OUTSIDE] / _EXTREME_ANGLES
 
 
 class CycleKernels(NamedTuple):
@@ -288,13 +299,13 @@ def cycle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> CycleKer
                 found[k, 0] = math.inf
                 found[k, 1] = oil_temperature
                 found[k, 2] = 0.0
+                found[k, 3] = 0.0
+                found[k, 4] = 0.0
                 at_window = _AT_SERIES + N_SERIES * (2 * table.n_orders + 1)
-                data = MeshAtLoad(
-                    work[_AT_SERIES:at_window], table.n_orders, work[at_window:], table.n_nodes
-                )
+                data = place_at_load(table, work[_AT_SERIES:at_window], work[at_window:])
                 torque = (torques[k], 0.0)
-                for j in range(4):
-                    s[PHI_P] = 0.5 * math.pi * j / p.mesh.z_p
+                for j in range(_EXTREME_ANGLES):
+                    s[PHI_P] = 2.0 * math.pi * j / (_EXTREME_ANGLES * p.mesh.z_p)
                     quasi_static_state(s, carried[k], speed, data, p)
                     write_outputs(s, torque, oil_temperature, table, p, output_work, rollers, out)
                     flank_extremes(out, found[k])

@@ -22,10 +22,10 @@ from gearlube_core.dynamics.hypoid_axle.kernel_parameters import (
     without_losses,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshAtLoad,
     MeshFields,
     MeshLevels,
     blend_mesh,
+    place_at_load,
 )
 from gearlube_core.dynamics.hypoid_axle.outputs import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
@@ -109,6 +109,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             parameters.contact_pressure,
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
+        self._film_model = parameters.film_model()
         super().__init__(
             states=N_STATE,
             output_names=OUTPUT_NAMES,
@@ -121,7 +122,7 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     def _with_data(self) -> Kernels:
         mesh = self.packed
-        fields: MeshFields = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+        fields: MeshFields = (*mesh.fields, self._film_model)
         data = fields, flatten(self.kernel_parameters)
         work, rollers = np.zeros(work_size(mesh.series_size, mesh.nodes)), np.zeros(ROLLERS_MAX)
         p = self.kernel_parameters
@@ -155,10 +156,8 @@ class HypoidAxle(SteppedModel[StepControl]):
         full[:N_ODE] = state
         torque_p, torque_g, oil_temperature = self._inputs.tolist()
         oil = lubricant_state(p.oil, oil_temperature)
-        table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
-        at_load = MeshAtLoad(
-            np.zeros(mesh.series_size), mesh.orders, np.zeros(mesh.window_size), mesh.nodes
-        )
+        table = MeshLevels(*mesh.fields, self._film_model)
+        at_load = place_at_load(table, np.zeros(mesh.series_size), np.zeros(mesh.window_size))
         blend_mesh(full[LOAD_TORQUE], full[SIDE], table, at_load)
         slope = np.zeros(N_ODE)
         inputs = step_inputs(full, torque_p, torque_g, oil, p)

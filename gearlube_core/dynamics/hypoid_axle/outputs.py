@@ -18,13 +18,25 @@ from gearlube_core.dynamics.hypoid_axle.continuous import (
     write_event_indicators,
     write_rates,
 )
-from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_OUTPUTS, write_flanks
+from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
+from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
+    FLANK_BOUNDS,
+    FLANK_OUTPUTS,
+    write_flanks,
+)
+from gearlube_core.dynamics.hypoid_axle.flanks import (
+    BETWEEN_NODES,
+    BOUND_POWER,
+    EXACT,
+    FILMS,
+    N_FRICTION,
+)
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshAtLoad,
     MeshLevels,
     blend_mesh,
+    place_at_load,
     series_size,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
@@ -35,7 +47,6 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import (
 )
 from gearlube_core.dynamics.hypoid_axle.rhs import (
     AT_EXPANSION,
-    N_FRICTION,
     SCRATCH,
     axle_rhs,
     gear_motion,
@@ -48,6 +59,8 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
     CAGE_P,
     CHURNING,
+    FILM_NODES,
+    FRICTION_BOUND,
     LOAD_TORQUE,
     MESH_DAMPING,
     N_ENERGIES,
@@ -99,6 +112,8 @@ _OUTPUTS: tuple[str, ...] = (
     "damping.power_loss",
     "efficiency",
     "axle.efficiency",
+    "friction.power_loss_bound",
+    "efficiency_bound",
     *(f"{member}.displacement.{c}" for member in ("pinion", "wheel") for c in "xyz"),
     *BEARING_OUTPUTS,
     "bearing[1].roller[1].load",
@@ -116,6 +131,8 @@ _OUTPUTS: tuple[str, ...] = (
     "energy.friction_rolling",
     "energy.stored",
     *RANGE_OUTPUTS,
+    "film.share_outside",
+    *FLANK_BOUNDS,
 )
 # for another integrator: the other states, the rates of all, and the event indicators
 _OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
@@ -144,13 +161,17 @@ ROLLING_LOSS = OUTPUT_INDEX["friction.power_loss_rolling"]
 DAMPING_LOSS = OUTPUT_INDEX["damping.power_loss"]
 EFFICIENCY = OUTPUT_INDEX["efficiency"]
 AXLE_EFFICIENCY = OUTPUT_INDEX["axle.efficiency"]
+LOSS_BOUND = OUTPUT_INDEX["friction.power_loss_bound"]
+EFFICIENCY_BOUND = OUTPUT_INDEX["efficiency_bound"]
 FIRST_ROLLER = OUTPUT_INDEX["bearing[1].roller[1].load"]
 PINION_CAGE = OUTPUT_INDEX["bearing[1].cage.angle"]
 GEAR_CAGE = OUTPUT_INDEX["bearing[3].cage.angle"]
 STORED_ENERGY = OUTPUT_INDEX["energy.stored"]
+SHARE_OUTSIDE = OUTPUT_INDEX["film.share_outside"]
 
 # first place of a group of outputs of one kind
 FLANKS = OUTPUT_INDEX[FLANK_OUTPUTS[0]]
+FIRST_FLANK_BOUND = OUTPUT_INDEX[FLANK_BOUNDS[0]]
 PINION_DISPLACEMENT = OUTPUT_INDEX["pinion.displacement.x"]
 WHEEL_DISPLACEMENT = OUTPUT_INDEX["wheel.displacement.x"]
 PINION_BEARINGS = OUTPUT_INDEX[BEARING_OUTPUTS[0]]
@@ -167,7 +188,7 @@ EVENTS = OUTPUT_INDEX[EVENT_INDICATORS[0]]
 MOTION_OUTPUTS: tuple[str, ...] = (
     *OUTPUT_NAMES[:PINION_ACCELERATION],
     *OUTPUT_NAMES[DTE:FLANKS],
-    *OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY + 1],
+    *OUTPUT_NAMES[FRICTION_LOSS : EFFICIENCY_BOUND + 1],
     *OUTPUT_NAMES[PINION_DISPLACEMENT : WHEEL_DISPLACEMENT + 3],
     OUTPUT_NAMES[PINION_CAGE],
     OUTPUT_NAMES[GEAR_CAGE],
@@ -176,7 +197,7 @@ MOTION_OUTPUTS: tuple[str, ...] = (
 )
 
 # of these, what an input changes at once while no step has been taken
-POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY + 1])
+POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : EFFICIENCY_BOUND + 1])
 
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
@@ -200,8 +221,10 @@ def stored_energy(
 
 
 @kernel
-def write_losses(s: Array, rates: Array, out: Array) -> None:
+def write_losses(s: Array, rates: Array, bound: float, out: Array) -> None:
     """Write powers lost and efficiencies, averaged over the last communication step.
+
+    `bound` is that of the power lost in flank friction [W], read before the first step only.
 
     Efficiency is 1 - loss/input with the work put in at the side that drives; 0 where no work is
     put in.
@@ -233,7 +256,12 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
     out[AXLE_EFFICIENCY] = 0.0
     idle_power = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
     put_in = pinion if pinion > 0.0 else -wheel
+    if duration > 0.0:
+        bound = s[FRICTION_BOUND] * (1.0 / duration)
+    out[LOSS_BOUND] = bound
+    out[EFFICIENCY_BOUND] = 0.0
     if put_in > idle_power:
+        out[EFFICIENCY_BOUND] = bound / put_in
         out[EFFICIENCY] = 1.0 - friction / put_in
         others = mesh + rollers + drag + churning + seals + rolling
         out[AXLE_EFFICIENCY] = 1.0 - (friction + others) / put_in
@@ -241,7 +269,13 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
 
 @kernel
 def write_motion(
-    s: Array, rates: Array, series: Array, n_orders: int, p: AxleParameters, out: Array
+    s: Array,
+    rates: Array,
+    bound: float,
+    series: Array,
+    n_orders: int,
+    p: AxleParameters,
+    out: Array,
 ) -> MeshForce:
     """Write `MOTION_OUTPUTS`; return the mesh force.
 
@@ -250,6 +284,8 @@ def write_motion(
     s : ndarray of shape (N_STATE,)
     rates : ndarray of shape (N_ODE,)
         Its rates; read before the first step only.
+    bound : float
+        Of the power lost in flank friction [W], likewise.
     series : ndarray of shape (series_size(table),)
         Of the mesh table at the present load.
     """
@@ -264,7 +300,7 @@ def write_motion(
     out[SEPARATED] = 1.0 if -p.mesh.backlash < x < 0.0 else 0.0
     out[MESH_STIFFNESS] = mesh.stiffness
     out[MESH_FREQUENCY] = p.mesh.z_p * s[W_P] / (2.0 * math.pi)
-    write_losses(s, rates, out)
+    write_losses(s, rates, bound, out)
     for i in range(3):
         out[PINION_DISPLACEMENT + i] = s[U_P + i] * UM
         out[WHEEL_DISPLACEMENT + i] = s[U_G + i] * UM
@@ -287,7 +323,7 @@ def write_motion_after_step(
     series = work[N_ODE : N_ODE + size]
     bracket = load_bracket(s[LOAD_TORQUE], s[SIDE], table.levels, table.levels.size)
     blend_levels(table.series, size, bracket, series)
-    write_motion(s, work[0:N_ODE], series, table.n_orders, p, out)
+    write_motion(s, work[0:N_ODE], 0.0, series, table.n_orders, p, out)
 
 
 @kernel
@@ -305,14 +341,31 @@ def write_derivatives(
     The right-hand side is exact: films, tractions and bearing forces are evaluated at `s`, and
     nothing is kept between calls. Arguments as in `write_outputs`.
     """
+    _write_rates(s, torques, oil_temperature, table, p, EXACT, work, out)
+
+
+@kernel
+def _write_rates(
+    s: Array,
+    torques: tuple[float, float],
+    oil_temperature: float,
+    table: MeshLevels,
+    p: AxleParameters,
+    asked: float,
+    work: Array,
+    out: Array,
+) -> None:
     at_series = N_ODE + SCRATCH
     at_window = at_series + series_size(table)
     rates = work[0:N_ODE]
-    data = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)
+    data = place_at_load(table, work[at_series:at_window], work[at_window:])
     oil = lubricant_state(p.oil, oil_temperature)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     inputs = step_inputs(s, torques[0], torques[1], oil, p)
-    axle_rhs(s, inputs, data, oil, p, 1.0, 1.0, work[N_ODE:at_series], rates)
+    scratch = work[N_ODE:at_series]
+    for i in range(N_FILMS):
+        scratch[FILMS + i] = s[FILM_NODES + i]
+    axle_rhs(s, inputs, data, oil, p, asked, 1.0, scratch, rates)
     write_rates(s, rates, torques[0], out[RATES:EVENTS])
     write_event_indicators(s, table, data, p.mesh, out[EVENTS:])
 
@@ -336,16 +389,32 @@ def write_outputs(
     at_window = at_series + series_size(table)
     rates = work[0:N_ODE]
     scratch = work[N_ODE:at_series]
-    data = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)
+    data = place_at_load(table, work[at_series:at_window], work[at_window:])
     oil = lubricant_state(p.oil, oil_temperature)
-    write_derivatives(s, torques, oil_temperature, table, p, work, out)
-    mesh = write_motion(s, rates, data.series, data.n_orders, p, out)
+    # after a step a film model is taken as the step has taken it
+    asked = BETWEEN_NODES if s[TIME_IN_STEP] > 0.0 else EXACT
+    _write_rates(s, torques, oil_temperature, table, p, asked, work, out)
+    mesh = write_motion(s, rates, scratch[BOUND_POWER], data.series, data.n_orders, p, out)
     out[PINION_ACCELERATION] = rates[W_P]
     out[WHEEL_ACCELERATION] = rates[W_G]
     channels = scratch[N_FRICTION:AT_EXPANSION]
     most_loaded = write_flanks(
-        s, mesh.force, data.window, data.n_nodes, oil_temperature, oil, p, FLANKS, channels, out
+        s,
+        mesh.force,
+        data.window,
+        data.n_nodes,
+        oil_temperature,
+        oil,
+        p,
+        data.film_model,
+        asked,
+        scratch[FILMS:N_FRICTION],
+        FLANKS,
+        FIRST_FLANK_BOUND,
+        channels,
+        out,
     )
+    out[SHARE_OUTSIDE] = most_loaded.outside
     torque = max(abs(s[LOAD_TORQUE]), abs(mesh.force) * data.series[R_P])
     write_ranges(
         -torque if s[SIDE] < 0.0 else torque,

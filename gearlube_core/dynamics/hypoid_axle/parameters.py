@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal, get_args
 
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_within
@@ -22,6 +23,7 @@ from gearlube_core.contact.solid import (
 from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES, TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     MeshForceConstants,
     equivalent_mass,
@@ -33,8 +35,15 @@ from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import chittenden_1985
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.friction.flank_film import flank_film_model
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
-from gearlube_core.friction.flank_laws import CONTACT_PRESSURES, FLANK_LAWS
+from gearlube_core.friction.flank_laws import (
+    CONTACT_PRESSURES,
+    FILM_MODELS,
+    FLANK_LAWS,
+    MixedFlankFriction,
+)
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS, FlankRolling
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
@@ -47,12 +56,20 @@ MeshDamping = Literal["hysteretic", "modal"]
 Friction = Literal[
     "consistent", "as_printed", "off", "printed_traction_circular", "zhou_hoeprich_1991"
 ]
+Film = Literal["formula", "solved"]
 Approach = Literal["full", "as_printed"]
 
 NO_MODAL_LOSS = (
     "modal_loss_factor must be above 0 with mesh_damping 'modal', got 0. "
     "Give about 0.06, or choose 'hysteretic'."
 )
+# friction laws whose parts besides the film's are consistent, so that a solved film can stand in
+FRICTION_WITH_SOLVED_FILM = ("consistent", "off", "zhou_hoeprich_1991")
+PRINTED_WITH_SOLVED_FILM = (
+    "a solved film must come with the friction law consistent, zhou_hoeprich_1991 or off: the "
+    "others have films of their own. Change one of the two."
+)
+FILM_MODEL = "hypoid_flank"  # of the package, for flanks of steel
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 
 
@@ -102,6 +119,13 @@ class HypoidAxleParameters(AxleScalars):
         circular contact, `circular_pressure_coefficient`; asperities are consistent.
         "zhou_hoeprich_1991": asperities carry exp(-B Lambda^C) of the load, and all of it when
         there is no film.
+    film : {"formula", "solved"}
+        Central film and friction of the oil on the flanks: "formula", Chittenden 1985 with Evans
+        and Johnson 1986, or "solved", by a model of solved thermal Eyring films, see `solved_film`;
+        outside its domain the formulas come in. Friction of asperities is as `friction` says.
+    film_limiting_slope : float
+        Limiting shear stress of the film over pressure [-], 0 for none: the film model knows none,
+        so contacts whose mean stress comes near it count as outside.
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
@@ -147,6 +171,8 @@ class HypoidAxleParameters(AxleScalars):
     mesh_damping: MeshDamping = "hysteretic"
     modal_loss_factor: Annotated[float, Within(0.0, 1.0)] = 0.06
     friction: Friction | FlankLawMaker = "consistent"
+    film: Film = "formula"
+    film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
     rolling: FlankRolling = "none"
     bearing_torque_loss: TorqueLoss = "palmgren"
     churning: ChurningLaw = "none"
@@ -165,6 +191,7 @@ class HypoidAxleParameters(AxleScalars):
         if isinstance(self.friction, str):
             check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, TORQUE_LOSSES)
+        check_option("film", self.film, FILM_MODELS)
         check_option("rolling", self.rolling, FLANK_ROLLING_LAWS)
         check_option("churning", self.churning, CHURNING_LAWS)
         check_scalars(self)
@@ -247,7 +274,27 @@ class HypoidAxleParameters(AxleScalars):
         surface = SurfaceParameters(
             float(self.roughness_rms), float(self.xi_beta_sigma), float(self.sigma_over_beta)
         )
-        return make(surface, solid_parameters(self.solid, self.solid))
+        law = make(surface, solid_parameters(self.solid, self.solid))
+        if isinstance(law, MixedFlankFriction):
+            law = law._replace(
+                film=float(FILM_MODELS.index(self.film)),
+                limiting_slope=float(self.film_limiting_slope),
+            )
+        return law
+
+    def film_model(self) -> Array:
+        """Return the numbers of the film model for one axle; empty with the formulas.
+
+        Raises
+        ------
+        ParameterError
+            The film is solved and the friction law has a film of its own.
+        """
+        if self.film == "formula":
+            return NO_FILM_MODEL
+        if self.friction not in FRICTION_WITH_SOLVED_FILM:
+            raise ParameterError(f"{PRINTED_WITH_SOLVED_FILM} Got {self.friction!r}.")
+        return flank_film_model(FilmModel.named(FILM_MODEL))
 
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""

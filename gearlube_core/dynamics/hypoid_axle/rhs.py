@@ -12,7 +12,7 @@ from gearlube_core.bearings.bearing_type import (
     expanded_forces,
 )
 from gearlube_core.bearings.cage_frame import cage_torque
-from gearlube_core.dynamics.hypoid_axle.flanks import flank_sum
+from gearlube_core.dynamics.hypoid_axle.flanks import N_FRICTION, flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad
 from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force, reference_frequency
@@ -43,10 +43,8 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant_state import LubricantState
 
-N_FRICTION = 3 * PAIRS
 AT_EXPANSION = N_FRICTION + N_CHANNELS
 SCRATCH = AT_EXPANSION + 2 * N_EXPANSION
 
@@ -121,10 +119,10 @@ def axle_rhs(
     oil : LubricantState
     p : AxleParameters
     tractions, bearings : float
-        Not 0: evaluate films and tractions, expand the bearing forces about this state; with both,
-        the right-hand side is exact. At 0 friction coefficients are kept from the last time, and
-        bearing forces are linear about the state of then. (Floats, because numba would compile
-        the kernel anew for each literal integer.)
+        Not 0: evaluate films and tractions, see `flank_sum`, and expand the bearing forces about
+        this state; with EXACT and 1 the right-hand side is exact. At 0 friction coefficients are
+        kept from the last time, and bearing forces are linear about the state of then. (Floats,
+        because numba would compile the kernel anew for each literal integer.)
     scratch : ndarray of shape (SCRATCH,)
         What is kept between calls, and work space.
 
@@ -151,6 +149,7 @@ def axle_rhs(
         tractions,
         scratch[0:N_FRICTION],
         scratch[N_FRICTION:AT_EXPANSION],
+        mesh_data.film_model,
     )
     w_p = s[W_P]
     w_g = s[W_G]

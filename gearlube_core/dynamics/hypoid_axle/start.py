@@ -160,7 +160,7 @@ def rest_under(
         at_rest[i] = s[i]
     for i in range(N_FREE):
         scale[i] = _SCALE
-    at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes)
+    at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes, mesh.film_model)
     inputs = StepInputs(torque, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     problem = RestProblem(at_rest, inputs, at_load, oil, p, soft, push, scratch, slope)
     limit = _LARGEST_ERROR * max(abs(torque / series[R_P]), _LEAST_FORCE)

@@ -6,6 +6,8 @@ size then stands beside the speeds, which relative tolerances of an adaptive int
 
 from __future__ import annotations
 
+from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
+
 MICRO = 1.0e6  # um per m
 UM = 1.0e-6  # m per um; multiplied with, since a kernel divides dearly
 
@@ -26,5 +28,7 @@ LOAD_TORQUE = 29  # filtered abs(pinion torque) that selects the load level [N.m
 TIME_IN_STEP = 30  # length of the last communication step [s]
 WORK_MARK = 31  # these energies at the start of the last communication step [J]
 SIDE = WORK_MARK + N_ENERGIES  # below 0: the mesh data are those of the coast flanks [-]
-N_STATE = SIDE + 1
+FRICTION_BOUND = SIDE + 1  # of the flank friction losses of the last communication step [J]
+FILM_NODES = FRICTION_BOUND + 1  # `film_nodes` of all tooth pairs, with a film model
+N_STATE = FILM_NODES + N_FILMS
 N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events

@@ -8,6 +8,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.mesh_table.kernels import LoadBracket, load_bracket
+from gearlube_core.mesh_table.sliding_direction import pair_sliding_direction
 from gearlube_core.mesh_table.table import PAIRS, MeshTable
 
 _MIDDLE = 0.5 * PAIRS  # of a pair's window [mesh periods]
@@ -66,8 +67,7 @@ def _blend(lower: Array, upper: Array, bracket: LoadBracket) -> Array:
 def _at_level(table: MeshTable, level: int) -> PairContact:
     w = {key: values[level] for key, values in table.windows.items()}
     pinion, gear = w["friction_arm_p"], w["friction_arm_g"] / table.ratio
-    along = np.clip(0.5 * (pinion + gear) / w["entrainment_arm"], -1.0, 1.0)
-    direction = sliding_direction(w["psi"], w["chi"], along)
+    direction = pair_sliding_direction(w, table.ratio)
     return PairContact(
         w["share"],
         w["R_x"],
@@ -75,26 +75,6 @@ def _at_level(table: MeshTable, level: int) -> PairContact:
         _vectors(w["entrainment_arm"], w["psi"]),
         _vectors(pinion - gear, direction),
     )
-
-
-def sliding_direction(psi: Array, chi: Array, along: Array) -> Array:
-    """Return the angle of sliding from the minor axis on the side where entrainment is positive.
-
-    Parameters
-    ----------
-    psi, chi : ndarray, shape (N,)
-        Angles of entrainment and of sliding from the minor axis [rad], both folded to 0..pi/2.
-    along : ndarray, shape (N,)
-        Component of the entrainment along sliding, over the entrainment [-].
-
-    Notes
-    -----
-    A table keeps chi without its quadrant. Of the four directions that fold to it, that one is
-    taken whose angle to the entrainment has the cosine that the arms of both members give.
-    """
-    turns = np.stack([chi, np.pi - chi, -chi, chi - np.pi])
-    best = np.argmin(np.abs(np.cos(turns - psi) - along), axis=0)
-    return np.asarray(np.take_along_axis(turns, best[None], axis=0)[0])
 
 
 def _vectors(length: Array, angle: Array) -> Array:

@@ -1,0 +1,233 @@
+"""The shipped axle, films by formula and solved: python -m docs.film_model.compare.
+
+About five minutes. Writes docs/film_model/axle.csv, the figure docs/images/film_model_axle.png and
+the tables of docs/film_model_axle.md between their marks.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from drivetrain.axle_file.read_axle import read_axle
+from gearlube.plotting.style import BLUE, GREEN, VERMILLION, house_style, new_figure
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.storage.atomic_file import write_text
+from gearlube_core.units import celsius_to_kelvin, kmh_to_ms
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs" / "film_model_axle.md"
+TABLE = ROOT / "docs" / "film_model" / "axle.csv"
+FIGURE = ROOT / "docs" / "images" / "film_model_axle.png"
+SPEEDS = np.array([20.0, 40.0, 60.0, 80.0, 100.0])  # km/h
+TORQUES = np.array([10.0, 20.0, 50.0, 100.0, 200.0, 400.0])  # N.m
+DEGC = np.array([40.0, 60.0, 80.0, 95.0, 120.0])
+MEGA = 1e6
+# name, film, Eyring stress [MPa], colour, line
+CASES = (
+    ("formula, 2 MPa", "formula", 2.0, BLUE, "-"),
+    ("formula, 5 MPa", "formula", 5.0, BLUE, "--"),
+    ("solved, 2 MPa", "solved", 2.0, VERMILLION, "-"),
+    ("solved, 5 MPa", "solved", 5.0, VERMILLION, "--"),
+)
+HEAD = (
+    "case", "oil_degc", "speed_km_h", "torque_n_m", "mesh_efficiency_percent", "bound_percent",
+    "friction_w", "boundary_w", "least_film_um", "least_film_ratio", "share_outside_percent",
+)  # fmt: skip
+ROAD = "road"
+
+
+def axle_of(film: str, stress: float) -> HypoidAxleParameters:
+    """Return the shipped axle with a film and an Eyring stress [MPa]."""
+    axle = read_axle("mohammadpour_2015").axle
+    return replace(axle, film=film, oil=replace(axle.oil, eyring_stress=stress * MEGA))
+
+
+def found(
+    axle: HypoidAxleParameters, torques: Array, pinion: Array, degc: Array
+) -> dict[str, Array]:
+    """Return the quantities of `HEAD` over (temperature, speed, torque)."""
+    losses = axle_losses(
+        axle,
+        torques=torques,
+        speeds=pinion,
+        temperatures=np.array([celsius_to_kelvin(float(one)) for one in degc]),
+    )
+    put_in = pinion[:, None] * torques
+    friction = losses.power[..., 0] + losses.power[..., 1]
+    sigma = axle.roughness_rms
+    return {
+        "mesh_efficiency_percent": 100.0 * (1.0 - friction / put_in),
+        "bound_percent": 100.0 * losses.friction_bound / put_in,
+        "friction_w": friction,
+        "boundary_w": losses.power[..., 1],
+        "least_film_um": losses.film_ratio * sigma * 1e6,
+        "least_film_ratio": losses.film_ratio,
+        "share_outside_percent": 100.0 * losses.share_outside,
+    }
+
+
+def over_the_range() -> dict[str, dict[str, Array]]:
+    """Return all cases over speed, torque and temperature."""
+    road = read_axle("mohammadpour_2015").driveline.road_load
+    pinion = np.array([road.pinion_speed(kmh_to_ms(speed)) for speed in SPEEDS])
+    return {
+        name: found(axle_of(film, stress), TORQUES, pinion, DEGC)
+        for name, film, stress, _, _ in CASES
+    }
+
+
+def on_the_road() -> dict[str, dict[str, Array]]:
+    """Return all cases at the speeds and road loads of the paper, 95 degC; arrays over speed."""
+    road = read_axle("mohammadpour_2015").driveline.road_load
+    at = {}
+    for name, film, stress, _, _ in CASES:
+        points = [
+            found(
+                axle_of(film, stress),
+                np.array([road.pinion_torque(kmh_to_ms(speed))]),
+                np.array([road.pinion_speed(kmh_to_ms(speed))]),
+                np.array([95.0]),
+            )
+            for speed in SPEEDS
+        ]
+        at[name] = {key: np.array([one[key][0, 0, 0] for one in points]) for key in points[0]}
+    return at
+
+
+def as_csv(cases: dict[str, dict[str, Array]]) -> str:
+    """Return the table of all points."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(HEAD)
+    for name, values in cases.items():
+        for i, degc in enumerate(DEGC):
+            for j, speed in enumerate(SPEEDS):
+                for k, torque in enumerate(TORQUES):
+                    row = [f"{values[key][i, j, k]:.5g}" for key in HEAD[4:]]
+                    writer.writerow([name, f"{degc:g}", f"{speed:g}", f"{torque:g}", *row])
+    return text.getvalue()
+
+
+def figure(cases: dict[str, dict[str, Array]]) -> Any:
+    """Return efficiency and film ratio over speed, torque and temperature through one point."""
+    t, s, q = 3, 4, 3  # 95 degC, 100 km/h, 100 N.m
+    axes_of = (
+        ("vehicle speed [km/h]", SPEEDS, (t, slice(None), q)),
+        ("pinion torque [N·m]", TORQUES, (t, s, slice(None))),
+        ("oil temperature [°C]", DEGC, (slice(None), s, q)),
+    )
+    with house_style():
+        made = new_figure(9.0, 6.2)
+        grid = made.subplots(2, 3, sharey="row", sharex="col")
+        for column, (label, x, place) in enumerate(axes_of):
+            for name, _, _, colour, line in CASES:
+                values = cases[name]
+                y, bound = (
+                    values[key][place] for key in ("mesh_efficiency_percent", "bound_percent")
+                )
+                grid[0, column].plot(x, y, line, color=colour, label=name)
+                grid[0, column].fill_between(x, y - bound, y + bound, color=colour, alpha=0.2, lw=0)
+                if name.endswith("2 MPa"):  # films hardly feel the Eyring stress
+                    grid[1, column].plot(x, values["least_film_ratio"][place], line, color=colour)
+            grid[1, column].axhline(1.0, color=GREEN, lw=1.0, ls=":")
+            grid[1, column].set_xlabel(label)
+        grid[0, 0].set_ylabel("efficiency of the mesh [%]")
+        grid[1, 0].set_ylabel("least film ratio λ [-]")
+        grid[1, 0].annotate("film as thick as the roughness", (22.0, 1.02), fontsize=8, color=GREEN)
+        grid[0, 0].set_title("100 N·m, 95 °C")
+        grid[0, 1].set_title("100 km/h, 95 °C")
+        grid[0, 2].set_title("100 km/h, 100 N·m")
+        handles, labels = grid[0, 0].get_legend_handles_labels()
+        made.legend(handles, labels, loc="outside upper center", ncol=4)
+    return made
+
+
+def range_table(cases: dict[str, dict[str, Array]]) -> str:
+    """Return ratios of formula to solved over the range, by share of points, as Markdown."""
+    lines = [
+        "| 2 MPa, formula over solved | least | 5 % | median | 95 % | most |",
+        "|---|---|---|---|---|---|",
+    ]
+    formula, solved = cases["formula, 2 MPa"], cases["solved, 2 MPa"]
+    for key, words in (("friction_w", "friction loss"), ("boundary_w", "of it by asperities"),
+                       ("least_film_um", "least film")):  # fmt: skip
+        ratio = (formula[key] / solved[key])[solved["share_outside_percent"] < 1.0]
+        cells = np.quantile(ratio, (0.0, 0.05, 0.5, 0.95, 1.0))
+        lines.append(f"| {words} | " + " | ".join(f"{one:.2f}" for one in cells) + " |")
+    outside = solved["share_outside_percent"]
+    bound = solved["bound_percent"] / (100.0 - solved["mesh_efficiency_percent"]) * 100.0
+    lines += [
+        "",
+        f"Of {outside.size} points {int(np.sum(outside < 1.0))} have less than 1 % of their load "
+        f"outside the domain, {int(np.sum(outside > 50.0))} more than half. The bound of the "
+        f"friction loss is {np.median(bound):.1f} % of it in the median, "
+        f"{np.quantile(bound, 0.95):.0f} % or less at 95 % of the points.",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def road_table(road: dict[str, dict[str, Array]]) -> str:
+    """Return efficiencies and films at the paper's points as Markdown."""
+    lines = [
+        "| | " + " | ".join(f"{speed:g} km/h" for speed in SPEEDS) + " | spread |",
+        "|---|" + "---|" * (SPEEDS.size + 1),
+    ]
+    for name, values in road.items():
+        y, bound = values["mesh_efficiency_percent"], values["bound_percent"]
+        cells = [
+            f"{a:.2f} ± {b:.2f}" if b > 0.0 else f"{a:.2f}" for a, b in zip(y, bound, strict=True)
+        ]
+        lines.append(
+            f"| {name}: efficiency of the mesh [%] | " + " | ".join(cells) + f" | {np.ptp(y):.2f} |"
+        )
+    for name in ("formula, 2 MPa", "solved, 2 MPa"):
+        ratio = road[name]["least_film_ratio"]
+        cells = [f"{one:.2f}" for one in ratio]
+        lines.append(f"| {name}: least film ratio λ | " + " | ".join(cells) + " | |")
+    return "\n".join(lines) + "\n"
+
+
+def model_line() -> str:
+    """Return which model was taken."""
+    model = FilmModel.named("hypoid_flank")
+    film, friction = 100.0 * model.film_bound, 100.0 * model.friction_bound
+    return (
+        f"Model `hypoid_flank`, checksum `{model.checksum}`, state "
+        f"`{model.provenance.get('state')}`: bounds {film:.2f} % of the film, {friction:.2f} % of "
+        "the friction.\n"
+    )
+
+
+def between(page: str, mark: str, text: str) -> str:
+    """Return the page with a text between the marks of a name."""
+    begin, end = f"<!-- {mark}: python -m docs.film_model.compare -->\n", f"<!-- end of {mark} -->"
+    before, rest = page.split(begin)
+    return before + begin + "\n" + text + "\n" + end + rest.split(end, 1)[1]
+
+
+def main() -> None:
+    """Compute all and write it."""
+    cases, road = over_the_range(), on_the_road()
+    write_text(as_csv(cases), TABLE)
+    figure(cases).savefig(FIGURE)
+    page = PAGE.read_text(encoding="utf-8")
+    for mark, text in (
+        ("model", model_line()),
+        ("range", range_table(cases)),
+        (ROAD, road_table(road)),
+    ):
+        page = between(page, mark, text)
+    write_text(page, PAGE)
+
+
+if __name__ == "__main__":
+    main()

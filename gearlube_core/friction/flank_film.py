@@ -1,0 +1,110 @@
+"""Film and friction of a flank contact by the film model."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.film_model import net
+from gearlube_core.film_model.groups import FilmInlet, film_inlet, film_place
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.solved_film import solved_film_at
+from gearlube_core.friction.flank_bound import FlankEllipse, ModelFilm
+from gearlube_core.friction.flank_data import ContactGeometry
+from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
+
+# behind the numbers of the model: the oil that the numbers behind it belong to, and these
+_OIL = net.N_ARRAY
+_INLET = _OIL + count_floats(LubricantState) + 1
+N_FLANK_MODEL = _INLET + count_floats(FilmInlet)
+_LEAST_FRICTION = 1e-12  # so that there is a logarithm without sliding
+
+
+def flank_film_model(model: FilmModel) -> Array:
+    """Return the numbers of a film model for one gear pair, shape (N_FLANK_MODEL,).
+
+    Kernels write into them: two gear pairs must not share them.
+    """
+    return np.concatenate([model.copied_numbers(), np.full(N_FLANK_MODEL - _OIL, np.nan)])
+
+
+@kernel
+def _inlet(
+    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float, film_model: Array
+) -> FilmInlet:
+    """Return oil and solids as the film model takes them; kept until the oil changes."""
+    oil = film_model[_OIL:_INLET]
+    known = oil[len(lubricant)] == limiting_slope
+    for i in range(len(lubricant)):
+        known = known and oil[i] == lubricant[i]
+    if not known:
+        inlet = film_inlet(
+            solid.contact_modulus,
+            lubricant.eta0,
+            lubricant.alpha,
+            lubricant.beta,
+            lubricant.tau0,
+            0.0,
+            limiting_slope,
+            lubricant.temperature,
+            lubricant.conductivity,
+            lubricant.volume_heat,
+            solid.conductivity,
+            solid.density * solid.heat_capacity,
+        )
+        tuple_to_array(inlet, film_model[_INLET:])
+        tuple_to_array(lubricant, oil)
+        oil[len(lubricant)] = limiting_slope
+    return tuple_from_array(film_model[_INLET:], FilmInlet)
+
+
+@kernel
+def flank_model_film(
+    load: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    geometry: ContactGeometry,
+    ellipse: FlankEllipse,
+    lubricant: LubricantState,
+    solid: SolidParameters,
+    limiting_slope: float,
+    film_model: Array,
+) -> ModelFilm:
+    """Return what the film model says of a flank contact.
+
+    Parameters
+    ----------
+    load, entrainment_speed, sliding_speed, geometry, lubricant, solid
+        As in `flank.flank_friction`.
+    ellipse
+        The rest of the contact's geometry.
+    limiting_slope
+        Limiting shear stress of the film over pressure [-]; 0: none.
+    film_model : ndarray, shape (N_FLANK_MODEL,)
+        Of `flank_film_model`; written into.
+    """
+    place = film_place(
+        ellipse.R_x,
+        ellipse.R_y,
+        ellipse.psi,
+        ellipse.delta,
+        ellipse.ellipticity,
+        geometry.pressure_coefficient,
+        solid.contact_modulus,
+        solid.conductivity,
+        solid.density * solid.heat_capacity,
+    )
+    inlet = _inlet(lubricant, solid, limiting_slope, film_model)
+    found = solved_film_at(
+        film_model, load, abs(entrainment_speed), abs(sliding_speed), place, inlet
+    )
+    return ModelFilm(
+        math.log(found.central_film),
+        math.log(max(found.friction_coefficient, _LEAST_FRICTION)),
+        found.outside,
+    )
