@@ -128,8 +128,10 @@ limits are exceeded, and whether the search had no success.
 | evaluations/, positions/ | intermediate results; after a stop the same command uses them |
 
 `--front N` computes a Pareto front: the smallest loss under N limits of the mesh orders. The limits
-go from the smallest mesh orders found to those of the original pair. The front is computed with the
-cells of the search. Points that are worse in both measures than another point are left out.
+go from the smallest mesh orders found to those of the original pair. The front is computed on cells
+held at the better pair, and values move at most 0.35 of their bounds from it. Of all pairs that
+these searches meet and that keep the limits, those are shown that no other one beats in both
+measures.
 
 In Python:
 

@@ -14,7 +14,14 @@ from gearlube_core.flank_optimisation.held_model import HeldModel, Teeth
 from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
 from gearlube_core.flank_optimisation.problem import GearFile, Problem
 from gearlube_core.flank_optimisation.problem_file import Limits
-from gearlube_core.flank_optimisation.search import KEPT, Found, Round, SearchSettings, search
+from gearlube_core.flank_optimisation.search import (
+    KEPT,
+    Found,
+    Round,
+    SearchSettings,
+    best_in_box,
+    search,
+)
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
 from gearlube_core.helical_contact.tooth_body import pair_stiffness as helical_stiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -23,8 +30,6 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 EVALUATIONS, POSITIONS = "evaluations", "positions"  # folders of what is kept
-# of the searches for the front: losses differ by per cents, which wide steps on held cells miss
-_FRONT_ROUNDS, _FRONT_REGION = 3, 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -279,26 +284,35 @@ def _front(
     limits: Limits,
     progress: Progress,
 ) -> tuple[FrontPoint, ...]:
-    """Return the least loss under limits of whine between that before and the least."""
+    """Return the least loss under limits of whine between that before and the least.
+
+    Of all that the searches met on cells held at the best pair: losses differ by per cents, and a
+    pair of less loss needs no cells of its own to be one of the front.
+    """
     if settings.front < 2:
         return ()
     before = HeldModel(problem, stiffness, None, folder).evaluate(None)
     goal = _goal(problem, before, limits)
     least = float(goal.squares(best.evaluation)[0].mean())
-    most = np.geomspace(max(least, 1e-4), 1.0, settings.front)[1:]
-    values, evaluation = best.values, best.evaluation
-    points = [_point(goal, values, evaluation)]
-    for k, square in enumerate(most.tolist()):
-        progress(k / most.size, f"front of whine against loss, {k + 1} of {most.size}")
-        found = search(
-            lambda at: HeldModel(problem, stiffness, at, folder),
-            replace(goal, loss=True, most_square=square),
-            (problem.low, problem.high),
-            values,
-            replace(settings.search, rounds=_FRONT_ROUNDS, region=_FRONT_REGION),
+    most = np.geomspace(max(least, 1e-4), 1.0, settings.front)
+    low, high = problem.low, problem.high
+    reach = settings.search.region * (high - low)
+    box = np.maximum(low, best.values - reach), np.minimum(high, best.values + reach)
+    model = _Recorded(HeldModel(problem, stiffness, best.values, folder), [])
+    for k, square in enumerate(most[1:].tolist()):
+        progress(k / most.size, f"front of whine against loss, {k + 1} of {most.size - 1}")
+        asked = replace(goal, loss=True, most_square=square)
+        best_in_box(model, asked, best.values, box, low, high, settings.search, 0.0)
+    kept = [
+        _point(goal, at, found)
+        for at, found in model.seen
+        if float(goal.used(found)[0].max(initial=0.0)) <= KEPT
+    ]
+    points = [_point(goal, best.values, best.evaluation)]
+    for square in most[1:].tolist():
+        points.append(
+            min((one for one in (*points, *kept) if one.whine**2 <= square), key=_loss_of)
         )
-        values = found.values
-        points.append(_point(goal, values, found.evaluation))
     front: list[FrontPoint] = []
     for one in reversed(points):
         beaten = any(_no_better(one, other) for other in points)
@@ -306,6 +320,19 @@ def _front(
         if not (beaten or known):
             front.append(one)
     return tuple(front)
+
+
+@dataclass(frozen=True, slots=True)
+class _Recorded:
+    """A pair with held cells, and all that was evaluated on them."""
+
+    held: HeldModel
+    seen: list[tuple[Array, Evaluation]]
+
+    def evaluate(self, values: Array) -> Evaluation:
+        found = self.held.evaluate(values)
+        self.seen.append((np.array(values), found))
+        return found
 
 
 def _same(one: FrontPoint, other: FrontPoint) -> bool:
@@ -316,6 +343,10 @@ def _no_better(one: FrontPoint, other: FrontPoint) -> bool:
     """Return whether another point is as good in both and better in one, by more than 1e-3."""
     gain = one.whine - other.whine, one.loss - other.loss
     return min(gain) > -1e-6 and max(gain) > 1e-3
+
+
+def _loss_of(one: FrontPoint) -> float:
+    return one.loss
 
 
 def _point(goal: Goal, values: Array, found: Evaluation) -> FrontPoint:

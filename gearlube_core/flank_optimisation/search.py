@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy.optimize import minimize
@@ -112,7 +112,7 @@ def search(
         observe(number, f"aim {rounds[-1].aim:.3f}")
         reach = region * (high - low)
         box = np.maximum(low, values - reach), np.minimum(high, values + reach)
-        tried = _best_in_box(here, goal, values, box, low, high, settings, margin)
+        tried = best_in_box(here, goal, values, box, low, high, settings, margin)
         if np.all(np.abs(tried - values) < 1e-6 * (high - low)):
             if margin == 0.0:
                 break
@@ -153,8 +153,15 @@ def _round(goal: Goal, values: Array, found: Evaluation, kept: bool) -> Round:
     return Round(values.copy(), goal.highest(found), float(used.max(initial=0.0)), kept)
 
 
-def _best_in_box(
-    model: HeldModel,
+class Evaluated(Protocol):
+    """A pair whose cells are held."""
+
+    def evaluate(self, values: Array) -> Evaluation:
+        """Return what the cells find at values (P,)."""
+
+
+def best_in_box(
+    model: Evaluated,
     goal: Goal,
     values: Array,
     box: tuple[Array, Array],
@@ -163,7 +170,7 @@ def _best_in_box(
     settings: SearchSettings,
     margin: float,
 ) -> Array:
-    """Return the best values in a box on held cells; unknowns are parts of the bounds.
+    """Return the best values in a box on held cells; unknowns are parts of the bounds low and high.
 
     Limits are tightened by `margin`, in parts of themselves.
     """

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+import gearlube_core.ehl.transient.front as transient_front
 import gearlube_core.ehl.transient.newton as transient_newton
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
-from gearlube_core.ehl.transient.front import mark_band, relax_band
+from gearlube_core.ehl.transient.front import advance_front, mark_band, relax_band
 from gearlube_core.ehl.transient.march import FilmMarch
 
 ROW = np.array([[0, 0], [0, -1], [0, 1]])
@@ -65,3 +68,52 @@ def test_front_leaves_the_answer_and_saves_steps(monkeypatch):
     assert few < many
     # both stop at 1e-5 of unbalanced flow
     assert moved == pytest.approx(plain, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "share", "moves"),
+    [
+        (0.1, 0.5, 0.2, True),  # the film is found: the next linear solution does the rest
+        (0.1, 0.7, 0.2, False),  # seven times as much
+        (0.1, 0.05, 0.05, False),  # what lacks is not the front
+        (1.0, 1.1, 0.5, False),  # the film is not found: less has to be left
+        (1.0, 0.9, 0.5, True),
+        (1.0, 0.9, 0.2, False),
+    ],
+)
+def test_front_may_unbalance_the_film_only_near_the_answer(
+    monkeypatch, before, after, share, moves
+):
+    shape = (5, 9)
+    opening, residual, derivative = np.zeros((3, *shape))
+    opening[2, 4], residual[2, 4], residual[2, 2] = 1.0, share, 1.0 - share
+    derivative[1:-1, 1:-1] = -1.0
+    state = SimpleNamespace(
+        pressure=np.where(opening > 0.0, 0.0, 1.0),
+        approach=0.0,
+        residual=residual,
+        free=np.ones(shape, dtype=np.bool_),
+        contact=SimpleNamespace(apart=lambda nodes: nodes),
+        boundary=SimpleNamespace(within=lambda nodes: nodes),
+    )
+    linear = SimpleNamespace(
+        offsets=np.array([[0, 0]]),
+        by_pressure=derivative[None],
+        by_film=np.zeros((1, *shape)),
+        right=-residual,
+    )
+    level = SimpleNamespace(
+        shape=shape,
+        grid=SimpleNamespace(integral=np.sum, own_deflection=np.zeros(shape)),
+        linearise=lambda state, rows: linear,
+        state=lambda pressure, approach: SimpleNamespace(pressure=pressure),
+    )
+    monkeypatch.setattr(transient_front, "flow_residual", lambda level, state: after)
+    found, size = advance_front(level, state, before)
+    if moves:
+        # its own equation alone: minus one times the pressure is minus the flow
+        assert found.pressure[2, 4] == pytest.approx(share)
+        assert size == after
+    else:
+        assert found is state
+        assert size == before

@@ -48,7 +48,7 @@ def test_a_finer_grid_changes_films_at_second_order():
     assert 0.1 < steps[1] / steps[0] < 0.5
 
 
-def test_train_and_audit_run_from_the_command_line(tmp_path):
+def test_train_runs_from_the_command_line_and_fit_refuses_too_few(tmp_path):
     few = ["--box", "2", "--axle", "1", "--edge", "1", "--calibration", "1", "--fresh", "1"]
     out = tmp_path / "films"
     runner = CliRunner()

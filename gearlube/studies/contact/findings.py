@@ -42,15 +42,16 @@ def _edges(part: xr.Dataset, side: str) -> Finding:
     if np.isnan(first):
         return Finding(
             GOOD,
-            f"No sharp edge presses into the {side} flanks up to {top:g} N·m: the highest "
-            f"pressure is {quantity_text(highest, 'GPa')}.",
-            f"Pressures above {1e-9 * EDGE_PRESSURE:g} GPa would be those of edges.",
+            f"No sharp edge presses into the {side} flanks with more than "
+            f"{1e-9 * EDGE_PRESSURE:g} GPa up to {top:g} N·m: the highest pressure is "
+            f"{quantity_text(highest, 'GPa')}.",
+            "Higher pressures would be those of edges. The command names edges that carry less.",
         )
     middle = 1e-9 * _middle(part)
     return Finding(
         WARNING,
-        f"Sharp edges press into the {side} flanks from {first:g} N·m on, with up to "
-        f"{quantity_text(highest, 'GPa')}.",
+        f"Sharp edges press into the {side} flanks with more than {1e-9 * EDGE_PRESSURE:g} GPa "
+        f"from {first:g} N·m on, with up to {quantity_text(highest, 'GPa')}.",
         "This pressure has no meaning as a number, because it rises with finer cells: it only "
         f"shows the place. Where a pair carries most load, {top:g} N·m give "
         f"{quantity_text(middle, 'GPa', 2)}. Relief of tips and ends in the gear file removes edge "

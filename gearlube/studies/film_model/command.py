@@ -107,6 +107,13 @@ def fit(
         int, typer.Option(help="Points that the net learns from.", metavar="N")
     ] = 8000,
     steps: Annotated[int, typer.Option(help="Most steps of the net's fit.", metavar="N")] = 150,
+    start: Annotated[
+        str | None,
+        typer.Option(
+            help="Go on from the net of this model of the same oils: fewer steps do.",
+            metavar="MODEL",
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="The model (.json).")] = Path("film_model.json"),
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace OUT.")] = False,
 ) -> None:
@@ -114,11 +121,13 @@ def fit(
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
     from gearlube.studies.film_model.calibration import tests_table
-    from gearlube.studies.film_model.fit import FitSettings, fit_model
+    from gearlube.studies.film_model.fit import fit_model
+    from gearlube.studies.film_model.fit_settings import FitSettings
     from gearlube.studies.film_model.model_lines import model_lines
     from gearlube.studies.film_model.solves import SolveTable
     from gearlube.studies.film_model.train import SOLVES, stored_plan
     from gearlube_core.errors import ParameterError
+    from gearlube_core.film_model.model import FilmModel
     from gearlube_core.storage.atomic_file import write_text
 
     with exit_on_error("Stopped; nothing was written."):
@@ -134,6 +143,7 @@ def fit(
                 plan,
                 FitSettings(points=points, steps=steps),
                 name=out.stem,
+                start=None if start is None else FilmModel.named(start),
                 progress=progress,
             )
         fitted.model.write(out)

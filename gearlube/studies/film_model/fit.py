@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from datetime import UTC, datetime
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from gearlube.studies.film_model.calibration import CONFIDENCE, Misses, conformal_bounds
+from gearlube.studies.film_model.calibration import Misses, conformal_bounds
+from gearlube.studies.film_model.fit_settings import FitSettings
 from gearlube.studies.film_model.net_fit import fit_net
-from gearlube.studies.film_model.plan import COARSE, FINE, TRAINING, FilmPlan
+from gearlube.studies.film_model.plan import TRAINING, FilmPlan
 from gearlube.studies.film_model.process import FilmProcess, fit_process
+from gearlube.studies.film_model.provenance import provenance_of
 from gearlube.studies.film_model.samples import (
     DOMAIN,
     TRAINED,
@@ -31,9 +31,7 @@ from gearlube.studies.film_model.targets import (
     solved_rows,
     targets_of,
 )
-from gearlube_core import __version__
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.groups import FilmContact, FilmGroups, contact_groups
 from gearlube_core.film_model.model import FilmModel
@@ -48,29 +46,6 @@ _FEWEST_PAIRS = 20
 _PAIR_NOISE = 0.1  # first guess, of the corrections' variance
 _AXLE_SHARE = 0.3  # of the points that the net learns from
 _TRAINED_WEIGHT = 4.0  # of a solved contact over a point of the process
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FitSettings:
-    """How a net is made of the processes.
-
-    Parameters
-    ----------
-    points
-        Of the processes that the net learns from.
-    steps
-        Most steps of the net's fit.
-    seed
-        Of points and first weights.
-    """
-
-    points: int = 8000
-    steps: int = 150
-    seed: int = 1
-
-    def __post_init__(self) -> None:
-        check_within("points", self.points, 500, 1_000_000)
-        check_within("steps", self.steps, 10, 1_000_000)
 
 
 class Fitted(NamedTuple):
@@ -90,6 +65,7 @@ def fit_model(
     *,
     name: str = "",
     state: str = "final",
+    start: FilmModel | None = None,
     progress: Progress = no_progress,
 ) -> Fitted:
     """Return the frozen model of a training set.
@@ -106,13 +82,15 @@ def fit_model(
         Of the model, for its provenance.
     state
         "final", or "first" of a trial.
+    start
+        A model of the same box, from whose net the fit goes on.
     progress
         Called with the share done and a sentence.
 
     Raises
     ------
     ParameterError
-        There are too few rows.
+        There are too few rows, or `start` has another domain.
     GearLubeError
         scikit-learn is not installed.
 
@@ -150,7 +128,9 @@ def fit_model(
     weights = np.ones_like(values)
     weights[len(groups) :] = _TRAINED_WEIGHT
     progress(0.45, "net")
-    blocks = _net(points, values, weights, low, high, settings, part_of(progress, 0.45, 0.95))
+    blocks = _net(
+        points, values, weights, low, high, settings, start, part_of(progress, 0.45, 0.95)
+    )
     modulus = drawn[0].contact_modulus
     model = FilmModel.of_blocks(
         {**blocks, **_frame(low, high, modulus), "bounds": np.array([1.0, 1.0])}, {}
@@ -162,7 +142,7 @@ def fit_model(
     misses = {kind: Misses(found[kind] / limits[kind] - 1.0) for kind in kept}
     spread = conformal_bounds(misses["calibration"].values)
     bounds = tuple(math.hypot(b, 2.0 * g) for b, g in zip(spread, grid_left, strict=True))
-    provenance = _provenance(rows, plan, settings, (name, state), misses, bounds, grid_left, box)
+    provenance = provenance_of(rows, plan, settings, (name, state), misses, bounds, grid_left, box)
     model = FilmModel.of_blocks({**model.blocks, "bounds": np.array(bounds)}, provenance)
     return Fitted(model, misses["calibration"], misses["fresh"], found, limits)
 
@@ -239,64 +219,35 @@ def _net(
     low: Array,
     high: Array,
     settings: FitSettings,
+    start: FilmModel | None,
     progress: Progress,
 ) -> dict[str, Array]:
     """Return the weights of the net that learns values (n, 2) at points (n, N_GROUPS)."""
     inputs = (points - 0.5 * (low + high)) * 2.0 / (high - low)
     spread = values.std(axis=0)
+    first = None if start is None else _scaled(_same_box(start, low, high).blocks, 1.0 / spread)
     blocks = fit_net(
         inputs,
         values / spread,
         weights,
         seed=settings.seed,
         steps=settings.steps,
+        start=first,
         progress=progress,
     )
-    for name in ("straight", "last"):
-        blocks[name] = blocks[name] * spread[:, None]
-    blocks["last_offset"] = blocks["last_offset"] * spread
-    return blocks
+    return _scaled(blocks, spread)
 
 
-def _provenance(
-    rows: Sequence[SolveRow],
-    plan: FilmPlan,
-    settings: FitSettings,
-    name: tuple[str, str],
-    misses: dict[str, Misses],
-    bounds: tuple[float, ...],
-    grid_left: list[float],
-    box: Box,
-) -> dict[str, Any]:
-    kinds = (*TRAINING, "calibration", "fresh")
-    counts = {kind: len(solved_rows(rows, kind)) for kind in kinds}
-    fine = len(solved_rows(rows, *TRAINING, fine=True))
-    over = misses["fresh"].violations((bounds[0], bounds[1]))
-    return {
-        "name": name[0],
-        "state": name[1],
-        "contact": "elliptical, entrainment and sliding at angles: hypoid flank",
-        "physics": "steady thermal Eyring film, fully flooded, smooth, bulk at the oil's "
-        "temperature; Roelands and Houpert, Dowson and Higginson, no limiting stress; steel",
-        "oils_of_the_axle": list(plan.oils),
-        "mesh_table": plan.mesh_table,
-        "grid": f"{COARSE[0]} x {COARSE[1]} led to the limit by {fine} films on "
-        f"{FINE[0]} x {FINE[1]}",
-        "solves": counts,
-        "fine_solves": fine,
-        "failed": sum(bool(row.failure) for row in rows),
-        "seed": plan.seed,
-        "fit": {"points": settings.points, "steps": settings.steps, "seed": settings.seed},
-        "date": datetime.now(UTC).date().isoformat(),
-        "gearlube": __version__,
-        "box": {key: [low, high, scale] for key, (low, high, scale) in box.items()},
-        "bounds": {
-            "confidence": CONFIDENCE,
-            "film_percent": round(100.0 * bounds[0], 4),
-            "friction_percent": round(100.0 * bounds[1], 4),
-            "fresh_violations": list(over),
-        },
-        "grid_error_left_percent": [round(100.0 * one, 4) for one in grid_left],
-        "errors_box": misses["calibration"].summary(),
-        "errors_fresh_axle": misses["fresh"].summary(),
-    }
+def _scaled(blocks: dict[str, Array], factor: Array) -> dict[str, Array]:
+    """Return the weights of a net whose two outputs are multiplied."""
+    scaled = {name: blocks[name] * factor[:, None] for name in ("straight", "last")}
+    return {**blocks, **scaled, "last_offset": blocks["last_offset"] * factor}
+
+
+def _same_box(start: FilmModel, low: Array, high: Array) -> FilmModel:
+    blocks = start.blocks
+    if not np.allclose(np.stack([blocks["domain_low"], blocks["domain_high"]]), [low, high]):
+        raise ParameterError(
+            "The model to start from must have the domain of the training set. Leave --start out."
+        )
+    return start

@@ -58,6 +58,7 @@ def fit_net(
     *,
     seed: int,
     steps: int,
+    start: dict[str, Array] | None = None,
     progress: Progress = no_progress,
 ) -> dict[str, Array]:
     """Return the weights that fit targets with the least weighted square.
@@ -73,6 +74,8 @@ def fit_net(
         Of the first weights.
     steps
         Steps of Levenberg and Marquardt, each a second of a processor for some thousand points.
+    start
+        Weights to go on from; None: random ones.
     progress
         Called with the share done and a sentence.
 
@@ -81,14 +84,8 @@ def fit_net(
     Gauss-Newton steps on the normal equations, damped as by [marquardt_1963]; a step that makes the
     sum of squares larger is not taken. A weak pull to zero keeps the equations regular.
     """
-    rng = np.random.default_rng(seed)
-    start = {
-        name: rng.normal(size=shape) / np.sqrt(shape[0] if len(shape) > 1 else 4.0)
-        for name, shape in _SHAPES.items()
-    }
-    start["last"] *= 0.1
-    start["straight"] *= 0.0
-    start["last_offset"] = targets.mean(axis=0)
+    if start is None:
+        start = _first_weights(seed, targets)
     x, damping = flat_blocks(start), 1e-1
     value = _squares(x, inputs, targets, weights)
     for step in range(steps):
@@ -107,6 +104,18 @@ def fit_net(
         rms = math.sqrt(value / targets.size)
         progress((step + 1) / steps, f"net, {rms:.2g} of the spread left")
     return net_blocks(x)
+
+
+def _first_weights(seed: int, targets: Array) -> dict[str, Array]:
+    rng = np.random.default_rng(seed)
+    start = {
+        name: rng.normal(size=shape) / np.sqrt(shape[0] if len(shape) > 1 else 4.0)
+        for name, shape in _SHAPES.items()
+    }
+    start["last"] *= 0.1
+    start["straight"] *= 0.0
+    start["last_offset"] = targets.mean(axis=0)
+    return start
 
 
 def _squares(x: Array, inputs: Array, targets: Array, weights: Array) -> float:

@@ -16,6 +16,10 @@ from gearlube_core.kernels.jit import kernel
 
 _LARGEST = 3.0  # flow residual, above which the film behind the front is too rough
 _SHARE = 0.3  # of the unbalanced flow at opening nodes, from which on the front is what lacks
+# below this flow residual the film is found but for its front: from a smaller share on, and what
+# the front's move unbalances elsewhere is left to the next linear solution
+_FOUND = 0.2
+_SHARE_FOUND, _GROWTH_FOUND = 0.1, 6.0
 _FEW = 0.01  # of the largest unbalanced flow, below which an opening node is left alone
 _BACK, _AHEAD, _BESIDE = 4, 16, 2  # nodes along and across the motion that follow an opening one
 _SWEEPS = 50
@@ -92,7 +96,9 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
     Returns
     -------
     tuple
-        The state as given where flow is unbalanced elsewhere or the front's move left more.
+        The state as given where flow is unbalanced elsewhere or the front's move left more, six
+        times as much once little is left: by then it is the front alone that Newton steps find
+        node by node, while what its move does to the film around it is linear.
 
     Notes
     -----
@@ -101,9 +107,11 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
     """
     if not size < _LARGEST:
         return state, size
+    found = size < _FOUND
+    share, growth = (_SHARE_FOUND, _GROWTH_FOUND) if found else (_SHARE, 1.0)
     opening = (state.pressure <= 0.0) & state.free
     flow = np.where(opening, state.residual, 0.0)
-    if level.grid.integral(flow) < _SHARE * level.grid.integral(
+    if level.grid.integral(flow) < share * level.grid.integral(
         np.where(state.free, np.abs(state.residual), 0.0)
     ):
         return state, size
@@ -124,4 +132,4 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
     )
     moved = level.state(state.pressure + change, state.approach)
     after = flow_residual(level, moved)
-    return (moved, after) if after < size else (state, size)
+    return (moved, after) if after < growth * size else (state, size)

@@ -193,7 +193,9 @@ def step_newton(
             length *= 0.4
         if not accepted:
             break
-        state, after = advance_front(level, trial, trial_size)
+        state, after = trial, trial_size
+        if not (after <= tolerance and abs(state.load_error) <= load_tolerance):
+            state, after = advance_front(level, trial, trial_size)
         forcing, size = _FORCING * after / size, after
     converged = (
         size <= tolerance

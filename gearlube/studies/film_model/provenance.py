@@ -1,0 +1,76 @@
+"""Where a film model comes from, as names and numbers for its file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from typing import Any
+
+from gearlube.studies.film_model.calibration import CONFIDENCE, Misses
+from gearlube.studies.film_model.fit_settings import FitSettings
+from gearlube.studies.film_model.plan import COARSE, FINE, TRAINING, FilmPlan
+from gearlube.studies.film_model.samples import Box
+from gearlube.studies.film_model.solves import SolveRow
+from gearlube.studies.film_model.targets import solved_rows
+from gearlube_core import __version__
+
+
+def provenance_of(
+    rows: Sequence[SolveRow],
+    plan: FilmPlan,
+    settings: FitSettings,
+    name: tuple[str, str],
+    misses: Mapping[str, Misses],
+    bounds: tuple[float, ...],
+    grid_left: list[float],
+    box: Box,
+) -> dict[str, Any]:
+    """Return the provenance of a model.
+
+    Parameters
+    ----------
+    rows, plan, settings
+        Films, what they were solved for, and the fit.
+    name
+        Of the model, and its state.
+    misses
+        Errors by kind of contact.
+    bounds
+        Of film and friction [-].
+    grid_left
+        What the grid's correction misses, rms of film and friction [-].
+    box
+        Of the training.
+    """
+    kinds = (*TRAINING, "calibration", "fresh")
+    counts = {kind: len(solved_rows(rows, kind)) for kind in kinds}
+    fine = len(solved_rows(rows, *TRAINING, fine=True))
+    over = misses["fresh"].violations((bounds[0], bounds[1]))
+    return {
+        "name": name[0],
+        "state": name[1],
+        "contact": "elliptical, entrainment and sliding at angles: hypoid flank",
+        "physics": "steady thermal Eyring film, fully flooded, smooth, bulk at the oil's "
+        "temperature; Roelands and Houpert, Dowson and Higginson, no limiting stress; steel",
+        "oils_of_the_axle": list(plan.oils),
+        "mesh_table": plan.mesh_table,
+        "grid": f"{COARSE[0]} x {COARSE[1]} led to the limit by {fine} films on "
+        f"{FINE[0]} x {FINE[1]}",
+        "solves": counts,
+        "fine_solves": fine,
+        "failed": sum(bool(row.failure) for row in rows),
+        "seed": plan.seed,
+        "fit": {"points": settings.points, "steps": settings.steps, "seed": settings.seed},
+        "date": datetime.now(UTC).date().isoformat(),
+        "gearlube": __version__,
+        "box": {key: [low, high, scale] for key, (low, high, scale) in box.items()},
+        "bounds": {
+            "confidence": CONFIDENCE,
+            "film_percent": round(100.0 * bounds[0], 4),
+            "friction_percent": round(100.0 * bounds[1], 4),
+            "fresh_violations": list(over),
+        },
+        "grid_error_left_percent": [round(100.0 * one, 4) for one in grid_left],
+        "errors_box": misses["calibration"].summary(),
+        "errors_fresh_axle": misses["fresh"].summary(),
+    }
