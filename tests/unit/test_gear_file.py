@@ -53,7 +53,7 @@ def test_every_number_has_a_unit_or_needs_none_and_a_meaning(name):
 def test_missing_field_is_named_with_its_meaning():
     data = FILE.model_dump(exclude_none=True)
     del data["gear"]["machine"]["vertical_setting_mm"]
-    with pytest.raises(ParameterError, match=r"gear\.machine\.vertical_setting_mm is missing: Cut"):
+    with pytest.raises(ParameterError, match=r"gear\.machine\.vertical_setting_mm is missing: Dis"):
         HypoidGearFile.from_data(data, "mine.toml")
 
 

@@ -46,10 +46,10 @@ def frequency_map(dataset: xr.Dataset) -> Any:
         ends = np.array(ax.get_xlim())
         per_rpm = levels.teeth(dataset) / 60.0
         for order in range(1, 8):
-            if not _is_seen(order * per_rpm * speed, rows, cells, floor):
-                continue
             place = min(ends[1] - 0.012 * np.ptp(ends), 0.94 * top / (order * per_rpm))
-            if place > ends[0] + 0.1 * np.ptp(ends):
+            inside = place > ends[0] + 0.1 * np.ptp(ends)
+            near = int(np.abs(speed - place).argmin())
+            if inside and _is_seen(order * per_rpm * speed[near], rows, cells[near], floor):
                 _name(ax, f"H{order}", place, order * per_rpm * place, ha="right")
         ax.set_ylim(0.0, top)
         _modes_beside(ax, dataset, top)
@@ -98,11 +98,10 @@ def _top_frequency(dataset: xr.Dataset) -> float:
     return min(top, float(dataset["frequency"].max()))
 
 
-def _is_seen(line: Array, rows: Array, cells: Array, floor: float) -> bool:
-    """Whether the cells along `line`, a frequency for each slice, reach above `floor`."""
-    inside = np.flatnonzero(line < rows[-1])
-    places = np.searchsorted(rows, line[inside])
-    return bool(inside.size) and float(cells[inside, places].max()) > floor
+def _is_seen(frequency: float, rows: Array, cells: Array, floor: float) -> bool:
+    """Whether a slice, its cells over `rows`, reaches above `floor` at a frequency [Hz]."""
+    place = int(np.searchsorted(rows, frequency))
+    return bool(float(cells[max(place - 1, 0) : place + 2].max()) > floor)
 
 
 def _largest_in_cells(rows: Array, values: Array) -> tuple[Array, Array]:
