@@ -72,6 +72,7 @@ def all_cases():
     state = axle.get_state()[:N_STATE]
     solved = HypoidAxle(axle_with(film="solved"))
     by_model, numbers = solved.kernel_parameters, solved.parameters.film_model()
+    law = by_model.flank_law
     mesh = axle.packed
     p = axle.kernel_parameters
     printed = HypoidAxle(
@@ -197,7 +198,7 @@ def all_cases():
         ),
         (flanks.sliding_speed, (state, channels)),
         (flanks.contact_of, (channels,)),
-        (flanks.pair_film, (state, 900.0, 0.7, channels, state_of_oil, by_model, numbers)),
+        (flanks.pair_film, (state, 900.0, 0.7, channels, state_of_oil, law, numbers)),
         *(
             (
                 flanks.pair_friction,
@@ -210,14 +211,24 @@ def all_cases():
         ),
         (
             flanks._film_at_node,
-            (7, state, force, window, mesh.nodes, state_of_oil, by_model, numbers),
+            (7, state, force, window, mesh.nodes, state_of_oil, law, numbers),
         ),
         *(
             (
                 flanks.film_between_nodes,
-                (0, state, one, window, mesh.nodes, state_of_oil, by_model, numbers, around),
+                (0, state, one, window, mesh.nodes, state_of_oil, 13.0, law, numbers, around),
             )
             for one in (force, 2.0 * force)
+        ),
+        *(
+            (
+                flanks._renew_films,
+                (
+                    *(step, 9, state, force, window, mesh.nodes, state_of_oil, law, numbers),
+                    around,
+                ),
+            )
+            for step in (film_nodes.NEXT, film_nodes.OTHER)
         ),
         *((film_nodes.nodes_on, (around, node, 60, force, 145.0)) for node in (6, 7, 9)),
         (film_nodes.node_films, (zeros(film_nodes.N_FILMS), 1)),

@@ -166,7 +166,7 @@ def test_law_meets_load_speeds_and_geometry_of_its_flank(monkeypatch):
     monkeypatch.setattr(flanks, "model_film", lambda *arguments: met.append(arguments))
     arguments = moving(), 600.0, -0.7, PAIRS[0], OIL, parameters()
     source_of(flanks.pair_friction)(*arguments, NO_MODEL_FILM, NO_MODEL)
-    source_of(flanks.pair_film)(*arguments, NO_MODEL)
+    source_of(flanks.pair_film)(*arguments[:-1], "law", NO_MODEL)
     for law, load, entrainment, sliding, geometry, _, oil, model in met:
         assert (law, load, sliding, oil, model is NO_MODEL) == ("law", 600.0, -0.7, OIL, True)
         assert entrainment == pytest.approx(-0.021 * 150.0, rel=1e-14)

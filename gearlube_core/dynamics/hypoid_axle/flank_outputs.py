@@ -103,10 +103,21 @@ def write_flanks(
             sliding = sliding_speed(s, channels)
             film = NO_MODEL_FILM
             if film_model.size > 0 and refresh == EXACT:
-                film = pair_film(s, load, sliding, channels, oil, p, film_model)
+                film = pair_film(s, load, sliding, channels, oil, p.flank_law, film_model)
             elif film_model.size > 0:
                 kept = node_films(films, pair)
-                film = film_between_nodes(pair, s, force, window, n_nodes, oil, p, film_model, kept)
+                film = film_between_nodes(
+                    pair,
+                    s,
+                    force,
+                    window,
+                    n_nodes,
+                    oil,
+                    p.mesh.z_p,
+                    p.flank_law,
+                    film_model,
+                    kept,
+                )
             bounded = pair_friction(s, load, sliding, channels, oil, p, film, film_model)
             flank = bounded.state
             total += load

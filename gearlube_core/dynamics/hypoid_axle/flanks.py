@@ -46,7 +46,7 @@ from gearlube_core.friction.flank_bound import (
     ModelFilm,
 )
 from gearlube_core.friction.flank_data import ContactGeometry
-from gearlube_core.friction.flank_law import bounded_flank, model_film
+from gearlube_core.friction.flank_law import FlankLaw, bounded_flank, model_film
 from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels, pair_node
@@ -106,12 +106,12 @@ def pair_film(
     sliding: float,
     channels: Array,
     oil: LubricantState,
-    p: AxleParameters,
+    law: FlankLaw,
     film_model: Array,
 ) -> ModelFilm:
-    """Return what the film model says of one flank; arguments as in `pair_friction`."""
+    """Return what the film model says of one flank with this law; others as in `pair_friction`."""
     return model_film(
-        p.flank_law,
+        law,
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,
@@ -163,13 +163,35 @@ def _film_at_node(
     window: Array,
     n_nodes: int,
     oil: LubricantState,
-    p: AxleParameters,
+    law: FlankLaw,
     film_model: Array,
 ) -> ModelFilm:
     first = (node % n_nodes) * N_CHANNELS
     channels = window[first : first + N_CHANNELS]
     load = abs(force) * channels[SHARE]
-    return pair_film(s, load, sliding_speed(s, channels), channels, oil, p, film_model)
+    return pair_film(s, load, sliding_speed(s, channels), channels, oil, law, film_model)
+
+
+@kernel
+def _renew_films(
+    step: int,
+    node: int,
+    s: Array,
+    force: float,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    law: FlankLaw,
+    film_model: Array,
+    kept: Array,
+) -> None:
+    """Evaluate the film model at the NEXT node, or around any OTHER; as `film_between_nodes`."""
+    if step == NEXT:
+        take_next(kept, node)
+    else:
+        start_films(kept, node, force, s[W_P])
+        keep_film(kept, 0, _film_at_node(node, s, force, window, n_nodes, oil, law, film_model))
+    keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model))
 
 
 @kernel
@@ -180,7 +202,8 @@ def film_between_nodes(
     window: Array,
     n_nodes: int,
     oil: LubricantState,
-    p: AxleParameters,
+    z_p: float,
+    law: FlankLaw,
     film_model: Array,
     kept: Array,
 ) -> ModelFilm:
@@ -188,19 +211,13 @@ def film_between_nodes(
 
     As all data of the table are. It is evaluated at a node when the pair comes before it, and
     anew when the mesh force or the speed has changed much since; `kept`, shape (N_NODE_FILM,),
-    holds it in between. Others as in `flank_sum`.
+    holds it in between. `z_p` teeth of the pinion, `law` of the flanks: handing over all parameters
+    of the axle takes longer than the rest. Others as in `flank_sum`.
     """
-    node, t = pair_node(n_nodes, p.mesh.z_p, s[PHI_P], pair)
+    node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
     step = nodes_on(kept, node, n_nodes, force, s[W_P])
-    if step == SAME:
-        pass
-    elif step == NEXT:
-        take_next(kept, node)
-        keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, p, film_model))
-    else:
-        start_films(kept, node, force, s[W_P])
-        keep_film(kept, 0, _film_at_node(node, s, force, window, n_nodes, oil, p, film_model))
-        keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, p, film_model))
+    if step != SAME:
+        _renew_films(step, node, s, force, window, n_nodes, oil, law, film_model, kept)
     return film_between(kept, t)
 
 
@@ -290,7 +307,9 @@ def flank_sum(
                     if refresh != 0.0:
                         film = NO_MODEL_FILM
                         if film_model.size > 0 and refresh == EXACT:
-                            film = pair_film(s, load, sliding, channels, oil, p, film_model)
+                            film = pair_film(
+                                s, load, sliding, channels, oil, p.flank_law, film_model
+                            )
                         elif film_model.size > 0:
                             film = film_between_nodes(
                                 pair,
@@ -299,7 +318,8 @@ def flank_sum(
                                 window,
                                 n_nodes,
                                 oil,
-                                p,
+                                p.mesh.z_p,
+                                p.flank_law,
                                 film_model,
                                 node_films(friction[FILMS:], pair),
                             )
