@@ -109,7 +109,8 @@ written in any case: crowns, twist and tip relief of the drive flanks and the pi
 change, at 15 and 30 % of the torque of the relief, with small errors of assembly, and under limits
 of pressure, loss, sensitivity and coast flanks. Change it as you like
 ([problem_file.md](problem_file.md)) and run it again. The quieter pair has a report of its own in
-`my_design/optimised`.
+`my_design/optimised`. The search is local and not every design gains as much as the pairs of
+[optimise.md](optimise.md): read there what was gained, and try other ranges or starts.
 
 These five commands lead from "13 to 42 teeth, 15 mm offset" to a loss map and FMUs. They take about
 seven minutes on a small machine, five of them for the FMUs of five platforms:
