@@ -49,6 +49,11 @@ FINER: dict[str, Any] = {
     "solver.rows": 60,
     "times.steps_per_half_width": 120,
 }
+HIS_COLUMNS: dict[str, Any] = {
+    "solver.nodes_x": 801,
+    "times.steps_per_half_width": 400,
+    "solver.tolerance": 10.0,  # times that of `GRID`: the default
+}
 VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "crossed": (A, {}),
     "straight": (A, STRAIGHT),
@@ -76,6 +81,9 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "crossed, 3 u": (A, faster(3.0)),
     "crossed, finer grid": (A, FINER),
     "crossed, finer grid, waves from 28 um": (A, FINER | filtered(28.0)),
+    # the columns, the time step and the schedule of the thesis, 4488 steps
+    "his columns, 32 rows": (A, HIS_COLUMNS | {"solver.rows": 32} | filtered(54.0)),
+    "his columns, 64 rows": (A, HIS_COLUMNS | {"solver.rows": 64} | filtered(27.0)),
 }
 
 

@@ -98,6 +98,21 @@ def test_loss_map_says_its_best_largest_drag_and_error_bar(a_map):
     assert found(said, "Not modelled: windage").level == NOTE
 
 
+def test_loss_map_says_how_far_solved_films_are_to_be_trusted(a_map):
+    assert not [one for one in loss_map.findings(a_map) if "solved films" in one.headline]
+    friction = a_map["loss"].sel(source="friction_viscous", drop=True)
+    outside = xr.zeros_like(friction)
+    outside[1, 0, 2] = 0.3
+    solved = a_map.assign(friction_bound=0.02 * friction, share_outside=outside)
+    said = found(loss_map.findings(solved), "solved films")
+    assert "2.0 % of the flanks' friction loss" in said.headline
+    assert said.level == WARNING
+    torque, speed = (float(a_map[name][k]) for name, k in (("torque", 2), ("speed", 0)))
+    assert f"at most 30 % of the flanks' load, at {torque:.4g} N·m, {speed:.4g} rpm" in said.detail
+    little = loss_map.findings(solved.assign(share_outside=0.1 * outside))
+    assert found(little, "solved films").level == NOTE
+
+
 def test_loss_map_warns_of_failures_and_ranges_and_steady_points_without_rest(a_map):
     a_map["status"][0, 0, 0] = 4
     a_map["range_exceeded"][0] = 1.0

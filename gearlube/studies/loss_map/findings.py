@@ -13,6 +13,8 @@ from gearlube_core.arrays import Array
 
 _NAMED = 3  # sources of loss and uncertain inputs that are told one by one
 _LEAST_SHARE = 0.005  # of the loss, of a source that is told
+_RUBBING = ("friction_viscous", "friction_boundary")  # what the model of solved films bounds
+_LITTLE_OUTSIDE = 0.05  # share of load outside the domain of that model that needs no warning
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -38,6 +40,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_warmth(dataset),
             *_uncertainty(dataset),
             *_film(dataset),
+            *_solved(dataset),
             *_steady(dataset),
             *_ranges(dataset),
         ]
@@ -212,6 +215,28 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
             f"{words_of(worst)}.",
             f"It is below {MIXED:g}, where asperities carry much of the load, at {mixed:.0f} % of "
             "the points.",
+        )
+    ]
+
+
+def _solved(dataset: xr.Dataset) -> list[Finding]:
+    """Say how far the model of solved films is to be trusted, where the axle takes it."""
+    if "share_outside" not in dataset:
+        return []
+    outside = dataset["share_outside"]
+    rubbing = [one for one in dataset["source"].values if str(one) in _RUBBING]
+    friction = dataset["loss"].sel(source=rubbing).sum("source")
+    bound = float(dataset["friction_bound"].sum() / friction.sum())
+    worst = _at(dataset, outside)
+    most = 100.0 * float(worst["share_outside"])
+    level = NOTE if most <= 100.0 * _LITTLE_OUTSIDE else WARNING
+    return [
+        Finding(
+            level,
+            "Films and friction of the flanks are those of solved films (film.model = solved). "
+            f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss.",
+            f"Outside the model's domain formulas take over: at most {most:.0f} % of the flanks' "
+            f"load, at {words_of(worst)}. The bound leaves out how uncertain the oil's data are.",
         )
     ]
 

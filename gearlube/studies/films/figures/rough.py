@@ -35,6 +35,8 @@ def rough_history(runs: Runs, time_step: float | None = None) -> Any:
     matplotlib.figure.Figure
         As [jamali_2015 Fig. 7.18, 7.24, 7.25] for the pressure.
     """
+    from matplotlib.ticker import LogFormatter
+
     _check(runs)
     with house_style():
         figure = new_figure(8.0, 8.4)
@@ -48,6 +50,8 @@ def rough_history(runs: Runs, time_step: float | None = None) -> Any:
             limit = run["threshold"].values[-1]
             axes[2].plot(at, 100.0 * run["contact_share"].sel(threshold=limit), **line)
             axes[3].plot(at, 100.0 * run["solid_share"], **line)
+        axes[1].yaxis.set_major_formatter(LogFormatter())
+        axes[1].yaxis.set_minor_formatter(LogFormatter(minor_thresholds=(1.5, 0.5)))
         words = f"{next(iter(runs.values()))['threshold'].values[-1] / _NANOMETRE:g} nm"
         for ax, name in zip(
             axes,
