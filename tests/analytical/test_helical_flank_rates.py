@@ -111,7 +111,11 @@ def test_rates_are_those_of_the_contact_on_frozen_cells(rates):
         # steps up to 4 nm let no cell go (10 nm do); solved to 1e-12 of the closing
         expected = extrapolated(partial(quantities, name), 2e-3)
         found = [getattr(rates, one)[k, 1] for one in RATES]
-        np.testing.assert_allclose(found, expected, rtol=1e-6)
+        # a solution to 1e-12 leaves some 1e-11 of the pressure to chance, a few 1e-6 of this rate
+        chance = 1e-11 * rates.pressure_max[1] / 2e-3
+        for quantity, rate, difference in zip(QUANTITIES, found, expected, strict=True):
+            atol = chance if quantity == "pressure_max" else 0.0
+            np.testing.assert_allclose(rate, difference, rtol=1e-6, atol=atol, err_msg=quantity)
 
 
 @pytest.mark.parametrize(

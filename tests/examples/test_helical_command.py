@@ -154,7 +154,7 @@ def test_a_stopped_run_keeps_its_speeds_and_goes_on(small, tmp_path, monkeypatch
     monkeypatch.setattr(sweep_grid, "speed_column", stop_at_second)
     with caplog.at_level(logging.WARNING, "gearlube"):
         assert run(*small, "--out", tmp_path).exit_code == INTERRUPTED
-    assert "go on" in caplog.text
+    assert "to continue from" in caplog.text
     assert set(datasets(tmp_path)) == {"response", "friction_sweep"}
     assert len(list((tmp_path / "parts").glob("*_speed_*.npz"))) == 1
 

@@ -136,7 +136,7 @@ def test_a_map_of_failures_alone_keeps_its_table_and_no_file_of_an_earlier_map(
 
 def test_a_grid_or_a_cycle_that_needs_every_point_says_which_failed(axle):
     car = gl.read_axle(axle)
-    with pytest.raises(ParameterError, match=rf"got none at .* N.m: {REASON}"):
+    with pytest.raises(ParameterError, match=rf"none was found at .* N.m: {REASON}"):
         regulation_map(gl.LossMapSettings(axle=car.axle, draws=0))
     cycle = gl.DriveCycle(name="cruise", time=np.arange(5.0), speed=np.full(5, 25.0))
     hot = gl.celsius_to_kelvin(130.0)
