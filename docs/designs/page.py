@@ -26,7 +26,8 @@ roll and helical motion are tried too.
 TABLE = """
 Each pair of numbers: drive / coast. Error: found over asked. Path: direction found less asked.
 Centre: distance of the mean contact from the place asked for. Loaded: secant stiffness and highest
-pressure at {torque:g} N.m of the pinion with relief, as `gearlube contact` finds them.
+pressure at {torque:g} N.m of the pinion with relief, as `gearlube contact` finds them,
+with the fixed relief that designs had before it was chosen for a torque.
 
 | Teeth | Offset [mm] | Process | Error [%] | Path [deg] | Centre [mm] | Contact ratio | Teeth as cut | Verdict | N/um | GPa |
 |---|---|---|---|---|---|---|---|---|---|---|
