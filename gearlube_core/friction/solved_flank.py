@@ -21,8 +21,8 @@ from gearlube_core.friction.mixed_friction import (
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
-# How far the formulas may be off where the model does not hold, relative to what they give: as far
-# as they are off in 95 % of the axle's range where both hold, see docs/film_model_axle.md.
+# How far the formulas may be off where the model does not hold, relative to what they give. Chosen:
+# 1 - 1/1.49 and 1 - 1/2.32 of a first sample of contacts, see docs/film_model_axle.md.
 FORMULA_FILM_BOUND = 0.33
 FORMULA_FRICTION_BOUND = 0.57
 
