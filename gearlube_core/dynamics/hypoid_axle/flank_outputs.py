@@ -5,11 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.film_nodes import node_films
 from gearlube_core.dynamics.hypoid_axle.flanks import (
-    EXACT,
-    film_between_nodes,
-    pair_film,
+    flank_film,
     pair_friction,
     sliding_speed,
 )
@@ -19,7 +16,6 @@ from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, SHARE
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_moes_groups
 from gearlube_core.friction.evans_johnson_1986 import traction_map_number
-from gearlube_core.friction.flank_bound import NO_MODEL_FILM
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
@@ -101,23 +97,22 @@ def write_flanks(
         out[bounds + 1] = 0.0
         if load > 0.0:
             sliding = sliding_speed(s, channels)
-            film = NO_MODEL_FILM
-            if film_model.size > 0 and refresh == EXACT:
-                film = pair_film(s, load, sliding, channels, oil, p.flank_law, film_model)
-            elif film_model.size > 0:
-                kept = node_films(films, pair)
-                film = film_between_nodes(
-                    pair,
-                    s,
-                    force,
-                    window,
-                    n_nodes,
-                    oil,
-                    p.mesh.z_p,
-                    p.flank_law,
-                    film_model,
-                    kept,
-                )
+            film = flank_film(
+                pair,
+                s,
+                load,
+                force,
+                sliding,
+                channels,
+                window,
+                n_nodes,
+                oil,
+                p.mesh.z_p,
+                p.flank_law,
+                film_model,
+                refresh,
+                films,
+            )
             bounded = pair_friction(s, load, sliding, channels, oil, p, film, film_model)
             flank = bounded.state
             total += load

@@ -222,6 +222,36 @@ def film_between_nodes(
 
 
 @kernel
+def flank_film(
+    pair: int,
+    s: Array,
+    load: float,
+    force: float,
+    sliding: float,
+    channels: Array,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    z_p: float,
+    law: FlankLaw,
+    film_model: Array,
+    refresh: float,
+    films: Array,
+) -> ModelFilm:
+    """Return what the film model says of one flank, or NO_MODEL_FILM without a model.
+
+    At the contact itself where `refresh` is EXACT, else between the nodes of the mesh table.
+    `films` holds those of all pairs, `load` of this one [N]; others as in `film_between_nodes`.
+    """
+    if film_model.size == 0:
+        return NO_MODEL_FILM
+    if refresh == EXACT:
+        return pair_film(s, load, sliding, channels, oil, law, film_model)
+    kept = node_films(films, pair)
+    return film_between_nodes(pair, s, force, window, n_nodes, oil, z_p, law, film_model, kept)
+
+
+@kernel
 def pair_rolling(
     load: float,
     rolling: float,
@@ -305,24 +335,22 @@ def flank_sum(
                 sliding = sliding_speed(s, channels)
                 if p.friction != 0.0:
                     if refresh != 0.0:
-                        film = NO_MODEL_FILM
-                        if film_model.size > 0 and refresh == EXACT:
-                            film = pair_film(
-                                s, load, sliding, channels, oil, p.flank_law, film_model
-                            )
-                        elif film_model.size > 0:
-                            film = film_between_nodes(
-                                pair,
-                                s,
-                                force,
-                                window,
-                                n_nodes,
-                                oil,
-                                p.mesh.z_p,
-                                p.flank_law,
-                                film_model,
-                                node_films(friction[FILMS:], pair),
-                            )
+                        film = flank_film(
+                            pair,
+                            s,
+                            load,
+                            force,
+                            sliding,
+                            channels,
+                            window,
+                            n_nodes,
+                            oil,
+                            p.mesh.z_p,
+                            p.flank_law,
+                            film_model,
+                            refresh,
+                            friction[FILMS:],
+                        )
                         bounded = pair_friction(
                             s, load, sliding, channels, oil, p, film, film_model
                         )
