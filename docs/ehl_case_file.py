@@ -168,6 +168,7 @@ def page() -> str:
     return (
         HEAD
         + "\n## Fields of both\n"
+        + "\nNames in square brackets are sources: [bibliography.bib](bibliography.bib).\n"
         + field_tables(LineCase, OIL)
         + "\n## Fields of a line contact\n"
         + field_tables(LineCase, LINE)
