@@ -75,8 +75,8 @@ class Oil(Section):
     )
     eyring_stress_mpa: Stress | None = Field(
         default=None,
-        description="Eyring stress, above which the oil shears thin. Oils of ISO VG 100 have 3.9 to "
-        "4.5 by their measured limiting stress [arana_2019 (12)]; left out: Newtonian",
+        description="Eyring stress, above which the oil shears thin. Oils of ISO VG 100 have 3.9 "
+        "to 4.5 by their measured limiting stress [arana_2019 (12)]; left out: Newtonian",
     )
     limiting_stress_mpa: Stress | None = Field(
         default=None,
