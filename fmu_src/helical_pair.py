@@ -135,6 +135,7 @@ DEFINITION = Definition(
     slave="helical_pair_slave",
     shipped_data=(
         "gearlube_core/helical_geometry/data/*.toml",
+        "gearlube_core/film_model/data/helical_line.json",
         "gearlube_core/mesh_table/data/line_mesh_*.nc",
         "gearlube_core/oil/lubricants.toml",
     ),

@@ -28,6 +28,7 @@ from fmu_src.variable_kinds import (
     rates,
 )
 from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
+from gearlube_core.friction.flank_laws import FILM_MODELS
 
 CUSTOM, LINE_MESH = "custom", "line_mesh"  # literals with a meaning to the model's start
 
@@ -197,9 +198,32 @@ _EVENTS = (
           "sine of pi times the number of updates since phase zero"),
 )  # fmt: skip
 
+# films by a model of solved films, youngest
+_FILM = (
+    option("film.model", "Film and oil friction of the flanks: by formulas, or by a model of "
+           "solved films", *FILM_MODELS, start="formula", argument="film"),
+    parameter("film.limiting_slope", "1", "Limiting shear stress of a solved film over pressure; "
+              "0: none. Near it the formulas come in",
+              start=0.0, minimum=0.0, maximum=1.0, nominal=0.1, argument="film_limiting_slope"),
+)  # fmt: skip
+_FILM_OUTPUTS = (
+    output("film.share_outside", "1", "Share of the load on the contact lines outside the domain "
+           "of the model of solved films; 0 with formulas"),
+    *(output(f"line[{i}].{name}_bound", "1", f"Bound of the {words} of contact line {i}, relative; "
+             "0 with formulas", 0.05)
+      for i in (1, 2, 3, 4, 5, 6)
+      for name, words in (("film", "film thickness"), ("friction", "friction"))),
+    output("friction.power_loss_bound", "W", "Bound of friction.power_loss by those of the lines; "
+           "0 with formulas", 10.0),
+    output("efficiency_bound", "1", "The same of efficiency", 0.001),
+)  # fmt: skip
+
 HELICAL_PAIR: tuple[Variable, ...] = (
     *_FIRST,
     *_STATES,
     *rates([_BY_NAME[name] for name in STATE_NAMES]),
     *_EVENTS,
+    *_FILM,
+    *options_by_number(_FILM),
+    *_FILM_OUTPUTS,
 )

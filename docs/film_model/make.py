@@ -56,9 +56,14 @@ def errors(columns: dict[str, Array]) -> tuple[Array, Array]:
 
 def numbers(model: FilmModel, tests: Tests) -> dict[str, str]:
     """Return all numbers of the page as text."""
-    found = {**_of_model(model), **inside_shares(model)}
+    return {**_of_model(model), **inside_shares(model), **error_numbers(model, tests, KINDS)}
+
+
+def error_numbers(model: FilmModel, tests: Tests, kinds: dict[str, str]) -> dict[str, str]:
+    """Return bounds [%] and errors [%] of the kinds of contacts, under their short names."""
     bounds = (100.0 * model.film_bound, 100.0 * model.friction_bound)
-    for kind, short in KINDS.items():
+    found = {"film_bound": f"{bounds[0]:.2f}", "mu_bound": f"{bounds[1]:.2f}"}
+    for kind, short in kinds.items():
         found[f"{short}_count"] = str(tests[kind]["film_model_m"].size)
         for name, miss, bound in zip(("film", "mu"), errors(tests[kind]), bounds, strict=True):
             found[f"{short}_{name}_rms"] = f"{np.sqrt((miss**2).mean()):.2f}"
@@ -73,8 +78,6 @@ def _of_model(model: FilmModel) -> dict[str, Any]:
     p = model.provenance
     solves = p["solves"]
     return {
-        "film_bound": f"{100.0 * model.film_bound:.2f}",
-        "mu_bound": f"{100.0 * model.friction_bound:.2f}",
         "box": solves["box"] + solves["edge"],
         "edge": solves["edge"],
         "axle": solves["axle"],
@@ -89,7 +92,7 @@ def _of_model(model: FilmModel) -> dict[str, Any]:
         "seed": p["seed"],
         "date": p["date"],
         "checksum": model.checksum,
-        "domain": _domain(p["box"]),
+        "domain": domain_table(p["box"]),
     }
 
 
@@ -109,7 +112,8 @@ def inside_shares(model: FilmModel) -> dict[str, str]:
     }
 
 
-def _domain(box: dict[str, list[Any]]) -> str:
+def domain_table(box: dict[str, list[Any]]) -> str:
+    """Return the table of a box."""
     rows = [f"| {name} | {low:g} | {high:g} |" for name, (low, high, _) in box.items()]
     return "\n".join(["| Quantity | Least | Most |", "|---|---|---|", *rows])
 

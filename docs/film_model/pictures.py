@@ -11,9 +11,15 @@ from gearlube_core.arrays import Array
 
 _WORDS = {
     "axle": ("what the axle visits, not trained on", BLUE, "o"),
+    "pair": ("what the helical pairs visit, not trained on", BLUE, "o"),
     "box": ("anywhere in the domain, not trained on", VERMILLION, "s"),
 }
 _NAMES = ("central film", "friction coefficient")
+
+
+def _back_first(kind: str) -> bool:
+    """Draw the box behind what a machine visits."""
+    return kind != "box"
 
 
 def parity_picture(tests: dict[str, dict[str, Array]]) -> Any:
@@ -25,7 +31,7 @@ def parity_picture(tests: dict[str, dict[str, Array]]) -> Any:
     with house_style():
         figure = new_figure(9.0, 4.6)
         for ax, (solved, model, unit, label) in zip(figure.subplots(1, 2), columns, strict=True):
-            for kind in ("box", "axle"):
+            for kind in sorted(tests, key=_back_first):
                 words, colour, marker = _WORDS[kind]
                 x, y = unit * tests[kind][solved], unit * tests[kind][model]
                 ax.plot(x, y, marker, color=colour, label=words, markersize=3.2, alpha=0.7, mew=0.0)
@@ -48,7 +54,8 @@ def errors_picture(errors: dict[str, tuple[Array, Array]], bounds: tuple[float, 
         for n, ax in enumerate(figure.subplots(1, 2)):
             most = max(bounds[n], max(np.abs(errors[kind][n]).max() for kind in errors))
             edges = np.linspace(-1.05 * most, 1.05 * most, 43)
-            for kind, filled in (("box", False), ("axle", True)):
+            for kind in sorted(errors, key=_back_first):
+                filled = kind != "box"
                 words, colour, _ = _WORDS[kind]
                 miss = errors[kind][n]
                 ax.hist(

@@ -1,6 +1,6 @@
 """What only gear files, line meshes and oils decide of HelicalPair.fmu, as one array of constants.
 
-    places of the cases | oils | case | case | ...
+    places of the cases | oils | film model | case | case | ...
 
 A case is one gear.name with one mesh.stiffness_model, in the order of the literals:
 
@@ -27,9 +27,13 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     pack_march_mesh,
 )
 from gearlube_core.dynamics.helical_pair.march.model import torque_limits
-from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.helical_pair.march.parameters import (
+    FILM_MODEL,
+    HelicalMarchParameters,
+)
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.errors import GearLubeError
+from gearlube_core.film_model.model import FilmModel
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -83,6 +87,7 @@ def helical_cases(definition: Definition) -> HelicalCases:
         for model in literals["mesh.stiffness_model"]
     ]
     embedded = embedded_pair(definition.resources)
+    film_model = FilmModel.named(FILM_MODEL).copied_numbers()
     blocks: list[Array] = []
     places = np.zeros(len(names))
     missing: dict[int, str] = {}
@@ -99,12 +104,14 @@ def helical_cases(definition: Definition) -> HelicalCases:
         if not oils.size:
             oils = _oils(parameters, literals["oil.name"])
             ranges = _words(parameters)
-        places[number] = places.size + oils.size + sum(block.size for block in blocks)
+        places[number] = (
+            places.size + oils.size + film_model.size + sum(block.size for block in blocks)
+        )
         block, length = _case(parameters)
         blocks.append(block)
         longest = max(longest, length)
     return HelicalCases(
-        data=np.concatenate([places, oils, *blocks]),
+        data=np.concatenate([places, oils, film_model, *blocks]),
         missing=missing,
         ranges=ranges,
         longest_data=longest,

@@ -44,6 +44,7 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import (
 )
 from gearlube_core.dynamics.helical_pair.march.integrate import WORK_SIZE, StepControl
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    FILM_AT,
     LEAST_OFFSET,
     data_size,
     place_mesh,
@@ -76,6 +77,8 @@ from gearlube_core.dynamics.helical_pair.march.state import (
 )
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import COUPLING_CURE
 from gearlube_core.dynamics.ranges import MAX_SPEED, RangeLimits
+from gearlube_core.film_model.net import N_ARRAY
+from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
 
@@ -105,11 +108,14 @@ EQUATIONS = _PLACE["equations"]
 PER_MESH_PERIOD = _PLACE["steps_per_mesh_period"]
 PER_HIGHEST_PERIOD = _PLACE["steps_per_highest_period"]
 UPDATES = _PLACE["friction_updates_per_mesh_period"]
+FILM = _PLACE["film"]
+LIMITING_SLOPE = _PLACE["film_limiting_slope"]
 
 # numbers of the options, by their literals
 _GEARS = len(_PARAMETERS["gear_name"].literals)
 _OILS_AT = _GEARS * STIFFNESS_MODELS
-_CASES_END = _OILS_AT + OIL_FLOATS * len(_PARAMETERS["oil"].literals)
+_FILM_MODEL_AT = _OILS_AT + OIL_FLOATS * len(_PARAMETERS["oil"].literals)
+_CASES_END = _FILM_MODEL_AT + N_ARRAY
 _FRICTIONS = np.array([FRICTION_FORMS[literal] for literal in _PARAMETERS["friction"].literals])
 _HELD = np.array([HELD[literal] for literal in _PARAMETERS["form"].literals])
 _LINE_WORK = np.array([LINE_WORK[literal] for literal in _PARAMETERS["equations"].literals])
@@ -131,7 +137,7 @@ TRIAL_AT = DENSITY_AT + _UNIFORM_SIZE
 SCRATCH_AT = TRIAL_AT + N_STATE
 _SCRATCH = max(WORK_SIZE, EQUILIBRIUM_WORK + N_STATE)
 DATA_AT = SCRATCH_AT + _SCRATCH
-RANGES_AT = DATA_AT + LEAST_OFFSET - count_floats(RangeLimits)
+RANGES_AT = DATA_AT + FILM_AT - count_floats(RangeLimits)
 
 # statuses beyond those of `integrate.advance`
 NO_EQUILIBRIUM = 4
@@ -159,11 +165,11 @@ def take_parameters(parameters: Array, oils: Array, case: Array, work: Array) ->
     ----------
     parameters : ndarray of shape (N_PARAMETERS,)
     oils : ndarray
-        GivenOil of all oils.
+        GivenOil of all oils, and the numbers of the film model.
     case : ndarray
         CaseHead and GivenPair of the chosen case.
     work : ndarray
-        Up to the end of the constants in the pair data.
+        Up to the end of the film model in the pair data.
     """
     if parameters[STIFFNESS_MODEL] != 1.0 and parameters[DENSITY] > 0.0:
         return DENSITY_WITH_LINE_MESH
@@ -184,12 +190,17 @@ def take_parameters(parameters: Array, oils: Array, case: Array, work: Array) ->
             _HELD[int(parameters[FORM]) - 1],
             _LINE_WORK[int(parameters[EQUATIONS]) - 1],
             parameters[UPDATES],
+            parameters[FILM] - 1.0,
+            parameters[LIMITING_SLOPE],
         ),
         choices,
     )
     oil = oils[OIL_FLOATS * (int(parameters[OIL]) - 1) :]
     constants = work[DATA_AT:]
     write_constants(given, oil, choices, constants)
+    solved = parameters[FILM] - 1.0 == SOLVED
+    for i in range(N_ARRAY):
+        constants[FILM_AT + i] = oils[_FILM_MODEL_AT - _OILS_AT + i] if solved else 0.0
     write_bearing_shares(given, constants, work[BEARINGS_AT:GIVEN_AT])
     head: CaseHead = tuple_from_array(case, CaseHead)
     of_oil: GivenOil = tuple_from_array(oil, GivenOil)

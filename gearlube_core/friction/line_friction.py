@@ -17,7 +17,7 @@ from gearlube_core.oil.lubricant_state import LubricantState
 LINE_LOAD_FLOOR = 1.0  # N/m, film and pressure of an unloaded line are those at this floor
 # Round source with the mean rise of a resting strip of length 200 half widths b: radius 4.7 b.
 # Of a strip the rise grows with the logarithm of its length: 50 b to 1000 b are -22 to +26 %.
-_STILL_AREA_OVER_WIDTH_SQUARED = math.pi * (0.5 * 4.7) ** 2
+STILL_AREA_OVER_WIDTH_SQUARED = math.pi * (0.5 * 4.7) ** 2
 
 
 class LineState(NamedTuple):
@@ -97,7 +97,7 @@ def line_friction(
         speed,
         abs(sliding_speed),
         R,
-        _STILL_AREA_OVER_WIDTH_SQUARED * width * width,
+        STILL_AREA_OVER_WIDTH_SQUARED * width * width,
         lubricant,
         surface,
         solid,

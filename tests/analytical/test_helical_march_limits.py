@@ -60,7 +60,7 @@ def sums_of(a: float, tilt: float, phase: float, data: np.ndarray) -> LineSums:
 
 def flanks(parameters: HelicalMarchParameters) -> tuple[FlankConstants, np.ndarray]:
     constants = parameters.constants()
-    return constants.motion.flanks, pair_data(constants, parameters.mesh)
+    return constants.motion.flanks, pair_data(constants, parameters.mesh, parameters.film_model())
 
 
 @pytest.mark.parametrize("phase", [0.03, 0.37, 0.71, 5.9])

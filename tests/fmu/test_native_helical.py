@@ -158,7 +158,7 @@ def check_packed(loaded: LoadedModel, seed: int, count: int) -> None:
         given = {v.argument: v.decoded(x) for v, x in zip(PARAMETERS, values, strict=True)}
         del given["pinion_speed"]
         parameters = pair_parameters(given)
-        data = pair_data(parameters.constants(), parameters.mesh)
+        data = pair_data(parameters.constants(), parameters.mesh, parameters.film_model())
         np.testing.assert_array_equal(native.work[DATA_AT : DATA_AT + data.size], data)
         shares = native.work[BEARINGS_AT:GIVEN_AT]
         np.testing.assert_array_equal(shares, parameters.bearing_shares())

@@ -28,7 +28,7 @@ from gearlube_core.film_model.groups import reference_film as reference
 from gearlube_core.film_model.solved_film import SolvedFilm
 from gearlube_core.oil.lubricant import Lubricant
 
-COARSE, FINE = HYPOID_FLANK.coarse, HYPOID_FLANK.fine
+COARSE, FINE = HYPOID_FLANK.nodes, HYPOID_FLANK.second
 
 SMALL = FilmPlan(
     box=140,

@@ -189,7 +189,10 @@ def test_kernels_of_the_start_equal_their_source() -> None:
     given, oil = flatten(parameters.given()), flatten(parameters.given_oil())
     choices, constants = flatten(parameters.choices()), flatten(parameters.constants())
     model = HelicalPairModel(parameters)
-    mesh, data = tuple(model.mesh), pair_data(parameters.constants(), parameters.mesh)
+    mesh, data = (
+        tuple(model.mesh),
+        pair_data(parameters.constants(), parameters.mesh, parameters.film_model()),
+    )
 
     def packed(compiled: bool) -> np.ndarray:
         source = [f if compiled else f.py_func for f in (write_constants, replace_bearings)]

@@ -174,6 +174,7 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
         "line_sums": line_sums,
         "lubricant_state": lambda oil, temperature: (oil, temperature),
         "write_lines": write_lines,
+        "write_film_bounds": lambda *given: (0.25, 0.1),
         "write_ranges": lambda *given: calls.setdefault("ranges", given[:7]),
         "write_event_indicators": lambda *given: None,
     }.items():
@@ -210,6 +211,10 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
     assert calls["ranges"][1:] == (1.0, 2.0, 3.0, 4.0, 5.0, ranges)
     assert calls["torque"] == 0.8
     assert told["mesh.film_thickness_min"] == 2e-7
+    assert told["film.share_outside"] == 0.25
+    assert told["friction.power_loss_bound"] == pytest.approx(
+        0.1 * abs(told["friction.power_loss"])
+    )
     stored = 0.5 * s[W_P] ** 2 / member.mobility_r + 0.5 * s[W_G] ** 2 / 3.0
     stored += outputs.member_energy(s, U_P, V_P, member)
     stored += outputs.member_energy(s, U_G, V_G, member)

@@ -13,7 +13,6 @@ from scipy.stats import binom
 
 from gearlube.studies.film_model.calibration import CONFIDENCE, Misses
 from gearlube.studies.film_model.kinds import Contact, kind_of
-from gearlube.studies.film_model.targets import TO_LIMIT
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.film_model.model import FilmModel
@@ -120,16 +119,16 @@ def audit(
 def _row(contact: Contact, film: SolvedFilm) -> AuditRow:
     kind = kind_of(contact)
     try:
-        coarse, fine = (kind.solve(contact, nodes) for nodes in (kind.coarse, kind.fine))
+        one, other = (kind.solve(contact, nodes) for nodes in (kind.nodes, kind.second))
     except GearLubeError as error:
         return AuditRow(contact, film, math.nan, math.nan, str(error))
-    if not (coarse.converged and fine.converged):
+    if not (one.converged and other.converged):
         return AuditRow(contact, film, math.nan, math.nan, "not converged")
     h, mu = (
-        first * (second / first) ** TO_LIMIT
+        first * (second / first) ** kind.to_limit
         for first, second in (
-            (coarse.central_film, fine.central_film),
-            (coarse.friction, fine.friction),
+            (one.central_film, other.central_film),
+            (one.friction, other.friction),
         )
     )
     return AuditRow(contact, film, h, mu, "")

@@ -62,7 +62,7 @@ def train(
     ] = 304,
     fine: Annotated[
         int,
-        typer.Option(help="Contacts of the box that a finer grid solves as well.", metavar="N"),
+        typer.Option(help="Contacts of the box that a second grid solves as well.", metavar="N"),
     ] = 60,
     seed: Annotated[int, typer.Option(help="Random seed of all draws.")] = 20,
     jobs: JobsOption = None,

@@ -90,7 +90,7 @@ def fit_model(
     Notes
     -----
     Two Gaussian processes learn the logarithms of film and friction over their references on the
-    coarse grid, two more what leads to the limit of fine grids. A net learns both sums at many
+    first grid, two more what leads to the limit of fine grids. A net learns both sums at many
     points. Bounds: split conformal, the quantile of the errors at contacts drawn from the domain
     that nothing has learnt from, joined in quadrature with twice the error of the grid's
     correction. They hold for 95 % of contacts drawn so [vovk_2005].
@@ -181,7 +181,7 @@ def evaluated(model: FilmModel, contacts: Sequence[Contact]) -> Array:
 
 
 def at_limit(targets: Targets, corrections: Sequence[FilmProcess]) -> Array:
-    """Return film and friction of coarse solutions, led to the limit of fine grids, (n, 2)."""
+    """Return film and friction of solutions, led to the limit of fine grids, (n, 2)."""
     step = _at(corrections, targets.groups)
     film = targets.film * np.exp(step[:, 0])
     # the correction of friction is that over its reference, which follows the film

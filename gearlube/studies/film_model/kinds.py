@@ -54,8 +54,8 @@ class ContactKind:
         Name of the set of contacts that a machine visits.
     contact
         NamedTuple of floats.
-    coarse, fine
-        Nodes of both grids.
+    nodes, second
+        Nodes of the grid, and of a second one that tells the error of the first.
     domain, trained
         Limits of the domain, and of the training, which goes a little farther.
     box
@@ -74,8 +74,8 @@ class ContactKind:
     words: str
     visited: str
     contact: type
-    coarse: tuple[int, int]
-    fine: tuple[int, int]
+    nodes: tuple[int, int]
+    second: tuple[int, int]
     domain: Limits
     trained: Limits
     box: Box
@@ -93,6 +93,16 @@ class ContactKind:
     def training(self) -> tuple[str, str, str]:
         """Return the names of the sets that a fit learns from."""
         return "box", self.visited, "edge"
+
+    @property
+    def to_limit(self) -> float:
+        """Return the way from the grid to the limit of fine grids, over that to the second grid.
+
+        Of second order in the spacing: 4/3 where the second grid is twice as fine, -1/3 where it is
+        half as fine.
+        """
+        ratio = (self.nodes[0] - 1.0) / (self.second[0] - 1.0)
+        return 1.0 / (1.0 - ratio * ratio)
 
 
 def _flank_film(contact: FilmContact) -> float:
@@ -131,8 +141,8 @@ HYPOID_FLANK = ContactKind(
     words="elliptical, entrainment and sliding at angles: hypoid flank",
     visited="axle",
     contact=FilmContact,
-    coarse=(129, 33),
-    fine=(257, 65),
+    nodes=(129, 33),
+    second=(257, 65),
     domain=samples.DOMAIN,
     trained=samples.TRAINED,
     box=samples.HYPOID_BOX,
@@ -152,8 +162,8 @@ HELICAL_LINE = ContactKind(
     words="line, entrainment and sliding across it: helical and spur flanks",
     visited="pair",
     contact=LineContact,
-    coarse=(513, 1),
-    fine=(1025, 1),
+    nodes=(513, 1),
+    second=(257, 1),
     domain=line_samples.LINE_DOMAIN,
     trained=line_samples.LINE_TRAINED,
     box=line_samples.LINE_BOX,

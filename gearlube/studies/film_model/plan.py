@@ -49,7 +49,8 @@ class FilmPlan:
     calibration, fresh
         Independent contacts of the box and of the machine that no fit sees.
     fine_box, fine_visited, fine_edge, fine_fresh
-        How many of the first contacts of each set are solved on the finer grid as well.
+        How many of the first contacts of each set are solved on the second grid as well. It tells
+        the error of the first; it is finer for flanks and coarser for lines.
     seed
         Of all draws.
 
@@ -144,19 +145,19 @@ class FilmPlan:
         edge = kind.edge_contacts(box_of, self.edge, self.seed + _EDGE)
         first_box = math.ceil(_FIRST_SHARE * len(box))
         first_visited = math.ceil(_FIRST_SHARE * len(visited))
-        coarse, fine, name = kind.coarse, kind.fine, kind.visited
+        nodes, second, name = kind.nodes, kind.second, kind.visited
         return [
-            *_tasks("box", box[:first_box], coarse),
-            *_tasks(name, visited[:first_visited], coarse),
-            *_tasks("fresh", fresh, coarse),
-            *_tasks("box", box[first_box:], coarse, first_box),
-            *_tasks(name, visited[first_visited:], coarse, first_visited),
-            *_tasks("calibration", kept, coarse),
-            *_tasks("box", box[: self.fine_box], fine),
-            *_tasks(name, visited[: self.fine_visited], fine),
-            *_tasks("edge", edge, coarse),
-            *_tasks("edge", edge[: self.fine_edge], fine),
-            *_tasks("fresh", fresh[: self.fine_fresh], fine),
+            *_tasks("box", box[:first_box], nodes),
+            *_tasks(name, visited[:first_visited], nodes),
+            *_tasks("fresh", fresh, nodes),
+            *_tasks("box", box[first_box:], nodes, first_box),
+            *_tasks(name, visited[first_visited:], nodes, first_visited),
+            *_tasks("calibration", kept, nodes),
+            *_tasks("box", box[: self.fine_box], second),
+            *_tasks(name, visited[: self.fine_visited], second),
+            *_tasks("edge", edge, nodes),
+            *_tasks("edge", edge[: self.fine_edge], second),
+            *_tasks("fresh", fresh[: self.fine_fresh], second),
         ]
 
 

@@ -46,7 +46,7 @@ def provenance_of(
     kind = plan.kind
     sets = (*kind.training, "calibration", "fresh")
     counts = {name: len(solved_rows(rows, name)) for name in sets}
-    fine = len(solved_rows(rows, *kind.training, fine=True))
+    second = len(solved_rows(rows, *kind.training, second=True))
     over = misses["fresh"].violations((bounds[0], bounds[1]))
     return {
         "name": name[0],
@@ -57,9 +57,9 @@ def provenance_of(
         "temperature; Roelands and Houpert, Dowson and Higginson, no limiting stress; steel",
         f"oils_of_the_{kind.visited}": list(plan.oils),
         **({"mesh_table": plan.mesh_table} if kind.name == FLANK else {"pairs": list(plan.pairs)}),
-        "grid": f"{_grid(kind.coarse)} led to the limit by {fine} films on {_grid(kind.fine)}",
+        "grid": f"{_grid(kind.nodes)} led to the limit by {second} films on {_grid(kind.second)}",
         "solves": counts,
-        "fine_solves": fine,
+        "fine_solves": second,
         "failed": sum(bool(row.failure) for row in rows),
         "seed": plan.seed,
         "fit": {"points": settings.points, "steps": settings.steps, "seed": settings.seed},

@@ -13,10 +13,6 @@ from gearlube.studies.film_model.plan import FilmTask
 from gearlube.studies.film_model.solves import SolveRow
 from gearlube_core.arrays import Array
 
-# of second order in the spacing: the finer grid's distance to the limit is a third of that between
-# the grids, and the coarser one's four thirds
-TO_LIMIT = 4.0 / 3.0
-
 
 class Targets(NamedTuple):
     """Solved contacts, n of them, all on one grid."""
@@ -55,24 +51,25 @@ def _numbers(row: SolveRow) -> tuple[float, float]:
     return row.solved.central_film, row.solved.friction
 
 
-def solved_rows(rows: Sequence[SolveRow], *kinds: str, fine: bool = False) -> list[SolveRow]:
+def solved_rows(rows: Sequence[SolveRow], *kinds: str, second: bool = False) -> list[SolveRow]:
     """Return the rows of some kinds on one grid that did not fail, by kind and index."""
 
     def on_grid(task: FilmTask) -> bool:
         kind = kind_of(task.contact)
-        return task.nodes == (kind.fine if fine else kind.coarse)
+        return task.nodes == (kind.second if second else kind.nodes)
 
     found = [r for r in rows if r.task.kind in kinds and on_grid(r.task) and not r.failure]
     return sorted(found, key=lambda row: (row.task.kind, row.task.number))
 
 
 def grid_corrections(rows: Sequence[SolveRow], *kinds: str) -> tuple[Targets, Array]:
-    """Return contacts solved on both grids, and what leads from the coarse grid to the limit.
+    """Return contacts solved on both grids, and what leads from the first to the limit.
 
     The second is (n, 2): of ln h, and of ln(mu/mu_ref(h)).
     """
-    fine = {(r.task.kind, r.task.number): r for r in solved_rows(rows, *kinds, fine=True)}
-    coarse = [r for r in solved_rows(rows, *kinds) if (r.task.kind, r.task.number) in fine]
-    finer = [fine[row.task.kind, row.task.number] for row in coarse]
-    on_coarse, on_fine = targets_of(coarse), targets_of(finer)
-    return on_coarse, TO_LIMIT * (on_fine.values - on_coarse.values)
+    others = {(r.task.kind, r.task.number): r for r in solved_rows(rows, *kinds, second=True)}
+    first = [r for r in solved_rows(rows, *kinds) if (r.task.kind, r.task.number) in others]
+    other = [others[row.task.kind, row.task.number] for row in first]
+    on_first, on_second = targets_of(first), targets_of(other)
+    share = np.array([kind_of(one).to_limit for one in on_first.contacts])
+    return on_first, share[:, None] * (on_second.values - on_first.values)

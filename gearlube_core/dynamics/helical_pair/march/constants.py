@@ -43,9 +43,13 @@ class MarchScalars(FlankScalars):
     friction_updates_per_mesh_period : int
         How often friction "film" is computed anew at each contact point, 4 to 4096; frozen in
         between.
+    film_limiting_slope : float
+        Limiting shear stress of a solved film over pressure [-], 0 for none: the film model knows
+        none, so contacts whose mean stress comes near it count as outside.
     """
 
     friction_updates_per_mesh_period: Annotated[int, Within(4, 4096)] = 16
+    film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
 
 
 class MotionConstants(NamedTuple):
@@ -64,6 +68,8 @@ class MarchConstants(NamedTuple):
     friction_form: float  # -1 off, 0 constant, 1 film
     mu: float  # of the constant form [-]
     refreshes: float  # of the film's friction in a mesh period
+    film: float  # place in FILM_MODELS
+    limiting_slope: float  # of a solved film's shear stress over pressure [-]; 0: none
     surface: SurfaceParameters
     solid: SolidParameters
     oil: LubricantParameters

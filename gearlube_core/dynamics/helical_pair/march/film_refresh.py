@@ -15,7 +15,11 @@ from gearlube_core.dynamics.helical_pair.march.flank_views import (
     touches,
 )
 from gearlube_core.dynamics.helical_pair.march.line_sums import GAUSS, pair_slot
-from gearlube_core.dynamics.helical_pair.march.mesh_data import LEAST_OFFSET, STATIONS_AT
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    FILM_AT,
+    LEAST_OFFSET,
+    STATIONS_AT,
+)
 from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,
     MU,
@@ -23,7 +27,9 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     REFRESHED,
     W_P,
 )
+from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.friction.line_friction import LineState, line_friction
+from gearlube_core.friction.solved_line import BoundedLine, line_inlet, solved_line_friction
 from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
 from gearlube_core.helical_geometry.line_kinematics import LineKinematics, line_kinematics
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
@@ -72,7 +78,7 @@ def point_load(
 
 
 @kernel
-def line_point(
+def bounded_line_point(
     view: FlankView,
     line: int,
     place: int,
@@ -80,8 +86,8 @@ def line_point(
     data: Array,
     lubricant: LubricantState,
     p: MarchConstants,
-) -> tuple[float, float, LineKinematics, LineState]:
-    """Return load [N/m], length [m], speeds and film at point `place` of a line.
+) -> tuple[float, float, LineKinematics, BoundedLine]:
+    """Return load [N/m], length [m], speeds and film with bounds at point `place` of a line.
 
     `place` counts the two Gauss points before the pitch line, then the two after it. The length
     is that of line the point stands for, zero where there is none.
@@ -98,11 +104,25 @@ def line_point(
     length = max(z_end - z_start, 0.0) * 0.5 / plane.cos_b
     if length == 0.0:
         still = LineKinematics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        return 0.0, 0.0, still, LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        none = LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        return 0.0, 0.0, still, BoundedLine(none, 0.0, 0.0, 0.0)
     g = view.a + view.tilt * (z * plane.cos_b + x * plane.sin_b)
     at_line = (z - segment.z_low) / (segment.z_high - segment.z_low)
     load = point_load(g, at_line, view.phase, line, data, p.motion.flanks)
     motion = line_kinematics(x, pinion_speed, plane)
+    if p.film == SOLVED:
+        bounded = solved_line_friction(
+            load,
+            motion.R,
+            motion.entrainment,
+            motion.sliding,
+            lubricant,
+            p.surface,
+            p.solid,
+            line_inlet(lubricant, p.solid, p.limiting_slope),
+            data[FILM_AT:LEAST_OFFSET],
+        )
+        return load, length, motion, bounded
     state = line_friction(
         load,
         motion.R,
@@ -112,7 +132,24 @@ def line_point(
         p.surface,
         p.solid,
     )
-    return load, length, motion, state
+    return load, length, motion, BoundedLine(state, 0.0, 0.0, 0.0)
+
+
+@kernel
+def line_point(
+    view: FlankView,
+    line: int,
+    place: int,
+    pinion_speed: float,
+    data: Array,
+    lubricant: LubricantState,
+    p: MarchConstants,
+) -> tuple[float, float, LineKinematics, LineState]:
+    """Return load [N/m], length [m], speeds and film, as `bounded_line_point`."""
+    load, length, motion, bounded = bounded_line_point(
+        view, line, place, pinion_speed, data, lubricant, p
+    )
+    return load, length, motion, bounded.state
 
 
 @kernel

@@ -83,6 +83,8 @@ class MarchChoices(NamedTuple):
     held: float  # 1: axial motion and tilt are held; 0: free
     line_work: float  # see `FlankConstants`
     refreshes: float  # see `MarchConstants`
+    film: float  # ditto
+    film_limiting_slope: float  # ditto
 
 
 @kernel
@@ -198,6 +200,8 @@ def write_constants(given: Array, oil: Array, choices: Array, constants: Array) 
             chosen.friction_form,
             chosen.friction_coefficient if chosen.friction_form == 0.0 else 0.0,
             chosen.refreshes,
+            chosen.film,
+            chosen.film_limiting_slope,
             gear_flanks(chosen.roughness_rms),
             pair.solid,
             of_oil.parameters,

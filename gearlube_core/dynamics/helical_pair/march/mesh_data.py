@@ -3,7 +3,7 @@
 Kernels take constants and line mesh as one float64 array, the *pair data*: handing over more arrays
 and tuples costs a call more than its work. Layout:
 
-    MarchConstants | least offset [m] | stations | density [N/m2] | offset [m]
+    MarchConstants | film model | least offset [m] | stations | density [N/m2] | offset [m]
 
 density and offset have shape (phases, lines, stations), flattened.
 """
@@ -16,11 +16,13 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
+from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
-LEAST_OFFSET = count_floats(MarchConstants)
+FILM_AT = count_floats(MarchConstants)  # numbers of a film model of lines; zeros with formulas
+LEAST_OFFSET = FILM_AT + N_ARRAY
 STATIONS_AT = LEAST_OFFSET + 1
 
 
@@ -54,12 +56,16 @@ def pack_march_mesh(mesh: LineMesh) -> MarchMesh:
     return MarchMesh(mesh.torque.copy(), spread(mesh.density), spread(mesh.offset))
 
 
-def pair_data(constants: MarchConstants, mesh: LineMesh) -> Array:
-    """Return pair data at the lowest torque level."""
+def pair_data(constants: MarchConstants, mesh: LineMesh, film_model: Array) -> Array:
+    """Return pair data at the lowest torque level.
+
+    `film_model` has shape (N_ARRAY,), see `HelicalMarchParameters.film_model`.
+    """
     packed = pack_march_mesh(mesh)
     station = all_stations(mesh)
     data = np.zeros(data_size(station.size, packed.density.shape[1]))
-    data[:LEAST_OFFSET] = flatten(constants)
+    data[:FILM_AT] = flatten(constants)
+    data[FILM_AT:LEAST_OFFSET] = film_model
     place_mesh(station, (packed.torque, packed.density, packed.offset), data)
     return data
 

@@ -112,7 +112,7 @@ class HelicalPairModel(SteppedModel[StepControl]):
         self.parameters = parameters
         self.constants: MarchConstants = parameters.constants()
         self.mesh = pack_march_mesh(parameters.mesh)
-        self._data = pair_data(self.constants, parameters.mesh)
+        self._data = pair_data(self.constants, parameters.mesh, parameters.film_model())
         self._fields: MeshFields = (self.mesh.torque, self.mesh.density, self.mesh.offset)
         self._scratch = np.zeros(EQUILIBRIUM_WORK)
         self._bearings = parameters.bearing_shares()

@@ -13,6 +13,7 @@ from gearlube_core.dynamics.helical_pair.march.continuous import (
     write_event_indicators,
     write_rates,
 )
+from gearlube_core.dynamics.helical_pair.march.film_bounds import LINE_BOUNDS, write_film_bounds
 from gearlube_core.dynamics.helical_pair.march.flank_views import (
     coast_view,
     drive_view,
@@ -69,6 +70,10 @@ _OUTPUTS: tuple[str, ...] = (
     "mesh.stiffness",
     "mesh.frequency",
     "mesh.film_thickness_min",
+    "film.share_outside",
+    "friction.power_loss_bound",
+    "efficiency_bound",
+    *LINE_BOUNDS,
     *LINE_OUTPUTS,
     "friction.power_loss",
     "damping.power_loss",
@@ -117,9 +122,14 @@ EFFICIENCY = OUTPUT_INDEX["efficiency"]
 PAIR_EFFICIENCY = OUTPUT_INDEX["pair.efficiency"]
 STORED_ENERGY = OUTPUT_INDEX["energy.stored"]
 
+SHARE_OUTSIDE = OUTPUT_INDEX["film.share_outside"]
+LOSS_BOUND = OUTPUT_INDEX["friction.power_loss_bound"]
+EFFICIENCY_BOUND = OUTPUT_INDEX["efficiency_bound"]
+
 # first place of a group of outputs of one kind
 MESH_FORCE = OUTPUT_INDEX["mesh.force.x"]
 LINES = OUTPUT_INDEX[LINE_OUTPUTS[0]]
+BOUNDS = OUTPUT_INDEX[LINE_BOUNDS[0]]
 DISPLACEMENTS = OUTPUT_INDEX["pinion.displacement.x"]  # in the order of the state
 BEARINGS = OUTPUT_INDEX["bearing[1].force.x"]
 ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
@@ -290,6 +300,10 @@ def write_outputs(
     mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
     found = write_lines(view, mu_at, s, oil_temperature, data, oil, p, LINES, out)
     out[THINNEST_FILM] = found.thinnest_film
+    outside, bound = write_film_bounds(view, s, data, oil, p, BOUNDS, out)
+    out[SHARE_OUTSIDE] = outside
+    out[LOSS_BOUND] = bound * abs(out[FRICTION_LOSS])
+    out[EFFICIENCY_BOUND] = bound * (1.0 - out[EFFICIENCY]) if out[EFFICIENCY] > 0.0 else 0.0
     torque = max(abs(s[LOAD_TORQUE]), max(on_drive.N, on_coast.N) * plane.r_bp * plane.cos_b)
     write_ranges(
         torque if on_drive.N >= on_coast.N else -torque,

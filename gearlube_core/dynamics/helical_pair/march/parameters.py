@@ -31,6 +31,9 @@ from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.film import dowson_toyoda_1979
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.net import N_ARRAY
+from gearlube_core.friction.flank_laws import FILM_MODELS
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -39,12 +42,14 @@ from gearlube_core.oil.lubricant import Lubricant
 Form = Literal["twelve_dof", "six_dof"]
 Friction = Literal["film", "constant", "off"]
 Equations = Literal["consistent", "he_2007"]
+Film = Literal["formula", "solved"]
 
 _DAMPING = Within(0.0, 1.0, cure="Five percent is usual.")
 
 # what the constants of the march call the options
 FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
 HELD = {"twelve_dof": 0.0, "six_dof": 1.0}
+FILM_MODEL = "helical_line"  # of the package, for flanks of steel
 LINE_WORK = {"consistent": 1.0, "he_2007": 0.0}
 
 
@@ -101,6 +106,10 @@ class HelicalMarchParameters(MarchScalars):
         Mixed friction of the film at every contact point; Coulomb with one coefficient; none.
     friction_coefficient : float
         mu of "constant" [-].
+    film : {"formula", "solved"}
+        Central film and friction of the oil: "formula", Dowson and Toyoda 1979 with Evans and
+        Johnson 1986, or "solved", by a model of solved thermal Eyring films, see
+        `solved_line.solved_line_at`; outside its domain the formulas come in.
     oil : Lubricant
     solid : Solid
         Both flanks.
@@ -131,6 +140,7 @@ class HelicalMarchParameters(MarchScalars):
     oil: Lubricant
     friction: Friction = "film"
     friction_coefficient: Annotated[float, Within(0.0, 1.0)] = 0.05
+    film: Film = "formula"
     roughness_rms: Annotated[float, Within(1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")] = 0.5e-6
     solid: Solid = STEEL_MOHAMMADPOUR_2015
     mesh_damping_ratio: Annotated[float, _DAMPING] = 0.05
@@ -142,6 +152,7 @@ class HelicalMarchParameters(MarchScalars):
 
     def __post_init__(self) -> None:
         check_option("friction", self.friction, get_args(Friction))
+        check_option("film", self.film, FILM_MODELS)
         check_option("form", self.form, get_args(Form))
         check_option("equations", self.equations, get_args(Equations))
         check_scalars(self)
@@ -217,7 +228,14 @@ class HelicalMarchParameters(MarchScalars):
             held=HELD[self.form],
             line_work=LINE_WORK[self.equations],
             refreshes=float(self.friction_updates_per_mesh_period),
+            film=float(FILM_MODELS.index(self.film)),
         )
+
+    def film_model(self) -> Array:
+        """Return the numbers of the film model for one pair; zeros with the formulas."""
+        if self.film == "formula":
+            return np.zeros(N_ARRAY)
+        return FilmModel.named(FILM_MODEL).copied_numbers()
 
     def constants(self) -> MarchConstants:
         """Return the floats for the kernels."""

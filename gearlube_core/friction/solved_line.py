@@ -1,0 +1,169 @@
+"""Mixed friction at a point of a contact line with film and traction from solved films."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.film_model import net
+from gearlube_core.film_model.groups import FilmInlet, film_inlet
+from gearlube_core.film_model.line_contact import line_place
+from gearlube_core.film_model.solved_line import solved_line_at
+from gearlube_core.friction.evans_johnson_1986 import solid_resistance
+from gearlube_core.friction.flank_data import CONSISTENT
+from gearlube_core.friction.line_friction import (
+    LINE_LOAD_FLOOR,
+    STILL_AREA_OVER_WIDTH_SQUARED,
+    LineState,
+    line_friction,
+)
+from gearlube_core.friction.mixed_friction import (
+    SPEED_FLOOR,
+    asperity_contact,
+    boundary_friction,
+    friction_with_asperities,
+)
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
+
+# How far the formulas may be off where the model does not hold, relative to what they give
+LINE_FORMULA_FILM_BOUND = 0.5
+LINE_FORMULA_FRICTION_BOUND = 0.9
+
+
+class BoundedLine(NamedTuple):
+    """State of a point of a contact line and bounds of it; all floats."""
+
+    state: LineState
+    outside: float  # 0: film and friction are the film model's; 1: the formulas'; between: both [-]
+    film_bound: float  # of the film thickness, relative [-]
+    friction_bound: float  # of the friction force, relative [-]
+
+
+@kernel
+def line_inlet(
+    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float
+) -> FilmInlet:
+    """Return oil and solids as the film model takes them.
+
+    The limiting slope is that of the film's shear stress over pressure [-]; 0: none.
+    """
+    return film_inlet(
+        solid.contact_modulus,
+        lubricant.eta0,
+        lubricant.alpha,
+        lubricant.beta,
+        lubricant.tau0,
+        0.0,
+        limiting_slope,
+        lubricant.temperature,
+        lubricant.conductivity,
+        lubricant.volume_heat,
+        solid.conductivity,
+        solid.density * solid.heat_capacity,
+    )
+
+
+@kernel
+def solved_line_friction(
+    line_load: float,
+    R: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    inlet: FilmInlet,
+    film_model: Array,
+) -> BoundedLine:
+    """Return film, friction and temperature at a point of a contact line by a film model.
+
+    f_v = mu (w - w_a),  f_b = tau_l0 A_a + gamma w_a, with h and mu of the solved film
+
+    Parameters
+    ----------
+    line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
+        As in `line_friction`.
+    inlet
+        Of `line_inlet` for this oil.
+    film_model : ndarray, shape (N_ARRAY,)
+        Numbers of a model of lines; their scratch is written into.
+
+    Returns
+    -------
+    BoundedLine
+        Bounds of the film and of the sum of viscous and boundary friction.
+
+    Notes
+    -----
+    Towards the outside of the model's domain all goes over into `line_friction` with the weight
+    `outside`. The bound of friction is that of the film's own friction, plus what asperities
+    change where the film is thinner by its bound.
+    """
+    w = max(line_load, 0.0)
+    w_film = max(w, LINE_LOAD_FLOOR)
+    speed = max(abs(entrainment_speed), SPEED_FLOOR)
+    slip = abs(sliding_speed)
+    place = line_place(
+        R, solid.contact_modulus, solid.conductivity, solid.density * solid.heat_capacity
+    )
+    film = solved_line_at(film_model, w_film, speed, slip, place, inlet)
+    out = film.outside
+    formula = LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if out > 0.0:
+        formula = line_friction(
+            line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
+        )
+        if out >= 1.0:
+            return BoundedLine(formula, 1.0, LINE_FORMULA_FILM_BOUND, LINE_FORMULA_FRICTION_BOUND)
+    own = 1.0 - out
+    p = line_mean_pressure(w_film, R, solid.contact_modulus)
+    h = film.central_film
+    width = w_film / p
+    modulus = 2.0 * solid.contact_modulus
+    effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity
+    solved = friction_with_asperities(
+        film.friction_coefficient,
+        w,
+        w_film,
+        p,
+        h,
+        slip,
+        solid_resistance(R, p, speed, modulus, effusivity_squared),
+        STILL_AREA_OVER_WIDTH_SQUARED * width * width,
+        lubricant,
+        surface,
+        solid,
+        CONSISTENT,
+    )
+    model_bound = film_model[net.BOUNDS]
+    thinner = h * (1.0 - model_bound) / surface.sigma
+    W_a, A_a = asperity_contact(w, w / p, thinner, surface, solid, CONSISTENT)
+    more = boundary_friction(W_a, A_a, slip, lubricant) - solved.boundary_friction
+    doubt = own * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
+    doubt += (
+        out * LINE_FORMULA_FRICTION_BOUND * (formula.viscous_friction + formula.boundary_friction)
+    )
+    f_v = own * solved.viscous_friction + out * formula.viscous_friction
+    f_b = own * solved.boundary_friction + out * formula.boundary_friction
+    mu = own * solved.friction_coefficient + out * formula.friction_coefficient
+    h = own * h + out * formula.film_thickness
+    state = LineState(
+        h,
+        h / surface.sigma,
+        f_v,
+        f_b,
+        mu,
+        -mu if sliding_speed < 0.0 else mu,
+        own * solved.temperature_rise + out * formula.temperature_rise,
+        p,
+    )
+    return BoundedLine(
+        state,
+        out,
+        own * model_bound + out * LINE_FORMULA_FILM_BOUND,
+        doubt / (f_v + f_b) if doubt > 0.0 else 0.0,
+    )

@@ -1,0 +1,149 @@
+"""A helical pair with films from the model of solved films: domain, border, bounds, energy."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.line_contact import LineContact
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.solved_line import solved_line
+from gearlube_core.friction.line_friction import line_friction
+from gearlube_core.friction.solved_line import (
+    LINE_FORMULA_FILM_BOUND,
+    LINE_FORMULA_FRICTION_BOUND,
+    line_inlet,
+    solved_line_friction,
+)
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
+
+TEMPERATURE = 353.15
+LUBRICANT = Lubricant.named("mohammadpour_2015")
+OIL = lubricant_state(LUBRICANT.parameters(), TEMPERATURE)
+SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
+MODEL = FilmModel.named("helical_line")
+NUMBERS = MODEL.copied_numbers()
+ROUGH, SMOOTH = gear_flanks(0.5e-6), gear_flanks(1e-8)
+R, SPEED, SLIP = 0.01, 5.0, 1.5
+OPERATION = {
+    "pinion_speed": 104.7, "pinion_torque": 226.0, "wheel_torque": 280.2, "oil_temperature": 333.15
+}  # fmt: skip
+
+
+def solved(load, *, slip=SLIP, slope=0.0, surface=ROUGH):
+    inlet = line_inlet(OIL, SOLID, slope)
+    return solved_line_friction(load, R, SPEED, slip, OIL, surface, SOLID, inlet, NUMBERS)
+
+
+def model_film(load):
+    """The film model itself, from its plain numbers."""
+    contact = LineContact(
+        load, SOLID.contact_modulus, R, SPEED, SLIP, OIL.eta0, OIL.alpha, OIL.beta, OIL.tau0,
+        0.0, 0.0, TEMPERATURE, OIL.conductivity, LUBRICANT.density * LUBRICANT.heat_capacity,
+        SOLID.conductivity, SOLID.density * SOLID.heat_capacity,
+    )  # fmt: skip
+    return solved_line(NUMBERS, contact)
+
+
+def test_inside_the_domain_film_and_friction_are_the_models():
+    film, found = model_film(1e5), solved(1e5, surface=SMOOTH)
+    assert found.outside == film.outside == 0.0
+    assert found.state.film_thickness == pytest.approx(film.central_film, rel=1e-12)
+    # smooth flanks under a film of a hundred roughnesses: all of the load is the film's
+    assert found.state.viscous_friction == pytest.approx(1e5 * film.friction_coefficient, rel=1e-12)
+    assert found.friction_bound == pytest.approx(MODEL.friction_bound, rel=1e-12)
+    assert found.film_bound == MODEL.film_bound
+    # a rough flank: asperities on the solved film, whose load a thinner film would raise
+    rough = solved(1e5)
+    assert rough.friction_bound * rough.state.friction_coefficient * 1e5 > (
+        MODEL.friction_bound * rough.state.viscous_friction
+    )
+
+
+def test_far_outside_all_is_the_formulas():
+    for load in (0.0, 50.0):
+        found = solved(load)
+        formula = line_friction(load, R, SPEED, SLIP, OIL, ROUGH, SOLID)
+        assert found.state == formula
+        assert found.outside == 1.0
+        assert found.film_bound == LINE_FORMULA_FILM_BOUND
+        assert found.friction_bound == LINE_FORMULA_FRICTION_BOUND
+    assert solved(1e5, slope=0.01).outside == 1.0  # of the limiting stress
+
+
+def test_the_sign_follows_sliding():
+    forward, back = solved(1e5).state, solved(1e5, slip=-SLIP).state
+    assert back.signed_coefficient == -forward.signed_coefficient < 0.0
+    assert back.friction_coefficient == forward.friction_coefficient
+
+
+def test_film_and_friction_go_over_smoothly_into_the_formulas():
+    # from well inside to well outside: light loads
+
+    def bends(count):
+        loads = np.exp(np.linspace(math.log(300.0), math.log(3e4), count))
+        film = np.log([solved(load).state.film_thickness for load in loads])
+        return np.abs(np.diff(film, n=2)).max()
+
+    # half the step: a quarter for a smooth curve, a half at a kink, all of a jump
+    assert bends(401) / bends(801) == pytest.approx(4.0, rel=0.15)
+
+
+def pair(**changes):
+    parameters = helical_march_parameters(HelicalGearFile.named("he_2007"))
+    return HelicalPairModel(replace(parameters, **changes))
+
+
+def marched(model, steps=20):
+    model.initialise(**OPERATION)
+    inputs = [OPERATION[name] for name in ("pinion_torque", "wheel_torque", "oil_temperature")]
+    for _ in range(steps):
+        model.step(1e-4, *inputs)
+    return model
+
+
+def test_a_pair_with_solved_films_keeps_its_energy_and_tells_its_bounds():
+    model = pair(film="solved")
+    model.initialise(**OPERATION)
+    start = model.output("energy.stored")
+    model = marched(model, 100)
+    lost = sum(
+        model.output(f"energy.{name}") for name in ("friction", "mesh_damping", "bearing_damping")
+    )
+    put_in = model.output("energy.pinion_work") - model.output("energy.wheel_work")
+    # integration error of the energy, as with the formulas
+    assert put_in == pytest.approx(model.output("energy.stored") - start + lost, abs=1e-4 * lost)
+    loss = model.output("friction.power_loss")
+    assert (
+        0.0 < MODEL.friction_bound * loss < 3.0 * model.output("friction.power_loss_bound") < loss
+    )
+    assert model.output("film.share_outside") < 0.2
+    loaded = [i for i in range(1, 7) if model.output(f"line[{i}].load") > 0.0]
+    assert loaded
+    for i in range(1, 7):
+        bound = model.output(f"line[{i}].film_bound")
+        assert (bound >= MODEL.film_bound) == (i in loaded)
+
+
+def test_formulas_have_no_bounds_and_other_films():
+    formula, other = marched(pair()), marched(pair(film="solved"))
+    for name in ("film.share_outside", "friction.power_loss_bound", "line[1].film_bound"):
+        assert formula.output(name) == 0.0
+    thin = "mesh.film_thickness_min"
+    # Dowson and Toyoda's film is up to 34 % thicker than isothermal solved ones, heat thins more
+    assert 0.5 < other.output(thin) / formula.output(thin) < 1.1
+
+
+def test_an_unknown_film_is_refused_in_words():
+    with pytest.raises(ParameterError, match="film must be one of formula, solved, got thick"):
+        pair(film="thick")
