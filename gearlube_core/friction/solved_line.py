@@ -29,9 +29,10 @@ from gearlube_core.friction.mixed_friction import (
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
-# How far the formulas may be off where the model does not hold, relative to what they give
+# How far the formulas may be off where the model does not hold, relative to what they give. Chosen:
+# nothing was solved there, and the friction formula falls to zero in light contacts.
 LINE_FORMULA_FILM_BOUND = 0.5
-LINE_FORMULA_FRICTION_BOUND = 0.9
+LINE_FORMULA_FRICTION_BOUND = 1.0
 
 
 class BoundedLine(NamedTuple):
