@@ -113,7 +113,7 @@ def write_flanks(
                 refresh,
                 films,
             )
-            bounded = pair_friction(s, load, sliding, channels, oil, p, film, film_model)
+            bounded = pair_friction(s, load, sliding, channels, oil, p.flank_law, film, film_model)
             flank = bounded.state
             total += load
             beyond += bounded.outside * load

@@ -7,15 +7,12 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.film_nodes import (
     N_FILMS,
-    NEXT,
-    SAME,
+    NodeFlank,
     film_between,
-    forget_films,
-    keep_film,
-    node_films,
-    nodes_on,
-    start_films,
-    take_next,
+    friction_between,
+    keep_flank,
+    node_film,
+    still_holds,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
@@ -60,7 +57,7 @@ EXACT, BETWEEN_NODES = 1.0, 2.0
 # places of what `flank_sum` keeps
 BOUND = 3 * PAIRS  # of the friction coefficient of each pair
 BOUND_POWER = 4 * PAIRS  # of the power lost in friction
-FILMS = BOUND_POWER + 1  # `film_nodes` of each pair
+FILMS = BOUND_POWER + 1  # `film_nodes`
 N_FRICTION = FILMS + N_FILMS
 
 
@@ -135,16 +132,16 @@ def pair_friction(
     sliding: float,
     channels: Array,
     oil: LubricantState,
-    p: AxleParameters,
+    law: FlankLaw,
     film: ModelFilm,
     film_model: Array,
 ) -> BoundedFlank:
-    """Return the state of one flank under `load` [N] that slides at `sliding` [m/s].
+    """Return the state of one flank with this law under `load` [N], sliding at `sliding` [m/s].
 
     `film` is what a film model says of it, and `film_model` its numbers, empty without one.
     """
     return bounded_flank(
-        p.flank_law,
+        law,
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,
@@ -156,25 +153,30 @@ def pair_friction(
 
 
 @kernel
-def _film_at_node(
+def _flank_at_node(
     node: int,
     s: Array,
     force: float,
     window: Array,
-    n_nodes: int,
     oil: LubricantState,
     law: FlankLaw,
     film_model: Array,
-) -> ModelFilm:
-    first = (node % n_nodes) * N_CHANNELS
-    channels = window[first : first + N_CHANNELS]
+) -> NodeFlank:
+    channels = window[node * N_CHANNELS : (node + 1) * N_CHANNELS]
     load = abs(force) * channels[SHARE]
-    return pair_film(s, load, sliding_speed(s, channels), channels, oil, law, film_model)
+    sliding = sliding_speed(s, channels)
+    film = pair_film(s, load, sliding, channels, oil, law, film_model)
+    if load == 0.0:
+        return NodeFlank(film.log_film, film.log_friction, film.outside, 0.0, 0.0, 0.0)
+    found = pair_friction(s, load, sliding, channels, oil, law, film, film_model)
+    viscous = found.state.viscous_friction / abs(force)
+    boundary = found.state.boundary_friction / abs(force)
+    bound = found.friction_bound * (viscous + boundary)
+    return NodeFlank(film.log_film, film.log_friction, film.outside, viscous, boundary, bound)
 
 
 @kernel
-def _renew_films(
-    step: int,
+def _kept_at_node(
     node: int,
     s: Array,
     force: float,
@@ -183,42 +185,19 @@ def _renew_films(
     oil: LubricantState,
     law: FlankLaw,
     film_model: Array,
-    kept: Array,
-) -> None:
-    """Evaluate the film model at the NEXT node, or around any OTHER; as `film_between_nodes`."""
-    if step == NEXT:
-        take_next(kept, node)
-    else:
-        start_films(kept, node, force, s[W_P])
-        keep_film(kept, 0, _film_at_node(node, s, force, window, n_nodes, oil, law, film_model))
-    keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model))
+    films: Array,
+) -> Array:
+    """Return what is kept of a node, evaluated anew if it no longer holds.
 
-
-@kernel
-def film_between_nodes(
-    pair: int,
-    s: Array,
-    force: float,
-    window: Array,
-    n_nodes: int,
-    oil: LubricantState,
-    z_p: float,
-    law: FlankLaw,
-    film_model: Array,
-    kept: Array,
-) -> ModelFilm:
-    """Return what the film model says of one flank, linear between the nodes of the mesh table.
-
-    As all data of the table are. It is evaluated at a node when the pair comes before it, and
-    anew when the mesh force or the speed has changed much since; `kept`, shape (N_NODE_FILM,),
-    holds it in between. `z_p` teeth of the pinion, `law` of the flanks: handing over all parameters
-    of the axle takes longer than the rest. Others as in `flank_sum`.
+    `films`, shape (N_FILMS,), keeps it; `law` of the flanks: handing over all parameters of the
+    axle takes longer than the rest. Others as in `flank_sum`.
     """
-    node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
-    step = nodes_on(kept, node, n_nodes, force, s[W_P])
-    if step != SAME:
-        _renew_films(step, node, s, force, window, n_nodes, oil, law, film_model, kept)
-    return film_between(kept, t)
+    place = node % n_nodes
+    kept = node_film(films, place)
+    if not still_holds(kept, place, force, s[W_P], oil.temperature):
+        flank = _flank_at_node(place, s, force, window, oil, law, film_model)
+        keep_flank(kept, place, force, s[W_P], oil.temperature, flank)
+    return kept
 
 
 @kernel
@@ -240,15 +219,56 @@ def flank_film(
 ) -> ModelFilm:
     """Return what the film model says of one flank, or NO_MODEL_FILM without a model.
 
-    At the contact itself where `refresh` is EXACT, else between the nodes of the mesh table.
-    `films` holds those of all pairs, `load` of this one [N]; others as in `film_between_nodes`.
+    At the contact itself where `refresh` is EXACT, else linear between the nodes of the mesh table,
+    as all data of the table are. `load` of this pair [N], `z_p` teeth of the pinion, `law` of the
+    flanks, `films` of shape (N_FILMS,); others as in `flank_sum`.
     """
     if film_model.size == 0:
         return NO_MODEL_FILM
     if refresh == EXACT:
         return pair_film(s, load, sliding, channels, oil, law, film_model)
-    kept = node_films(films, pair)
-    return film_between_nodes(pair, s, force, window, n_nodes, oil, z_p, law, film_model, kept)
+    node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
+    before = _kept_at_node(node, s, force, window, n_nodes, oil, law, film_model, films)
+    after = _kept_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model, films)
+    return film_between(before, after, t)
+
+
+@kernel
+def flank_coefficients(
+    pair: int,
+    s: Array,
+    load: float,
+    force: float,
+    sliding: float,
+    channels: Array,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    z_p: float,
+    law: FlankLaw,
+    film_model: Array,
+    refresh: float,
+    films: Array,
+) -> tuple[float, float, float]:
+    """Return viscous and boundary friction of one flank over its load [-], and the bound of both.
+
+    With a film model, unless `refresh` is EXACT, friction over mesh force is linear between the
+    nodes of the mesh table. Arguments as in `flank_film`.
+    """
+    if film_model.size > 0 and refresh != EXACT:
+        node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
+        before = _kept_at_node(node, s, force, window, n_nodes, oil, law, film_model, films)
+        after = _kept_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model, films)
+        viscous, boundary, bound = friction_between(before, after, t)
+        of_load = abs(force) / load
+        return viscous * of_load, boundary * of_load, bound * of_load
+    film = NO_MODEL_FILM
+    if film_model.size > 0:
+        film = pair_film(s, load, sliding, channels, oil, law, film_model)
+    found = pair_friction(s, load, sliding, channels, oil, law, film, film_model)
+    viscous = found.state.viscous_friction / load
+    boundary = found.state.boundary_friction / load
+    return viscous, boundary, found.friction_bound * (viscous + boundary)
 
 
 @kernel
@@ -302,8 +322,7 @@ def flank_sum(
     friction : ndarray of shape (N_FRICTION,)
         Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
         of the friction over load [-], that of the power lost in friction, always anew [W], and
-        `film_nodes` of
-        all pairs.
+        the films at the nodes, see `film_nodes`.
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
     film_model : ndarray
@@ -335,7 +354,7 @@ def flank_sum(
                 sliding = sliding_speed(s, channels)
                 if p.friction != 0.0:
                     if refresh != 0.0:
-                        film = flank_film(
+                        viscous_over_load, boundary_over_load, bound = flank_coefficients(
                             pair,
                             s,
                             load,
@@ -351,15 +370,9 @@ def flank_sum(
                             refresh,
                             friction[FILMS:],
                         )
-                        bounded = pair_friction(
-                            s, load, sliding, channels, oil, p, film, film_model
-                        )
-                        flank = bounded.state
-                        friction[2 * pair] = flank.viscous_friction / load
-                        friction[2 * pair + 1] = flank.boundary_friction / load
-                        friction[BOUND + pair] = bounded.friction_bound * (
-                            friction[2 * pair] + friction[2 * pair + 1]
-                        )
+                        friction[2 * pair] = viscous_over_load
+                        friction[2 * pair + 1] = boundary_over_load
+                        friction[BOUND + pair] = bound
                     f_v = friction[2 * pair] * load
                     f_b = friction[2 * pair + 1] * load
                     f = f_v + f_b
@@ -391,12 +404,9 @@ def flank_sum(
                 friction[2 * pair + 1] = 0.0
                 friction[2 * _PAIRS + pair] = 0.0
                 friction[BOUND + pair] = 0.0
-                forget_films(node_films(friction[FILMS:], pair))
     elif refresh != 0.0:
         # teeth may touch before the next refresh: what stands here is then used
         for i in range(BOUND_POWER):
             friction[i] = 0.0
-        for pair in range(_PAIRS):
-            forget_films(node_films(friction[FILMS:], pair))
     friction[BOUND_POWER] = doubt
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary, rolled)

@@ -267,7 +267,8 @@ def advance(
         s[WORK_MARK + i] = s[PINION_WORK + i]
     s[TIME_IN_STEP] = duration
     s[FRICTION_BOUND] = 0.0
-    for i in range(N_FILMS):
+    n_films = N_FILMS if mesh.film_model.size > 0 else 0
+    for i in range(n_films):
         scratch[FILMS + i] = s[FILM_NODES + i]
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
     expanded_at = displacements(s, 0.0)
@@ -302,7 +303,7 @@ def advance(
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
         if table.levels[0] < 0.0:
             follow_flank(s, table, p.mesh, mesh)
-    for i in range(N_FILMS):
+    for i in range(n_films):
         s[FILM_NODES + i] = scratch[FILMS + i]
     total = 0.0
     for i in range(N_ODE):

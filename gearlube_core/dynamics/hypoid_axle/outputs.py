@@ -363,8 +363,9 @@ def _write_rates(
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     inputs = step_inputs(s, torques[0], torques[1], oil, p)
     scratch = work[N_ODE:at_series]
-    for i in range(N_FILMS):
-        scratch[FILMS + i] = s[FILM_NODES + i]
+    if data.film_model.size > 0:
+        for i in range(N_FILMS):
+            scratch[FILMS + i] = s[FILM_NODES + i]
     axle_rhs(s, inputs, data, oil, p, asked, 1.0, scratch, rates)
     write_rates(s, rates, torques[0], out[RATES:EVENTS])
     write_event_indicators(s, table, data, p.mesh, out[EVENTS:])
