@@ -24,12 +24,13 @@ from gearlube_core.dynamics.hypoid_axle import (
     rhs,
     start,
     step_control,
+    tooth_pair,
 )
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
 from gearlube_core.dynamics.hypoid_axle.model import START_WORK
-from gearlube_core.dynamics.hypoid_axle.outputs import (
+from gearlube_core.dynamics.hypoid_axle.output_names import (
     FIRST_FLANK_BOUND,
     FLANKS,
     N_OUTPUTS,
@@ -49,12 +50,12 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
-from gearlube_core.friction.flank_bound import NO_MODEL_FILM, ModelFilm
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table import kernels
 from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with, running_axle, with_coast_flanks
+from tests.helpers.axle_film_arguments import AxleFlank, film_cases
 
 COMPILED = axle_kernels(TaperedRollerParameters, MixedFlankFriction)
 
@@ -72,7 +73,6 @@ def all_cases():
     state = axle.get_state()[:N_STATE]
     solved = HypoidAxle(axle_with(film="solved"))
     by_model, numbers = solved.kernel_parameters, solved.parameters.film_model()
-    law = by_model.flank_law
     mesh = axle.packed
     p = axle.kernel_parameters
     printed = HypoidAxle(
@@ -90,11 +90,13 @@ def all_cases():
     force = mesh_force.mesh_force(state, series, mesh.orders, p.mesh).force
     channels, friction = np.zeros(N_CHANNELS), np.zeros(rhs.N_FRICTION)
     kernels.pair_channels(window, mesh.nodes, p.mesh.z_p, state[PHI_P], 0, N_CHANNELS, channels)
-    around = np.array([8.0, force, 145.0, -15.0, -4.0, 0.0, -15.1, -3.9, 0.2])
     control = axle.step_control
     scratch = np.zeros(rhs.SCRATCH)
     slope = np.zeros(N_ODE)
     rhs.axle_rhs(state, inputs, *at_load, p, 1.0, 1.0, scratch, slope)
+    flank = AxleFlank(
+        state, force, window, mesh.nodes, state_of_oil, p, by_model, numbers, channels, friction
+    )
     motion = bearing_type.ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
     moved = bearing_type.ShaftMotion(3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0)
     terms = cage_frame.ApproachTerms(10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0)
@@ -196,61 +198,12 @@ def all_cases():
             integrate.inputs_with_drag,
             (state, 3.0, 5.0, bearing_drag.BearingDrag(0.2, 0.3), state_of_oil, p),
         ),
-        (flanks.sliding_speed, (state, channels)),
-        (flanks.contact_of, (channels,)),
-        (flanks.pair_film, (state, 900.0, 0.7, channels, state_of_oil, law, numbers)),
-        *(
-            (
-                flanks.pair_friction,
-                (state, 900.0, 0.7, channels, state_of_oil, one, film, numbers),
-            )
-            for one, film in (
-                (p, NO_MODEL_FILM),
-                *((by_model, ModelFilm(-15.0, -4.0, outside)) for outside in (0.0, 0.3, 1.0)),
-            )
-        ),
-        (
-            flanks._film_at_node,
-            (7, state, force, window, mesh.nodes, state_of_oil, law, numbers),
-        ),
-        *(
-            (
-                flanks.film_between_nodes,
-                (0, state, one, window, mesh.nodes, state_of_oil, 13.0, law, numbers, around),
-            )
-            for one in (force, 2.0 * force)
-        ),
-        *(
-            (
-                flanks._renew_films,
-                (
-                    *(step, 9, state, force, window, mesh.nodes, state_of_oil, law, numbers),
-                    around,
-                ),
-            )
-            for step in (film_nodes.NEXT, film_nodes.OTHER)
-        ),
-        *((film_nodes.nodes_on, (around, node, 60, force, 145.0)) for node in (6, 7, 9)),
-        (film_nodes.node_films, (zeros(film_nodes.N_FILMS), 1)),
-        (film_nodes.forget_films, (around.copy(),)),
-        (film_nodes.start_films, (around.copy(), 5, force, 145.0)),
-        (film_nodes.take_next, (around.copy(), 8)),
-        (film_nodes.keep_film, (around.copy(), 1, ModelFilm(-15.0, -4.0, 0.2))),
-        (film_nodes.film_between, (around, 0.4)),
+        (tooth_pair.sliding_speed, (state, channels)),
+        (tooth_pair.contact_of, (channels,)),
+        *film_cases(flank),
         (kernels.pair_node, (60, 13.0, 0.3, 1)),
         (mesh_at_load.place_at_load, (table, series, window)),
         (flanks.pair_rolling, (900.0, -2.0, 0.7, channels, state_of_oil, p)),
-        *(
-            (
-                flanks.flank_sum,
-                (
-                    *(state, force, window, mesh.nodes, state_of_oil, one, refresh, friction),
-                    *(channels, numbers if one is by_model else zeros(0)),
-                ),
-            )
-            for refresh in (1.0, 2.0, 0.0)
-            for one in (p, p._replace(rolling=1.0), by_model)
-        ),
         (rhs.pinion_motion, (state,)),
         (rhs.gear_motion, (state,)),
         *(

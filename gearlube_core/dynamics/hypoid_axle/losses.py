@@ -20,7 +20,9 @@ from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
     cycle_work,
 )
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
-from gearlube_core.dynamics.hypoid_axle.outputs import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    N_OUTPUTS,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
@@ -46,6 +48,7 @@ FAILURES = {
     NO_BALANCE: "the torques on the pinion did not balance. Change the torque a little.",
 }
 ANGLES = 32  # of a mesh period; see docs/loss_map.md for what fewer and more give
+_ROUNDING = 1e-12  # of the sum: the mesh is damped by rates that are zero but for rounding
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,7 +132,7 @@ def axle_losses(
 
     Examples
     --------
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> found = axle_losses(
     ...     mohammadpour_2015_axle(), torques=np.array([50.0]), speeds=np.array([209.4]),
     ...     temperatures=np.array([333.15]),
@@ -187,6 +190,7 @@ def axle_losses(
                 status[i, j],
             )
     power[status != 0] = np.nan
+    power[np.abs(power) < _ROUNDING * power.sum(axis=-1, keepdims=True)] = 0.0
     carried[status != 0] = np.nan
     return AxleLosses(
         power=power,

@@ -1,0 +1,106 @@
+"""Arguments of the kernels for film and friction of the axle's flanks."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle import film_nodes, flanks, tooth_pair
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.friction.flank_bound import NO_MODEL_FILM, ModelFilm
+from gearlube_core.oil.lubricant_state import LubricantState
+
+SPEED = 145.0  # of the pinion [rad/s], as where the axle runs
+
+
+class AxleFlank(NamedTuple):
+    """A running axle: its state, mesh, oil, and parameters without and with a film model."""
+
+    state: Array
+    force: float  # N, of the mesh
+    window: Array
+    n_nodes: int
+    oil: LubricantState
+    p: AxleParameters
+    by_model: AxleParameters
+    numbers: Array  # of the film model
+    channels: Array
+    friction: Array
+
+
+def film_cases(axle):
+    """Kernels with arguments."""
+    state, force, window, n_nodes, oil, p, by_model, numbers, channels, friction = axle
+    law = by_model.flank_law
+    z_p = p.mesh.z_p
+    before = np.array([8.0, force, SPEED, oil.temperature, -15.0, -4.0, 0.0, 3e-3, 4e-3, 1e-4])
+    after = np.array([9.0, force, SPEED, oil.temperature, -15.1, -3.9, 0.2, 0.0, 0.0, 0.0])
+    of_nodes = (window, n_nodes, oil)
+    films = np.zeros(film_nodes.N_FILMS)
+    return [
+        (tooth_pair.pair_film, (state, 900.0, 0.7, channels, oil, law, numbers)),
+        *(
+            (
+                tooth_pair.pair_friction,
+                (state, 900.0, 0.7, channels, oil, one.flank_law, film, numbers),
+            )
+            for one, film in (
+                (p, NO_MODEL_FILM),
+                *((by_model, ModelFilm(-15.0, -4.0, outside)) for outside in (0.0, 0.3, 1.0)),
+            )
+        ),
+        *(
+            (tooth_pair._flank_at_node, (node, state, force, window, oil, law, numbers))
+            for node in range(0, n_nodes, 6)  # some carry nothing
+        ),
+        *(
+            (tooth_pair._kept_at_node, (node, state, force, *of_nodes, law, numbers, films))
+            for node in (7, n_nodes)
+        ),
+        *(
+            (
+                kernel,
+                (
+                    *(1, state, 900.0, force, 0.7, channels, *of_nodes),
+                    *(z_p, law, model, refresh, films),
+                ),
+            )
+            for kernel in (tooth_pair.flank_film, tooth_pair.flank_coefficients)
+            for model, refresh in (
+                (np.zeros(0), tooth_pair.EXACT),
+                (numbers, tooth_pair.EXACT),
+                (numbers, tooth_pair.BETWEEN_NODES),
+            )
+        ),
+        (film_nodes.node_film, (films, film_nodes.NODES_KEPT + 1)),
+        *(
+            (film_nodes.still_holds, (before, *now))
+            for now in (
+                (7, force, SPEED, oil.temperature),
+                (6, force, SPEED, oil.temperature),
+                (7, -force, SPEED, oil.temperature),
+                (7, force, 1.1 * SPEED, oil.temperature),
+                (7, force, SPEED, oil.temperature + 1.0),
+            )
+        ),
+        (
+            film_nodes.keep_flank,
+            (
+                *(before.copy(), 3, force, SPEED, oil.temperature),
+                film_nodes.NodeFlank(-15.0, -4.0, 0.2, 3e-3, 4e-3, 1e-4),
+            ),
+        ),
+        (film_nodes.friction_between, (before, after, 0.4)),
+        (film_nodes.film_between, (before, after, 0.4)),
+        *(
+            (
+                flanks.flank_sum,
+                (
+                    *(state, force, window, n_nodes, oil, one, refresh, friction),
+                    *(channels, numbers if one is by_model else np.zeros(0)),
+                ),
+            )
+            for refresh in (tooth_pair.EXACT, tooth_pair.BETWEEN_NODES, 0.0)
+            for one in (p, p._replace(rolling=1.0), by_model)
+        ),
+    ]
