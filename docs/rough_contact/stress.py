@@ -111,7 +111,7 @@ def stress_figure() -> Any:
             fatigue.plot(one.number, one.depths / HALF_WIDTH, color=colour, label=name)
         shear.axhline(0.786, color=GREY, lw=0.8, ls="--")
         shear.set(xlabel="largest shear stress over p₀", ylabel=_DEPTH, ylim=(2.0, 0.0))
-        fatigue.set(xlabel="Dang Van's number (fatigue above 1)", ylabel=_DEPTH, ylim=(2.0, 0.0))
+        fatigue.set(xlabel="Dang Van's number", ylabel=_DEPTH, ylim=(2.0, 0.0))
         fatigue.axvline(1.0, color=GREY, lw=0.8, ls="--")
         fatigue.legend()
         figure.suptitle(
