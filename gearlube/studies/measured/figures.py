@@ -36,10 +36,13 @@ def measured_flanks(flanks: MeasuredFlanks) -> Any:
                 ax.set_title(title, fontsize=9.5)
                 ax.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0))
                 ax.grid(visible=False)
-            axes[0].set_ylabel("root  -  tip")
+            axes[0].set_ylabel("height [-], 0 root, 1 tip")
         for ax in rows[-1]:
-            ax.set_xlabel("toe  -  heel")
-        figure.suptitle(f"{flanks.file.name}: plus is more material", fontsize=11.5)
+            ax.set_xlabel("face [-], 0 toe, 1 heel")
+        figure.suptitle(
+            f"{flanks.file.name}: deviations; plus (red) is more material; white: not measured",
+            fontsize=11.5,
+        )
     return figure
 
 
@@ -66,10 +69,13 @@ def tooth_errors(cycle: ToothErrorCycle, name: str) -> Any:
                 order_axis.vlines(order, _LEAST, amplitude[level], color=colour, lw=1.6)
             for mesh in range(teeth[member], amplitude.shape[1] + 1, teeth[member]):
                 order_axis.axvline(mesh, color=GREY, lw=0.8, zorder=0)
-            turn_axis.set(xlabel=f"turn of the {member}", ylabel="added error [µm]", xlim=(0, 1))
+            turn_axis.set(
+                xlabel=f"turns of the {member} [-]", ylabel="added error [µm]", xlim=(0, 1)
+            )
             turn_axis.legend()
             order_axis.set(
-                xlabel=f"order of the {member}; grey: mesh orders", ylabel="amplitude [µm]"
+                xlabel=f"order: cycles per turn of the {member}; grey: mesh orders",
+                ylabel="amplitude [µm]",
             )
             order_axis.set_yscale("log")
             order_axis.set_ylim(bottom=_LEAST)

@@ -63,6 +63,7 @@ def mesh_orders(dataset: xr.Dataset) -> Any:
             ax.set(xlabel="mesh order", title=f"{torque:g} N·m")
         axes[0].set_ylabel("amplitude [µrad]")
         _legend_below(figure, axes[0])
+        figure.suptitle("Loaded transmission error by mesh orders, without errors", fontsize=11.5)
     return figure
 
 
@@ -83,6 +84,7 @@ def sensitivity_to_errors(dataset: xr.Dataset) -> Any:
             ax.set_xlim(left=0.0)
             ax.set_ylim(errors.size - 0.5, -0.5)
         _legend_below(figure, axes[0])
+        figure.suptitle("Loaded transmission error under each error of assembly", fontsize=11.5)
     return figure
 
 
@@ -91,10 +93,13 @@ def whine_against_loss(dataset: xr.Dataset) -> Any:
     with house_style():
         figure = new_figure(5.2, 3.8)
         ax = figure.subplots()
-        ax.plot(dataset["front_whine"], dataset["front_loss"], "o-", color=BLUE, label="after")
+        ax.plot(
+            dataset["front_whine"], dataset["front_loss"], "o-", color=BLUE, label="better pairs"
+        )
         ax.plot(1.0, 1.0, "s", color=VERMILLION, label="before")
         ax.set(xlabel="mesh orders, relative to before", ylabel="sliding loss, relative to before")
         ax.set_xlim(left=0.0)
+        ax.set_title("Each point is a pair: left is quieter, lower loses less", fontsize=10)
         ax.legend()
     return figure
 
