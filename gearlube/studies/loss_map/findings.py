@@ -9,12 +9,11 @@ from gearlube.plotting.loss_words import source_words
 from gearlube.report.film_ratio import MIXED, film_ratio_level
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.report.solved_films import efficiency_doubt, flank_friction, solved_films
 from gearlube_core.arrays import Array
 
 _NAMED = 3  # sources of loss and uncertain inputs that are told one by one
 _LEAST_SHARE = 0.005  # of the loss, of a source that is told
-_RUBBING = ("friction_viscous", "friction_boundary")  # what the model of solved films bounds
-_LITTLE_OUTSIDE = 0.05  # share of load outside the domain of that model that needs no warning
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -224,21 +223,11 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     if "share_outside" not in dataset:
         return []
     outside = dataset["share_outside"]
-    rubbing = [one for one in dataset["source"].values if str(one) in _RUBBING]
-    friction = dataset["loss"].sel(source=rubbing).sum("source")
-    bound = float(dataset["friction_bound"].sum() / friction.sum())
+    bound = float(dataset["friction_bound"].sum() / flank_friction(dataset["loss"]).sum())
     worst = _at(dataset, outside)
-    most = 100.0 * float(worst["share_outside"])
-    level = NOTE if most <= 100.0 * _LITTLE_OUTSIDE else WARNING
-    return [
-        Finding(
-            level,
-            "Films and friction of the flanks are those of solved films (film.model = solved). "
-            f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss.",
-            f"Outside the model's domain formulas take over: at most {most:.0f} % of the flanks' "
-            f"load, at {words_of(worst)}. The bound leaves out how uncertain the oil's data are.",
-        )
-    ]
+    most = float(worst["share_outside"])
+    words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
+    return [solved_films(bound, most, words, efficiency_doubt(dataset))]
 
 
 def _steady(dataset: xr.Dataset) -> list[Finding]:

@@ -46,6 +46,7 @@ FAILURES = {
     NO_BALANCE: "the torques on the pinion did not balance. Change the torque a little.",
 }
 ANGLES = 32  # of a mesh period; see docs/loss_map.md for what fewer and more give
+_ROUNDING = 1e-12  # of the sum: the mesh is damped by rates that are zero but for rounding
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -187,6 +188,7 @@ def axle_losses(
                 status[i, j],
             )
     power[status != 0] = np.nan
+    power[np.abs(power) < _ROUNDING * power.sum(axis=-1, keepdims=True)] = 0.0
     carried[status != 0] = np.nan
     return AxleLosses(
         power=power,
