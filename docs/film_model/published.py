@@ -46,7 +46,7 @@ _PHASES = np.linspace(-1.5, 1.5, 61)
 _LEAST_SHARE = 0.02  # of the load, of a phase that counts
 MEGA = 1e6
 LEAST, MOST, BEYOND = 1.0, 10.0, 12.0  # MPa: of the model's domain; where more is drawn
-TWIN_DISC = 0.045  # about, mineral oils, [doleschel_dgmk_2002]
+TWIN_DISC = 0.045  # about, mineral oils (Doleschel et al., DGMK)
 _STEP = 1e-3  # of the logarithm of a load
 _STAR = " *"
 # of an oil: share of mineral oil's friction in ISO/TR 14179-2
@@ -102,7 +102,7 @@ class Local(NamedTuple):
 
 
 def xu_kahraman(c: Local) -> float:
-    """Return exp(f) p^b2 SR^b3 u^b6 nu^b7 R^b8, GPa, m/s, mPa s, m, um [xu_kahraman_2007]."""
+    """Return exp(f) p^b2 SR^b3 u^b6 nu^b7 R^b8, GPa, m/s, mPa s, m, um."""
     b = (-8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958)
     slide, p = c.slip / c.speed, 1.5e-9 * c.p
     group = slide * p * math.log10(c.viscosity)
@@ -120,7 +120,7 @@ def xu_kahraman(c: Local) -> float:
 def schlenk(c: Local) -> float:
     """Return 0.048 (F/b/(v_sum rho))^0.2 eta^-0.05 Ra^0.25, N/mm, m/s, mm, mPa s, um.
 
-    At least 150 N/mm; v_sum is the sum of the speeds across the ellipse [iso_tr_14179_2].
+    At least 150 N/mm; v_sum is the sum of the speeds across the ellipse.
     """
     line_load = max(1e-3 * c.load / c.length, 150.0)
     rate = 2.0 * c.speed * math.cos(c.psi) * 1e3 * c.R_x
@@ -289,8 +289,8 @@ def table(found: dict[str, OilFriction]) -> str:
     return "\n".join(lines) + "\n"
 
 
-# dynamic viscosity [mPa s] and alpha [1/GPa] at 30, 60 and 100 degC, [stachowiak_batchelor_2014]
-# Table 2.3; those with all six numbers are mineral oils
+# dynamic viscosity [mPa s] and alpha [1/GPa] at 30, 60 and 100 degC, Table 2.3 of
+# Stachowiak and Batchelor, Engineering Tribology; those with all six numbers are mineral oils
 MEASURED_OILS = (
     (153.0, 34.0, 9.1, 23.7, 20.5, 15.8),
     (250.0, 50.5, 12.6, 25.0, 21.3, 17.6),
@@ -321,7 +321,7 @@ def exponent_line() -> str:
     return (
         f"Z of {Z.shape[0]} measured mineral oils at 30, 60 and 100 °C: {low:.2f} to {high:.2f}, "
         f"median {middle:.2f} (computed from viscosity and pressure coefficient in Table 2.3 of "
-        "Stachowiak and Batchelor).\n"
+        "Stachowiak and Batchelor, Engineering Tribology).\n"
     )
 
 
@@ -391,9 +391,9 @@ def _draw(axes: Any, label: str, x: Array, at: Callable[[float], Contacts]) -> N
 
 
 def _draw_needed(axes: Any, found: dict[str, OilFriction]) -> None:
-    for n, (oil, one) in enumerate(found.items()):
-        for shift, (name, values), colour in zip(
-            (-0.16, 0.16), one.needed.items(), (GREEN, PURPLE), strict=True
+    for n, one in enumerate(found.values()):
+        for shift, values, colour in zip(
+            (-0.16, 0.16), one.needed.values(), (GREEN, PURPLE), strict=True
         ):
             low, middle, high = np.quantile(values, (0.05, 0.5, 0.95), method="nearest")
             ends = [min(max(end, 0.9), BEYOND) for end in (low, middle, high)]
