@@ -20,7 +20,9 @@ from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
     cycle_work,
 )
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
-from gearlube_core.dynamics.hypoid_axle.outputs import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    N_OUTPUTS,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
@@ -130,7 +132,7 @@ def axle_losses(
 
     Examples
     --------
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> found = axle_losses(
     ...     mohammadpour_2015_axle(), torques=np.array([50.0]), speeds=np.array([209.4]),
     ...     temperatures=np.array([333.15]),
