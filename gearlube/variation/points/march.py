@@ -45,7 +45,8 @@ def _quantities() -> tuple[Quantity, ...]:
         Quantity(
             f"{name}_mesh_{order}",
             QUANTITIES[spectrum][0],
-            f"mesh order {order} of the {QUANTITIES[spectrum][1].removeprefix('amplitude of the ')}",
+            f"mesh order {order} of the "
+            + QUANTITIES[spectrum][1].removeprefix("amplitude of the "),
         )
         for name, spectrum in _WHINE.items()
         for order in _ORDERS
