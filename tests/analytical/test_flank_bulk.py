@@ -17,7 +17,7 @@ from gearlube_core.dynamics.hypoid_axle.losses import (
     axle_losses,
 )
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError
 
 AXLE = mohammadpour_2015_axle()

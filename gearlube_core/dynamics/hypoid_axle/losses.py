@@ -23,7 +23,9 @@ from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
     cycle_work,
 )
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
-from gearlube_core.dynamics.hypoid_axle.outputs import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    N_OUTPUTS,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
@@ -54,6 +56,7 @@ FAILURES = {
 _RUBBING = [LOSS_SOURCES.index(one) for one in ("friction_viscous", "friction_boundary")]
 _OF_FILMS = [*_RUBBING, LOSS_SOURCES.index("friction_rolling")]  # at the flanks' temperature
 ANGLES = 32  # of a mesh period; see docs/loss_map.md for what fewer and more give
+_ROUNDING = 1e-12  # of the sum: the mesh is damped by rates that are zero but for rounding
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,7 +145,7 @@ def axle_losses(
 
     Examples
     --------
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> found = axle_losses(
     ...     mohammadpour_2015_axle(), torques=np.array([50.0]), speeds=np.array([209.4]),
     ...     temperatures=np.array([333.15]),
@@ -204,6 +207,7 @@ def axle_losses(
                     if extremes and warm.status == 0:
                         found[i, j, k, 2] = int(exceeded) | int(warm.found[2])
     power[status != 0] = np.nan
+    power[np.abs(power) < _ROUNDING * power.sum(axis=-1, keepdims=True)] = 0.0
     carried[status != 0] = np.nan
     return AxleLosses(
         power=power,

@@ -27,7 +27,9 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     blend_mesh,
     place_at_load,
 )
-from gearlube_core.dynamics.hypoid_axle.outputs import OUTPUT_NAMES
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    OUTPUT_NAMES,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM_CURE, OK, REST_WORK
@@ -94,7 +96,7 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     Examples
     --------
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> axle = HypoidAxle(mohammadpour_2015_axle())
     >>> axle.initialise(
     ...     pinion_speed=209.4, pinion_torque=50.0, wheel_torque=140.0, oil_temperature=333.15
