@@ -43,7 +43,7 @@ from gearlube_core.dynamics.stepped_model import (
     TorqueLimits,
     Words,
 )
-from gearlube_core.errors import ConvergenceError
+from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.oil.lubricant_state import lubricant_state
 
@@ -60,6 +60,11 @@ STEP_REFUSALS = {
     ),
     TOO_FAST: TOO_FAST_WORDS,
 }
+MARCH_WITH_WARM_FLANKS = (
+    "flank_bulk_resistance must be 0 K/W in a march in time: teeth warm up in minutes, a march "
+    "lasts a second. Take `gearlube map` or `gearlube cycle`, which use mean losses, or leave "
+    "film.bulk_resistance_k_w out."
+)
 _WORDS = Words("axle", "the bearing modes", STEP_REFUSALS)
 
 
@@ -102,6 +107,10 @@ class HypoidAxle(SteppedModel[StepControl]):
     """
 
     def __init__(self, parameters: HypoidAxleParameters) -> None:
+        if parameters.flank_bulk_resistance > 0.0:
+            raise ParameterError(
+                f"{MARCH_WITH_WARM_FLANKS} Got {parameters.flank_bulk_resistance:g} K/W."
+            )
         self.parameters = parameters
         self.packed: PackedMesh = pack_mesh(
             parameters.mesh,

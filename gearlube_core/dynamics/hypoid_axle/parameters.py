@@ -123,6 +123,9 @@ class HypoidAxleParameters(AxleScalars):
     film_limiting_slope : float
         Limiting shear stress of the film over pressure [-], 0 for none: the film model knows none,
         so contacts whose mean stress comes near it count as outside.
+    flank_bulk_resistance : float
+        Rise of the flanks' bulk over the oil for each watt of their mean friction [K/W]; in mean
+        losses alone, a march refuses it. See `flank_bulk`.
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
@@ -170,6 +173,7 @@ class HypoidAxleParameters(AxleScalars):
     friction: Friction | FlankLawMaker = "consistent"
     film: Film = "formula"
     film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
+    flank_bulk_resistance: Annotated[float, Within(0.0, 10.0, "K/W", "Try 0.03 K/W.")] = 0.0
     rolling: FlankRolling = "none"
     bearing_torque_loss: TorqueLoss = "palmgren"
     churning: ChurningLaw = "none"
