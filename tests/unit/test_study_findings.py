@@ -103,14 +103,31 @@ def test_loss_map_says_how_far_solved_films_are_to_be_trusted(a_map):
     friction = a_map["loss"].sel(source="friction_viscous", drop=True)
     outside = xr.zeros_like(friction)
     outside[1, 0, 2] = 0.3
-    solved = a_map.assign(friction_bound=0.02 * friction, share_outside=outside)
+    doubt = xr.full_like(friction, np.nan)
+    doubt[0, 0, 2] = 0.0004
+    solved = a_map.assign(
+        friction_bound=0.02 * friction, share_outside=outside, efficiency_bound=doubt
+    )
     said = found(loss_map.findings(solved), "solved films")
+    assert "at most 0.040 % of efficiency" in said.detail
     assert "2.0 % of the flanks' friction loss" in said.headline
     assert said.level == WARNING
     torque, speed = (float(a_map[name][k]) for name, k in (("torque", 2), ("speed", 0)))
     assert f"at most 30 % of the flanks' load, at {torque:.4g} N·m, {speed:.4g} rpm" in said.detail
     little = loss_map.findings(solved.assign(share_outside=0.1 * outside))
     assert found(little, "solved films").level == NOTE
+
+
+def test_loss_map_says_how_warm_the_flanks_get_by_their_own_friction(a_map):
+    assert not [one for one in loss_map.findings(a_map) if "warms their bulk" in one.headline]
+    rise = xr.zeros_like(a_map["film_ratio"])
+    rise[1, 0, 2] = 12.0
+    said = found(
+        loss_map.findings(a_map.assign(bulk_temperature=a_map["temperature"] + rise)), "their bulk"
+    )
+    degc = float(a_map["temperature"][1])
+    assert "by up to 12 K over the oil" in said.headline
+    assert f"{degc:.4g} °C oil" in said.headline
 
 
 def test_loss_map_warns_of_failures_and_ranges_and_steady_points_without_rest(a_map):
@@ -190,6 +207,21 @@ def test_cycle_says_energy_lost_with_its_parts_oil_and_brakes(a_cycle):
     assert found(cycle.findings(left), "Up to 40 % of the energy").level == WARNING
     html = report_html(cycle_report(a_cycle))
     assert "30 s and 0.30 km" in html  # 10 s at 10 m/s and 10 s at 20 m/s
+
+
+def test_cycle_says_how_far_solved_films_are_to_be_trusted(a_cycle):
+    assert not [one for one in cycle.findings(a_cycle) if "solved films" in one.headline]
+    # of the 3 kJ of friction, 1 in the first step and 2 in the second
+    solved = a_cycle.assign(
+        share_outside=("step", [0.09, 0.0, 1.0]), energy_lost_bound=0.06, efficiency_bound=0.00075
+    )
+    said = found(cycle.findings(solved), "solved films")
+    assert "2.0 % of the flanks' friction loss" in said.headline
+    assert said.level == NOTE
+    assert "0.060 kJ of energy lost and 0.075 % of efficiency over the cycle" in said.detail
+    assert "with 3.0 % of the flanks' friction loss" in said.detail
+    more = solved.assign(share_outside=("step", [0.3, 0.0, 0.0]))
+    assert found(cycle.findings(more), "solved films").level == WARNING
 
 
 @pytest.fixture

@@ -131,3 +131,22 @@ def test_key_numbers_are_those_of_the_signal(sweep):
     assert known["largest loss"] == (pytest.approx(42.0), "W")
     assert known["least efficiency of the axle"] == (pytest.approx(97.9), "%")
     assert known["warmest flank film"] == (pytest.approx(370.0 - 273.15), "°C")
+
+
+def test_a_sweep_says_how_far_solved_films_are_to_be_trusted(sweep):
+    assert not [one for one in findings(sweep) if "solved films" in one.headline]
+    parts = ["friction_viscous", "friction_boundary"]
+    friction = sweep["loss"].sel(source=parts).sum("source")
+    outside = 0.0 * friction
+    outside[0, 2] = 0.03
+    solved = sweep.assign(
+        friction_loss_bound=0.02 * friction,
+        share_outside=outside,
+        efficiency_bound=0.0004 + 0.0 * friction,
+    )
+    one = found(solved, "solved films")
+    assert "2.0 % of the flanks' friction loss" in one.headline
+    assert "at most 0.040 % of efficiency" in one.detail
+    assert "at most 3 % of the flanks' load, at 100 km/h and preload 2500 N" in one.detail
+    assert one.level == NOTE
+    assert found(solved.assign(share_outside=10.0 * outside), "solved films").level == WARNING

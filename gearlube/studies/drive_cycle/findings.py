@@ -8,6 +8,7 @@ import xarray as xr
 from gearlube.plotting.loss_words import source_words
 from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.report.solved_films import flank_friction, solved_films
 from gearlube.studies.drive_cycle.tables import range_sentence
 
 _NAMED, _LEAST_SHARE = 3, 0.005  # sources of loss that are told, if they are not smaller
@@ -21,6 +22,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         _lost(dataset),
         _temperature(dataset),
         *_brakes(dataset),
+        *_solved(dataset),
         _ranges(dataset),
         Finding(NOTE, f"Not modelled: {dataset.attrs['not_modelled']}."),
     ]
@@ -103,6 +105,23 @@ def _brakes(dataset: xr.Dataset) -> list[Finding]:
             f"Share of the braking that goes through the axle: {dataset.attrs['regeneration']:g}.",
         )
     ]
+
+
+def _solved(dataset: xr.Dataset) -> list[Finding]:
+    """Say how far the model of solved films is to be trusted, where the axle took it."""
+    if "energy_lost_bound" not in dataset:
+        return []
+    lost, energy = float(dataset["energy_lost_bound"]), flank_friction(dataset["energy_lost"])
+    if not float(energy) > 0.0:
+        return []
+    friction = flank_friction(dataset["loss"]) * dataset["duration"]
+    outside = float((friction * dataset["share_outside"]).sum() / friction.sum())
+    effect = f"That is {quantity_text(lost, 'kJ', 2)} of energy lost"
+    doubt = float(dataset["efficiency_bound"])
+    if np.isfinite(doubt):
+        effect += f" and {quantity_text(100.0 * doubt, '%', 2)} of efficiency over the cycle"
+    words = f"with {100.0 * outside:.1f} % of the flanks' friction loss"
+    return [solved_films(lost / float(energy), outside, words, f"{effect}.")]
 
 
 def _ranges(dataset: xr.Dataset) -> Finding:

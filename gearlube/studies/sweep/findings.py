@@ -9,6 +9,7 @@ from gearlube.plotting.loss_words import not_modelled, source_words
 from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
+from gearlube.report.solved_films import efficiency_doubt, flank_friction, solved_films
 from gearlube.studies.sweep.crossings import ORDERS, Crossing, crossings
 from gearlube.studies.sweep.peaks import Peak, peak_orders
 from gearlube.studies.sweep.point import FINISHED
@@ -48,6 +49,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_contact(dataset),
             *_loss(dataset),
             *_film(dataset),
+            *_solved(dataset),
             *_rollers(dataset),
             *_ranges(dataset),
             *_balance(dataset),
@@ -231,6 +233,21 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
             film_ratio_words(least),
         )
     ]
+
+
+def _solved(dataset: xr.Dataset) -> list[Finding]:
+    """Say how far the model of solved films is to be trusted, where the axle took it."""
+    if "friction_loss_bound" not in dataset or not _most(dataset["friction_loss_bound"]) > 0.0:
+        return []
+    bound = float(dataset["friction_loss_bound"].sum() / flank_friction(dataset["loss"]).sum())
+    outside = dataset["share_outside"].values
+    row, column = _place(outside)
+    most, point = float(outside[row, column]), dataset.isel(preload=row, speed=column)
+    words = (
+        f"at most {100.0 * most:.0f} % of the flanks' load, at {float(point['speed_kmh']):g} km/h "
+        f"and preload {float(point['preload']):g} N"
+    )
+    return [solved_films(bound, most, words, efficiency_doubt(dataset))]
 
 
 def _rollers(dataset: xr.Dataset) -> list[Finding]:

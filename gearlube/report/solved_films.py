@@ -1,0 +1,57 @@
+"""What a report says where the flanks' films came from the model of solved films."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import NOTE, WARNING, Finding
+
+_RUBBING = ("friction_viscous", "friction_boundary")  # losses that the model bounds
+_LITTLE_OUTSIDE = 0.05  # share of load outside the model's domain that needs no warning
+
+
+def solved_films(
+    bound: float, share_outside: float, outside_words: str, effect: str = ""
+) -> Finding:
+    """Return the finding of a run with `film.model = solved`.
+
+    Parameters
+    ----------
+    bound
+        The model's 95 % bound of the flanks' friction loss over that loss [-].
+    share_outside
+        Share of the flanks' load outside the model's domain that decides about a warning [-].
+    outside_words
+        What `share_outside` is, "at most 3 % of the flanks' load, at 40 km/h".
+    effect
+        A sentence on what the bound does to another result.
+    """
+    detail = [
+        effect,
+        f"Outside the model's domain formulas take over: {outside_words}.",
+        "The bound leaves out how uncertain the oil's data are.",
+    ]
+    return Finding(
+        NOTE if share_outside <= _LITTLE_OUTSIDE else WARNING,
+        "Films and friction of the flanks are those of solved films (film.model = solved). "
+        f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss.",
+        " ".join(one for one in detail if one),
+    )
+
+
+def flank_friction(loss: xr.DataArray) -> xr.DataArray:
+    """Return the loss by friction of the flanks, of losses by `source`."""
+    rubbing = [one for one in loss["source"].values if str(one) in _RUBBING]
+    return loss.sel(source=rubbing).sum("source")
+
+
+def efficiency_doubt(dataset: xr.Dataset) -> str:
+    """Return a sentence on the largest `efficiency_bound` of a run; empty where none is known."""
+    if "efficiency_bound" not in dataset:
+        return ""
+    most = float(np.fmax.reduce(dataset["efficiency_bound"].values, axis=None))
+    if not np.isfinite(most):
+        return ""
+    return f"That is at most {quantity_text(100.0 * most, '%', 2)} of efficiency."
