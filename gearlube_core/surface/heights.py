@@ -216,11 +216,7 @@ def _check_seam(name: str, height: Array, axis: int, closed: bool, along: str) -
             f"{name}: the heights at both ends{along} must meet within "
             f"{_CLOSED * typical / MICROMETRE:.3g} um, {_CLOSED:g} times the rms step between "
             f"neighbours, got a jump of {jump / MICROMETRE:.3g} um. "
-            + (
-                f"Cut {_CUT}."
-                if height.ndim == 1
-                else "Take another part, or generate the map."
-            )
+            + (f"Cut {_CUT}." if height.ndim == 1 else "Take another part, or generate the map.")
         )
 
 

@@ -128,7 +128,11 @@ class MovingSurface:
         check_plausible(heights)
         length = heights.length if isinstance(heights, Profile) else heights.lengths[0]
         if isinstance(heights, HeightMap):
-            check_divides(f"the width (length_mm in a case file) with {name}", self.lay.width, heights.lengths[1])
+            check_divides(
+                f"the width (length_mm in a case file) with {name}",
+                self.lay.width,
+                heights.lengths[1],
+            )
             if self.lay.measured != "along_x":
                 raise ParameterError(
                     f"lay.measured must be along_x for {name}, a map, got {self.lay.measured}."

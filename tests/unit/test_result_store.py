@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube_core.errors import ConvergenceError
+from gearlube_core.errors import ConvergenceError, FileError
 from gearlube_core.storage import process_pool
 from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays
 from gearlube_core.storage.process_pool import ProcessPool
@@ -82,6 +82,17 @@ def test_a_write_that_fails_leaves_the_older_file_and_nothing_else(tmp_path):
         write_half(partial)
     np.testing.assert_array_equal(read_arrays(path)["force"], ONE["force"])
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_file_whose_content_is_damaged_is_named(tmp_path):
+    path = tmp_path / "a.npz"
+    write_arrays(path, {"force": np.arange(20000.0)}, compress=True)
+    whole = bytearray(path.read_bytes())
+    middle = len(whole) // 2
+    whole[middle : middle + 400] = bytes(400)
+    path.write_bytes(whole)
+    with pytest.raises(FileError, match=r"a\.npz must be an npz file"):
+        read_arrays(path)
 
 
 def square(x):
