@@ -8,6 +8,7 @@ import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from tokenize import TokenError
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -69,6 +70,7 @@ def read_arrays(path: Path) -> Arrays:
         EOFError,
         zipfile.BadZipFile,
         zlib.error,
+        TokenError,
     ) as error:
         raise FileError(f"{path} must be an npz file, got {error}. Remove it.") from error
 
