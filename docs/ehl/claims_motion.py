@@ -36,7 +36,7 @@ def _motion(store: Store) -> Verdict:
             all(abs(s.film_ratio - 1.0) < 0.05 for _, _, s in alike),
             pressure < 0.05,
         ),
-        "smallest films of sections at y, mm, of design A; thinner: by 3 % and more",
+        "smallest films of sections at y, mm, of design A; thinner means by 3 % and more",
     )
 
 
@@ -143,22 +143,28 @@ def _length(store: Store) -> Verdict:
 
 MOTIONS = (
     Claim(
-        "J14", "Films in motion are thinner in the relief and the same elsewhere; pressures equal",
+        "J14",
+        "In the relief a film in motion is thinner than a film at rest, elsewhere they are "
+        "the same; the pressures are equal",
         "sec. 5.3, figs 5.7 to 5.11", "5 %", _motion,
     ),
     Claim(
-        "J15", "B, step 300: sections at y = -18 to 10 mm are line contacts, at 17 nearly",
+        "J15",
+        "Design B, step 300: the sections at y = -18 to 10 mm are like line contacts, the one"
+        " at 17 mm nearly so",
         "sec. 5.3, fig. 5.13", "3 %", _lines,
     ),
     Claim(
-        "J16", "h_min grows as speed to the 0.68; pressure does not", "sec. 5.5, figs 5.19, 5.20",
-        "0.02; 3 %", _speeds,
+        "J16",
+        "The smallest film grows as the speed to the power 0.68; the pressure does not change",
+        "sec. 5.5, figs 5.19, 5.20", "0.02; 3 %", _speeds,
     ),
     Claim(
-        "J17", "Finite elements = finite differences", "ch. 3, figs 3.6, 3.7", "2 %", _elements,
+        "J17", "Finite elements and finite differences give the same film",
+        "ch. 3, figs 3.6, 3.7", "2 %", _elements,
     ),
     Claim(
-        "J18", "Contact over 0.93 w at the largest load, without relief", "sec. 4.3", "0.01",
-        _length,
+        "J18", "Without relief the contact covers 0.93 of the face width w at the largest load",
+        "sec. 4.3", "0.01", _length,
     ),
 )  # fmt: skip

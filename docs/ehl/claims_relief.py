@@ -112,25 +112,32 @@ def _powers_a(store: Store) -> Verdict:
         f"{listed(tops)} GPa; lower by {listed(ratios)}; from 2 on {100.0 * gain:.0f} %",
         judge(min(ratios) >= 3.0, 0.0 < gain < 0.15),
         "beta = 1 / 2 / 3 / 4, largest of steps 75 and 500; beta = 1 is a corner, its pressure "
-        "that of the grid; minor: below 15 %",
+        "that of the grid; little: below 15 %",
     )
 
 
 RELIEFS = (
     Claim(
-        "J10", "A, step 500: 1.25 (k = 1), about 2 (0.1), 3.5 GPa (0); none above k = 0.3",
+        "J10",
+        "Design A, step 500: the largest pressure is 1.25 GPa for k = 1, about 2 GPa for 0.1 "
+        "and 3.5 GPa for 0; above k = 0.3 the pressure is not concentrated",
         "sec. 5.4, 5.7, fig. 5.18", "10 %; k = 0: above 3 GPa", _parabola_pressures,
     ),
     Claim(
-        "J11", "A third of the film at k = 0.1; no film below k = 0.02", "sec. 5.4, fig. 5.18",
-        "2 to 4 times", _parabola_films,
+        "J11", "At k = 0.1 the film is a third of that at k = 1; below k = 0.02 there is no film",
+        "sec. 5.4, fig. 5.18", "2 to 4 times", _parabola_films,
     ),
     Claim(
-        "J12", "B, step 75, beta 1 to 4: 3.2, 1.1, 1.0, 0.96 GPa; 0, then about 0.185 um; "
-        "0.1 GPa at y = 0 (1), -5 mm (4)", "sec. 5.6, fig. 5.23", "5 %, 15 %, 1 mm", _powers_b,
+        "J12",
+        "Design B, step 75: for beta = 1 to 4 the largest pressure is 3.2, 1.1, 1.0 and 0.96 "
+        "GPa; there is no film for beta = 1 and about 0.185 um above; the pressure begins "
+        "(0.1 GPa) at y = 0 for beta = 1 and at -5 mm for beta = 4",
+        "sec. 5.6, fig. 5.23", "5 %, 15 %, 1 mm", _powers_b,
     ),
     Claim(
-        "J13", "A: beta = 2 to 4 lower the pressure by three and more; above 2 little is gained",
+        "J13",
+        "Design A: beta = 2 to 4 lower the largest pressure to a third and less of that for "
+        "beta = 1; above 2 little is gained",
         "sec. 5.6, 5.7, fig. 5.22", "3 times", _powers_a,
     ),
 )  # fmt: skip

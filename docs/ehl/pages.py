@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -21,19 +20,18 @@ from docs.ehl.lines import March
 from docs.ehl.runs import FACETS, MARCHED_PARABOLAS, POSITIONS, Run, power_case
 from docs.ehl.store import MissingFilmError, Steady, Store
 from docs.helical.pages import table
+from docs.validation.tally import tally
 
 
 def claims_table(claims: Sequence[Claim], verdicts: Sequence[Verdict]) -> str:
     """Return the verdicts, with how many there are of each kind above."""
-    counts = Counter(found.verdict for found in verdicts)
     rows = [
         [claim.name, claim.statement, claim.source, claim.tolerance, found.value,
          f"**{found.verdict}**", found.reason]
         for claim, found in zip(claims, verdicts, strict=True)
     ]  # fmt: skip
-    heads = ["#", "Claim", "Printed in", "Tolerance", "Found", "Verdict", "Reason"]
-    words = ", ".join(f"{n} {word}" for word, n in counts.most_common())
-    return f"\n{words}.\n" + table(heads, rows)
+    heads = ["#", "What the thesis says", "Printed in", "Tolerance", "Found", "Verdict", "Reason"]
+    return f"\n{tally(found.verdict for found in verdicts)}.\n" + table(heads, rows)
 
 
 def dry_table(store: Store) -> str:

@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 
 from docs.film_model.pictures import errors_picture, parity_picture
-from gearlube.studies.film_model.samples import ANYWHERE, axle_contacts
+from gearlube.studies.film_model.draws import ANYWHERE
+from gearlube.studies.film_model.samples import axle_contacts
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film

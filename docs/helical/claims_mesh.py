@@ -161,34 +161,68 @@ def axial_share(_: Evidence) -> Verdict:
 
 
 MESH = (
-    Claim("H1", "Contact ratio about 2.7; two or three pairs", "sec. 3", "1e-4", contact_ratio),
-    Claim("H2", "Places A, P, C, Q, D, E, H, G, R", "fig. 3, eq. (24)", "1e-6", landmark_places),
+    Claim(
+        "H1",
+        "The contact ratio is about 2.7: two or three pairs of teeth are in contact",
+        "sec. 3",
+        "1e-4",
+        contact_ratio,
+    ),
+    Claim(
+        "H2",
+        "The printed places of the points A, P, C, Q, D, E, H, G and R on the line of action "
+        "follow from the geometry",
+        "fig. 3, eq. (24)",
+        "1e-6",
+        landmark_places,
+    ),
     Claim(
         "H3",
-        "Length of the lines is a trapezoid of mean eps_alpha W/cos b and range 13.6 %",
+        "The total length of the contact lines over a mesh period is a trapezoid with the "
+        "mean eps_alpha W/cos b and a range of 13.6 %",
         "sec. 3; range by arithmetic",
         "1e-6; 0.05 %",
         length_trapezoid,
     ),
     Claim(
         "H4",
-        "Stiffness of one pair and of all is trapezoidal and follows the length",
+        "The stiffness of one pair of teeth, and of all pairs, is a trapezoid over the mesh "
+        "period and follows the length of the lines",
         "sec. 3, figs 2, 4",
         "correlation 0.999; in part: 0.98, 0.9",
         trapezoidal_stiffness,
     ),
-    Claim("H5", "(10b), (18a), (18b) are the integrals", "sec. 3", "1e-10", closed_forms),
+    Claim(
+        "H5",
+        "The closed forms (10b), (18a) and (18b) are the integrals along the contact lines",
+        "sec. 3",
+        "1e-10",
+        closed_forms,
+    ),
     Claim(
         "H6",
-        "Without friction the mesh stiffness is symmetric, semidefinite, and u_y rests",
+        "Without friction the matrix of the mesh stiffness is symmetric and semidefinite, and"
+        " u_y is at rest",
         "eq. (7), (16), (21)",
         "1e-12",
         no_friction,
     ),
-    Claim("H7", "Action equals reaction", "eq. (7)-(22)", "1e-12", action_reaction),
-    Claim("H8", "Sliding reverses at the pitch line", "eq. (5), (6)", "1e-12", reversal),
+    Claim(
+        "H7",
+        "Forces and moments on pinion and gear balance each other",
+        "eq. (7)-(22)",
+        "1e-12",
+        action_reaction,
+    ),
+    Claim(
+        "H8",
+        "Sliding changes its direction at the pitch line",
+        "eq. (5), (6)",
+        "1e-12",
+        reversal,
+    ),
 )
 AXIAL = Claim(
-    "H19", "A larger helix angle, a larger axial excitation", "sec. 6, eq. (15)",
+    "H19", "A larger helix angle gives a larger axial excitation", "sec. 6, eq. (15)",
     "1e-12; rising", axial_share,
 )  # fmt: skip

@@ -143,40 +143,44 @@ def extrusion(_: Evidence) -> Verdict:
 
 FLANKS = (
     Claim(
-        "G9", "z_p = 4.3, z_w = 4.4 mm", "fig. 4.6", "0.05; in part: 0.2 mm on A", relief_zones
+        "G9",
+        "The zones of relief measure z_p = 4.3 mm on the pinion and z_w = 4.4 mm on the wheel",
+        "fig. 4.6", "0.05; in part: 0.2 mm on A", relief_zones,
     ),
     Claim(
         "G10",
-        "Relief starts at y = 6.4 (step 75), 18.5, -21.5 (300), -6.3 mm (500)",
-        "sec. 5.2",
-        "0.05; in part: 1 mm",
-        relief_starts,
+        "On the contact line relief starts at y = 6.4 mm at step 75, 18.5 and -21.5 mm at "
+        "step 300, -6.3 mm at step 500",
+        "sec. 5.2", "0.05; in part: 1 mm", relief_starts,
     ),
     Claim(
         "G11",
-        "Side faces end the contact in steps 204 to 370 (A), 180 to 370 (B)",
-        "sec. 5.3",
-        "0.5; in part: 8 steps outside",
-        side_faces,
+        "The side faces of the teeth end the contact in steps 204 to 370 on A and 180 to 370 "
+        "on B",
+        "sec. 5.3", "0.5; in part: 8 steps outside", side_faces,
     ),
     Claim(
-        "G12", "Lay angles 4.6 to 9.5 and 9.5 to 4.6 deg", "sec. 7.3, fig. 7.4", "0.3 deg",
-        lay_range,
+        "G12",
+        "The angle of the lay goes from 4.6 to 9.5 deg on the pinion and from 9.5 to 4.6 deg "
+        "on the wheel",
+        "sec. 7.3, fig. 7.4", "0.3 deg", lay_range,
     ),
-    Claim("G13", "7.08 deg at the pitch line", "sec. 7.3", "0.05 deg", lay_at_pitch_line),
-    Claim("G14", "Start of relief 8.5 deg to y", "fig. 5.17", "0.1 deg", relief_line),
+    Claim(
+        "G13", "At the pitch line the angle of the lay is 7.08 deg",
+        "sec. 7.3", "0.05 deg", lay_at_pitch_line,
+    ),
+    Claim(
+        "G14", "The line on which relief starts is at 8.5 deg to y",
+        "fig. 5.17", "0.1 deg", relief_line,
+    ),
     Claim(
         "G15",
-        "Slide-roll 0.3632, R 14.0 mm, 6.71 m/s at s = 5.75 mm",
-        "Table 7.1, sec. 7.6",
-        "5e-4, 0.05 mm, 0.005 m/s",
-        table_7_1,
+        "At s = 5.75 mm the slide-roll ratio is 0.3632, the radius R 14.0 mm and the "
+        "entrainment speed 6.71 m/s",
+        "Table 7.1, sec. 7.6", "5e-4, 0.05 mm, 0.005 m/s", table_7_1,
     ),
     Claim(
-        "G16",
-        "Extrusion angles 8.5, 5.7, 6.5, 7.5 deg",
-        "sec. 7.6",
-        "0.05 deg",
-        extrusion,
+        "G16", "The profiles are extruded at angles of 8.5, 5.7, 6.5 and 7.5 deg",
+        "sec. 7.6", "0.05 deg", extrusion,
     ),
 )  # fmt: skip

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -15,6 +14,7 @@ from docs.helical.separation import Curve, overhang
 from docs.helical.stiffness_density import Choice, Effect
 from docs.helical.structure import SAMPLE, SAMPLE_TEETH, sample_stiffness
 from docs.helical.verdicts import Claim, Verdict
+from docs.validation.tally import tally
 
 UM = 1e6
 _LOWER, _UPPER = 0.08, 0.05  # scatter of the fit of ISO 6336-1
@@ -40,13 +40,14 @@ def claims_table(claims: Sequence[Claim], verdicts: Sequence[Verdict]) -> str:
         ]
         for claim, found in zip(claims, verdicts, strict=True)
     ]
-    return table(["#", "Claim", "Printed in", "Tolerance", "Found", "Verdict", "Reason"], rows)
+    return table(
+        ["#", "What the source says", "Printed in", "Tolerance", "Found", "Verdict", "Reason"], rows
+    )
 
 
 def verdict_counts(verdicts: Sequence[Verdict]) -> str:
     """Return one line with how many verdicts of each kind there are."""
-    counts = Counter(found.verdict for found in verdicts)
-    return "\n" + ", ".join(f"{n} {word}" for word, n in counts.most_common()) + ".\n"
+    return f"\n{tally(found.verdict for found in verdicts)}.\n"
 
 
 def zone_table(found: Sequence[ZoneDifference]) -> str:

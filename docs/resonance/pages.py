@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from docs.resonance.cases import SEPARATED_FROM, Curve
@@ -11,6 +10,7 @@ from docs.resonance.evidence import Evidence
 from docs.resonance.numerics import Agreement, Drift, LinearLimit
 from docs.resonance.starts import Start
 from docs.resonance.verdicts import Claim, Verdict
+from docs.validation.tally import tally
 from gearlube_core.periodic.branch import Kind
 
 UM = 1e6
@@ -38,7 +38,7 @@ def claims_table(claims: Sequence[Claim], verdicts: Sequence[Verdict]) -> str:
         ]
         for claim, found in zip(claims, verdicts, strict=True)
     ]
-    heads = ["#", "Claim", "Printed in", "Tolerance", "Shipped mesh", "Verdict"]
+    heads = ["#", "What the paper says", "Printed in", "Tolerance", "Shipped mesh", "Verdict"]
     return table([*heads, "0 / 0.2 / 0.3 / 0.4 % mismatch", "Verdict", "Reason"], rows)
 
 
@@ -61,7 +61,9 @@ def flank_table(claims: Sequence[Claim], verdicts: Sequence[Verdict]) -> str:
                 found.reason,
             ]
         )
-    return table(["#", "Claim", "Printed in", "Tolerance", "Found", "Verdict", "Reason"], rows)
+    return table(
+        ["#", "What the paper says", "Printed in", "Tolerance", "Found", "Verdict", "Reason"], rows
+    )
 
 
 def verdict_counts(verdicts: Sequence[Verdict]) -> str:
@@ -71,8 +73,7 @@ def verdict_counts(verdicts: Sequence[Verdict]) -> str:
         ("Shipped mesh", [v.shipped_verdict for v in verdicts]),
         ("reconstructed mesh with mismatch", [v.reconstructed_verdict for v in verdicts]),
     ):
-        counts = Counter(word for word in words if word != "-")
-        parts.append(f"{name}: " + ", ".join(f"{n} {word}" for word, n in counts.most_common()))
+        parts.append(f"{name}: {tally(word for word in words if word != '-')}")
     return "\n" + "; ".join(parts) + ".\n"
 
 

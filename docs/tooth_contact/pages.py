@@ -43,7 +43,7 @@ def claims_table(claims: Sequence[Claim], dataset: xr.Dataset) -> str:
                 found.reason,
             ]
         )
-    heads = ["#", "Claim", "Printed in", "Tolerance", "Found", "Verdict", "Reason"]
+    heads = ["#", "What the paper says", "Printed in", "Tolerance", "Found", "Verdict", "Reason"]
     return table(heads, rows)
 
 

@@ -18,6 +18,7 @@ from gearlube.variation.summary import cells, inputs_of, varies
 _MOST_SERIES = len(SERIES)
 _MOST_BARS = 12  # inputs of a chart of ranks
 _BINS = 30
+_DOTTED = "95 % lie between"
 _LETTERS, _TITLE_LETTERS = 42, 28  # in a line of a label, of the title of a narrow panel
 
 
@@ -89,8 +90,9 @@ def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
                     )
                     for end in np.percentile(column, [2.5, 97.5]):
                         ax.axvline(end, color=SERIES[i], linestyle=":", linewidth=1.1)
+                    ax.plot([], [], ":", color=SERIES[i], label=_DOTTED if i == 0 else None)
             ax.set_xlabel(_about(results, name))
-            ax.set_ylabel("points")
+            ax.set_ylabel("number of points")
             ax.xaxis.set_major_locator(MaxNLocator(4))
             ax.yaxis.set_major_locator(MaxNLocator(6, integer=True))
         if panels[0].get_legend_handles_labels()[1]:

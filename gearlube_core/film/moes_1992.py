@@ -1,10 +1,13 @@
-"""Central film of a line contact across all regimes, Moes 1992; used for domains and starts."""
+"""Central film of a line contact across all regimes, Moes 1992."""
 
 from __future__ import annotations
 
 import math
 
+from gearlube_core.kernels.jit import kernel
 
+
+@kernel
 def central_film_group(M: float, L: float) -> float:
     """Return the central film H = (h/R) (2U)^(-1/2) between the four regimes.
 
@@ -24,7 +27,8 @@ def central_film_group(M: float, L: float) -> float:
 
     Notes
     -----
-    A fit, accurate to about 10 %. It only sets domain sizes and initial values here.
+    A fit, accurate to about 10 %. It sets domain sizes and initial values, and is what the film
+    model of lines corrects.
     Source: [moes_1992], coefficients for the central film as quoted by [venner_lubrecht_2000].
     """
     RI, EI = 3.0 / M, 2.621 * M**-0.2

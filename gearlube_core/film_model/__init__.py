@@ -1,1 +1,1 @@
-"""Films of elliptical contacts by a surrogate of solved thermal Eyring films."""
+"""Films of elliptical and line contacts by a surrogate of solved thermal Eyring films."""

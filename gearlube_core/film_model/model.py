@@ -19,6 +19,7 @@ from gearlube_core.storage.atomic_file import write_text
 
 FORMAT = "gearlube film model"
 VERSION = 1
+FLANK, LINE, ROLLER = "flank", "line", "roller"  # kinds of contact
 _SHIPPED = Path(__file__).parent / "data"
 _CURE = "Make one with `gearlube film-model fit`, or name a model of the package."
 
@@ -98,6 +99,11 @@ class FilmModel:
             parts[name] = self.numbers[start:end].reshape(shape).copy()
             start = end
         return parts
+
+    @property
+    def kind(self) -> str:
+        """Return the kind of contact: "flank", an angled ellipse, "line", or "roller"."""
+        return str(self.provenance.get("kind", FLANK))
 
     @property
     def domain(self) -> dict[str, tuple[float, float]]:

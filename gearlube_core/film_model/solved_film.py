@@ -45,6 +45,34 @@ class SolvedFilm(NamedTuple):
 
 
 @kernel
+def with_bounds(
+    numbers: Array, film: float, friction: float, p: float, outside: float, inlet: FilmInlet
+) -> SolvedFilm:
+    """Return film and friction with the share outside for solids and limiting stress as well.
+
+    Parameters
+    ----------
+    numbers
+        Of the model.
+    film, friction
+        By it [m], [-].
+    p
+        Mean Hertz pressure [Pa].
+    outside
+        Of `share_outside`.
+    inlet
+        From `film_inlet`.
+    """
+    other = abs(inlet.contact_modulus / numbers[MODULUS] - 1.0) / _MODULUS_MARGIN
+    inside = (1.0 - outside) * (1.0 - smooth_step(other))
+    limit = inlet.limiting_stress + inlet.limiting_slope * p
+    if limit > 0.0:
+        reached = (friction * p / limit - _LIMIT_BEGINS) / (_LIMIT_ENDS - _LIMIT_BEGINS)
+        inside *= 1.0 - smooth_step(reached)
+    return SolvedFilm(film, friction, 1.0 - inside, numbers[BOUNDS], numbers[BOUNDS + 1])
+
+
+@kernel
 def solved_film_at(
     numbers: Array, load: float, speed: float, slip: float, place: FilmPlace, inlet: FilmInlet
 ) -> SolvedFilm:
@@ -87,13 +115,7 @@ def solved_film_at(
     across = speed * place.cos_psi
     semi_axis = semi_minor_axis(load, p, place)
     friction = reference_friction(film, p, across, slip, semi_axis, inlet) * math.exp(y_friction)
-    other = abs(inlet.contact_modulus / numbers[MODULUS] - 1.0) / _MODULUS_MARGIN
-    inside = (1.0 - outside) * (1.0 - smooth_step(other))
-    limit = inlet.limiting_stress + inlet.limiting_slope * p
-    if limit > 0.0:
-        reached = (friction * p / limit - _LIMIT_BEGINS) / (_LIMIT_ENDS - _LIMIT_BEGINS)
-        inside *= 1.0 - smooth_step(reached)
-    return SolvedFilm(film, friction, 1.0 - inside, numbers[BOUNDS], numbers[BOUNDS + 1])
+    return with_bounds(numbers, film, friction, p, outside, inlet)
 
 
 @kernel

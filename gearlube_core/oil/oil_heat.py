@@ -9,7 +9,10 @@ from gearlube_core.checks import check_positive, check_within
 
 @dataclass(frozen=True, slots=True)
 class OilHeat:
-    """Thermal data of an oil for thermal solutions; the defaults are typical of mineral oils.
+    """Thermal data of an oil for thermal solutions.
+
+    The default conductivity lies 4 % above that of the mineral oil FVA 3, 0.134 W/(m K)
+    [wingertszahn_2023]. The default heat capacity is assumed; no source was compared.
 
     Parameters
     ----------

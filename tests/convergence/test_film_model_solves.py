@@ -49,7 +49,7 @@ def test_a_finer_grid_changes_films_at_second_order():
 
 
 def test_train_runs_from_the_command_line_and_fit_refuses_too_few(tmp_path):
-    few = ["--box", "2", "--axle", "1", "--edge", "1", "--calibration", "1", "--fresh", "1"]
+    few = ["--box", "2", "--visited", "1", "--edge", "1", "--calibration", "1", "--fresh", "1"]
     out = tmp_path / "films"
     runner = CliRunner()
     command = ["film-model", "train", *few, "--fine", "0", "--jobs", "1", "--out", str(out)]

@@ -1,13 +1,24 @@
 """What `--example` prints or writes can be read by the command that it is for."""
 
+import json
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 import gearlube as gl
+from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.command import app
 from gearlube.studies.sound.generic_path import generic_path
 from gearlube.studies.sound.transfer_csv import read_csv_path
+from gearlube_core.bearings.bearing_file import BearingFile
+from gearlube_core.ehl.case.contact_case import LineCase, PointCase
+from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.ehl.case.rough_case import RoughCase
+from gearlube_core.hypoid_design.blank_file import BlankFile
+from gearlube_core.oil.oil_file import OilFile
 from gearlube_core.surface.statistics import profile_statistics
 
 
@@ -86,3 +97,37 @@ def test_a_traction_table_gives_the_stress_of_which_it_was_made(tmp_path):
 def test_a_gear_file_is_read(words, kind, name, tmp_path):
     (tmp_path / "gear.toml").write_text(printed(*words), encoding="utf-8")
     assert kind.from_toml(tmp_path / "gear.toml").name == name
+
+
+def test_files_are_printed_as_shipped_and_without_loading_what_computes():
+    words = (["sweep"], ["map"], ["axle", "show"], ["bearing"], ["oil"], ["contact"], ["design"])
+    films = (["ehl", kind] for kind in ("line", "point", "hypoid", "rough", "helical"))
+    script = (
+        "import json, sys\n"
+        "from typer.testing import CliRunner\n"
+        "from gearlube.command import app\n"
+        "asked = json.loads(sys.argv[1])\n"
+        "texts = [CliRunner().invoke(app, [*one, '--example']).stdout for one in asked]\n"
+        "print(json.dumps([texts, sorted({'numba', 'scipy', 'xarray'} & set(sys.modules))]))\n"
+    )
+    asked = json.dumps([*words, *films])
+    done = subprocess.run(
+        [sys.executable, "-c", script, asked], capture_output=True, text=True, check=True
+    )
+    texts, loaded = json.loads(done.stdout)
+    axle = AxleFile.shipped_text("mohammadpour_2015")
+    assert texts == [
+        axle,
+        axle,
+        axle,
+        BearingFile.shipped_text("wingertszahn_2023"),
+        OilFile.shipped_text("iso_vg_220_pao"),
+        gl.HypoidGearFile.shipped_text("mohammadpour_2015"),
+        BlankFile.shipped_text("hypoid_13_42"),
+        LineCase.shipped_text("jamali_2015"),
+        PointCase.shipped_text("mourier_2006"),
+        HypoidCase.shipped_text("mohammadpour_2015"),
+        RoughCase.shipped_text("jamali_2015_a"),
+        gl.HelicalGearFile.shipped_text("jamali_2015_a"),
+    ]
+    assert loaded == []

@@ -13,8 +13,9 @@ from gearlube.studies.film_model.audit import Audit, AuditRow, audit_lines
 from gearlube.studies.film_model.calibration import conformal_bounds
 from gearlube.studies.film_model.fit import fit_model
 from gearlube.studies.film_model.fit_settings import FitSettings
+from gearlube.studies.film_model.kinds import HYPOID_FLANK
 from gearlube.studies.film_model.net_fit import fit_net, net_values
-from gearlube.studies.film_model.plan import COARSE, FINE, FilmPlan, FilmTask
+from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, box_contacts, widened_box
 from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
@@ -27,14 +28,16 @@ from gearlube_core.film_model.groups import reference_film as reference
 from gearlube_core.film_model.solved_film import SolvedFilm
 from gearlube_core.oil.lubricant import Lubricant
 
+COARSE, FINE = HYPOID_FLANK.coarse, HYPOID_FLANK.fine
+
 SMALL = FilmPlan(
     box=140,
-    axle=30,
+    visited=30,
     edge=10,
     calibration=60,
     fresh=40,
     fine_box=25,
-    fine_axle=5,
+    fine_visited=5,
     fine_edge=2,
     fine_fresh=1,
 )
@@ -111,12 +114,12 @@ def test_training_resumes_and_keeps_failures(monkeypatch, tmp_path):
 
     plan = FilmPlan(
         box=6,
-        axle=1,
+        visited=1,
         edge=1,
         calibration=1,
         fresh=1,
         fine_box=1,
-        fine_axle=0,
+        fine_visited=0,
         fine_edge=0,
         fine_fresh=0,
     )

@@ -12,13 +12,12 @@ import numpy as np
 from scipy.stats import binom
 
 from gearlube.studies.film_model.calibration import CONFIDENCE, Misses
-from gearlube.studies.film_model.plan import COARSE, FINE
-from gearlube.studies.film_model.solve import solve_contact
+from gearlube.studies.film_model.kinds import Contact, kind_of
 from gearlube.studies.film_model.targets import TO_LIMIT
 from gearlube_core.errors import GearLubeError, ParameterError
-from gearlube_core.film_model.groups import FilmContact, FilmGroups, contact_groups
+from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.film_model.solved_film import SolvedFilm, solved_film
+from gearlube_core.film_model.solved_film import SolvedFilm
 from gearlube_core.progress import Progress, no_progress
 
 _DOUBT = 0.05  # chance of as many violations, below which the bound does not hold
@@ -27,7 +26,7 @@ _DOUBT = 0.05  # chance of as many violations, below which the bound does not ho
 class AuditRow(NamedTuple):
     """One contact of an audit; films [m], frictions [-]."""
 
-    contact: FilmContact
+    contact: Contact
     model: SolvedFilm
     film: float  # solved, led to the limit of fine grids; nan: not solved
     friction: float
@@ -75,7 +74,7 @@ class Audit(NamedTuple):
 
 def audit(
     model: FilmModel,
-    contacts: Sequence[FilmContact],
+    contacts: Sequence[Contact],
     *,
     progress: Progress = no_progress,
 ) -> Audit:
@@ -97,11 +96,11 @@ def audit(
 
     Notes
     -----
-    Each contact is solved on 257 x 65 and on 129 x 33 nodes, and led to the limit of fine grids.
+    Each contact is solved on both grids of its kind, and led to the limit of fine grids.
     Coarser solutions alone would err by more than the model.
     """
     numbers = model.copied_numbers()
-    films = [solved_film(numbers, one) for one in contacts]
+    films = [kind_of(one).predict(numbers, one) for one in contacts]
     inside = [n for n, film in enumerate(films) if film.outside == 0.0]
     if not inside:
         raise ParameterError(
@@ -112,15 +111,16 @@ def audit(
     for done, n in enumerate(inside, start=1):
         rows.append(_row(contacts[n], films[n]))
         progress(done / len(inside), "contacts solved")
-    load = np.array([one.load for one in contacts])
+    load = np.array([one[0] for one in contacts])  # load, or load per length of a line
     share = 1.0 - float(load[inside].sum() / load.sum())
     bounds = (model.film_bound, model.friction_bound)
     return Audit(tuple(rows), len(contacts) - len(inside), share, bounds)
 
 
-def _row(contact: FilmContact, film: SolvedFilm) -> AuditRow:
+def _row(contact: Contact, film: SolvedFilm) -> AuditRow:
+    kind = kind_of(contact)
     try:
-        coarse, fine = (solve_contact(contact, nodes) for nodes in (COARSE, FINE))
+        coarse, fine = (kind.solve(contact, nodes) for nodes in (kind.coarse, kind.fine))
     except GearLubeError as error:
         return AuditRow(contact, film, math.nan, math.nan, str(error))
     if not (coarse.converged and fine.converged):
@@ -182,7 +182,7 @@ def audit_table(found: Audit) -> str:
     for row in found.rows:
         writer.writerow(
             (
-                *(f"{value:.6g}" for value in contact_groups(row.contact)),
+                *(f"{value:.6g}" for value in kind_of(row.contact).groups(row.contact)),
                 f"{row.model.central_film:.6g}",
                 f"{row.film:.6g}",
                 f"{row.model.friction_coefficient:.6g}",

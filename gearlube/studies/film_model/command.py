@@ -15,7 +15,8 @@ logger = logging.getLogger("gearlube")
 
 film_model = typer.Typer(
     name="film-model",
-    help="Train, fit, show and audit a surrogate of solved thermal films of hypoid flanks.",
+    help="Train, fit, show and audit surrogates of solved thermal films: hypoid flanks, lines, "
+    "rollers.",
     no_args_is_help=True,
 )
 
@@ -29,19 +30,29 @@ _ModelArgument = Annotated[
 
 @film_model.command()
 def train(
+    contact: Annotated[
+        str,
+        typer.Option(
+            help="flank: ellipses of a hypoid axle; line: lines of helical and spur pairs; "
+            "roller: rollers on the races of bearings.",
+            metavar="KIND",
+        ),
+    ] = "flank",
     oil: Annotated[
         list[str] | None,
         typer.Option(
-            help="Shipped oil or oil file (TOML) that the axle runs in; may be given again. "
+            help="Shipped oil or oil file (TOML) that the gears run in; may be given again. "
             "Default: mohammadpour_2015 and karagiannis_2012.",
             metavar="OIL",
         ),
     ] = None,
     mesh_table: Annotated[
-        str, typer.Option(help="Shipped mesh table of the axle.", metavar="TABLE")
+        str, typer.Option(help="Shipped mesh table of the axle, for flanks.", metavar="TABLE")
     ] = "mohammadpour_2015",
     box: Annotated[int, typer.Option(help="Contacts of the box of groups.", metavar="N")] = 760,
-    axle: Annotated[int, typer.Option(help="Contacts that the axle visits.", metavar="N")] = 300,
+    visited: Annotated[
+        int, typer.Option(help="Contacts that axle, helical pairs or bearings visit.", metavar="N")
+    ] = 300,
     edge: Annotated[
         int, typer.Option(help="More contacts of the box with thick films.", metavar="N")
     ] = 160,
@@ -49,7 +60,7 @@ def train(
         int, typer.Option(help="Independent contacts of the box, for the bounds.", metavar="N")
     ] = 250,
     fresh: Annotated[
-        int, typer.Option(help="Independent contacts of the axle, for the test.", metavar="N")
+        int, typer.Option(help="Independent visited contacts, for the test.", metavar="N")
     ] = 304,
     fine: Annotated[
         int,
@@ -64,7 +75,7 @@ def train(
     out: Annotated[Path, typer.Option(help="Folder of the films.")] = Path("gearlube_film_model"),
     overwrite: OverwriteOption = False,
 ) -> None:
-    """Solve the films that a model learns from: about a second of a processor each.
+    """Solve the films that a model learns from: a second of a processor each, lines a fifth.
 
     Writes solves.csv, one row a film; a film that fails keeps its reason. A stopped run goes on
     when the same command runs again.
@@ -77,15 +88,16 @@ def train(
 
     with exit_on_error():
         plan = FilmPlan(
+            contact=contact,
             oils=tuple(oil) if oil else FilmPlan().oils,
             mesh_table=mesh_table,
             box=box,
-            axle=axle,
+            visited=visited,
             edge=edge,
             calibration=calibration,
             fresh=fresh,
             fine_box=fine,
-            fine_axle=min(axle, fine // 2),
+            fine_visited=min(visited, fine // 2),
             fine_edge=min(edge, fine // 3),
             fine_fresh=min(fresh, fine // 3),
             seed=seed,
@@ -136,7 +148,7 @@ def fit(
         if out.exists() and not overwrite:
             raise ParameterError(f"--out must be a new file, got {out}. Add --overwrite.")
         plan = stored_plan(folder)
-        rows = list(SolveTable(folder / SOLVES).rows.values())
+        rows = list(SolveTable(folder / SOLVES, plan.kind).rows.values())
         with progress_on(console, "fit") as progress:
             fitted = fit_model(
                 rows,

@@ -9,20 +9,13 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube.studies.film_model.calibration import Misses, conformal_bounds
+from gearlube.studies.film_model.draws import Box, widened
 from gearlube.studies.film_model.fit_settings import FitSettings
+from gearlube.studies.film_model.kinds import Contact, ContactKind, kind_of
 from gearlube.studies.film_model.net_fit import fit_net
-from gearlube.studies.film_model.plan import TRAINING, FilmPlan
+from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.process import FilmProcess, fit_process
 from gearlube.studies.film_model.provenance import provenance_of
-from gearlube.studies.film_model.samples import (
-    DOMAIN,
-    TRAINED,
-    Box,
-    axle_contacts,
-    box_contact,
-    box_contacts,
-    widened_box,
-)
 from gearlube.studies.film_model.solves import SolveRow
 from gearlube.studies.film_model.targets import (
     Targets,
@@ -33,18 +26,18 @@ from gearlube.studies.film_model.targets import (
 )
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-from gearlube_core.film_model.groups import FilmContact, FilmGroups, contact_groups
+from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.film_model.solved_film import solved_film
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.progress import Progress, no_progress, part_of
 
+_LEAST_WIDTH = 1e-9  # of a group that varies
 _BORDER = 0.1  # of a group's range, where the model fades
-_FEWEST = {"box": 100, "axle": 20, "calibration": 39, "fresh": 20}
+_FEWEST = {"box": 100, "calibration": 39, "fresh": 20}
+_FEWEST_VISITED = 20
 _FEWEST_PAIRS = 20
 _PAIR_NOISE = 0.1  # first guess, of the corrections' variance
-_AXLE_SHARE = 0.3  # of the points that the net learns from
+_VISITED_SHARE = 0.3  # of the points that the net learns from
 _TRAINED_WEIGHT = 4.0  # of a solved contact over a point of the process
 
 
@@ -103,25 +96,26 @@ def fit_model(
     correction. They hold for 95 % of contacts drawn so [vovk_2005].
     """
     settings = settings or FitSettings()
-    check_rows(rows)
+    kind = plan.kind
+    check_rows(rows, kind)
     progress(0.02, "processes")
-    trained = targets_of(solved_rows(rows, *TRAINING))
+    trained = targets_of(solved_rows(rows, *kind.training))
     processes = [fit_process(trained.groups, trained.values[:, n]) for n in range(2)]
     progress(0.3, "grid")
-    pairs, steps = grid_corrections(rows, *TRAINING)
+    pairs, steps = grid_corrections(rows, *kind.training)
     corrections = [fit_process(pairs.groups, steps[:, n], noise=_PAIR_NOISE) for n in range(2)]
     grid_left = [_rms(one.left_out()) for one in corrections]
     progress(0.4, "points of the net")
     oils = tuple(read_oil(oil).lubricant for oil in plan.oils)
-    box = widened_box(oils)
-    mesh = shipped_mesh_table(plan.mesh_table)
-    on_axle = int(_AXLE_SHARE * settings.points)
+    box = widened(kind.box, oils)
+    visited = int(_VISITED_SHARE * settings.points)
+    seeds = 1000 + settings.seed, 2000 + settings.seed
     drawn = [
-        *box_contacts(box, settings.points - on_axle, 1000 + settings.seed),
-        *axle_contacts(on_axle, 2000 + settings.seed, mesh, oils, TRAINED),
+        *kind.box_contacts(box, settings.points - visited, seeds[0]),
+        *kind.visits(visited, seeds[1], plan.machines, oils, kind.trained),
     ]
-    groups = np.array([contact_groups(one) for one in drawn])
-    low, high = domain_of(box, groups)
+    groups = np.array([kind.groups(one) for one in drawn])
+    low, high = domain_of(box, groups, kind)
     points = np.vstack([groups, trained.groups])
     corrected = trained.values + _at(corrections, trained.groups)
     values = np.vstack([_at(processes, groups) + _at(corrections, groups), corrected])
@@ -147,16 +141,16 @@ def fit_model(
     return Fitted(model, misses["calibration"], misses["fresh"], found, limits)
 
 
-def check_rows(rows: Sequence[SolveRow]) -> None:
+def check_rows(rows: Sequence[SolveRow], kind: ContactKind) -> None:
     """Refuse a training set that is too small."""
-    for kind, least in _FEWEST.items():
-        count = len(solved_rows(rows, kind))
+    for name, least in {**_FEWEST, kind.visited: _FEWEST_VISITED}.items():
+        count = len(solved_rows(rows, name))
         if count < least:
             raise ParameterError(
-                f"A fit needs at least {least} solved contacts of the kind {kind}, got {count}. "
+                f"A fit needs at least {least} solved contacts of the kind {name}, got {count}. "
                 "Let `gearlube film-model train` go on."
             )
-    pairs = len(grid_corrections(rows, *TRAINING)[0].contacts)
+    pairs = len(grid_corrections(rows, *kind.training)[0].contacts)
     if pairs < _FEWEST_PAIRS:
         raise ParameterError(
             f"A fit needs at least {_FEWEST_PAIRS} contacts solved on both grids, got {pairs}. "
@@ -164,23 +158,26 @@ def check_rows(rows: Sequence[SolveRow]) -> None:
         )
 
 
-def domain_of(box: Box, groups: Array) -> tuple[Array, Array]:
+def domain_of(box: Box, groups: Array, kind: ContactKind) -> tuple[Array, Array]:
     """Return the lowest and highest value of each group in the domain."""
-    corners = [contact_groups(box_contact(box, np.full(len(box), t))) for t in (0.0, 1.0)]
+    corners = [kind.groups(kind.box_contact(box, np.full(len(box), t))) for t in (0.0, 1.0)]
     low, high = np.min(corners, axis=0), np.max(corners, axis=0)
     # groups that follow from the others: down to what was met, up to their limit
-    for name, most in (("heat", math.log(DOMAIN.most_heat)), ("thickness", DOMAIN.most_thickness)):
+    limits = kind.domain
+    for name, most in (("heat", math.log(limits.most_heat)), ("thickness", limits.most_thickness)):
         n = FilmGroups._fields.index(name)
         least = groups[:, n].min()
         low[n], high[n] = least - _BORDER * (most - least), most
-    low[0] += math.log(DOMAIN.least_pressure / TRAINED.least_pressure)
-    return low, high
+    low[0] += math.log(limits.least_pressure / kind.trained.least_pressure)
+    # angles and ellipticity of a line are zero
+    still = high - low < _LEAST_WIDTH
+    return np.where(still, low - 1.0, low), np.where(still, high + 1.0, high)
 
 
-def evaluated(model: FilmModel, contacts: Sequence[FilmContact]) -> Array:
+def evaluated(model: FilmModel, contacts: Sequence[Contact]) -> Array:
     """Return film [m] and friction [-] of a model, (n, 2)."""
     numbers = model.copied_numbers()
-    return np.array([solved_film(numbers, one)[:2] for one in contacts])
+    return np.array([kind_of(one).predict(numbers, one)[:2] for one in contacts])
 
 
 def at_limit(targets: Targets, corrections: Sequence[FilmProcess]) -> Array:

@@ -24,13 +24,14 @@ class FilmProcess:
 
     shift: Array
     scale: Array
+    varies: Array  # features that do
     straight: Array
     process: Any
     spread: float
 
     def __call__(self, groups: Array) -> Array:
         """Return the mean (n,) at groups (n, N_GROUPS)."""
-        x = (film_features(groups) - self.shift) / self.scale
+        x = ((film_features(groups) - self.shift) / self.scale)[:, self.varies]
         return np.asarray(_lines(x) @ self.straight + self.spread * self.process.predict(x))
 
     def left_out(self) -> Array:
@@ -70,8 +71,9 @@ def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmPro
         ) from error
     x = film_features(groups)
     shift, scale = x.mean(axis=0), x.std(axis=0)
-    scale = np.where(scale > 1e-9 * np.abs(shift), scale, 1.0)
-    x = (x - shift) / scale
+    varies = scale > 1e-9 * np.abs(shift)
+    scale = np.where(varies, scale, 1.0)
+    x = ((x - shift) / scale)[:, varies]
     straight = np.asarray(np.linalg.lstsq(_lines(x), values, rcond=None)[0], dtype=np.float64)
     rest = values - _lines(x) @ straight
     spread = float(rest.std())
@@ -83,7 +85,7 @@ def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmPro
         warnings.simplefilter("ignore", ConvergenceWarning)
         process.fit(x[some], rest[some] / spread)
     process = GaussianProcessRegressor(process.kernel_, optimizer=None).fit(x, rest / spread)
-    return FilmProcess(shift, scale, straight, process, spread)
+    return FilmProcess(shift, scale, varies, straight, process, spread)
 
 
 def _lines(x: Array) -> Array:

@@ -7,12 +7,13 @@ from datetime import UTC, datetime
 from typing import Any
 
 from gearlube.studies.film_model.calibration import CONFIDENCE, Misses
+from gearlube.studies.film_model.draws import Box
 from gearlube.studies.film_model.fit_settings import FitSettings
-from gearlube.studies.film_model.plan import COARSE, FINE, TRAINING, FilmPlan
-from gearlube.studies.film_model.samples import Box
+from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solves import SolveRow
 from gearlube.studies.film_model.targets import solved_rows
 from gearlube_core import __version__
+from gearlube_core.film_model.model import FLANK, LINE
 
 
 def provenance_of(
@@ -42,20 +43,21 @@ def provenance_of(
     box
         Of the training.
     """
-    kinds = (*TRAINING, "calibration", "fresh")
-    counts = {kind: len(solved_rows(rows, kind)) for kind in kinds}
-    fine = len(solved_rows(rows, *TRAINING, fine=True))
+    kind = plan.kind
+    sets = (*kind.training, "calibration", "fresh")
+    counts = {name: len(solved_rows(rows, name)) for name in sets}
+    fine = len(solved_rows(rows, *kind.training, fine=True))
     over = misses["fresh"].violations((bounds[0], bounds[1]))
     return {
         "name": name[0],
         "state": name[1],
-        "contact": "elliptical, entrainment and sliding at angles: hypoid flank",
+        "kind": kind.name,
+        "contact": kind.words,
         "physics": "steady thermal Eyring film, fully flooded, smooth, bulk at the oil's "
         "temperature; Roelands and Houpert, Dowson and Higginson, no limiting stress; steel",
-        "oils_of_the_axle": list(plan.oils),
-        "mesh_table": plan.mesh_table,
-        "grid": f"{COARSE[0]} x {COARSE[1]} led to the limit by {fine} films on "
-        f"{FINE[0]} x {FINE[1]}",
+        f"oils_of_the_{kind.visited}": list(plan.oils),
+        **_machines(plan),
+        "grid": f"{_grid(kind.coarse)} led to the limit by {fine} films on {_grid(kind.fine)}",
         "solves": counts,
         "fine_solves": fine,
         "failed": sum(bool(row.failure) for row in rows),
@@ -72,5 +74,15 @@ def provenance_of(
         },
         "grid_error_left_percent": [round(100.0 * one, 4) for one in grid_left],
         "errors_box": misses["calibration"].summary(),
-        "errors_fresh_axle": misses["fresh"].summary(),
+        f"errors_fresh_{kind.visited}": misses["fresh"].summary(),
     }
+
+
+def _machines(plan: FilmPlan) -> dict[str, Any]:
+    if plan.contact == FLANK:
+        return {"mesh_table": plan.mesh_table}
+    return {"pairs" if plan.contact == LINE else "bearings": list(plan.machines)}
+
+
+def _grid(nodes: tuple[int, int]) -> str:
+    return f"{nodes[0]} x {nodes[1]}" if nodes[1] > 1 else str(nodes[0])

@@ -4,14 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from functools import partial
 
 import numpy as np
-from scipy.stats import qmc
 
+from gearlube.studies.film_model.draws import (
+    SOLID_HEAT_CAPACITY,
+    STEEL,
+    Box,
+    Limits,
+    draws_until,
+    even_draws,
+    numbers_of,
+    oil_temperatures,
+    widened,
+)
 from gearlube_core.arrays import Array
 from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
-from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.ehl.gears.hypoid_window import pair_contact
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.groups import FilmContact, contact_groups, film_contact
@@ -21,31 +30,18 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
-_STEEL = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
-_E = _STEEL.contact_modulus
-_SOLID_K = _STEEL.conductivity
-_SOLID_C = _STEEL.density * _STEEL.heat_capacity
+_E = STEEL.contact_modulus
 
 _RPM_PER_KMH = 22.95  # pinion, of the axle of Mohammadpour et al. 2015
 _LEAST_LOAD = 1.0  # N
 
 
-class Limits(NamedTuple):
-    """Where light contacts end, whose films are nearly those of rigid solids, and hot ones."""
-
-    least_pressure: float  # mean [Pa]
-    most_thickness: float  # of `FilmGroups` [-]
-    most_heat: float  # beta eta0 u^2/k of the oil; beyond 0.6 films take long or are not found
-
-
 # training goes a little farther
+# beyond a heat of 0.6 films take long or are not found
 DOMAIN, TRAINED = Limits(0.2e9, 1.0, 0.6), Limits(0.18e9, 1.15, 0.6)
-ANYWHERE = Limits(0.0, math.inf, math.inf)
 _EDGE_THICKNESS = 0.6  # from there on films change most from contact to contact
 
-Box = dict[str, tuple[float, float, str]]
-
-# lowest, highest; drawn evenly, or evenly in the logarithm. What the shipped axle visits from 20 to
+# What the shipped axle visits from 20 to
 # 100 km/h, with 5 to 400 N.m and oil of 40 to 120 degC, and a margin.
 HYPOID_BOX: Box = {
     "mean pressure [GPa]": (1e-9 * TRAINED.least_pressure, 1.08, "log"),
@@ -63,36 +59,11 @@ HYPOID_BOX: Box = {
     "conductivity [W/(m K)]": (0.105, 0.155, "log"),
     "heat capacity [MJ/(m3 K)]": (1.6, 1.9, "log"),
 }
-_OIL_TEMPERATURES = (313.15, 393.15)  # K, of the axle's draws
-_OIL_MARGIN = 1.03  # of a box that is widened for an oil
 
 
 def widened_box(oils: Sequence[Lubricant]) -> Box:
     """Return the box, widened where an oil between 40 and 120 degC lies beyond it."""
-    box = dict(HYPOID_BOX)
-    for oil in oils:
-        for temperature in oil_temperatures(oil):
-            state = lubricant_state(oil.parameters(), temperature)
-            log_ratio = math.log(state.eta0 / ROELANDS_KAPPA)
-            found = {
-                "viscosity [Pa s]": state.eta0,
-                "Roelands Z": state.alpha / (ROELANDS_PRESSURE * log_ratio),
-                "Houpert S0": state.beta * (temperature - GLASS_TEMPERATURE) / log_ratio,
-                "conductivity [W/(m K)]": state.conductivity,
-                "heat capacity [MJ/(m3 K)]": 1e-6 * oil.density * oil.heat_capacity,
-            }
-            for name, value in found.items():
-                low, high, scale = box[name]
-                if not low <= value <= high:
-                    low, high = min(low, value / _OIL_MARGIN), max(high, value * _OIL_MARGIN)
-                    box[name] = (low, high, scale)
-    return box
-
-
-def oil_temperatures(oil: Lubricant) -> tuple[float, float]:
-    """Return the temperatures of the axle's oil within the range of its data [K]."""
-    low, high = _OIL_TEMPERATURES
-    return max(low, oil.temperature_low), min(high, oil.temperature_high)
+    return widened(HYPOID_BOX, oils)
 
 
 def box_contacts(box: Box, count: int, seed: int, *, random: bool = False) -> list[FilmContact]:
@@ -108,28 +79,24 @@ def box_contacts(box: Box, count: int, seed: int, *, random: bool = False) -> li
         Independent draws of the domain, as a calibration needs them; else a scrambled sequence of
         Sobol, which also covers the margin below the domain's pressures.
     """
-    rng = np.random.default_rng(seed)
-    draws = (
-        rng.random((4 * count + 64, len(box)))
-        if random
-        else qmc.Sobol(len(box), scramble=True, rng=rng).random_base2(
-            math.ceil(math.log2(2 * count + 64))
-        )
-    )
     limits = DOMAIN if random else TRAINED
-    found = [one for one in (box_contact(box, draw) for draw in draws) if _fits(one, limits)]
-    return found[:count]
+    return even_draws(
+        len(box),
+        partial(box_contact, box),
+        lambda one: _fits(one, limits),
+        count,
+        seed,
+        random=random,
+    )
 
 
 def edge_contacts(box: Box, count: int, seed: int) -> list[FilmContact]:
     """Return contacts of a box near its thick films, drawn evenly there; as `box_contacts`."""
-    found: list[FilmContact] = []
-    rng = np.random.default_rng(seed)
-    while len(found) < count:
-        one = box_contact(box, rng.random(len(box)))
-        if _fits(one, TRAINED) and contact_groups(one).thickness >= _EDGE_THICKNESS:
-            found.append(one)
-    return found
+
+    def thick(one: FilmContact) -> bool:
+        return _fits(one, TRAINED) and contact_groups(one).thickness >= _EDGE_THICKNESS
+
+    return draws_until(len(box), partial(box_contact, box), thick, count, seed)
 
 
 def _fits(contact: FilmContact, limits: Limits) -> bool:
@@ -146,12 +113,7 @@ def _fits(contact: FilmContact, limits: Limits) -> bool:
 
 def box_contact(box: Box, draw: Array) -> FilmContact:
     """Return the contact of one draw, numbers from 0 to 1 in the order of the box."""
-    p, ratio, psi, slide, delta, eta0, Z, tau0, per, times, S0, T, k, c = (
-        math.exp(math.log(low) + t * math.log(high / low))
-        if scale == "log"
-        else low + t * (high - low)
-        for t, (low, high, scale) in zip(draw, box.values(), strict=True)
-    )
+    p, ratio, psi, slide, delta, eta0, Z, tau0, per, times, S0, T, k, c = numbers_of(box, draw)
     R_x, u = math.sqrt(times / per), math.sqrt(times * per)
     coefficient = hertz_coefficients(R_x, ratio * R_x, _E)[2]
     log_ratio = math.log(eta0 / ROELANDS_KAPPA)
@@ -176,8 +138,8 @@ def box_contact(box: Box, draw: Array) -> FilmContact:
         temperature=temperature,
         conductivity=k,
         heat_capacity=1e6 * c,
-        solid_conductivity=_SOLID_K,
-        solid_heat_capacity=_SOLID_C,
+        solid_conductivity=STEEL.conductivity,
+        solid_heat_capacity=SOLID_HEAT_CAPACITY,
     )
 
 
@@ -265,5 +227,5 @@ def flank_contact_of(
         ),
         (0.0, 0.0),
         temperature,
-        (_SOLID_K, _SOLID_C),
+        (STEEL.conductivity, SOLID_HEAT_CAPACITY),
     )

@@ -13,6 +13,7 @@ from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.thermal.solver import PointThermalSettings, solve_thermal_point
 from gearlube_core.film_model.groups import FilmContact
+from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil
 from gearlube_core.oil.oil_heat import OilHeat
@@ -38,7 +39,7 @@ class Solved(NamedTuple):
     seconds: float  # of the processor
 
 
-def contact_oil(contact: FilmContact) -> FilmOil:
+def contact_oil(contact: FilmContact | LineContact) -> FilmOil:
     """Return the oil of a contact: Houpert, Dowson and Higginson, Eyring; no limiting stress."""
     log_ratio = math.log(contact.eta0 / ROELANDS_KAPPA)
     return film_oil(
@@ -53,6 +54,17 @@ def contact_oil(contact: FilmContact) -> FilmOil:
             conductivity=contact.conductivity,
             heat_capacity=contact.heat_capacity / _OIL_DENSITY,
         ),
+    )
+
+
+def contact_solid(contact: FilmContact | LineContact) -> Solid:
+    """Return the two alike bodies of a contact."""
+    return Solid(
+        youngs_modulus=2.0 * (1.0 - _POISSON**2) * contact.contact_modulus,
+        poisson_ratio=_POISSON,
+        density=_SOLID_DENSITY,
+        conductivity=contact.solid_conductivity,
+        heat_capacity=contact.solid_heat_capacity / _SOLID_DENSITY,
     )
 
 
@@ -88,13 +100,7 @@ def solve_contact(contact: FilmContact, nodes: tuple[int, int]) -> Solved:
     ParameterError
         The contact is out of the solver's range.
     """
-    solid = Solid(
-        youngs_modulus=2.0 * (1.0 - _POISSON**2) * contact.contact_modulus,
-        poisson_ratio=_POISSON,
-        density=_SOLID_DENSITY,
-        conductivity=contact.solid_conductivity,
-        heat_capacity=contact.solid_heat_capacity / _SOLID_DENSITY,
-    )
+    solid = contact_solid(contact)
     begin = time.process_time()
     problem = contact_problem(contact, nodes)
     warm = solve_thermal_point(problem, solid, solid, _SETTINGS, _HEAT, throw=False)

@@ -7,20 +7,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+from gearlube.studies.film_model.kinds import HYPOID_FLANK, ContactKind
 from gearlube.studies.film_model.plan import FilmTask
 from gearlube.studies.film_model.solve import Solved
 from gearlube_core.errors import FileError
-from gearlube_core.film_model.groups import FilmContact
 
-HEAD = (
-    "kind",
-    "index",
-    "nodes_minor",
-    "nodes_major",
-    *FilmContact._fields,
-    *Solved._fields,
-    "failure",
-)
+
+def head(kind: ContactKind) -> tuple[str, ...]:
+    """Return the names of the columns."""
+    fields = kind.contact._fields  # type: ignore[attr-defined]
+    first = ("kind", "index", "nodes_minor", "nodes_major")
+    return (*first, *fields, *Solved._fields, "failure")
 
 
 class SolveRow(NamedTuple):
@@ -44,6 +41,8 @@ class SolveTable:
     ----------
     path
         CSV file; made with the first row.
+    kind
+        Of the contacts.
 
     Raises
     ------
@@ -52,6 +51,7 @@ class SolveTable:
     """
 
     path: Path
+    kind: ContactKind = HYPOID_FLANK
     rows: dict[str, SolveRow] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -59,15 +59,14 @@ class SolveTable:
             return
         with self.path.open(newline="", encoding="utf-8") as stream:
             reader = csv.reader(stream)
-            head = tuple(next(reader, ()))
-            if head != HEAD:
+            if tuple(next(reader, ())) != head(self.kind):
                 raise FileError(
                     f"{self.path} must be a table of solved films of this version, got other "
                     "columns. Give another folder, or remove the file to solve anew."
                 )
             for cells in reader:
                 # a run that was killed may leave half a row at the end: it is solved again
-                row = _row(cells)
+                row = self._row(cells)
                 if row is not None:
                     self.rows[row_key(row.task)] = row
 
@@ -83,21 +82,20 @@ class SolveTable:
         with self.path.open("a", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
             if new:
-                writer.writerow(HEAD)
+                writer.writerow(head(self.kind))
             task = result.task
             numbers = (*task.contact, *result.solved)
             texts = (repr(float(value)) for value in numbers)
             writer.writerow([task.kind, task.number, *task.nodes, *texts, result.failure])
 
-
-def _row(cells: list[str]) -> SolveRow | None:
-    if len(cells) != len(HEAD):
-        return None
-    try:
-        index, nodes = int(cells[1]), (int(cells[2]), int(cells[3]))
-        numbers = [float(cell) for cell in cells[4:-1]]
-    except ValueError:
-        return None
-    split = len(FilmContact._fields)
-    task = FilmTask(cells[0], index, nodes, FilmContact(*numbers[:split]))
-    return SolveRow(task, Solved(*numbers[split:]), cells[-1])
+    def _row(self, cells: list[str]) -> SolveRow | None:
+        if len(cells) != len(head(self.kind)):
+            return None
+        try:
+            index, nodes = int(cells[1]), (int(cells[2]), int(cells[3]))
+            numbers = [float(cell) for cell in cells[4:-1]]
+        except ValueError:
+            return None
+        split = len(numbers) - len(Solved._fields)
+        task = FilmTask(cells[0], index, nodes, self.kind.contact(*numbers[:split]))
+        return SolveRow(task, Solved(*numbers[split:]), cells[-1])

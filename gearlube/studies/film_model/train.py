@@ -7,8 +7,9 @@ import logging
 import math
 from pathlib import Path
 
+from gearlube.studies.film_model.kinds import kind_of
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
-from gearlube.studies.film_model.solve import Solved, solve_contact
+from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
 from gearlube_core.checks import check_address
 from gearlube_core.errors import InterruptedRunError, ParameterError
@@ -53,7 +54,7 @@ def train(
     """
     check_plan(plan, folder)
     tasks = plan.tasks()
-    table = SolveTable(folder / SOLVES)
+    table = SolveTable(folder / SOLVES, plan.kind)
     folder.mkdir(parents=True, exist_ok=True)
     write_text(json.dumps(plan.described(), indent=1) + "\n", folder / PLAN)
     failed = 0
@@ -77,7 +78,8 @@ def check_plan(plan: FilmPlan, folder: Path) -> None:
     path = folder / PLAN
     if not path.exists():
         return
-    stored = json.loads(path.read_text(encoding="utf-8"))
+    # a plan of before has no names that were added since
+    stored = {**FilmPlan().described(), **json.loads(path.read_text(encoding="utf-8"))}
     wanted = plan.described()
     other = [name for name in wanted if stored.get(name) != wanted[name]]
     if other:
@@ -99,7 +101,7 @@ def stored_plan(folder: Path) -> FilmPlan:
     path = folder / PLAN
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))
-        return FilmPlan(**{**stored, "oils": tuple(stored["oils"])})
+        return FilmPlan.of(stored)
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise ParameterError(
             f"The folder must be one of `gearlube film-model train`, got {folder}: {PLAN} is "
@@ -109,7 +111,7 @@ def stored_plan(folder: Path) -> FilmPlan:
 
 def solve_task(task: FilmTask) -> SolveRow:
     """Return the film of a task; one that does not converge says so."""
-    solved = solve_contact(task.contact, task.nodes)
+    solved = kind_of(task.contact).solve(task.contact, task.nodes)
     return SolveRow(task, solved, "" if solved.converged else "not converged")
 
 

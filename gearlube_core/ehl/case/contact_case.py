@@ -64,7 +64,7 @@ class ContactCase(FilmCase):
     )
     reduced_modulus_gpa: Modulus | None = Field(
         default=None,
-        description="Reduced modulus E' = 2 E*, steel on steel about 230; left out: computed "
+        description="Reduced modulus E' = 2 E*; 231 for the default steels; left out: computed "
         "from body_1 and body_2",
     )
     oil: Oil

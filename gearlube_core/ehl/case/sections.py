@@ -55,13 +55,15 @@ class Oil(Section):
     )
     viscosity_pa_s: Viscosity | None = Field(
         default=None,
-        description="Dynamic viscosity at ambient pressure and at the inlet temperature; gear "
-        "oils about 0.01 to 0.3",
+        description="Dynamic viscosity at ambient pressure and at the inlet temperature. "
+        "Example: oils of ISO VG 100 have 0.08 at 40 degC and 0.007 to 0.011 at 100 degC "
+        "[arana_2019 Table 2]",
     )
     pressure_viscosity_per_gpa: PressureViscosity | None = Field(
         default=None,
         description="Pressure-viscosity coefficient alpha: slope of ln(viscosity) over pressure "
-        "at ambient pressure; most oils 10 to 25",
+        "at ambient pressure. Measured at 40 degC: polyalphaolefin 15, paraffinic mineral oil 21, "
+        "naphthenic mineral oil 27 [arana_2019 Table 3]",
     )
     law: Literal["barus", "roelands", "houpert"] = Field(
         default="roelands",
@@ -73,8 +75,8 @@ class Oil(Section):
     )
     eyring_stress_mpa: Stress | None = Field(
         default=None,
-        description="Eyring stress, above which the oil shears thin; typically 2 to 10; left "
-        "out: Newtonian",
+        description="Eyring stress, above which the oil shears thin. Oils of ISO VG 100 have 3.9 "
+        "to 4.5 by their measured limiting stress [arana_2019 (12)]; left out: Newtonian",
     )
     limiting_stress_mpa: Stress | None = Field(
         default=None,
@@ -91,12 +93,13 @@ class Oil(Section):
     temperature_exponent: TemperatureExponent = Field(
         default=0.0,
         description="Exponent S0 of Houpert's law, how fast viscosity falls with temperature; "
-        "only for thermal solutions, often about 1",
+        "only for thermal solutions. FVA 3, a mineral oil, has 1.2 by its measured viscosities "
+        "[wingertszahn_2023]",
     )
     expansion_per_k: Expansion = Field(
         default=0.0,
-        description="Thermal expansion of the oil's volume; only for thermal solutions, often "
-        "about 7e-4",
+        description="Thermal expansion of the oil's volume; only for thermal solutions. FVA 3, a "
+        "mineral oil, has 7e-4 [wingertszahn_2023]",
     )
     conductivity_w_m_k: Conductivity = Field(
         default=0.14, description="Thermal conductivity of the oil; only for thermal solutions"

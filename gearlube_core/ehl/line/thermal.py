@@ -171,7 +171,7 @@ def solve_thermal_line(
     solids = solid_1, solid_2
 
     def on_grid(nodes: tuple[int, ...]) -> ThermalLineSolution:
-        return _on_grid(problem, solids, replace(settings, nodes=nodes[0]), thermal)
+        return thermal_line_on_grid(problem, solids, replace(settings, nodes=nodes[0]), thermal)
 
     def on_coarser_grid(
         nodes: tuple[int, ...], _: ThermalLineSolution
@@ -196,13 +196,16 @@ def solve_thermal_line(
     return replace(solution, outcome=solution.outcome + solution.error.sentence + searched)
 
 
-def _on_grid(
+def thermal_line_on_grid(
     problem: LineProblem,
     solids: tuple[Solid, Solid],
     settings: LineSettings,
     thermal: ThermalSettings,
 ) -> ThermalLineSolution:
-    """Return the film on one grid, or what was reached."""
+    """Return the film on one grid, or what was reached, without its error by coarser grids.
+
+    Arguments as in `solve_thermal_line`; they are not checked, and nothing is raised.
+    """
     start = solve_line(problem, settings, throw=False)
     conserving = settings.cavitation == "mass_conserving"
     system = LineSystem(problem, settings.nodes, settings.stencil, conserving)

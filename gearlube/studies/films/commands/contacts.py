@@ -69,7 +69,7 @@ def line(
     Shipped cases: jamali_2015, jamali_2015_thermal. Options given here replace those of the case.
     """
     if example:
-        print_example("gearlube_core.ehl.case.contact_case:LineCase", case)
+        print_example("gearlube_core.ehl.case.contact_case:LineCase", case, "line_")
         return
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import LineCase
@@ -122,7 +122,7 @@ def point(
     of the case.
     """
     if example:
-        print_example("gearlube_core.ehl.case.contact_case:PointCase", case)
+        print_example("gearlube_core.ehl.case.contact_case:PointCase", case, "point_")
         return
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import PointCase

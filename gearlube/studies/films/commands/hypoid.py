@@ -98,7 +98,7 @@ def hypoid(
     continues from the last step stored in OUT when the same command runs again.
     """
     if example:
-        print_example("gearlube_core.ehl.case.hypoid_case:HypoidCase", case)
+        print_example("gearlube_core.ehl.case.hypoid_case:HypoidCase", case, "hypoid_")
         return
     from gearlube.studies.films import run_hypoid
     from gearlube_core.ehl.case.hypoid_case import HypoidCase

@@ -50,7 +50,7 @@ def rough(
     A stopped march goes on from its record in OUT. Options given here replace those of the case.
     """
     if example:
-        print_example("gearlube_core.ehl.case.rough_case:RoughCase", case)
+        print_example("gearlube_core.ehl.case.rough_case:RoughCase", case, "rough_")
         return
     from gearlube.studies.films.rough.animation import ANIMATION, check_animation, write_animation
     from gearlube.studies.films.rough.files import summary_rows

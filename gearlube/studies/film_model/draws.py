@@ -1,0 +1,113 @@
+"""Draws of contacts from a box of plain numbers, within limits of light and hot contacts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.stats import qmc
+
+from gearlube_core.arrays import Array
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
+
+STEEL = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
+SOLID_HEAT_CAPACITY = STEEL.density * STEEL.heat_capacity  # by volume [J/(m3 K)]
+
+# name: lowest, highest, and whether evenly ("even") or evenly in the logarithm ("log")
+Box = dict[str, tuple[float, float, str]]
+Make = Callable[[Array], Any]  # a contact from numbers between 0 and 1
+Fits = Callable[[Any], bool]
+
+
+class Limits(NamedTuple):
+    """Where light contacts end, whose films are nearly those of rigid solids, and hot ones."""
+
+    least_pressure: float  # mean [Pa]
+    most_thickness: float  # of `FilmGroups` [-]
+    most_heat: float  # beta eta0 u^2/k of the oil; beyond, films take long or are not found
+
+
+ANYWHERE = Limits(0.0, math.inf, math.inf)
+_OIL_TEMPERATURES = (313.15, 393.15)  # K, of visited contacts
+_OIL_MARGIN = 1.03  # of a box that is widened for an oil
+
+
+def widened(box: Box, oils: Sequence[Lubricant]) -> Box:
+    """Return a box, widened where an oil between 40 and 120 degC lies beyond it."""
+    box = dict(box)
+    for oil in oils:
+        for temperature in oil_temperatures(oil):
+            state = lubricant_state(oil.parameters(), temperature)
+            log_ratio = math.log(state.eta0 / ROELANDS_KAPPA)
+            found = {
+                "viscosity [Pa s]": state.eta0,
+                "Roelands Z": state.alpha / (ROELANDS_PRESSURE * log_ratio),
+                "Houpert S0": state.beta * (temperature - GLASS_TEMPERATURE) / log_ratio,
+                "conductivity [W/(m K)]": state.conductivity,
+                "heat capacity [MJ/(m3 K)]": 1e-6 * oil.density * oil.heat_capacity,
+            }
+            for name, value in found.items():
+                low, high, scale = box[name]
+                if not low <= value <= high:
+                    low, high = min(low, value / _OIL_MARGIN), max(high, value * _OIL_MARGIN)
+                    box[name] = (low, high, scale)
+    return box
+
+
+def oil_temperatures(oil: Lubricant) -> tuple[float, float]:
+    """Return the temperatures of visited contacts within the range of an oil's data [K]."""
+    low, high = _OIL_TEMPERATURES
+    return max(low, oil.temperature_low), min(high, oil.temperature_high)
+
+
+def numbers_of(box: Box, draw: Array) -> list[float]:
+    """Return the numbers of one draw, from 0 to 1 in the order of the box."""
+    return [
+        math.exp(math.log(low) + t * math.log(high / low))
+        if scale == "log"
+        else low + t * (high - low)
+        for t, (low, high, scale) in zip(draw, box.values(), strict=True)
+    ]
+
+
+def even_draws(
+    size: int, make: Make, fits: Fits, count: int, seed: int, *, random: bool = False
+) -> list[Any]:
+    """Return contacts drawn evenly from a box.
+
+    Parameters
+    ----------
+    size
+        Numbers of a draw.
+    make, fits
+        Contact of a draw, and whether it is taken.
+    count, seed
+        Number of contacts and what decides them.
+    random
+        Independent draws, as a calibration needs them; else a scrambled sequence of Sobol.
+    """
+    rng = np.random.default_rng(seed)
+    draws = (
+        rng.random((4 * count + 64, size))
+        if random
+        else qmc.Sobol(size, scramble=True, rng=rng).random_base2(
+            math.ceil(math.log2(2 * count + 64))
+        )
+    )
+    return [one for one in map(make, draws) if fits(one)][:count]
+
+
+def draws_until(size: int, make: Make, fits: Fits, count: int, seed: int) -> list[Any]:
+    """Return as many independent contacts as asked for; arguments as in `even_draws`."""
+    found: list[Any] = []
+    rng = np.random.default_rng(seed)
+    while len(found) < count:
+        one = make(rng.random(size))
+        if fits(one):
+            found.append(one)
+    return found

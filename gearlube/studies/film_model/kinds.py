@@ -1,0 +1,221 @@
+"""Kinds of contacts that a film model is made for, and what the machinery needs of each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from gearlube.studies.film_model import line_samples, roller_samples, samples
+from gearlube.studies.film_model.draws import Box, Limits
+from gearlube.studies.film_model.line_solve import solve_line_contact, solve_roller_contact
+from gearlube.studies.film_model.solve import Solved, solve_contact
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_option
+from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.film_model.groups import (
+    FilmContact,
+    FilmGroups,
+    contact_groups,
+    contact_parts,
+    reference_film,
+    semi_minor_axis,
+)
+from gearlube_core.film_model.line_contact import (
+    LineContact,
+    line_contact_groups,
+    line_parts,
+    line_reference_film,
+)
+from gearlube_core.film_model.model import FLANK, LINE, ROLLER
+from gearlube_core.film_model.reference_friction import (
+    line_reference_friction,
+    reference_friction,
+)
+from gearlube_core.film_model.rolling import (
+    RollerContact,
+    reference_rolling_friction,
+    rolling_groups,
+    rolling_line,
+    solved_rolling,
+)
+from gearlube_core.film_model.solved_film import SolvedFilm, solved_film
+from gearlube_core.film_model.solved_line import solved_line
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.oil.lubricant import Lubricant
+
+Contact = Any  # FilmContact or LineContact
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactKind:
+    """One kind of contact: how it is drawn, solved and evaluated.
+
+    Parameters
+    ----------
+    name
+        As in `FilmModel.kind`.
+    words
+        For the provenance.
+    visited
+        Name of the set of contacts that a machine visits.
+    contact
+        NamedTuple of floats.
+    coarse, fine
+        Nodes of both grids.
+    domain, trained
+        Limits of the domain, and of the training, which goes a little farther.
+    box
+        Plain numbers that the domain is drawn from.
+    box_contact, box_contacts, edge_contacts, visits
+        Draws, as `samples.box_contact` and the following; `visits` gets the names of the machines.
+    solve, groups
+        A contact's film on a grid, and its groups.
+    reference_film, reference_friction
+        What the model corrects: film [m] of a contact, and friction [-] of a contact with a film.
+    predict
+        Film and friction by the numbers of a model.
+    """
+
+    name: str
+    words: str
+    visited: str
+    contact: type
+    coarse: tuple[int, int]
+    fine: tuple[int, int]
+    domain: Limits
+    trained: Limits
+    box: Box
+    box_contact: Callable[[Box, Array], Contact]
+    box_contacts: Callable[..., list[Contact]]
+    edge_contacts: Callable[[Box, int, int], list[Contact]]
+    visits: Callable[[int, int, Sequence[str], Sequence[Lubricant], Limits], list[Contact]]
+    solve: Callable[[Contact, tuple[int, int]], Solved]
+    groups: Callable[[Contact], FilmGroups]
+    reference_film: Callable[[Contact], float]
+    reference_friction: Callable[[Contact, float], float]
+    predict: Callable[[Array, Contact], SolvedFilm]
+
+    @property
+    def training(self) -> tuple[str, str, str]:
+        """Return the names of the sets that a fit learns from."""
+        return "box", self.visited, "edge"
+
+
+def _flank_film(contact: FilmContact) -> float:
+    place, inlet = contact_parts(contact)
+    return reference_film(contact.load, contact.entrainment_speed, place, inlet)
+
+
+def _flank_friction(contact: FilmContact, film: float) -> float:
+    place, inlet = contact_parts(contact)
+    p = place.pressure_coefficient * contact.load ** (1.0 / 3.0)
+    across = contact.entrainment_speed * place.cos_psi
+    semi_axis = semi_minor_axis(contact.load, p, place)
+    return reference_friction(film, p, across, contact.sliding_speed, semi_axis, inlet)
+
+
+def _axle_contacts(
+    count: int, seed: int, tables: Sequence[str], oils: Sequence[Lubricant], limits: Limits
+) -> list[FilmContact]:
+    return samples.axle_contacts(count, seed, shipped_mesh_table(tables[0]), oils, limits)
+
+
+def _line_film(contact: LineContact) -> float:
+    inlet = line_parts(contact)[1]
+    return line_reference_film(contact.line_load, contact.entrainment_speed, contact.R, inlet)
+
+
+def _line_friction(contact: LineContact, film: float) -> float:
+    inlet = line_parts(contact)[1]
+    p = line_mean_pressure(contact.line_load, contact.R, contact.contact_modulus)
+    u, slip, half_width = contact.entrainment_speed, contact.sliding_speed, 0.5 * contact.line_load
+    return line_reference_friction(film, p, u, slip, half_width / p, contact.R, inlet)
+
+
+def _roller_film(contact: RollerContact) -> float:
+    return _line_film(rolling_line(contact))
+
+
+def _roller_friction(contact: RollerContact, film: float) -> float:
+    # that of rolling, which does not take the film
+    inlet = line_parts(rolling_line(contact))[1]
+    return reference_rolling_friction(contact.line_load, contact.speed, contact.R, inlet)
+
+
+HYPOID_FLANK = ContactKind(
+    name=FLANK,
+    words="elliptical, entrainment and sliding at angles: hypoid flank",
+    visited="axle",
+    contact=FilmContact,
+    coarse=(129, 33),
+    fine=(257, 65),
+    domain=samples.DOMAIN,
+    trained=samples.TRAINED,
+    box=samples.HYPOID_BOX,
+    box_contact=samples.box_contact,
+    box_contacts=samples.box_contacts,
+    edge_contacts=samples.edge_contacts,
+    visits=_axle_contacts,
+    solve=solve_contact,
+    groups=contact_groups,
+    reference_film=_flank_film,
+    reference_friction=_flank_friction,
+    predict=solved_film,
+)
+
+HELICAL_LINE = ContactKind(
+    name=LINE,
+    words="line, entrainment and sliding across it: helical and spur flanks",
+    visited="pair",
+    contact=LineContact,
+    coarse=(513, 1),
+    fine=(1025, 1),
+    domain=line_samples.LINE_DOMAIN,
+    trained=line_samples.LINE_TRAINED,
+    box=line_samples.LINE_BOX,
+    box_contact=line_samples.line_box_contact,
+    box_contacts=line_samples.line_box_contacts,
+    edge_contacts=line_samples.line_edge_contacts,
+    visits=line_samples.pair_contacts,
+    solve=solve_line_contact,
+    groups=line_contact_groups,
+    reference_film=_line_film,
+    reference_friction=_line_friction,
+    predict=solved_line,
+)
+
+BEARING_ROLLER = ContactKind(
+    name=ROLLER,
+    words="line in pure rolling, friction that of rolling: rollers on races",
+    visited="bearing",
+    contact=RollerContact,
+    coarse=(513, 1),
+    fine=(1025, 1),
+    domain=roller_samples.ROLLER_DOMAIN,
+    trained=roller_samples.ROLLER_TRAINED,
+    box=roller_samples.ROLLER_BOX,
+    box_contact=roller_samples.roller_box_contact,
+    box_contacts=roller_samples.roller_box_contacts,
+    edge_contacts=roller_samples.roller_edge_contacts,
+    visits=roller_samples.roller_contacts,
+    solve=solve_roller_contact,
+    groups=rolling_groups,
+    reference_film=_roller_film,
+    reference_friction=_roller_friction,
+    predict=solved_rolling,
+)
+
+KINDS = {kind.name: kind for kind in (HYPOID_FLANK, HELICAL_LINE, BEARING_ROLLER)}
+_OF_TYPE = {kind.contact: kind for kind in KINDS.values()}
+
+
+def kind_named(name: str) -> ContactKind:
+    """Return a kind of contact by its name; a ParameterError says which there are."""
+    check_option("contact", name, tuple(KINDS))
+    return KINDS[name]
+
+
+def kind_of(contact: Contact) -> ContactKind:
+    """Return the kind of a contact."""
+    return _OF_TYPE[type(contact)]

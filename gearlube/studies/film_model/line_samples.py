@@ -1,0 +1,218 @@
+"""Line contacts of the training set: a box of numbers, and what helical pairs visit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from gearlube.studies.film_model.draws import (
+    SOLID_HEAT_CAPACITY,
+    STEEL,
+    Box,
+    Limits,
+    draws_until,
+    even_draws,
+    numbers_of,
+    oil_temperatures,
+)
+from gearlube_core.arrays import Array
+from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.film.groups import inlet_heating_number
+from gearlube_core.film_model.line_contact import LEAST_SLIDING, LineContact, line_contact_groups
+from gearlube_core.friction.line_points import line_points
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
+from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
+
+_E = STEEL.contact_modulus
+
+# training goes a little farther
+LINE_DOMAIN, LINE_TRAINED = Limits(0.1e9, 3.0, 5.0), Limits(0.09e9, 3.2, 5.3)
+_EDGE_THICKNESS = 1.8
+
+# what the shipped helical pairs visit, see `pair_contacts`, and a margin
+LINE_BOX: Box = {
+    "mean pressure [GPa]": (1e-9 * LINE_TRAINED.least_pressure, 1.1, "log"),
+    "slide-roll ratio and 0.003, root of squares": (LEAST_SLIDING, 0.85, "log"),
+    "viscosity [Pa s]": (0.0085, 0.115, "log"),
+    "Roelands Z": (0.37, 0.86, "log"),
+    "Eyring stress [MPa]": (1.0, 10.0, "log"),
+    "u/R [1/s]": (60.0, 1400.0, "log"),
+    "u R [m2/s]": (0.0065, 0.55, "log"),
+    "Houpert S0": (0.95, 1.3, "log"),
+    "oil temperature [degC]": (38.0, 122.0, "even"),
+    "conductivity [W/(m K)]": (0.105, 0.155, "log"),
+    "heat capacity [MJ/(m3 K)]": (1.6, 1.9, "log"),
+}
+
+# N.m, of the papers
+_TORQUES = {"he_2007": 226.0, "jamali_2015_a": 1060.0, "jamali_2015_b": 1060.0}
+_USUAL_TORQUE = 300.0  # N.m, of other pairs
+_TORQUE_SHARES = (0.05, 1.5)
+_SPEEDS = (500.0, 6000.0)  # rpm of the pinion
+_PHASES, _NODES = 24, 6  # of the points on the lines
+_UNEVEN = (0.4, 1.6)  # load of a point over the mean of all lines
+
+
+def line_fits(contact: LineContact, limits: Limits) -> bool:
+    """Tell whether a contact lies within limits."""
+    heat = inlet_heating_number(
+        contact.eta0, contact.beta, contact.entrainment_speed, contact.conductivity
+    )
+    p = line_mean_pressure(contact.line_load, contact.R, contact.contact_modulus)
+    return (
+        heat <= limits.most_heat
+        and p >= (1.0 - 1e-9) * limits.least_pressure
+        and line_contact_groups(contact).thickness <= limits.most_thickness
+    )
+
+
+def line_box_contact(box: Box, draw: Array) -> LineContact:
+    """Return the contact of one draw, numbers from 0 to 1 in the order of the box."""
+    p, slide, eta0, Z, tau0, per, times, S0, T, k, c = numbers_of(box, draw)
+    R, u = math.sqrt(times / per), math.sqrt(times * per)
+    log_ratio = math.log(eta0 / ROELANDS_KAPPA)
+    temperature = celsius_to_kelvin(T)
+    return LineContact(
+        line_load=(1e9 * p) ** 2 / line_mean_pressure(1.0, R, _E) ** 2,
+        contact_modulus=_E,
+        R=R,
+        entrainment_speed=u,
+        sliding_speed=u * math.sqrt(max(slide * slide - LEAST_SLIDING * LEAST_SLIDING, 0.0)),
+        eta0=eta0,
+        alpha=ROELANDS_PRESSURE * Z * log_ratio,
+        beta=S0 * log_ratio / (temperature - GLASS_TEMPERATURE),
+        tau0=1e6 * tau0,
+        limiting_stress=0.0,
+        limiting_slope=0.0,
+        temperature=temperature,
+        conductivity=k,
+        heat_capacity=1e6 * c,
+        solid_conductivity=STEEL.conductivity,
+        solid_heat_capacity=SOLID_HEAT_CAPACITY,
+    )
+
+
+def line_box_contacts(
+    box: Box, count: int, seed: int, *, random: bool = False
+) -> list[LineContact]:
+    """Return contacts drawn evenly from a box; arguments as in `samples.box_contacts`."""
+    limits = LINE_DOMAIN if random else LINE_TRAINED
+    return even_draws(
+        len(box),
+        partial(line_box_contact, box),
+        lambda one: line_fits(one, limits),
+        count,
+        seed,
+        random=random,
+    )
+
+
+def line_edge_contacts(box: Box, count: int, seed: int) -> list[LineContact]:
+    """Return contacts of a box near its thick films, drawn evenly there."""
+
+    def thick(one: LineContact) -> bool:
+        return (
+            line_fits(one, LINE_TRAINED) and line_contact_groups(one).thickness >= _EDGE_THICKNESS
+        )
+
+    return draws_until(len(box), partial(line_box_contact, box), thick, count, seed)
+
+
+def pair_contacts(
+    count: int,
+    seed: int,
+    pairs: Sequence[str],
+    oils: Sequence[Lubricant],
+    limits: Limits,
+) -> list[LineContact]:
+    """Return contacts that helical pairs visit, at random.
+
+    Speed of the pinion within 500 to 6000 rpm, its torque within 5 to 150 % of the paper's and the
+    Eyring stress within 1 to 10 MPa evenly in the logarithm, oil at 40 to 120 degC, any place on
+    any line at any phase of the mesh. The load per length is the mean of all lines times 0.4 to
+    1.6.
+    """
+    rng = np.random.default_rng(seed)
+    places = []
+    for name in pairs:
+        pair = HelicalGearFile.named(name).helical_pair()
+        points = line_points(pair, _PHASES, _NODES)
+        here = points.length > 0.0
+        total = np.broadcast_to(points.total_length[:, None, None], here.shape)
+        places.append((name, pair.plane, points.x[here], total[here]))
+    found: list[LineContact] = []
+    while len(found) < count:
+        name, plane, x, total = places[int(rng.integers(len(places)))]
+        n = int(rng.integers(x.size))
+        torque = _TORQUES.get(name, _USUAL_TORQUE) * _even_log(rng, *_TORQUE_SHARES)
+        speed = rpm_to_rads(_even_log(rng, *_SPEEDS))
+        oil = oils[int(rng.integers(len(oils)))]
+        temperature = rng.uniform(*oil_temperatures(oil))
+        motion = line_kinematics(float(x[n]), speed, plane)
+        load = torque / (plane.r_bp * plane.cos_b * float(total[n])) * rng.uniform(*_UNEVEN)
+        one = line_contact_of(
+            load,
+            motion.R,
+            motion.entrainment,
+            abs(motion.sliding),
+            oil,
+            temperature,
+            1e6 * _even_log(rng, 1.0, 10.0),
+        )
+        if line_fits(one, limits):
+            found.append(one)
+    return found
+
+
+def line_contact_of(
+    line_load: float,
+    R: float,
+    entrainment: float,
+    sliding: float,
+    oil: Lubricant,
+    temperature: float,
+    tau0: float,
+) -> LineContact:
+    """Return the contact of steel bodies with an oil of the library.
+
+    Parameters
+    ----------
+    line_load, R
+        [N/m], [m].
+    entrainment, sliding
+        Amounts [m/s].
+    oil, temperature
+        Oil and its temperature [K].
+    tau0
+        Eyring stress [Pa].
+    """
+    state = lubricant_state(oil.parameters(), temperature)
+    return LineContact(
+        line_load=line_load,
+        contact_modulus=_E,
+        R=R,
+        entrainment_speed=entrainment,
+        sliding_speed=sliding,
+        eta0=state.eta0,
+        alpha=state.alpha,
+        beta=state.beta,
+        tau0=tau0,
+        limiting_stress=0.0,
+        limiting_slope=0.0,
+        temperature=temperature,
+        conductivity=state.conductivity,
+        heat_capacity=oil.density * oil.heat_capacity,
+        solid_conductivity=STEEL.conductivity,
+        solid_heat_capacity=SOLID_HEAT_CAPACITY,
+    )
+
+
+def _even_log(rng: np.random.Generator, low: float, high: float) -> float:
+    return math.exp(rng.uniform(math.log(low), math.log(high)))
