@@ -72,7 +72,18 @@ def test_a_map_with_warm_flanks_has_the_films_of_the_bulk_and_all_else_of_the_oi
     assert np.all(warm.film_ratio < cool.film_ratio)
 
 
-def test_flanks_hotter_than_the_data_of_the_oil_fail_with_a_reason():
+def test_flanks_hotter_than_the_data_of_the_oil_leave_a_range():
+    """The map of a drive cycle goes to the end of the oil's data, and the flanks beyond it."""
+    oil = AXLE.oil.temperature_high - 20.0  # films at 20 N.m are some 10 K warmer
+    warm, cool = losses(replace(AXLE, flank_bulk_resistance=0.5), oil), losses(temperature=oil)
+    assert warm.status[0, 0, 0] == 0
+    assert warm.bulk_temperature[0, 0, 0] > AXLE.oil.temperature_high
+    bit = 1 << [one.output for one in AXLE.ranges].index("range.temperature")
+    assert int(warm.exceeded[0, 0, 0]) & bit
+    assert not int(cool.exceeded[0, 0, 0]) & bit
+
+
+def test_flanks_that_get_far_too_hot_fail_with_a_reason():
     found = losses(replace(AXLE, flank_bulk_resistance=5.0))
     assert np.all(found.status == TOO_HOT)
     assert np.all(np.isnan(found.power))

@@ -50,11 +50,12 @@ FAILURES = {
     0: "",
     NO_EQUILIBRIUM: f"no static equilibrium of the shafts. {NO_EQUILIBRIUM_CURE}",
     NO_BALANCE: "the torques on the pinion did not balance. Change the torque a little.",
-    TOO_HOT: "the flanks' bulk gets hotter than the oil's data reach. Give a smaller "
-    "flank_bulk_resistance, or an oil with data to higher temperatures.",
+    TOO_HOT: "the flanks' bulk gets hotter than 100 K above the oil's data. Give a smaller "
+    "flank_bulk_resistance.",
 }
 _RUBBING = [LOSS_SOURCES.index(one) for one in ("friction_viscous", "friction_boundary")]
 _OF_FILMS = [*_RUBBING, LOSS_SOURCES.index("friction_rolling")]  # at the flanks' temperature
+_BEYOND = 100.0  # K above the oil's data, to which a bulk is looked for
 ANGLES = 32  # of a mesh period; see docs/loss_map.md for what fewer and more give
 _ROUNDING = 1e-12  # of the sum: the mesh is damped by rates that are zero but for rounding
 
@@ -141,7 +142,8 @@ def axle_losses(
     march in time adds is the swing of loads about their means and the damping of mesh and
     rollers. It matters near resonances and where teeth part. With `flank_bulk_resistance` films,
     friction and rolling of the flanks are those at the steady temperature of their bulk, see
-    `flank_bulk`; all else is at the oil's.
+    `flank_bulk`; all else is at the oil's. A bulk hotter than the oil's data counts as a range that
+    was left.
 
     Examples
     --------
@@ -246,7 +248,7 @@ def _warm_flanks(
         write(speed, np.array([torque]), temperature, power, carried, found, status)
         return float(power[0, _RUBBING].sum()) if status[0] == 0 else 0.0
 
-    highest = parameters.oil.temperature_high
+    highest = parameters.oil.temperature_high + _BEYOND
     temperature = bulk_temperature(friction, oil, parameters.flank_bulk_resistance, highest)
     if np.isnan(temperature):
         return _Warm(temperature, TOO_HOT, power[0], np.full(N_EXTREMES, np.nan))
