@@ -195,3 +195,14 @@ def test_surfaces_of_equal_speed_take_as_many_steps_as_either_needs():
     assert rolling.section().sliding == (0.0, 0.0)
     # both surfaces move alike: as many steps for five half widths of either
     assert rolling.schedule().until_rough == 500
+
+
+def test_elements_make_another_march_and_refuse_crank_nicolson():
+    case = RoughCase.named("jamali_2015_a")
+    elements = case.varied({"solver.discretisation": "elements"})
+    assert elements.settings().discretisation == "elements"
+    assert elements.key() != case.key()
+    # records of before there was a choice belong to finite volumes
+    assert case.varied({"solver.discretisation": "differences"}).key() == case.key()
+    with pytest.raises(ParameterError, match=r"crank_nicolson, got elements.*Take bdf2"):
+        elements.varied({"solver.scheme": "crank_nicolson"})
