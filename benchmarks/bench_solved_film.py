@@ -22,6 +22,7 @@ from fmpy import extract, fmi2, read_model_description
 
 from fmu_src.build import build_hypoid_axle
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.parameters import Film
 
 _LOGGER = logging.getLogger("bench_solved_film")
 _OIL = 368.15  # K
@@ -30,7 +31,7 @@ _SIMULATED = 0.05  # s
 _TURNS = 25
 
 
-def running(film: str) -> HypoidAxle:
+def running(film: Film) -> HypoidAxle:
     """Return an axle at 100 km/h that has run in."""
     axle = HypoidAxle(replace(mohammadpour_2015_axle(), film=film))
     speed, torque, load = _POINT
@@ -120,7 +121,7 @@ def main() -> None:
             folder = Path(extract(str(build_hypoid_axle(Path(name))), str(Path(name) / "axle")))
             compare(*(running_fmu(folder, film) for film in ("formula", "solved")))
         return
-    formula, solved = (running(film) for film in ("formula", "solved"))
+    formula, solved = running("formula"), running("solved")
     compare(lambda h: cpu_time(formula, h), lambda h: cpu_time(solved, h))
 
 

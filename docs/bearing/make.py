@@ -276,7 +276,7 @@ def picture() -> Any:
                 if law == DEFAULT_LAW:
                     factor = curve[0].factor
                     ends = torque / factor, torque * factor
-                    words = "error bar of the default, k = 2"
+                    words = "error bar of the default law (95 %)"
                     ax.fill_between(speeds, *ends, color=GREY, alpha=0.35, lw=0.0, label=words)
                 look = {"color": SERIES[i]} if i < len(SERIES) else {"color": "black", "ls": "--"}
                 ax.plot(speeds, torque, label=LAW_NAMES[law], **look)

@@ -44,6 +44,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_per_gpa": "1/GPa",
     "_pa_s": "Pa.s",
     "_per_k": "1/K",
+    "_k_w": "K/W",
     "_w_m_k": "W/(m.K)",
     "_w_m_k2": "W/(m.K2)",
     "_j_kg_k": "J/(kg.K)",

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle, film_nodes, flanks, rhs
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle, film_nodes, flanks, rhs, tooth_pair
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
@@ -51,8 +51,8 @@ def axle():
 
 def test_friction_between_nodes_is_near_that_at_the_contact_itself(axle):
     phases = np.random.default_rng(3).uniform(0.0, 1.0, 100)
-    exact = np.array([axle.losses(x, flanks.EXACT) for x in phases])
-    between = np.array([axle.losses(x, flanks.BETWEEN_NODES) for x in phases])
+    exact = np.array([axle.losses(x, tooth_pair.EXACT) for x in phases])
+    between = np.array([axle.losses(x, tooth_pair.BETWEEN_NODES) for x in phases])
     error = between / exact - 1.0
     # a pair's friction goes from 0 to its height and back over some 40 nodes: a line misses
     # (pi/40)^2/8 = 8e-4 of a half sine, several times that where a flank goes over the border of
@@ -66,9 +66,9 @@ def test_friction_between_nodes_is_near_that_at_the_contact_itself(axle):
 def test_at_a_node_friction_is_that_at_the_contact_itself(axle):
     for node in range(0, axle.nodes, 7):
         phase = (node + 1e-9) / axle.nodes
-        at_node = axle.losses(phase, flanks.BETWEEN_NODES)
+        at_node = axle.losses(phase, tooth_pair.BETWEEN_NODES)
         # what lies in 1e-9 of an interval
-        assert at_node == pytest.approx(axle.losses(phase, flanks.EXACT), rel=1e-7)
+        assert at_node == pytest.approx(axle.losses(phase, tooth_pair.EXACT), rel=1e-7)
 
 
 @pytest.mark.parametrize(
@@ -84,17 +84,17 @@ def test_at_a_node_friction_is_that_at_the_contact_itself(axle):
     ],
 )
 def test_nodes_are_evaluated_anew_when_force_speed_or_oil_have_changed(axle, now, holds):
-    axle.losses(0.3, flanks.BETWEEN_NODES)
+    axle.losses(0.3, tooth_pair.BETWEEN_NODES)
     before = axle.kept[flanks.FILMS :].copy()
-    found = axle.losses(0.3, flanks.BETWEEN_NODES, **now)
+    found = axle.losses(0.3, tooth_pair.BETWEEN_NODES, **now)
     assert np.array_equal(axle.kept[flanks.FILMS :], before) == holds
     if not holds:
         # as by an axle that keeps nothing
-        assert found == Flanks().losses(0.3, flanks.BETWEEN_NODES, **now)
+        assert found == Flanks().losses(0.3, tooth_pair.BETWEEN_NODES, **now)
 
 
 def test_nodes_that_share_a_place_do_not_serve_one_another(axle):
-    axle.losses(0.3, flanks.BETWEEN_NODES)
+    axle.losses(0.3, tooth_pair.BETWEEN_NODES)
     films = axle.kept[flanks.FILMS :]
     node = int(0.3 * axle.nodes)
     slot = film_nodes.node_film(films, node)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle import film_nodes, flanks
+from gearlube_core.dynamics.hypoid_axle import film_nodes, flanks, tooth_pair
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.friction.flank_bound import NO_MODEL_FILM, ModelFilm
 from gearlube_core.oil.lubricant_state import LubricantState
@@ -38,10 +38,10 @@ def film_cases(axle):
     of_nodes = (window, n_nodes, oil)
     films = np.zeros(film_nodes.N_FILMS)
     return [
-        (flanks.pair_film, (state, 900.0, 0.7, channels, oil, law, numbers)),
+        (tooth_pair.pair_film, (state, 900.0, 0.7, channels, oil, law, numbers)),
         *(
             (
-                flanks.pair_friction,
+                tooth_pair.pair_friction,
                 (state, 900.0, 0.7, channels, oil, one.flank_law, film, numbers),
             )
             for one, film in (
@@ -50,11 +50,11 @@ def film_cases(axle):
             )
         ),
         *(
-            (flanks._flank_at_node, (node, state, force, window, oil, law, numbers))
+            (tooth_pair._flank_at_node, (node, state, force, window, oil, law, numbers))
             for node in range(0, n_nodes, 6)  # some carry nothing
         ),
         *(
-            (flanks._kept_at_node, (node, state, force, *of_nodes, law, numbers, films))
+            (tooth_pair._kept_at_node, (node, state, force, *of_nodes, law, numbers, films))
             for node in (7, n_nodes)
         ),
         *(
@@ -65,11 +65,11 @@ def film_cases(axle):
                     *(z_p, law, model, refresh, films),
                 ),
             )
-            for kernel in (flanks.flank_film, flanks.flank_coefficients)
+            for kernel in (tooth_pair.flank_film, tooth_pair.flank_coefficients)
             for model, refresh in (
-                (np.zeros(0), flanks.EXACT),
-                (numbers, flanks.EXACT),
-                (numbers, flanks.BETWEEN_NODES),
+                (np.zeros(0), tooth_pair.EXACT),
+                (numbers, tooth_pair.EXACT),
+                (numbers, tooth_pair.BETWEEN_NODES),
             )
         ),
         (film_nodes.node_film, (films, film_nodes.NODES_KEPT + 1)),
@@ -100,7 +100,7 @@ def film_cases(axle):
                     *(channels, numbers if one is by_model else np.zeros(0)),
                 ),
             )
-            for refresh in (flanks.EXACT, flanks.BETWEEN_NODES, 0.0)
+            for refresh in (tooth_pair.EXACT, tooth_pair.BETWEEN_NODES, 0.0)
             for one in (p, p._replace(rolling=1.0), by_model)
         ),
     ]

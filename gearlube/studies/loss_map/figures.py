@@ -16,6 +16,7 @@ from gearlube.studies.loss_map.findings import input_words, moving_inputs
 _COLOURS = (*SERIES, GREY, YELLOW)  # of the sources, in their order
 _BAND = "between these lines: 95 % of the draws of uncertain data"
 _MOST_PANELS = 6
+_LIGHT = 0.6  # of the largest level, from which the colours are too light for white lines
 LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
 
@@ -56,7 +57,7 @@ def loss_contours(dataset: xr.Dataset) -> Any:
                 one["torque"],
                 one.values,
                 levels[1::2],
-                colors="white",
+                colors=["white" if one < _LIGHT * levels[-1] else "black" for one in levels[1::2]],
                 linewidths=0.6,
             )
             ax.clabel(lines, fmt="%g", fontsize=7)
@@ -68,8 +69,9 @@ def loss_contours(dataset: xr.Dataset) -> Any:
             ax.set_xlabel("pinion speed [rpm]")
         for ax in panels[::columns]:
             ax.set_ylabel("pinion torque [N·m]")
-        figure.colorbar(drawn, ax=panels.tolist(), label="loss torque at the pinion [N·m]")
-        figure.suptitle(not_modelled(dataset), fontsize=8.5, color="#555555")
+        figure.colorbar(drawn, ax=panels.tolist(), label="loss torque [N·m]")
+        figure.suptitle("Torque lost in the axle, at the pinion", fontsize=11)
+        figure.supxlabel(not_modelled(dataset), fontsize=8.5, color="#555555")
     return figure
 
 
@@ -78,7 +80,7 @@ def loss_split(dataset: xr.Dataset) -> Any:
     temperature = dataset["temperature"].values[dataset.sizes["temperature"] // 2]
     chosen = shown_speeds(dataset)
     with house_style():
-        figure = new_figure(3.5 * len(chosen) + 1.6, 4.4)
+        figure = new_figure(2.9 * len(chosen) + 0.9, 4.1)
         panels = np.atleast_1d(figure.subplots(1, len(chosen)))
         for ax, j in zip(panels, chosen, strict=True):
             _split(ax, dataset.sel(temperature=temperature).isel(speed=j))
@@ -89,7 +91,8 @@ def loss_split(dataset: xr.Dataset) -> Any:
             for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
         }
         figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=3)
-        figure.suptitle(f"Losses at {temperature:g} °C oil. {not_modelled(dataset)}", fontsize=9)
+        title = f"Losses by source, oil at {temperature:g} °C\n{not_modelled(dataset)}"
+        figure.suptitle(title, fontsize=10)
     return figure
 
 

@@ -42,6 +42,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_uncertainty(dataset),
             *_film(dataset),
             *_solved(dataset),
+            *_bulk(dataset),
             *_steady(dataset),
             *_ranges(dataset),
         ]
@@ -249,6 +250,25 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     most = float(worst["share_outside"])
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
     return [solved_films(bound, most, words, efficiency_doubt(dataset))]
+
+
+def _bulk(dataset: xr.Dataset) -> list[Finding]:
+    """Say how warm the flanks get, where their own friction warms them."""
+    if "bulk_temperature" not in dataset:
+        return []
+    rise = dataset["bulk_temperature"] - dataset["temperature"]
+    if not np.isfinite(rise.values).any():
+        return []
+    warmest = _at(dataset, rise)
+    return [
+        Finding(
+            NOTE,
+            f"The flanks' own friction warms their bulk by up to {_most(rise):.0f} K over the oil, "
+            f"at {words_of(warmest)}.",
+            "Films and friction of the flanks are those at that temperature "
+            "(film.bulk_resistance_k_w).",
+        )
+    ]
 
 
 def _steady(dataset: xr.Dataset) -> list[Finding]:

@@ -10,7 +10,10 @@ from gearlube_core.drag.churning import churning_torque
 from gearlube_core.drag.seals import seal_drag
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, BearingDrag, bearing_drag
 from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
-from gearlube_core.dynamics.hypoid_axle.flanks import BETWEEN_NODES, BOUND_POWER, FILMS
+from gearlube_core.dynamics.hypoid_axle.flanks import (
+    BOUND_POWER,
+    FILMS,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -41,6 +44,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     WORK_MARK,
     X,
+)
+from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
+    BETWEEN_NODES,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
