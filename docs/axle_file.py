@@ -131,6 +131,12 @@ for note in paper.assumed:
 - `film.limiting_slope` is the limiting shear stress of the film divided by pressure. The film model
   knows no such limit: contacts that come near it count as outside. It does not change the junctions
   of `limiting_shear_stress_mpa` and `boundary_friction`.
+- `film.bulk_resistance_k_w` lets the friction of the flanks warm their bulk: its temperature over
+  the oil's is this resistance times the mean friction loss in steady running. Films, friction and
+  rolling of the flanks are then those at the temperature of the bulk; bearings, churning and seals
+  stay at the oil's. `gearlube map` and `gearlube cycle` use it; a sweep or another march in time
+  refuses it. 0, the default, leaves it out.
+  [film_model_axle.md](film_model_axle.md#heat-of-the-flanks-bulk) says what is known of the number.
 - Rolling friction of the flanks is only modelled if `flank_rolling` of `[model]` names its law.
 - `bearing_torque_loss` of `[model]` selects the law of the bearing drag. All laws except palmgren
   use the forces of each bearing or the load of each roller, updated at least once in 12 integrator

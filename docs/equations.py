@@ -35,7 +35,7 @@ The keys are those of [bibliography.bib](bibliography.bib).
 
 TAIL = """
 Chapter 7 of the thesis numbers only the angle of the grinding marks. Its films of rough surfaces
-with different lays are not implemented yet.
+with different lays are on the page [rough_line_contact.md](rough_line_contact.md).
 """
 
 

@@ -6,7 +6,7 @@ from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle as HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     HypoidAxleParameters as HypoidAxleParameters,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle as mohammadpour_2015_axle,
 )
 from gearlube_core.bearings.tapered_roller_bearing import (

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from docs.film_model.marked_page import IMAGES, put
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.plotting.style import BLUE, GREEN, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
@@ -23,10 +24,8 @@ from gearlube_core.film_model.model import FilmModel
 from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.units import celsius_to_kelvin, kmh_to_ms
 
-ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "film_model_axle.md"
-TABLE = ROOT / "docs" / "film_model" / "axle.csv"
-FIGURE = ROOT / "docs" / "images" / "film_model_axle.png"
+TABLE = Path(__file__).with_name("axle.csv")
+FIGURE = IMAGES / "film_model_axle.png"
 SPEEDS = np.array([20.0, 40.0, 60.0, 80.0, 100.0])  # km/h
 TORQUES = np.array([10.0, 20.0, 50.0, 100.0, 200.0, 400.0])  # N.m
 DEGC = np.array([40.0, 60.0, 80.0, 95.0, 120.0])
@@ -42,7 +41,6 @@ HEAD = (
     "case", "oil_degc", "speed_km_h", "torque_n_m", "mesh_efficiency_percent", "bound_percent",
     "friction_w", "boundary_w", "least_film_um", "least_film_ratio", "share_outside_percent",
 )  # fmt: skip
-ROAD = "road"
 
 
 def axle_of(film: str, stress: float) -> HypoidAxleParameters:
@@ -207,26 +205,14 @@ def model_line() -> str:
     )
 
 
-def between(page: str, mark: str, text: str) -> str:
-    """Return the page with a text between the marks of a name."""
-    begin, end = f"<!-- {mark}: python -m docs.film_model.compare -->\n", f"<!-- end of {mark} -->"
-    before, rest = page.split(begin)
-    return before + begin + "\n" + text + "\n" + end + rest.split(end, 1)[1]
-
-
 def main() -> None:
     """Compute all and write it."""
     cases, road = over_the_range(), on_the_road()
     write_text(as_csv(cases), TABLE)
     figure(cases).savefig(FIGURE)
-    page = PAGE.read_text(encoding="utf-8")
-    for mark, text in (
-        ("model", model_line()),
-        ("range", range_table(cases)),
-        (ROAD, road_table(road)),
-    ):
-        page = between(page, mark, text)
-    write_text(page, PAGE)
+    put("model", "compare", model_line())
+    put("range", "compare", range_table(cases))
+    put("road", "compare", road_table(road))
 
 
 if __name__ == "__main__":

@@ -109,15 +109,18 @@ def picture(alike: tuple[Array, Array], differing: tuple[Array, Array]) -> Any:
             axes.vlines(order[seen], _LEAST, amplitude[seen], color=colour, lw=width, label=label)
         for mesh in (13.0, 26.0, 39.0):
             axes.axvline(mesh, color=GREY, lw=0.8, zorder=0)
-        for place, text in ((31.0, "31 waves\nof the pinion"), (83 * 13 / 36, "83 of\nthe gear")):
+        for place, text in (
+            (31.0, "31 waves per turn\nof the pinion"),
+            (83 * 13 / 36, "83 waves per turn\nof the gear"),
+        ):
             top = float(np.interp(place, *differing))
             axes.annotate(
                 text, (place, top), (place + (1.2 if place > 30.5 else -3.4), 3.0 * top),
                 fontsize=8.5, arrowprops={"arrowstyle": "-", "color": "black", "lw": 0.6},
             )  # fmt: skip
         axes.set(
-            yscale="log", xlim=(0.0, 42.0), ylim=(3e-2, 100.0), ylabel="mesh force [N]",
-            xlabel="order of the pinion; grey: mesh orders",
+            yscale="log", xlim=(0.0, 42.0), ylim=(3e-2, 100.0), ylabel="mesh force, amplitude [N]",
+            xlabel="order (periods per turn of the pinion); grey: mesh orders",
         )  # fmt: skip
         axes.legend(loc="upper left")
     return figure

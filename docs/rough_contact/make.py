@@ -47,14 +47,16 @@ def contact_figure(each: list[xr.Dataset]) -> Any:
         figure = new_figure(9.5, 4.0)
         left, right = figure.subplots(1, 2)
         for seed, one, colour, marker in zip(_SEEDS, each, SERIES, MARKERS, strict=False):
-            style = {"ms": 4, "color": colour, "label": f"seed {seed}"}
+            style = {"ms": 4, "color": colour, "label": f"surface of seed {seed}"}
             left.semilogy(one.film_ratio, one.asperity_area, marker + "-", **style)
             load = one.asperity_pressure / one.attrs["rms_slope"]
             right.loglog(load, one.asperity_area, marker + "-", **style)
         loads = np.geomspace(1e-4, 0.2, 50)
-        right.loglog(loads, 2.0 * loads, "k--", lw=1.0, label="2 p/(E* slope)")
-        left.set(xlabel="mean gap/σ", ylabel="share of the area in contact", ylim=(1e-5, 1.0))
-        right.set(xlabel="p/(E* rms slope)", ylabel="share of the area in contact")
+        right.loglog(loads, 2.0 * loads, "k--", lw=1.0, label="2 times the load (small loads)")
+        share = "share of the area in contact"
+        left.set(xlabel="mean gap over roughness σ", ylabel=share, ylim=(1e-4, 1.0))
+        right.set(xlabel="load: mean pressure over (E* times rms slope)", ylabel=share)
+        figure.suptitle("Dry contact of five made surfaces with the same statistics", fontsize=10.5)
         for ax in (left, right):
             ax.legend(fontsize=8)
     return figure

@@ -31,6 +31,7 @@ _REQUEST = RoughnessRequest(
     shortest_wave=24e-6,  # ten nodes
     longest_wave=100e-6,
 )
+_DEPTH = "depth over half-width b"
 _DEPTHS = np.append(np.linspace(0.01, 0.2, 12), np.linspace(0.25, 2.0, 18))  # half-widths
 
 
@@ -88,7 +89,8 @@ def stress_figure() -> Any:
         cases = (("smooth", smooth, BLUE), ("rough", rough, VERMILLION))
         for (name, one, colour), top, ax in zip(cases, upper, lower, strict=True):
             top.plot(one.x / HALF_WIDTH, one.pressure[:, 0] / LARGEST, color=colour, lw=0.9)
-            top.set(title=name, xlabel="x/b", ylabel="pressure/p₀", xlim=(-1.5, 1.5))
+            top.set(title=f"{name} surfaces", xlabel="x over half-width b", xlim=(-1.5, 1.5))
+            top.set_ylabel("pressure over Hertz\npressure p₀")
             top.set_ylim(0.0, 1.05 * rough.pressure[:, 0].max() / LARGEST)
             drawn = ax.contourf(
                 one.x / HALF_WIDTH,
@@ -98,16 +100,23 @@ def stress_figure() -> Any:
                 cmap="viridis",
                 extend="max",
             )
-            ax.set(xlabel="x/b", ylabel="depth/b", xlim=(-1.5, 1.5), ylim=(2.0, 0.0))
+            ax.set(xlabel="x over half-width b", ylabel=_DEPTH, xlim=(-1.5, 1.5), ylim=(2.0, 0.0))
             ax.grid(visible=False)
-            figure.colorbar(drawn, ax=ax, label="greatest shear/p₀", ticks=np.arange(0.0, 0.7, 0.1))
+            figure.colorbar(
+                drawn, ax=ax, label="largest shear stress over p₀", ticks=np.arange(0.0, 0.7, 0.1)
+            )
         shear, fatigue = figure.add_subplot(grid[0, 2]), figure.add_subplot(grid[1, 2])
         for name, one, colour in cases:
             shear.plot(one.shear.max(axis=1) / LARGEST, one.depths / HALF_WIDTH, color=colour)
             fatigue.plot(one.number, one.depths / HALF_WIDTH, color=colour, label=name)
         shear.axhline(0.786, color=GREY, lw=0.8, ls="--")
-        shear.set(xlabel="greatest shear/p₀ over x", ylabel="depth/b", ylim=(2.0, 0.0))
-        fatigue.set(xlabel="Dang Van's number", ylabel="depth/b", ylim=(2.0, 0.0))
+        shear.set(xlabel="largest shear stress over p₀", ylabel=_DEPTH, ylim=(2.0, 0.0))
+        fatigue.set(xlabel="Dang Van's number", ylabel=_DEPTH, ylim=(2.0, 0.0))
         fatigue.axvline(1.0, color=GREY, lw=0.8, ls="--")
         fatigue.legend()
+        figure.suptitle(
+            "Roughness adds stress close to the surface alone; dashed: depth of Hertz's largest "
+            "shear stress, and limit of fatigue",
+            fontsize=10.5,
+        )
     return figure

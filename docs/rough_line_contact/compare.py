@@ -126,11 +126,12 @@ def draw(found: Found) -> None:
                 share = [of(found, name, shown) for name in names]
                 ax.plot(ratio, share, "os"[k], color=SERIES[k], label=lay, fillstyle="none")
         left.set(ylabel="Hertz zone with a film below 25 nm [%]")
-        right.set(ylabel="Load on touching solids [%]")
+        right.set(ylabel="load on touching solids [%]")
         for ax in (left, right):
-            ax.set(xlabel="Film of the smooth contact over Rq", xlim=(0.0, None), ylim=(0.0, None))
+            ax.set(xlim=(0.0, None), ylim=(0.0, None))
+            ax.set_xlabel("film of the smooth contact over roughness Rq")
             ax.legend()
-        figure.suptitle("Five seeds, and one seed at higher speeds")
+        figure.suptitle("Contact falls fast with the film: five seeds, and one at higher speeds")
         figure.savefig(IMAGES / "rough_lambda.png", dpi=110)
 
 

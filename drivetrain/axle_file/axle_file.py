@@ -20,9 +20,11 @@ from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import FinalDrive, RoadLoad
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
+    mohammadpour_2015_axle,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     HypoidAxleParameters,
-    mohammadpour_2015_axle,
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_notes

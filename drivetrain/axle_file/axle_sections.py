@@ -24,6 +24,7 @@ Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False)]
 Poisson = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Density = Annotated[float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False)]
 Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False)]
+BulkResistance = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False)]
 LimitingSlope = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 HeatCapacity = Annotated[float, Field(ge=50.0, le=5000.0, allow_inf_nan=False)]
 
@@ -150,6 +151,7 @@ class FilmSection(ModelSection):
     renamed: ClassVar[Mapping[str, str]] = {
         "model": "film",
         "limiting_slope": "film_limiting_slope",
+        "bulk_resistance_k_w": "flank_bulk_resistance",
     }
 
     model: Film | None = Field(
@@ -160,6 +162,11 @@ class FilmSection(ModelSection):
     limiting_slope: LimitingSlope | None = Field(
         default=None,
         description="Limiting shear stress of the film over pressure, for solved films; 0: none",
+    )
+    bulk_resistance_k_w: BulkResistance | None = Field(
+        default=None,
+        description="Temperature of the flanks' bulk over the oil's, for each watt of their mean "
+        "friction; for maps and cycles. 0: at the oil's temperature",
     )
 
 

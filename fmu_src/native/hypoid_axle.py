@@ -34,7 +34,11 @@ from gearlube_core.dynamics.hypoid_axle.model import (
     START_WORK,
     STEP_REFUSALS,
 )
-from gearlube_core.dynamics.hypoid_axle.outputs import MOTION_OUTPUTS, N_OUTPUTS, POWERS
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    MOTION_OUTPUTS,
+    N_OUTPUTS,
+    POWERS,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     FILM_MODEL,
     NO_MODAL_LOSS,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 
 import typer
 
@@ -26,10 +27,23 @@ def print_example(target: str, name: str, prefix: str = "") -> None:
         The class's `prefix` of the names of shipped files.
     """
     module, _, found = target.partition(":")
-    file = files(module.rpartition(".")[0]) / "data" / f"{prefix}{name}.toml"
+    file = _shipped_file(module, f"{prefix}{name}")
     with exit_on_error():
         if file.is_file():
             text = file.read_text(encoding="utf-8")
         else:
             text = getattr(import_module(module), found).shipped_text(name)
         typer.echo(text, nl=False)
+
+
+def is_shipped(target: str, name: str) -> bool:
+    """Return if an input file's class ships the file `name`, without loading the class.
+
+    >>> is_shipped("gearlube_core.helical_geometry.gear_file:HelicalGearFile", "he_2007")
+    True
+    """
+    return _shipped_file(target.partition(":")[0], name).is_file()
+
+
+def _shipped_file(module: str, name: str) -> Traversable:
+    return files(module.rpartition(".")[0]) / "data" / f"{name}.toml"

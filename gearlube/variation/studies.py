@@ -38,7 +38,7 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
     Examples
     --------
     >>> point_study("map").quantities[0]
-    Quantity(name='loss', unit='W', meaning='power lost in all')
+    Quantity(name='loss', unit='W', meaning='total power lost')
     """
     check_option("STUDY", name, STUDIES)
     if quick and name not in _QUICK:

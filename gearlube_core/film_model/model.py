@@ -19,7 +19,7 @@ from gearlube_core.storage.atomic_file import write_text
 
 FORMAT = "gearlube film model"
 VERSION = 1
-FLANK, LINE = "flank", "line"  # kinds of contact
+FLANK, LINE, ROLLER = "flank", "line", "roller"  # kinds of contact
 _SHIPPED = Path(__file__).parent / "data"
 _CURE = "Make one with `gearlube film-model fit`, or name a model of the package."
 
@@ -102,7 +102,7 @@ class FilmModel:
 
     @property
     def kind(self) -> str:
-        """Return the kind of contact: "flank", an angled ellipse, or "line"."""
+        """Return the kind of contact: "flank", an angled ellipse, "line", or "roller"."""
         return str(self.provenance.get("kind", FLANK))
 
     @property

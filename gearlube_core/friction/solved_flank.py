@@ -19,12 +19,64 @@ from gearlube_core.friction.mixed_friction import (
     friction_with_asperities,
 )
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 from gearlube_core.oil.lubricant_state import LubricantState
 
-# How far the formulas may be off where the model does not hold, relative to what they give. Chosen:
-# 1 - 1/1.49 and 1 - 1/2.32 of a first sample of contacts, see docs/film_model_axle.md.
-FORMULA_FILM_BOUND = 0.33
-FORMULA_FRICTION_BOUND = 0.57
+# How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
+# with at least 0.1 GPa, see docs/film_model/outside.py. Of the film, relative to the formula's; and
+# the most friction of the film, over that of an isothermal Eyring film as thick as the formula's.
+FORMULA_FILM_BOUND = 0.38
+FORMULA_FRICTION_TOP = 1.1
+
+
+@kernel
+def formula_doubt(
+    load: float,
+    slip: float,
+    formula: FlankState,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+) -> float:
+    """Return how far off the formulas' friction may be outside of the model's domain [N].
+
+    0 <= f <= 1.1 F (tau0/p) asinh[eta0 exp(alpha p) dU/(h tau0)], and what asperities add
+
+    Parameters
+    ----------
+    load
+        F [N].
+    slip
+        Magnitude of the sliding speed dU [m/s].
+    formula
+        State of the flank by the formulas, with p and h.
+    lubricant, surface, solid, form
+        As in `flank.flank_friction`.
+
+    Notes
+    -----
+    Not relative to the formula's friction: Evans and Johnson's regression goes to zero in light
+    contacts, whose films are nearly isothermal. A film thinner by its bound raises the load of
+    asperities.
+    """
+    p, h = formula.mean_pressure, formula.film_thickness
+    newtonian_ratio = lubricant.eta0 * slip / (h * lubricant.tau0)
+    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, lubricant.alpha * p)
+    most = FORMULA_FRICTION_TOP * stress / p * load
+    W_a, A_a = asperity_contact(
+        load, load / p, h * (1.0 - FORMULA_FILM_BOUND) / surface.sigma, surface, solid, form
+    )
+    more = boundary_friction(W_a, A_a, slip, lubricant) - formula.boundary_friction
+    off = max(formula.viscous_friction, most - formula.viscous_friction)
+    return off + max(more, 0.0)
+
+
+@kernel
+def _with_doubt(state: FlankState, outside: float, film_bound: float, doubt: float) -> BoundedFlank:
+    """Return a state with its bounds, that of friction from a force [N]; no friction, no bound."""
+    friction = state.viscous_friction + state.boundary_friction
+    return BoundedFlank(state, outside, film_bound, doubt / friction if friction > 0.0 else 0.0)
 
 
 @kernel
@@ -65,18 +117,18 @@ def solved_flank_friction(
     friction, plus what asperities change where the film is thinner by its bound: a thinner film
     raises their load.
     """
-    w = film.outside
+    w, doubt = film.outside, 0.0
+    F, slip = max(load, 0.0), abs(sliding_speed)
     formula = FlankState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if w > 0.0:
         formula = flank_friction(
             load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
         )
+        doubt = w * formula_doubt(F, slip, formula, lubricant, surface, solid, form)
         if w >= 1.0:
-            return BoundedFlank(formula, 1.0, FORMULA_FILM_BOUND, FORMULA_FRICTION_BOUND)
-    F = max(load, 0.0)
+            return _with_doubt(formula, 1.0, FORMULA_FILM_BOUND, doubt)
     F_film = max(F, LOAD_FLOOR)
     speed = max(abs(entrainment_speed), SPEED_FLOOR)
-    slip = abs(sliding_speed)
     v = 1.0 - w
     h = math.exp(film.log_film)
     p = geometry.pressure_coefficient * math.exp(math.log(F_film) / 3.0)
@@ -101,8 +153,7 @@ def solved_flank_friction(
         F, F / p, h * (1.0 - model_bound) / surface.sigma, surface, solid, form
     )
     more = boundary_friction(W_a, A_a, slip, lubricant) - solved.boundary_friction
-    doubt = v * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
-    doubt += w * FORMULA_FRICTION_BOUND * (formula.viscous_friction + formula.boundary_friction)
+    doubt += v * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
     f_v = v * solved.viscous_friction + w * formula.viscous_friction
     f_b = v * solved.boundary_friction + w * formula.boundary_friction
     h = v * h + w * formula.film_thickness
@@ -115,9 +166,4 @@ def solved_flank_friction(
         v * solved.temperature_rise + w * formula.temperature_rise,
         p,
     )
-    return BoundedFlank(
-        state,
-        w,
-        v * model_bound + w * FORMULA_FILM_BOUND,
-        doubt / (f_v + f_b) if doubt > 0.0 else 0.0,
-    )
+    return _with_doubt(state, w, v * model_bound + w * FORMULA_FILM_BOUND, doubt)

@@ -9,7 +9,9 @@ import pytest
 
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
+    mohammadpour_2015_axle,
+)
 from gearlube_core.errors import ParameterError
 
 AXLE = mohammadpour_2015_axle()

@@ -14,7 +14,9 @@ from gearlube_core.bearings.skf_drag import skf_drag
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import loaded_drag
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
-from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
+    mohammadpour_2015_axle,
+)
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
 

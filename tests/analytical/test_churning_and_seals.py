@@ -13,7 +13,9 @@ from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, churni
 from gearlube_core.drag.seals import seal_torque
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
+    mohammadpour_2015_axle,
+)
 from gearlube_core.errors import ParameterError
 
 # ring of 165 mm and 30 mm, 40 mm deep in 1.2 l

@@ -12,7 +12,9 @@ from gearlube.studies.loss_map.datasets import not_modelled
 from gearlube_core.contact.elliptical_hertz import hertz_coefficients, hertz_ellipse
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
+    mohammadpour_2015_axle,
+)
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating

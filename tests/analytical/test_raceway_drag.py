@@ -22,7 +22,9 @@ from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
+    mohammadpour_2015_axle,
+)
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state

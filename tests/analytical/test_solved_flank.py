@@ -18,6 +18,12 @@ from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_film import flank_film_model
 from gearlube_core.friction.flank_laws import SOLVED, consistent
+from gearlube_core.friction.solved_flank import (
+    FORMULA_FILM_BOUND,
+    FORMULA_FRICTION_TOP,
+    formula_doubt,
+    solved_flank_friction,
+)
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL as AXLE_OIL
@@ -173,3 +179,42 @@ def test_friction_laws_with_films_of_their_own_refuse_a_solved_film(friction):
 def test_an_unknown_film_model_is_refused_by_name():
     with pytest.raises(ParameterError, match=r"film must be one of .*formula.*solved.*'solve'"):
         replace(mohammadpour_2015_axle(), film="solve")
+
+
+def test_where_the_formulas_stand_in_the_bound_reaches_an_isothermal_film_and_none():
+    # at 1 N Evans and Johnson's line lies below zero: no friction of the film by the formula
+    light, smooth = 1.0, LAW._replace(surface=gear_flanks(1e-8))
+    numbers = flank_film_model(MODEL)
+
+    def bounded(law):
+        film = law.model_film(light, SPEED, SLIP, GEOMETRY, ELLIPSE, OIL, numbers)
+        return law.bounded_flank(light, SPEED, SLIP, GEOMETRY, film, OIL, numbers)
+
+    rough = bounded(LAW)
+    assert rough.outside == 1.0
+    assert rough.state.viscous_friction == 0.0
+    assert rough.film_bound == FORMULA_FILM_BOUND
+    p = GEOMETRY.pressure_coefficient * light ** (1.0 / 3.0)
+    rate = SLIP / rough.state.film_thickness
+    stress = OIL.tau0 * np.arcsinh(OIL.eta0 * np.exp(OIL.alpha * p) * rate / OIL.tau0)
+    most = FORMULA_FRICTION_TOP * stress * light / p
+    doubt = rough.friction_bound * rough.state.boundary_friction
+    # and what asperities add under a film that is thinner by its bound: less than all of the load
+    assert most < doubt < most + OIL.gamma * light
+    # no friction at all: there is nothing that a relative bound could be of
+    assert bounded(smooth).friction_bound == 0.0
+
+
+@pytest.mark.parametrize("load", [1.0, 40.0, 2000.0])  # outside, on the border, inside
+def test_flank_and_bound_are_the_same_compiled_and_in_python(load):
+    numbers = flank_film_model(MODEL)
+    film = LAW.model_film(load, SPEED, SLIP, GEOMETRY, ELLIPSE, OIL, numbers)
+    given = (GEOMETRY, film, OIL, ROUGH, SOLID, 0, numbers)
+    compiled = solved_flank_friction(load, SPEED, SLIP, *given)
+    plain = solved_flank_friction.py_func(load, SPEED, SLIP, *given)
+    for one, other in zip(
+        (*compiled.state, *compiled[1:]), (*plain.state, *plain[1:]), strict=True
+    ):
+        assert one == pytest.approx(other, rel=1e-13)  # sums in another order
+    doubt = (load, SLIP, compiled.state, OIL, ROUGH, SOLID, 0)
+    assert formula_doubt(*doubt) == pytest.approx(formula_doubt.py_func(*doubt), rel=1e-13)

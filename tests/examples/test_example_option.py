@@ -101,6 +101,7 @@ def test_a_gear_file_is_read(words, kind, name, tmp_path):
 
 def test_files_are_printed_as_shipped_and_without_loading_what_computes():
     words = (["sweep"], ["map"], ["axle", "show"], ["bearing"], ["oil"], ["contact"], ["design"])
+    whine = (["whine"], ["whine", "he_2007"])
     films = (["ehl", kind] for kind in ("line", "point", "hypoid", "rough", "helical"))
     script = (
         "import json, sys\n"
@@ -110,7 +111,7 @@ def test_files_are_printed_as_shipped_and_without_loading_what_computes():
         "texts = [CliRunner().invoke(app, [*one, '--example']).stdout for one in asked]\n"
         "print(json.dumps([texts, sorted({'numba', 'scipy', 'xarray'} & set(sys.modules))]))\n"
     )
-    asked = json.dumps([*words, *films])
+    asked = json.dumps([*words, *films, *whine])
     done = subprocess.run(
         [sys.executable, "-c", script, asked], capture_output=True, text=True, check=True
     )
@@ -129,5 +130,7 @@ def test_files_are_printed_as_shipped_and_without_loading_what_computes():
         HypoidCase.shipped_text("mohammadpour_2015"),
         RoughCase.shipped_text("jamali_2015_a"),
         gl.HelicalGearFile.shipped_text("jamali_2015_a"),
+        gl.HypoidGearFile.shipped_text("mohammadpour_2015"),
+        gl.HelicalGearFile.shipped_text("he_2007"),
     ]
     assert loaded == []

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle import film_nodes, flanks
+from gearlube_core.dynamics.hypoid_axle import film_nodes, flanks, tooth_pair
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.friction.flank_bound import NO_MODEL_FILM, ModelFilm
 from gearlube_core.oil.lubricant_state import LubricantState
@@ -33,48 +33,65 @@ def film_cases(axle):
     state, force, window, n_nodes, oil, p, by_model, numbers, channels, friction = axle
     law = by_model.flank_law
     z_p = p.mesh.z_p
-    around = np.array([8.0, force, SPEED, -15.0, -4.0, 0.0, -15.1, -3.9, 0.2])
+    before = np.array([8.0, force, SPEED, oil.temperature, -15.0, -4.0, 0.0, 3e-3, 4e-3, 1e-4])
+    after = np.array([9.0, force, SPEED, oil.temperature, -15.1, -3.9, 0.2, 0.0, 0.0, 0.0])
     of_nodes = (window, n_nodes, oil)
     films = np.zeros(film_nodes.N_FILMS)
     return [
-        (flanks.pair_film, (state, 900.0, 0.7, channels, oil, law, numbers)),
+        (tooth_pair.pair_film, (state, 900.0, 0.7, channels, oil, law, numbers)),
         *(
-            (flanks.pair_friction, (state, 900.0, 0.7, channels, oil, one, film, numbers))
+            (
+                tooth_pair.pair_friction,
+                (state, 900.0, 0.7, channels, oil, one.flank_law, film, numbers),
+            )
             for one, film in (
                 (p, NO_MODEL_FILM),
                 *((by_model, ModelFilm(-15.0, -4.0, outside)) for outside in (0.0, 0.3, 1.0)),
             )
         ),
-        (flanks._film_at_node, (7, state, force, *of_nodes, law, numbers)),
         *(
-            (flanks.film_between_nodes, (0, state, one, *of_nodes, z_p, law, numbers, around))
-            for one in (force, 2.0 * force)
+            (tooth_pair._flank_at_node, (node, state, force, window, oil, law, numbers))
+            for node in range(0, n_nodes, 6)  # some carry nothing
+        ),
+        *(
+            (tooth_pair._kept_at_node, (node, state, force, *of_nodes, law, numbers, films))
+            for node in (7, n_nodes)
         ),
         *(
             (
-                flanks.flank_film,
+                kernel,
                 (
                     *(1, state, 900.0, force, 0.7, channels, *of_nodes),
                     *(z_p, law, model, refresh, films),
                 ),
             )
+            for kernel in (tooth_pair.flank_film, tooth_pair.flank_coefficients)
             for model, refresh in (
-                (np.zeros(0), flanks.EXACT),
-                (numbers, flanks.EXACT),
-                (numbers, flanks.BETWEEN_NODES),
+                (np.zeros(0), tooth_pair.EXACT),
+                (numbers, tooth_pair.EXACT),
+                (numbers, tooth_pair.BETWEEN_NODES),
             )
         ),
+        (film_nodes.node_film, (films, film_nodes.NODES_KEPT + 1)),
         *(
-            (flanks._renew_films, (step, 9, state, force, *of_nodes, law, numbers, around))
-            for step in (film_nodes.NEXT, film_nodes.OTHER)
+            (film_nodes.still_holds, (before, *now))
+            for now in (
+                (7, force, SPEED, oil.temperature),
+                (6, force, SPEED, oil.temperature),
+                (7, -force, SPEED, oil.temperature),
+                (7, force, 1.1 * SPEED, oil.temperature),
+                (7, force, SPEED, oil.temperature + 1.0),
+            )
         ),
-        *((film_nodes.nodes_on, (around, node, 60, force, SPEED)) for node in (6, 7, 9)),
-        (film_nodes.node_films, (np.zeros(film_nodes.N_FILMS), 1)),
-        (film_nodes.forget_films, (around.copy(),)),
-        (film_nodes.start_films, (around.copy(), 5, force, SPEED)),
-        (film_nodes.take_next, (around.copy(), 8)),
-        (film_nodes.keep_film, (around.copy(), 1, ModelFilm(-15.0, -4.0, 0.2))),
-        (film_nodes.film_between, (around, 0.4)),
+        (
+            film_nodes.keep_flank,
+            (
+                *(before.copy(), 3, force, SPEED, oil.temperature),
+                film_nodes.NodeFlank(-15.0, -4.0, 0.2, 3e-3, 4e-3, 1e-4),
+            ),
+        ),
+        (film_nodes.friction_between, (before, after, 0.4)),
+        (film_nodes.film_between, (before, after, 0.4)),
         *(
             (
                 flanks.flank_sum,
@@ -83,7 +100,7 @@ def film_cases(axle):
                     *(channels, numbers if one is by_model else np.zeros(0)),
                 ),
             )
-            for refresh in (flanks.EXACT, flanks.BETWEEN_NODES, 0.0)
+            for refresh in (tooth_pair.EXACT, tooth_pair.BETWEEN_NODES, 0.0)
             for one in (p, p._replace(rolling=1.0), by_model)
         ),
     ]

@@ -24,12 +24,13 @@ from gearlube_core.dynamics.hypoid_axle import (
     rhs,
     start,
     step_control,
+    tooth_pair,
 )
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
 from gearlube_core.dynamics.hypoid_axle.model import START_WORK
-from gearlube_core.dynamics.hypoid_axle.outputs import (
+from gearlube_core.dynamics.hypoid_axle.output_names import (
     FIRST_FLANK_BOUND,
     FLANKS,
     N_OUTPUTS,
@@ -197,8 +198,8 @@ def all_cases():
             integrate.inputs_with_drag,
             (state, 3.0, 5.0, bearing_drag.BearingDrag(0.2, 0.3), state_of_oil, p),
         ),
-        (flanks.sliding_speed, (state, channels)),
-        (flanks.contact_of, (channels,)),
+        (tooth_pair.sliding_speed, (state, channels)),
+        (tooth_pair.contact_of, (channels,)),
         *film_cases(flank),
         (kernels.pair_node, (60, 13.0, 0.3, 1)),
         (mesh_at_load.place_at_load, (table, series, window)),

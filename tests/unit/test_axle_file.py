@@ -54,6 +54,7 @@ NUMBERS = {
     "oil.conductivity_slope_w_m_k2": (-1e-4, "axle.oil.conductivity_slope", -1e-4),
     "film.model": ("solved", "axle.film", "solved"),
     "film.limiting_slope": (0.05, "axle.film_limiting_slope", 0.05),
+    "film.bulk_resistance_k_w": (0.02, "axle.flank_bulk_resistance", 0.02),
     "oil.heat_capacity_j_kg_k": (1900.0, "axle.oil.heat_capacity", 1900.0),
     "oil.temperature_low_degc": (-10.0, "axle.oil.temperature_low", 263.15),
     "oil.temperature_high_degc": (160.0, "axle.oil.temperature_high", 433.15),
@@ -160,10 +161,10 @@ WORDS |= {"seals.material", "tolerances", "gear_set.gear_file", "gear_set.contac
 
 
 def fingerprint(made):
-    """All that the kernels of the axle and the driveline can see."""
+    """All that the kernels of the axle and the driveline can see, and what mean losses add."""
     axle = made.axle
     options = (axle.radii, axle.mesh_stiffness, axle.steps_per_mesh_period)
-    options += (axle.steps_per_highest_period, axle.contact_pressure)
+    options += (axle.steps_per_highest_period, axle.contact_pressure, axle.flank_bulk_resistance)
     packed = flatten(axle.kernel_parameters()).tolist()
     return packed, options, made.driveline
 

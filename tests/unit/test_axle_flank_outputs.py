@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import flank_outputs, flanks
+from gearlube_core.dynamics.hypoid_axle import flank_outputs, flanks, tooth_pair
 from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
@@ -70,22 +70,28 @@ def flank_under(load, film_ratio=2.0):
     return BoundedFlank(state, 0.5 if load > 1e3 else 0.0, 0.02, 0.03)
 
 
+def with_made_up_flanks(monkeypatch):
+    monkeypatch.setattr(tooth_pair, "pair_friction", lambda s, load, *_: flank_under(load))
+    monkeypatch.setattr(flanks, "flank_coefficients", source_of(tooth_pair.flank_coefficients))
+
+
 def written(monkeypatch, friction=1.0, film_ratio=2.0, shares=SHARES, force=FORCE):
     """Outputs behind and before the flanks', and the most loaded flank."""
 
-    def pair_friction(s, load, sliding, channels, oil, p, film, film_model):
+    def pair_friction(s, load, sliding, channels, oil, law, film, film_model):
         i = int(np.argmin(np.abs(PAIRS[:, 1] - channels[1])))
         assert load == pytest.approx(abs(force) * shares[i], rel=1e-14)
         assert sliding == pytest.approx(sliding_of(PAIRS[i]), rel=1e-12)
         return flank_under(load, film_ratio)
 
     monkeypatch.setattr(flank_outputs, "pair_friction", pair_friction)
+    monkeypatch.setattr(flank_outputs, "flank_film", source_of(tooth_pair.flank_film))
     out = np.full(FIRST + 22, -7.0)
     window = np.concatenate([PAIRS, PAIRS[:1]])
     window[:3, 0], window[3, 0] = shares, shares[0]
     found = source_of(flank_outputs.write_flanks)(
         moving(), force, window.ravel(), 3, OIL_TEMPERATURE, OIL, parameters(friction), NO_MODEL,
-        flanks.EXACT, np.zeros(N_FILMS), FIRST, FIRST + 16, np.zeros(N_CHANNELS), out,
+        tooth_pair.EXACT, np.zeros(N_FILMS), FIRST, FIRST + 16, np.zeros(N_CHANNELS), out,
     )  # fmt: skip
     assert np.all(out[:FIRST] == -7.0)
     assert out[FIRST + 15] == -7.0
@@ -162,11 +168,11 @@ def test_no_flank_stands_out_without_load(monkeypatch):
 
 def test_law_meets_load_speeds_and_geometry_of_its_flank(monkeypatch):
     met = []
-    monkeypatch.setattr(flanks, "bounded_flank", lambda *arguments: met.append(arguments))
-    monkeypatch.setattr(flanks, "model_film", lambda *arguments: met.append(arguments))
-    arguments = moving(), 600.0, -0.7, PAIRS[0], OIL, parameters()
-    source_of(flanks.pair_friction)(*arguments, NO_MODEL_FILM, NO_MODEL)
-    source_of(flanks.pair_film)(*arguments[:-1], "law", NO_MODEL)
+    monkeypatch.setattr(tooth_pair, "bounded_flank", lambda *arguments: met.append(arguments))
+    monkeypatch.setattr(tooth_pair, "model_film", lambda *arguments: met.append(arguments))
+    arguments = moving(), 600.0, -0.7, PAIRS[0], OIL, "law"
+    source_of(tooth_pair.pair_friction)(*arguments, NO_MODEL_FILM, NO_MODEL)
+    source_of(tooth_pair.pair_film)(*arguments, NO_MODEL)
     for law, load, entrainment, sliding, geometry, _, oil, model in met:
         assert (law, load, sliding, oil, model is NO_MODEL) == ("law", 600.0, -0.7, OIL, True)
         assert entrainment == pytest.approx(-0.021 * 150.0, rel=1e-14)
@@ -178,7 +184,7 @@ def test_law_meets_load_speeds_and_geometry_of_its_flank(monkeypatch):
 @pytest.mark.parametrize("force", [FORCE, 0.1])
 @pytest.mark.parametrize("fresh", [1.0, 0.0])
 def test_friction_of_all_flanks_is_the_sum_of_forces_against_sliding(monkeypatch, fresh, force):
-    monkeypatch.setattr(flanks, "pair_friction", lambda s, load, *_: flank_under(load))
+    with_made_up_flanks(monkeypatch)
     # viscous and boundary of each flank, then what rolls, which is off
     kept = np.zeros(flanks.N_FRICTION)
     kept[:9] = 0.02, 0.04, 0.03, 0.05, 0.07, 0.11, 9.0, 9.0, 9.0
@@ -239,7 +245,7 @@ def test_rolling_takes_two_forces_times_the_entrainment_across_the_line(
         return 2e-3 * load
 
     monkeypatch.setattr(flanks, "pair_rolling", force_of)
-    monkeypatch.setattr(flanks, "pair_friction", lambda s, load, *_: flank_under(load))
+    with_made_up_flanks(monkeypatch)
     s = moving()
     s[[W_P, W_G]] *= turning
     kept = np.zeros(flanks.N_FRICTION)
@@ -270,5 +276,5 @@ def test_rolling_takes_two_forces_times_the_entrainment_across_the_line(
 
 def test_sliding_speed_has_the_relative_velocity_along_the_direction_of_sliding():
     for row in PAIRS:
-        found = source_of(flanks.sliding_speed)(moving(), row)
+        found = source_of(tooth_pair.sliding_speed)(moving(), row)
         assert found == pytest.approx(sliding_of(row), rel=1e-13)

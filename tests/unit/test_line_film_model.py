@@ -199,7 +199,9 @@ def test_a_plan_of_lines_draws_contacts_of_pairs_and_box():
     b = [math.sqrt(4.0 * c.line_load * c.R / (math.pi * E_STAR)) for c in fresh]
     pressures = [c.line_load / (2.0 * half) for c, half in zip(fresh, b, strict=True)]
     assert min(pressures) >= LINE_DOMAIN.least_pressure
-    with pytest.raises(ParameterError, match="contact must be one of flank, .*line.*; got 'point'"):
+    with pytest.raises(
+        ParameterError, match=r"contact must be one of flank, .*line.*; got 'point'"
+    ):
         FilmPlan(contact="point")
 
 

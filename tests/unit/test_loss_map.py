@@ -17,11 +17,14 @@ from typer.testing import CliRunner
 import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
+from gearlube.studies.loss_map.findings import moving_inputs
 from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
-from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
+    mohammadpour_2015_axle,
+)
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 
@@ -330,3 +333,13 @@ def test_a_point_drawn_by_power_laws_has_the_bars_of_the_map():
         # no exact power laws: the Eyring stress is drawn within a factor of 2
         assert low == pytest.approx(float(one["loss_torque_low"]), rel=0.02)
         assert high == pytest.approx(float(one["loss_torque_high"]), rel=0.02)
+
+
+def test_inputs_without_effect_have_no_bar():
+    # this axle has no churning, so its factor moves nothing; bearing drag does
+    swing = xr.DataArray(
+        [[0.2], [0.0]], dims=("input", "torque"), coords={"input": ["bearing_drag", "churning"]}
+    )
+    moving, still = moving_inputs(xr.Dataset({"swing": swing, "loss_torque": ("torque", [2.0])}))
+    assert moving == {"bearing_drag": pytest.approx(0.1)}
+    assert still == ["churning"]

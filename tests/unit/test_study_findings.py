@@ -118,6 +118,18 @@ def test_loss_map_says_how_far_solved_films_are_to_be_trusted(a_map):
     assert found(little, "solved films").level == NOTE
 
 
+def test_loss_map_says_how_warm_the_flanks_get_by_their_own_friction(a_map):
+    assert not [one for one in loss_map.findings(a_map) if "warms their bulk" in one.headline]
+    rise = xr.zeros_like(a_map["film_ratio"])
+    rise[1, 0, 2] = 12.0
+    said = found(
+        loss_map.findings(a_map.assign(bulk_temperature=a_map["temperature"] + rise)), "their bulk"
+    )
+    degc = float(a_map["temperature"][1])
+    assert "by up to 12 K over the oil" in said.headline
+    assert f"{degc:.4g} °C oil" in said.headline
+
+
 def test_loss_map_warns_of_failures_and_ranges_and_steady_points_without_rest(a_map):
     a_map["status"][0, 0, 0] = 4
     a_map["range_exceeded"][0] = 1.0
@@ -129,7 +141,7 @@ def test_loss_map_warns_of_failures_and_ranges_and_steady_points_without_rest(a_
     assert "between 25 and 90 °C" in found(said, "steady oil temperature is between").headline
     assert found(said, "1 of 6 torques").level == WARNING
     html = report_html(loss_map_report(a_map))
-    assert "known to (k = 2)" in html
+    assert "known to (95 %)" in html
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
-from gearlube.plotting.style import BLUE, SERIES, VERMILLION, house_style, new_figure
+from gearlube.plotting.style import BLUE, SERIES, house_style, new_figure
 
 LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn
 
@@ -21,11 +21,16 @@ def save_cycle_figures(dataset: xr.Dataset, folder: Path) -> None:
 
 
 def cycle_figure(dataset: xr.Dataset) -> Any:
-    """Return speed and torque, power lost by source and oil temperature over time."""
+    """Return speed, torque, power lost by source and oil temperature over time."""
     with house_style():
-        figure = new_figure(8.6, 8.2)
-        above, middle, below = figure.subplots(3, 1, sharex=True)
-        _demand(above, dataset)
+        figure = new_figure(8.6, 9.2)
+        speed, torque, middle, below = figure.subplots(
+            4, 1, sharex=True, height_ratios=(0.7, 0.7, 1.0, 1.0)
+        )
+        _demand(speed, dataset, "vehicle_speed", "vehicle speed\n[km/h]")
+        _demand(torque, dataset, "pinion_torque", "pinion torque\n[N·m]")
+        speed.set_ylim(bottom=0.0)
+        torque.axhline(0.0, color="#606060", lw=0.9, ls=":")
         _losses(middle, dataset)
         _temperature(below, dataset)
         below.set_xlabel("time [s]")
@@ -38,25 +43,20 @@ def cycle_figure(dataset: xr.Dataset) -> Any:
             words[0] += f" ({ends[0]:.0f} to {ends[1]:.0f})"
             words[1] += f" ({shares[0]:.1f} to {shares[1]:.1f})"
         figure.suptitle(
-            f"{dataset.attrs['cycle']}: {words[0]} lost in the axle, efficiency {words[1]}"
+            f"Cycle {dataset.attrs['cycle']}: {words[0]} lost in the axle, efficiency {words[1]}"
         )
-        drawn = "In brackets: 95 % of the draws. " if "efficiency_low" in dataset else ""
+        drawn = ""
+        if "efficiency_low" in dataset:
+            drawn = "In brackets: 95 % of the draws of uncertain data.\n"
         figure.supxlabel(
             f"{drawn}Not modelled: {dataset.attrs['not_modelled']}.", fontsize=8.5, color="#555555"
         )
     return figure
 
 
-def _demand(ax: Any, dataset: xr.Dataset) -> None:
-    time = dataset["step"].values
-    ax.plot(time, dataset["vehicle_speed"].values, color=BLUE)
-    ax.set_ylabel("vehicle speed [km/h]", color=BLUE)
-    ax.set_ylim(bottom=0.0)
-    other = ax.twinx()
-    other.plot(time, dataset["pinion_torque"].values, color=VERMILLION, lw=0.9)
-    other.set_ylabel("pinion torque [N·m]", color=VERMILLION)
-    other.spines["right"].set_visible(True)
-    other.grid(visible=False)
+def _demand(ax: Any, dataset: xr.Dataset, name: str, label: str) -> None:
+    ax.plot(dataset["step"].values, dataset[name].values, color=BLUE, lw=1.2)
+    ax.set_ylabel(label)
 
 
 def _losses(ax: Any, dataset: xr.Dataset) -> None:
@@ -83,7 +83,7 @@ def _temperature(ax: Any, dataset: xr.Dataset) -> None:
     low, high = (dataset[f"oil_temperature_{end}"].values for end in ("low", "high"))
     if np.any(high > low):
         ax.fill_between(
-            time, low, high, color=BLUE, alpha=0.2, lw=0.0, label="assumed heat data, their range"
+            time, low, high, color=BLUE, alpha=0.2, lw=0.0, label="range by the assumed heat data"
         )
     ax.plot(time, dataset["oil_temperature"].values, color=BLUE, label="oil and housing")
     air = dataset.attrs["air_temperature_degc"]

@@ -15,7 +15,8 @@ logger = logging.getLogger("gearlube")
 
 film_model = typer.Typer(
     name="film-model",
-    help="Train, fit, show and audit surrogates of solved thermal films: hypoid flanks, lines.",
+    help="Train, fit, show and audit surrogates of solved thermal films: hypoid flanks, lines, "
+    "rollers.",
     no_args_is_help=True,
 )
 
@@ -32,7 +33,8 @@ def train(
     contact: Annotated[
         str,
         typer.Option(
-            help="flank: ellipses of a hypoid axle; line: lines of helical and spur pairs.",
+            help="flank: ellipses of a hypoid axle; line: lines of helical and spur pairs; "
+            "roller: rollers on the races of bearings.",
             metavar="KIND",
         ),
     ] = "flank",
@@ -49,7 +51,7 @@ def train(
     ] = "mohammadpour_2015",
     box: Annotated[int, typer.Option(help="Contacts of the box of groups.", metavar="N")] = 760,
     visited: Annotated[
-        int, typer.Option(help="Contacts that the axle or the helical pairs visit.", metavar="N")
+        int, typer.Option(help="Contacts that axle, helical pairs or bearings visit.", metavar="N")
     ] = 300,
     edge: Annotated[
         int, typer.Option(help="More contacts of the box with thick films.", metavar="N")

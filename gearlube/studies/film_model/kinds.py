@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from gearlube.studies.film_model import line_samples, samples
+from gearlube.studies.film_model import line_samples, roller_samples, samples
 from gearlube.studies.film_model.draws import Box, Limits
-from gearlube.studies.film_model.line_solve import solve_line_contact
+from gearlube.studies.film_model.line_solve import solve_line_contact, solve_roller_contact
 from gearlube.studies.film_model.solve import Solved, solve_contact
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
@@ -27,10 +27,17 @@ from gearlube_core.film_model.line_contact import (
     line_parts,
     line_reference_film,
 )
-from gearlube_core.film_model.model import FLANK, LINE
+from gearlube_core.film_model.model import FLANK, LINE, ROLLER
 from gearlube_core.film_model.reference_friction import (
     line_reference_friction,
     reference_friction,
+)
+from gearlube_core.film_model.rolling import (
+    RollerContact,
+    reference_rolling_friction,
+    rolling_groups,
+    rolling_line,
+    solved_rolling,
 )
 from gearlube_core.film_model.solved_film import SolvedFilm, solved_film
 from gearlube_core.film_model.solved_line import solved_line
@@ -136,6 +143,16 @@ def _line_friction(contact: LineContact, film: float) -> float:
     return line_reference_friction(film, p, u, slip, half_width / p, contact.R, inlet)
 
 
+def _roller_film(contact: RollerContact) -> float:
+    return _line_film(rolling_line(contact))
+
+
+def _roller_friction(contact: RollerContact, film: float) -> float:
+    # that of rolling, which does not take the film
+    inlet = line_parts(rolling_line(contact))[1]
+    return reference_rolling_friction(contact.line_load, contact.speed, contact.R, inlet)
+
+
 HYPOID_FLANK = ContactKind(
     name=FLANK,
     words="elliptical, entrainment and sliding at angles: hypoid flank",
@@ -178,7 +195,28 @@ HELICAL_LINE = ContactKind(
     predict=solved_line,
 )
 
-KINDS = {kind.name: kind for kind in (HYPOID_FLANK, HELICAL_LINE)}
+BEARING_ROLLER = ContactKind(
+    name=ROLLER,
+    words="line in pure rolling, friction that of rolling: rollers on races",
+    visited="bearing",
+    contact=RollerContact,
+    nodes=(513, 1),
+    second=(1025, 1),
+    domain=roller_samples.ROLLER_DOMAIN,
+    trained=roller_samples.ROLLER_TRAINED,
+    box=roller_samples.ROLLER_BOX,
+    box_contact=roller_samples.roller_box_contact,
+    box_contacts=roller_samples.roller_box_contacts,
+    edge_contacts=roller_samples.roller_edge_contacts,
+    visits=roller_samples.roller_contacts,
+    solve=solve_roller_contact,
+    groups=rolling_groups,
+    reference_film=_roller_film,
+    reference_friction=_roller_friction,
+    predict=solved_rolling,
+)
+
+KINDS = {kind.name: kind for kind in (HYPOID_FLANK, HELICAL_LINE, BEARING_ROLLER)}
 _OF_TYPE = {kind.contact: kind for kind in KINDS.values()}
 
 

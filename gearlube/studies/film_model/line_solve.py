@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 
 import numpy as np
 
 from gearlube.studies.film_model.solve import Solved, contact_oil, contact_solid
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
-from gearlube_core.ehl.line.thermal import ThermalSettings, thermal_line_on_grid
+from gearlube_core.ehl.line.thermal import (
+    ThermalLineSolution,
+    ThermalSettings,
+    thermal_line_on_grid,
+)
 from gearlube_core.film_model.line_contact import LineContact
+from gearlube_core.film_model.rolling import RollerContact, rolling_line
 
 _TOLERANCE = 1e-7
 _HEAT = ThermalSettings(tolerance=3e-3, max_turns=80)
@@ -44,6 +50,34 @@ def solve_line_contact(contact: LineContact, nodes: tuple[int, int]) -> Solved:
     ParameterError
         The contact is out of the solver's range.
     """
+    return _solved(contact, nodes, _sliding_friction)
+
+
+def solve_roller_contact(contact: RollerContact, nodes: tuple[int, int]) -> Solved:
+    """Return the thermal film of a roller on its race; its friction is that of rolling, 2 F/w.
+
+    F = int h/2 dp/dx dx, the force of the film on either surface per length; the rest as in
+    `solve_line_contact`.
+    """
+    return _solved(rolling_line(contact), nodes, _rolling_friction)
+
+
+def _sliding_friction(warm: ThermalLineSolution) -> float:
+    film = warm.film
+    return float(np.trapezoid(film.mean_stress, film.x)) / film.problem.line_load
+
+
+def _rolling_friction(warm: ThermalLineSolution) -> float:
+    film = warm.film
+    pumped = film.film * np.gradient(film.pressure, film.x)
+    return float(np.trapezoid(pumped, film.x)) / film.problem.line_load
+
+
+def _solved(
+    contact: LineContact,
+    nodes: tuple[int, int],
+    friction: Callable[[ThermalLineSolution], float],
+) -> Solved:
     begin = time.process_time()
     solid = contact_solid(contact)
     settings = LineSettings(nodes=nodes[0], tolerance=_TOLERANCE)
@@ -52,7 +86,7 @@ def solve_line_contact(contact: LineContact, nodes: tuple[int, int]) -> Solved:
     return Solved(
         film.central_film,
         film.minimum_film,
-        float(np.trapezoid(film.mean_stress, film.x)) / contact.line_load,
+        friction(warm),
         film.maximum_pressure,
         warm.max_temperature - contact.temperature,
         math.nan,  # not asked for

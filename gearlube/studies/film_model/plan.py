@@ -9,12 +9,14 @@ from typing import Any, NamedTuple
 
 from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.kinds import Contact, ContactKind, kind_named
+from gearlube.studies.film_model.roller_samples import AXLE_BEARING
 from gearlube_core.checks import check_within
-from gearlube_core.film_model.model import FLANK
+from gearlube_core.film_model.model import FLANK, LINE, ROLLER
 from gearlube_core.oil.oil_file import read_oil
 
 # seeds of the sets, added to that of the plan
 _BOX, _VISITED, _FRESH, _CALIBRATION, _EDGE = range(5)
+_LISTS = ("oils", "pairs", "bearings")
 _FIRST_SHARE = 0.15  # of box and visited contacts, solved before all else: enough for a first fit
 
 
@@ -34,13 +36,15 @@ class FilmPlan:
     Parameters
     ----------
     contact
-        Kind of contact: "flank" of a hypoid axle, or "line" of helical pairs.
+        Kind of contact: "flank" of a hypoid axle, "line" of helical pairs, "roller" of bearings.
     oils
         Shipped oils or oil files, whose ranges the box holds; the machine runs in them.
     mesh_table
         Shipped mesh table of the axle, for flanks.
     pairs
         Shipped gear files, for lines.
+    bearings
+        Shipped bearings, for rollers; see `roller_samples.roller_contacts`.
     box, visited
         Contacts for training: of the box by a scrambled Sobol sequence, and what the axle or the
         pairs visit.
@@ -64,6 +68,7 @@ class FilmPlan:
     oils: tuple[str, ...] = ("mohammadpour_2015", "karagiannis_2012")
     mesh_table: str = "mohammadpour_2015"
     pairs: tuple[str, ...] = ("he_2007", "jamali_2015_a", "jamali_2015_b")
+    bearings: tuple[str, ...] = (AXLE_BEARING, "wingertszahn_2023")
     box: int = 760
     visited: int = 300
     edge: int = 160
@@ -104,7 +109,7 @@ class FilmPlan:
 
     def described(self) -> dict[str, Any]:
         """Return the plan as names and numbers, for a file."""
-        return {**asdict(self), "oils": list(self.oils), "pairs": list(self.pairs)}
+        return {**asdict(self), **{name: list(getattr(self, name)) for name in _LISTS}}
 
     @classmethod
     def of(cls, described: dict[str, Any]) -> FilmPlan:
@@ -114,7 +119,7 @@ class FilmPlan:
         ------
         ParameterError, TypeError
         """
-        lists = {name: tuple(described[name]) for name in ("oils", "pairs")}
+        lists = {name: tuple(described[name]) for name in _LISTS if name in described}
         return cls(**{**described, **lists})
 
     @property
@@ -125,7 +130,8 @@ class FilmPlan:
     @property
     def machines(self) -> tuple[str, ...]:
         """Return the names of what visits the contacts."""
-        return (self.mesh_table,) if self.contact == FLANK else self.pairs
+        of_kind = {FLANK: (self.mesh_table,), LINE: self.pairs, ROLLER: self.bearings}
+        return of_kind[self.contact]
 
     def tasks(self) -> list[FilmTask]:
         """Return all films to solve; a first share of the training set leads.

@@ -13,7 +13,7 @@ from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solves import SolveRow
 from gearlube.studies.film_model.targets import solved_rows
 from gearlube_core import __version__
-from gearlube_core.film_model.model import FLANK
+from gearlube_core.film_model.model import FLANK, LINE
 
 
 def provenance_of(
@@ -56,7 +56,7 @@ def provenance_of(
         "physics": "steady thermal Eyring film, fully flooded, smooth, bulk at the oil's "
         "temperature; Roelands and Houpert, Dowson and Higginson, no limiting stress; steel",
         f"oils_of_the_{kind.visited}": list(plan.oils),
-        **({"mesh_table": plan.mesh_table} if kind.name == FLANK else {"pairs": list(plan.pairs)}),
+        **_machines(plan),
         "grid": f"{_grid(kind.nodes)} led to the limit by {second} films on {_grid(kind.second)}",
         "solves": counts,
         "fine_solves": second,
@@ -76,6 +76,12 @@ def provenance_of(
         "errors_box": misses["calibration"].summary(),
         f"errors_fresh_{kind.visited}": misses["fresh"].summary(),
     }
+
+
+def _machines(plan: FilmPlan) -> dict[str, Any]:
+    if plan.contact == FLANK:
+        return {"mesh_table": plan.mesh_table}
+    return {"pairs" if plan.contact == LINE else "bearings": list(plan.machines)}
 
 
 def _grid(nodes: tuple[int, int]) -> str:

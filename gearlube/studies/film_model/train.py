@@ -78,7 +78,8 @@ def check_plan(plan: FilmPlan, folder: Path) -> None:
     path = folder / PLAN
     if not path.exists():
         return
-    stored = json.loads(path.read_text(encoding="utf-8"))
+    # a plan of before has no names that were added since
+    stored = {**FilmPlan().described(), **json.loads(path.read_text(encoding="utf-8"))}
     wanted = plan.described()
     other = [name for name in wanted if stored.get(name) != wanted[name]]
     if other:

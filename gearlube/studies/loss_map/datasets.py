@@ -46,6 +46,9 @@ def loss_map_dataset(
         "range_exceeded": (GRID, losses.exceeded, "1", "sum of 1, 2, 4, ... for each range left"),
         "status": (GRID, losses.status, "1", "0: computed; others: see the attribute reasons"),
     }
+    if settings.axle.flank_bulk_resistance > 0.0:
+        bulk = losses.bulk_temperature - ZERO_CELSIUS
+        variables["bulk_temperature"] = (GRID, bulk, "degC", "bulk of the flanks")
     if settings.axle.film == "solved":
         variables |= _of_film_model(losses, turning * torques, total)
     if spread is not None:

@@ -11,11 +11,12 @@ import xarray as xr
 from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.plotting.loss_words import SOURCE_WORDS
 from gearlube.plotting.style import GREY, SERIES, YELLOW, house_style, new_figure
-from gearlube.studies.loss_map.findings import mean_swings
+from gearlube.studies.loss_map.findings import input_words, moving_inputs
 
 _COLOURS = (*SERIES, GREY, YELLOW)  # of the sources, in their order
-_INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
+_BAND = "between these lines: 95 % of the draws of uncertain data"
 _MOST_PANELS = 6
+_LIGHT = 0.6  # of the largest level, from which the colours are too light for white lines
 LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
 
@@ -56,7 +57,7 @@ def loss_contours(dataset: xr.Dataset) -> Any:
                 one["torque"],
                 one.values,
                 levels[1::2],
-                colors="white",
+                colors=["white" if one < _LIGHT * levels[-1] else "black" for one in levels[1::2]],
                 linewidths=0.6,
             )
             ax.clabel(lines, fmt="%g", fontsize=7)
@@ -68,8 +69,9 @@ def loss_contours(dataset: xr.Dataset) -> Any:
             ax.set_xlabel("pinion speed [rpm]")
         for ax in panels[::columns]:
             ax.set_ylabel("pinion torque [N·m]")
-        figure.colorbar(drawn, ax=panels.tolist(), label="loss torque at the pinion [N·m]")
-        figure.suptitle(not_modelled(dataset), fontsize=8.5, color="#555555")
+        figure.colorbar(drawn, ax=panels.tolist(), label="loss torque [N·m]")
+        figure.suptitle("Torque lost in the axle, at the pinion", fontsize=11)
+        figure.supxlabel(not_modelled(dataset), fontsize=8.5, color="#555555")
     return figure
 
 
@@ -78,7 +80,7 @@ def loss_split(dataset: xr.Dataset) -> Any:
     temperature = dataset["temperature"].values[dataset.sizes["temperature"] // 2]
     chosen = shown_speeds(dataset)
     with house_style():
-        figure = new_figure(3.5 * len(chosen) + 1.6, 4.4)
+        figure = new_figure(2.9 * len(chosen) + 0.9, 4.1)
         panels = np.atleast_1d(figure.subplots(1, len(chosen)))
         for ax, j in zip(panels, chosen, strict=True):
             _split(ax, dataset.sel(temperature=temperature).isel(speed=j))
@@ -88,8 +90,9 @@ def loss_split(dataset: xr.Dataset) -> Any:
             for ax in panels
             for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
         }
-        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
-        figure.suptitle(f"Losses at {temperature:g} °C oil. {not_modelled(dataset)}", fontsize=9)
+        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=3)
+        title = f"Losses by source, oil at {temperature:g} °C\n{not_modelled(dataset)}"
+        figure.suptitle(title, fontsize=10)
     return figure
 
 
@@ -108,7 +111,7 @@ def _split(ax: Any, one: xr.Dataset) -> None:
     )
     if "loss_torque_low" in one:
         turning = float(one["speed"]) * np.pi / 30.0
-        for name, label in (("loss_torque_low", "95 % of draws"), ("loss_torque_high", None)):
+        for name, label in (("loss_torque_low", _BAND), ("loss_torque_high", None)):
             ax.plot(torque, one[name].values * turning, color="black", lw=1.0, ls="--", label=label)
     ax.set(xlabel="pinion torque [N·m]", title=f"{float(one['speed']):.0f} rpm")
     ax.set_ylim(bottom=0.0)
@@ -116,20 +119,24 @@ def _split(ax: Any, one: xr.Dataset) -> None:
 
 def sensitivity(dataset: xr.Dataset) -> Any:
     """Return which uncertain input moves the loss most, as a mean over the map."""
-    swings = mean_swings(dataset)
+    swings, still = moving_inputs(dataset)
     words = dict(part.split(": ", 1) for part in dataset.attrs["uncertain"].split("; "))
     names = list(swings)[::-1]  # the largest on top
     mean = 100.0 * np.array([swings[name] for name in names])
     with house_style():
-        figure = new_figure(7.4, 0.45 * len(names) + 1.6)
+        figure = new_figure(7.4, 0.45 * len(names) + 2.0)
         ax = figure.subplots()
-        labels = [_INPUT_WORDS.get(name, name.replace("_", " ")) for name in names]
-        ax.barh(labels, mean, color=SERIES[0])
+        ax.barh([input_words(name) for name in names], mean, color=SERIES[0])
         for row, name in enumerate(names):
-            factor = words[name].split(",")[0]
-            ax.text(mean[row], row, f"  {mean[row]:.1f} %, {factor}", va="center", fontsize=8)
-        ax.set_xlim(0.0, 1.45 * mean.max())
-        ax.set_xlabel("mean change of the loss torque by one input alone [%]")
+            factor = words[name].split(",")[0].removesuffix(" (k = 2)").removeprefix("factor ")
+            known = f"  {mean[row]:.1f} %; known to a factor of {factor}"
+            ax.text(mean[row], row, known, va="center", fontsize=8)
+        ax.set_xlim(0.0, 1.55 * mean.max())
+        ax.set_xlabel("mean change of the loss torque by this input alone [%]")
+        figure.suptitle("What makes the loss uncertain: measure the longest bar first", fontsize=10)
+        if still:
+            none = ", ".join(map(input_words, still))
+            figure.supxlabel(f"No effect in this axle: {none}.", fontsize=8.5, color="#555555")
         ax.grid(visible=False, axis="y")
     return figure
 

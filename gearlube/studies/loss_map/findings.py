@@ -12,6 +12,8 @@ from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.report.solved_films import efficiency_doubt, flank_friction, solved_films
 from gearlube_core.arrays import Array
 
+_INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
+_LEAST_SWING = 5e-4  # mean share of the loss that an input moves, below which it has no effect
 _NAMED = 3  # sources of loss and uncertain inputs that are told one by one
 _LEAST_SHARE = 0.005  # of the loss, of a source that is told
 
@@ -40,6 +42,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_uncertainty(dataset),
             *_film(dataset),
             *_solved(dataset),
+            *_bulk(dataset),
             *_steady(dataset),
             *_ranges(dataset),
         ]
@@ -181,13 +184,32 @@ def mean_swings(dataset: xr.Dataset) -> dict[str, float]:
     return {names[i]: float(mean[i]) for i in np.argsort(mean)[::-1]}
 
 
+def moving_inputs(dataset: xr.Dataset) -> tuple[dict[str, float], list[str]]:
+    """Return `mean_swings` of the inputs that move the loss, and the names of those that do not.
+
+    If none does, all are in the first.
+    """
+    swings = mean_swings(dataset)
+    moving = {name: swing for name, swing in swings.items() if swing >= _LEAST_SWING}
+    return (moving, [name for name in swings if name not in moving]) if moving else (swings, [])
+
+
+def input_words(name: str) -> str:
+    """Return what figures and tables call an uncertain input.
+
+    >>> input_words("alpha"), input_words("bearing_drag")
+    ('pressure-viscosity coefficient', 'bearing drag')
+    """
+    return _INPUT_WORDS.get(name, name.replace("_", " "))
+
+
 def _uncertainty(dataset: xr.Dataset) -> list[Finding]:
     if "loss_torque_low" not in dataset:
         return []
     low, high = _band(dataset)
     swings = mean_swings(dataset)
     parts = ", ".join(
-        f"{name.replace('_', ' ')} {100.0 * swing:.0f} %"
+        f"{input_words(name)} {100.0 * swing:.0f} %"
         for name, swing in list(swings.items())[:_NAMED]
     )
     return [
@@ -228,6 +250,25 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     most = float(worst["share_outside"])
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
     return [solved_films(bound, most, words, efficiency_doubt(dataset))]
+
+
+def _bulk(dataset: xr.Dataset) -> list[Finding]:
+    """Say how warm the flanks get, where their own friction warms them."""
+    if "bulk_temperature" not in dataset:
+        return []
+    rise = dataset["bulk_temperature"] - dataset["temperature"]
+    if not np.isfinite(rise.values).any():
+        return []
+    warmest = _at(dataset, rise)
+    return [
+        Finding(
+            NOTE,
+            f"The flanks' own friction warms their bulk by up to {_most(rise):.0f} K over the oil, "
+            f"at {words_of(warmest)}.",
+            "Films and friction of the flanks are those at that temperature "
+            "(film.bulk_resistance_k_w).",
+        )
+    ]
 
 
 def _steady(dataset: xr.Dataset) -> list[Finding]:

@@ -12,7 +12,13 @@ from gearlube.plotting.loss_words import source_words
 from gearlube.report.charts import Axis, Line, add_line, add_map, add_stack, bar_chart, panels
 from gearlube.report.parts import ASSUMED, Column, Figure, Input, Report, Table
 from gearlube.studies.loss_map.figures import LEAST_SHARE, shown_speeds, some_temperatures
-from gearlube.studies.loss_map.findings import findings, mean_swings, numbers
+from gearlube.studies.loss_map.findings import (
+    findings,
+    input_words,
+    mean_swings,
+    moving_inputs,
+    numbers,
+)
 from gearlube_core.arrays import Array
 
 SPEED, TORQUE = Axis("pinion speed", "rpm"), Axis("pinion torque", "N·m")
@@ -86,14 +92,15 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
         )
     )
     if "swing" in dataset:
-        swings = mean_swings(dataset)
-        names = [name.replace("_", " ") for name in swings]
+        swings, still = moving_inputs(dataset)
+        names = [input_words(name) for name in swings]
+        none = f" No effect here: {', '.join(map(input_words, still))}." if still else ""
         found.append(
             Figure(
                 name="sensitivity",
                 title="What makes the loss uncertain",
                 caption="Mean change of the loss torque when one uncertain input goes to its "
-                "factor. Measure the input with the longest bar first.",
+                "factor. Measure the input with the longest bar first." + none,
                 chart=bar_chart(
                     names, [100.0 * one for one in swings.values()], Axis("change of loss", "%")
                 ),
@@ -184,12 +191,12 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
                 title="Uncertain data and laws",
                 columns=[
                     Column("input"),
-                    Column("known to (k = 2)"),
+                    Column("known to (95 %)"),
                     Column("moves the loss by", "%", 2),
                     Column("why"),
                 ],
                 rows=[
-                    [name.replace("_", " "), factor, 100.0 * swings[name], why]
+                    [input_words(name), factor, 100.0 * swings[name], why]
                     for name, factor, why in _uncertain(dataset)
                 ],
             )

@@ -51,7 +51,7 @@ def run_loss_map(
     Examples
     --------
     >>> import numpy as np
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> settings = LossMapSettings(
     ...     axle=mohammadpour_2015_axle(), torques=np.array([-50.0, 0.0, 50.0]),
     ...     speeds=np.array([209.4]), temperatures=np.array([333.15]), draws=0,

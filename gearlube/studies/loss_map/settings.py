@@ -47,7 +47,7 @@ class LossMapSettings:
 
     Examples
     --------
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> settings = LossMapSettings(axle=mohammadpour_2015_axle())
     >>> settings.shape
     (4, 20, 21)

@@ -36,10 +36,13 @@ def measured_flanks(flanks: MeasuredFlanks) -> Any:
                 ax.set_title(title, fontsize=9.5)
                 ax.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0))
                 ax.grid(visible=False)
-            axes[0].set_ylabel("root  -  tip")
+            axes[0].set_ylabel("root (0) to tip (1)")
         for ax in rows[-1]:
-            ax.set_xlabel("toe  -  heel")
-        figure.suptitle(f"{flanks.file.name}: plus is more material", fontsize=11.5)
+            ax.set_xlabel("toe (0) to heel (1)")
+        figure.suptitle(
+            f"{flanks.file.name}: deviation from the nominal flanks; plus is more material",
+            fontsize=11.5,
+        )
     return figure
 
 
@@ -66,12 +69,15 @@ def tooth_errors(cycle: ToothErrorCycle, name: str) -> Any:
                 order_axis.vlines(order, _LEAST, amplitude[level], color=colour, lw=1.6)
             for mesh in range(teeth[member], amplitude.shape[1] + 1, teeth[member]):
                 order_axis.axvline(mesh, color=GREY, lw=0.8, zorder=0)
-            turn_axis.set(xlabel=f"turn of the {member}", ylabel="added error [µm]", xlim=(0, 1))
-            turn_axis.legend()
+            turn_axis.set(xlabel=f"turns of the {member}", ylabel="added error [µm]", xlim=(0, 1))
+            turn_axis.legend(title="torque", title_fontsize=8.5)
             order_axis.set(
-                xlabel=f"order of the {member}; grey: mesh orders", ylabel="amplitude [µm]"
+                xlabel=f"order (periods per turn of the {member}); grey: mesh",
+                ylabel="amplitude [µm]",
             )
             order_axis.set_yscale("log")
             order_axis.set_ylim(bottom=_LEAST)
-        figure.suptitle(f"{name}: what single teeth add to the transmission error", fontsize=11.5)
+        figure.suptitle(
+            f"{name}: what single teeth add to the transmission error (drive)", fontsize=11.5
+        )
     return figure

@@ -11,7 +11,8 @@ import xarray as xr
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 
 _COLOURS = {"before": GREY, "better": BLUE, "nominal": GREEN}
-NAMES = {"before": "before", "better": "better", "nominal": "best without errors"}
+NAMES = {"before": "before", "better": "after", "nominal": "best without errors"}
+_SHAPES = {"before": "s", "better": "o", "nominal": "^"}
 _MICRO = 1e6
 
 
@@ -37,7 +38,9 @@ def errors_over_mesh(dataset: xr.Dataset) -> Any:
             ax.set(xlim=(0.0, 2.0), xlabel="mesh periods", title=f"{torque:g} N·m")
         axes[0].set_ylabel("transmission error [µrad]")
         _legend_below(figure, axes[0])
-        figure.suptitle("Loaded transmission error, mean removed; thin: with errors", fontsize=11.5)
+        figure.suptitle(
+            "Loaded transmission error without its mean; thin: with errors", fontsize=11.5
+        )
     return figure
 
 
@@ -63,6 +66,7 @@ def mesh_orders(dataset: xr.Dataset) -> Any:
             ax.set(xlabel="mesh order", title=f"{torque:g} N·m")
         axes[0].set_ylabel("amplitude [µrad]")
         _legend_below(figure, axes[0])
+        figure.suptitle("Mesh orders of the loaded transmission error", fontsize=11.5)
     return figure
 
 
@@ -76,13 +80,19 @@ def sensitivity_to_errors(dataset: xr.Dataset) -> Any:
             for design in dataset["design"].values:
                 part = dataset["whine"].sel(torque=torque, design=design)
                 place = np.arange(errors.size)
-                colour = _COLOURS[str(design)]
-                ax.plot(_MICRO * part.values, place, "o", color=colour, label=NAMES[str(design)])
+                ax.plot(
+                    _MICRO * part.values,
+                    place,
+                    _SHAPES[str(design)],
+                    color=_COLOURS[str(design)],
+                    label=NAMES[str(design)],
+                )
             ax.set_yticks(np.arange(errors.size), [error_words(str(one)) for one in errors])
-            ax.set(xlabel="mesh orders together [µrad]", title=f"{torque:g} N·m")
+            ax.set(xlabel="root of the sum of squares [µrad]", title=f"{torque:g} N·m")
             ax.set_xlim(left=0.0)
             ax.set_ylim(errors.size - 0.5, -0.5)
         _legend_below(figure, axes[0])
+        figure.suptitle("All mesh orders together, under each error", fontsize=11.5)
     return figure
 
 
@@ -96,6 +106,7 @@ def whine_against_loss(dataset: xr.Dataset) -> Any:
         ax.set(xlabel="mesh orders, relative to before", ylabel="sliding loss, relative to before")
         ax.set_xlim(left=0.0)
         ax.legend()
+        figure.suptitle("Quieter or less loss: the best pairs found", fontsize=11.5)
     return figure
 
 
@@ -109,7 +120,7 @@ def error_words(error: str) -> str:
     """
     if error == "none":
         return "no error"
-    return error.replace("_", " ").replace(" um", " µm").replace(" deg", "°")
+    return error.replace("_", " ").replace(" um", " µm").replace(" deg", "°").replace(" -", " −")
 
 
 def _legend_below(figure: Any, ax: Any) -> None:

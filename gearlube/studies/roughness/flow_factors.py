@@ -19,6 +19,7 @@ from gearlube_core.rough_patch.patir_cheng_1978 import (
 )
 from gearlube_core.storage.atomic_file import atomic_write, write_dataset, write_text
 
+_RATIO = "film h over roughness σ"
 _SHOWN = {
     "pressure_x": "phi_x",
     "pressure_y": "phi_y",
@@ -68,20 +69,25 @@ def flow_figure(tables: list[tuple[float | None, xr.Dataset]]) -> Any:
         axes = figure.subplots(1, 3 if loaded else 2)
         for (peklenik, table), colour in zip(tables, (BLUE, VERMILLION, GREEN), strict=False):
             name = "patches" if peklenik is None else f"γ = {_fraction(peklenik)}"
-            _factor(axes[0], table, "pressure_x", colour, f"{name}, along motion")
+            _factor(axes[0], table, "pressure_x", colour, f"{name}, flow along motion")
             if peklenik != 1.0:
-                _factor(axes[0], table, "pressure_y", colour, f"{name}, across", style=":")
+                _factor(axes[0], table, "pressure_y", colour, f"{name}, flow across", style=":")
             _factor(axes[1], table, "shear_x", colour, name)
             if peklenik is not None:
                 _published(axes, peklenik, colour)
         axes[0].axhline(1.0, color=GREY, lw=0.8)
-        axes[0].set(xlabel="h/σ", ylabel="pressure flow factor", ylim=(0.0, 2.0))
-        axes[1].set(xlabel="h/σ", ylabel="shear flow factor", ylim=(0.0, None))
+        axes[0].set(xlabel=_RATIO, ylabel="pressure flow factor", ylim=(0.0, 2.0))
+        axes[1].set(xlabel=_RATIO, ylabel="shear flow factor", ylim=(0.0, None))
         for ax in axes[:2]:
             ax.plot([], [], "k--", lw=1.0, label="Patir and Cheng")
             ax.legend(fontsize=7.5)
         if loaded:
             _asperities(axes[2], loaded)
+        figure.suptitle(
+            "Flow of oil between rough surfaces over that between smooth ones; "
+            "γ: length of asperities along the motion over that across; bands: spread",
+            fontsize=9.5,
+        )
     return figure
 
 
@@ -120,7 +126,7 @@ def _asperities(ax: Any, tables: list[tuple[float | None, xr.Dataset]]) -> None:
     ratios = np.linspace(0.5, 4.0, 71)
     law = [asperity_load(float(one), 1.0, 1.0, gear_flanks(sigma)) for one in ratios]
     ax.semilogy(ratios, law, "k--", lw=1.0, label="Greenwood and Tripp,\nξβσ 0.055, σ/β 0.001")
-    ax.set(xlabel="h/σ", ylabel="mean pressure of asperities over E*", ylim=(1e-8, 1e-1))
+    ax.set(xlabel=_RATIO, ylabel="mean pressure of asperities over E*", ylim=(1e-8, 1e-1))
     ax.legend(fontsize=7.5)
 
 

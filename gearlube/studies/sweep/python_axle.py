@@ -8,7 +8,9 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.outputs import OUTPUT_NAMES
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    OUTPUT_NAMES,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 
 

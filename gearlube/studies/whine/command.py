@@ -11,7 +11,7 @@ import typer
 from rich.table import Table
 
 from gearlube.cli.console import console
-from gearlube.cli.example import print_example
+from gearlube.cli.example import is_shipped, print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
@@ -26,6 +26,10 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
 
 logger = logging.getLogger("gearlube")
 _SHOWN = 12
+_HELICAL, _HYPOID = (
+    f"gearlube_core.{kind}_geometry.gear_file:{kind.capitalize()}GearFile"
+    for kind in ("helical", "hypoid")
+)
 
 
 class WhineCommand(MultiValueCommand):
@@ -90,10 +94,8 @@ def whine(
     in OUT: run the same command again to go on after a stop.
     """
     if example:
-        from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-
-        kind = "helical" if gear in HelicalGearFile.shipped() else "hypoid"
-        print_example(f"gearlube_core.{kind}_geometry.gear_file:{kind.capitalize()}GearFile", gear)
+        helical = is_shipped(_HELICAL, gear)
+        print_example(_HELICAL if helical else _HYPOID, gear)
         return
     from gearlube.studies.whine.findings import findings
     from gearlube.studies.whine.report import write_whine_report

@@ -59,11 +59,16 @@ def whine_figure(dataset: xr.Dataset) -> Any:
         )
         below.set_yticks(np.arange(len(labels)), labels)
         below.grid(False)
+        below.set_title(
+            "change of mesh order 1 by each error alone; large where that order is small",
+            loc="left",
+            fontsize=9.5,
+        )
         below.set_xlabel("pinion speed [rpm]")
-        figure.colorbar(image, ax=below, label="change of order 1 [%]", extend="both")
+        figure.colorbar(image, ax=below, label="change of mesh order 1 [%]", extend="both")
         figure.suptitle(
-            f"{dataset.attrs['name']}, {dataset.attrs['torque']:g} N·m: mesh force "
-            "of the torsional pair, and what small errors change",
+            f"{dataset.attrs['name']}, {dataset.attrs['torque']:g} N·m: orders of the mesh force, "
+            "and what small errors change",
             fontsize=11.5,
         )
     return figure

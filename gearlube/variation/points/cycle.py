@@ -37,7 +37,7 @@ MOVING = operand(
 )
 _OPERANDS = {key.name: key for key in (CYCLE, START, AIR, SHARE, COAST, CAPACITY, AT_REST, MOVING)}
 _QUANTITIES = (
-    Quantity("energy_lost", "kJ", "energy lost in all"),
+    Quantity("energy_lost", "kJ", "total energy lost"),
     *(Quantity(f"energy_lost_{name}", "kJ", f"energy lost by {name}") for name in LOSS_SOURCES),
     Quantity("energy_in", "kJ", "energy into the axle, from either side"),
     Quantity("efficiency", "1", "efficiency of the axle over the cycle"),

@@ -25,7 +25,7 @@ TEMPERATURE = operand("oil.temperature_degc", "degC", "Of the oil", 80.0, -60.0,
 _OPERANDS = {key.name: key for key in (TORQUE, SPEED, TEMPERATURE)}
 
 _QUANTITIES = (
-    Quantity("loss", "W", "power lost in all"),
+    Quantity("loss", "W", "total power lost"),
     Quantity("loss_torque", "N m", "loss torque at the pinion"),
     Quantity("efficiency", "1", "efficiency of the axle"),
     *(Quantity(f"loss_{name}", "W", f"power lost by {name}") for name in LOSS_SOURCES),

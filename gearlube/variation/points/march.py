@@ -45,7 +45,8 @@ def _quantities() -> tuple[Quantity, ...]:
         Quantity(
             f"{name}_mesh_{order}",
             QUANTITIES[spectrum][0],
-            f"{QUANTITIES[spectrum][1]} at {order} times the mesh frequency",
+            f"mesh order {order} of the "
+            + QUANTITIES[spectrum][1].removeprefix("amplitude of the "),
         )
         for name, spectrum in _WHINE.items()
         for order in _ORDERS
@@ -57,7 +58,7 @@ def _quantities() -> tuple[Quantity, ...]:
         for j in BEARINGS
         for axis in AXES
     ]
-    return (*whine, Quantity("loss", "W", "power lost in all"), *losses, *scalars, *forces)
+    return (*whine, Quantity("loss", "W", "total power lost"), *losses, *scalars, *forces)
 
 
 @dataclass(frozen=True, kw_only=True)

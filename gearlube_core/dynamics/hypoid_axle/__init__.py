@@ -2,10 +2,15 @@
 
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise, modes
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.outputs import OUTPUT_INDEX, OUTPUT_NAMES
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
+    mohammadpour_2015_axle,
+)
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    OUTPUT_INDEX,
+    OUTPUT_NAMES,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     HypoidAxleParameters,
-    mohammadpour_2015_axle,
 )
 
 __all__ = [

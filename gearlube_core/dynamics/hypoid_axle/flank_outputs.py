@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.flanks import (
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_P
+from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
     flank_film,
     pair_friction,
     sliding_speed,
 )
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_P
 from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, SHARE
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_moes_groups
@@ -113,7 +113,7 @@ def write_flanks(
                 refresh,
                 films,
             )
-            bounded = pair_friction(s, load, sliding, channels, oil, p, film, film_model)
+            bounded = pair_friction(s, load, sliding, channels, oil, p.flank_law, film, film_model)
             flank = bounded.state
             total += load
             beyond += bounded.outside * load

@@ -7,60 +7,36 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.film_nodes import (
     N_FILMS,
-    NEXT,
-    SAME,
-    film_between,
-    forget_films,
-    keep_film,
-    node_films,
-    nodes_on,
-    start_films,
-    take_next,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
+    flank_coefficients,
+    sliding_speed,
+)
 from gearlube_core.dynamics.packed_mesh import (
     ARM_G,
     ARM_P,
-    DELTA,
-    ELLIPTICITY,
-    ENTRAIN,
     LINE_LENGTH,
     LINE_RADIUS,
     N_CHANNELS,
-    PRESSURE,
-    PSI,
-    R_E,
-    R_Y,
     ROLL,
     SHARE,
-    SIDE_FLOW,
     XI_X,
     XI_Y,
     XI_Z,
 )
-from gearlube_core.friction.flank_bound import (
-    NO_MODEL_FILM,
-    BoundedFlank,
-    FlankEllipse,
-    ModelFilm,
-)
-from gearlube_core.friction.flank_data import ContactGeometry
-from gearlube_core.friction.flank_law import FlankLaw, bounded_flank, model_film
 from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import pair_channels, pair_node
+from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant_state import LubricantState
 
 _PAIRS = PAIRS
-# how film and traction of the flanks are evaluated: a film model at the contact itself, or
-# interpolated between the nodes of the mesh table
-EXACT, BETWEEN_NODES = 1.0, 2.0
 # places of what `flank_sum` keeps
 BOUND = 3 * PAIRS  # of the friction coefficient of each pair
 BOUND_POWER = 4 * PAIRS  # of the power lost in friction
-FILMS = BOUND_POWER + 1  # `film_nodes` of each pair
+FILMS = BOUND_POWER + 1  # `film_nodes`
 N_FRICTION = FILMS + N_FILMS
 
 
@@ -75,180 +51,6 @@ class FlankSum(NamedTuple):
     viscous_power: float  # W
     boundary_power: float  # W
     rolling_power: float  # W
-
-
-@kernel
-def sliding_speed(s: Array, channels: Array) -> float:
-    """Return the sliding speed of the pinion over the gear flank [m/s].
-
-    dU = w_p r_p - w_g r_g + xi.(v_p - v_g): the rate that the friction force does work on, so that
-    its power is -f abs(dU) whatever the motion.
-    """
-    return (
-        channels[ARM_P] * s[W_P]
-        - channels[ARM_G] * s[W_G]
-        + channels[XI_X] * (s[V_P] - s[V_G])
-        + channels[XI_Y] * (s[V_P + 1] - s[V_G + 1])
-        + channels[XI_Z] * (s[V_P + 2] - s[V_G + 2])
-    )
-
-
-@kernel
-def contact_of(channels: Array) -> ContactGeometry:
-    """Return the geometry of a contact from the channels of the mesh table."""
-    return ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE])
-
-
-@kernel
-def pair_film(
-    s: Array,
-    load: float,
-    sliding: float,
-    channels: Array,
-    oil: LubricantState,
-    law: FlankLaw,
-    film_model: Array,
-) -> ModelFilm:
-    """Return what the film model says of one flank with this law; others as in `pair_friction`."""
-    return model_film(
-        law,
-        load,
-        channels[ENTRAIN] * s[W_P],
-        sliding,
-        contact_of(channels),
-        FlankEllipse(
-            channels[LINE_RADIUS],
-            channels[R_Y],
-            channels[ELLIPTICITY],
-            channels[PSI],
-            channels[DELTA],
-        ),
-        oil,
-        film_model,
-    )
-
-
-@kernel
-def pair_friction(
-    s: Array,
-    load: float,
-    sliding: float,
-    channels: Array,
-    oil: LubricantState,
-    p: AxleParameters,
-    film: ModelFilm,
-    film_model: Array,
-) -> BoundedFlank:
-    """Return the state of one flank under `load` [N] that slides at `sliding` [m/s].
-
-    `film` is what a film model says of it, and `film_model` its numbers, empty without one.
-    """
-    return bounded_flank(
-        p.flank_law,
-        load,
-        channels[ENTRAIN] * s[W_P],
-        sliding,
-        contact_of(channels),
-        film,
-        oil,
-        film_model,
-    )
-
-
-@kernel
-def _film_at_node(
-    node: int,
-    s: Array,
-    force: float,
-    window: Array,
-    n_nodes: int,
-    oil: LubricantState,
-    law: FlankLaw,
-    film_model: Array,
-) -> ModelFilm:
-    first = (node % n_nodes) * N_CHANNELS
-    channels = window[first : first + N_CHANNELS]
-    load = abs(force) * channels[SHARE]
-    return pair_film(s, load, sliding_speed(s, channels), channels, oil, law, film_model)
-
-
-@kernel
-def _renew_films(
-    step: int,
-    node: int,
-    s: Array,
-    force: float,
-    window: Array,
-    n_nodes: int,
-    oil: LubricantState,
-    law: FlankLaw,
-    film_model: Array,
-    kept: Array,
-) -> None:
-    """Evaluate the film model at the NEXT node, or around any OTHER; as `film_between_nodes`."""
-    if step == NEXT:
-        take_next(kept, node)
-    else:
-        start_films(kept, node, force, s[W_P])
-        keep_film(kept, 0, _film_at_node(node, s, force, window, n_nodes, oil, law, film_model))
-    keep_film(kept, 1, _film_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model))
-
-
-@kernel
-def film_between_nodes(
-    pair: int,
-    s: Array,
-    force: float,
-    window: Array,
-    n_nodes: int,
-    oil: LubricantState,
-    z_p: float,
-    law: FlankLaw,
-    film_model: Array,
-    kept: Array,
-) -> ModelFilm:
-    """Return what the film model says of one flank, linear between the nodes of the mesh table.
-
-    As all data of the table are. It is evaluated at a node when the pair comes before it, and
-    anew when the mesh force or the speed has changed much since; `kept`, shape (N_NODE_FILM,),
-    holds it in between. `z_p` teeth of the pinion, `law` of the flanks: handing over all parameters
-    of the axle takes longer than the rest. Others as in `flank_sum`.
-    """
-    node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
-    step = nodes_on(kept, node, n_nodes, force, s[W_P])
-    if step != SAME:
-        _renew_films(step, node, s, force, window, n_nodes, oil, law, film_model, kept)
-    return film_between(kept, t)
-
-
-@kernel
-def flank_film(
-    pair: int,
-    s: Array,
-    load: float,
-    force: float,
-    sliding: float,
-    channels: Array,
-    window: Array,
-    n_nodes: int,
-    oil: LubricantState,
-    z_p: float,
-    law: FlankLaw,
-    film_model: Array,
-    refresh: float,
-    films: Array,
-) -> ModelFilm:
-    """Return what the film model says of one flank, or NO_MODEL_FILM without a model.
-
-    At the contact itself where `refresh` is EXACT, else between the nodes of the mesh table.
-    `films` holds those of all pairs, `load` of this one [N]; others as in `film_between_nodes`.
-    """
-    if film_model.size == 0:
-        return NO_MODEL_FILM
-    if refresh == EXACT:
-        return pair_film(s, load, sliding, channels, oil, law, film_model)
-    kept = node_films(films, pair)
-    return film_between_nodes(pair, s, force, window, n_nodes, oil, z_p, law, film_model, kept)
 
 
 @kernel
@@ -302,8 +104,7 @@ def flank_sum(
     friction : ndarray of shape (N_FRICTION,)
         Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
         of the friction over load [-], that of the power lost in friction, always anew [W], and
-        `film_nodes` of
-        all pairs.
+        the films at the nodes, see `film_nodes`.
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
     film_model : ndarray
@@ -335,7 +136,7 @@ def flank_sum(
                 sliding = sliding_speed(s, channels)
                 if p.friction != 0.0:
                     if refresh != 0.0:
-                        film = flank_film(
+                        viscous_over_load, boundary_over_load, bound = flank_coefficients(
                             pair,
                             s,
                             load,
@@ -351,15 +152,9 @@ def flank_sum(
                             refresh,
                             friction[FILMS:],
                         )
-                        bounded = pair_friction(
-                            s, load, sliding, channels, oil, p, film, film_model
-                        )
-                        flank = bounded.state
-                        friction[2 * pair] = flank.viscous_friction / load
-                        friction[2 * pair + 1] = flank.boundary_friction / load
-                        friction[BOUND + pair] = bounded.friction_bound * (
-                            friction[2 * pair] + friction[2 * pair + 1]
-                        )
+                        friction[2 * pair] = viscous_over_load
+                        friction[2 * pair + 1] = boundary_over_load
+                        friction[BOUND + pair] = bound
                     f_v = friction[2 * pair] * load
                     f_b = friction[2 * pair + 1] * load
                     f = f_v + f_b
@@ -391,12 +186,9 @@ def flank_sum(
                 friction[2 * pair + 1] = 0.0
                 friction[2 * _PAIRS + pair] = 0.0
                 friction[BOUND + pair] = 0.0
-                forget_films(node_films(friction[FILMS:], pair))
     elif refresh != 0.0:
         # teeth may touch before the next refresh: what stands here is then used
         for i in range(BOUND_POWER):
             friction[i] = 0.0
-        for pair in range(_PAIRS):
-            forget_films(node_films(friction[FILMS:], pair))
     friction[BOUND_POWER] = doubt
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary, rolled)

@@ -10,7 +10,10 @@ from gearlube_core.drag.churning import churning_torque
 from gearlube_core.drag.seals import seal_drag
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, BearingDrag, bearing_drag
 from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
-from gearlube_core.dynamics.hypoid_axle.flanks import BETWEEN_NODES, BOUND_POWER, FILMS
+from gearlube_core.dynamics.hypoid_axle.flanks import (
+    BOUND_POWER,
+    FILMS,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -41,6 +44,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     WORK_MARK,
     X,
+)
+from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
+    BETWEEN_NODES,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
@@ -267,7 +273,8 @@ def advance(
         s[WORK_MARK + i] = s[PINION_WORK + i]
     s[TIME_IN_STEP] = duration
     s[FRICTION_BOUND] = 0.0
-    for i in range(N_FILMS):
+    n_films = N_FILMS if mesh.film_model.size > 0 else 0
+    for i in range(n_films):
         scratch[FILMS + i] = s[FILM_NODES + i]
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
     expanded_at = displacements(s, 0.0)
@@ -302,7 +309,7 @@ def advance(
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
         if table.levels[0] < 0.0:
             follow_flank(s, table, p.mesh, mesh)
-    for i in range(N_FILMS):
+    for i in range(n_films):
         s[FILM_NODES + i] = scratch[FILMS + i]
     total = 0.0
     for i in range(N_ODE):

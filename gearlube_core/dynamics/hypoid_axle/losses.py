@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,6 +12,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle.flank_bulk import bulk_temperature
 from gearlube_core.dynamics.hypoid_axle.integrate import work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
@@ -20,7 +23,9 @@ from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
     cycle_work,
 )
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
-from gearlube_core.dynamics.hypoid_axle.outputs import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    N_OUTPUTS,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
@@ -40,11 +45,17 @@ LOSS_SOURCES = (
     "seals",
     "friction_rolling",
 )
+TOO_HOT = NO_BALANCE + 1
 FAILURES = {
     0: "",
     NO_EQUILIBRIUM: f"no static equilibrium of the shafts. {NO_EQUILIBRIUM_CURE}",
     NO_BALANCE: "the torques on the pinion did not balance. Change the torque a little.",
+    TOO_HOT: "the flanks' bulk gets hotter than 100 K above the oil's data. Give a smaller "
+    "flank_bulk_resistance.",
 }
+_RUBBING = [LOSS_SOURCES.index(one) for one in ("friction_viscous", "friction_boundary")]
+_OF_FILMS = [*_RUBBING, LOSS_SOURCES.index("friction_rolling")]  # at the flanks' temperature
+_BEYOND = 100.0  # K above the oil's data, to which a bulk is looked for
 ANGLES = 32  # of a mesh period; see docs/loss_map.md for what fewer and more give
 _ROUNDING = 1e-12  # of the sum: the mesh is damped by rates that are zero but for rounding
 
@@ -66,6 +77,8 @@ class AxleLosses:
         Bound of the power lost in flank friction [W], and share of the flanks' load outside the
         domain of the model of solved films [-], means over a mesh period; 0 with film formulas.
         Empty where extremes were not asked for.
+    bulk_temperature : ndarray
+        Of the flanks' bulk [K]; that of the oil with `flank_bulk_resistance` 0.
     exceeded : ndarray
         Sum of 1, 2, 4, ... for each range that was left, see `ranges.RANGE_OUTPUTS`.
     status : ndarray of int
@@ -78,6 +91,7 @@ class AxleLosses:
     flank_temperature: Array
     friction_bound: Array
     share_outside: Array
+    bulk_temperature: Array
     exceeded: Array
     status: Array
 
@@ -126,11 +140,14 @@ def axle_losses(
     -----
     Friction and drag are those of the axle in motion, evaluated at rest at each angle: what a
     march in time adds is the swing of loads about their means and the damping of mesh and
-    rollers. It matters near resonances and where teeth part.
+    rollers. It matters near resonances and where teeth part. With `flank_bulk_resistance` films,
+    friction and rolling of the flanks are those at the steady temperature of their bulk, see
+    `flank_bulk`; all else is at the oil's. A bulk hotter than the oil's data counts as a range that
+    was left.
 
     Examples
     --------
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> found = axle_losses(
     ...     mohammadpour_2015_axle(), torques=np.array([50.0]), speeds=np.array([209.4]),
     ...     temperatures=np.array([333.15]),
@@ -170,23 +187,27 @@ def axle_losses(
     shape = temperatures.size, speeds.size, torques.size
     power, carried = np.full((*shape, N_LOSSES), np.nan), np.full(shape, np.nan)
     found, status = np.full((*shape, N_EXTREMES), np.nan), np.zeros(shape)
+    bulk = np.broadcast_to(temperatures[:, None, None], shape).copy()
+
+    def write(speed: float, torques: Array, temperature: float, *of_torques: Array) -> None:
+        kernel(
+            speed, torques, temperature, angles, extremes, fields, *constants, works, *of_torques
+        )
+
     for i, temperature in enumerate(temperatures):
         for j, speed in enumerate(speeds):
             progress((i * speeds.size + j) / (shape[0] * shape[1]), "losses")
-            kernel(
-                speed,
-                torques,
-                temperature,
-                angles,
-                extremes,
-                fields,
-                *constants,
-                works,
-                power[i, j],
-                carried[i, j],
-                found[i, j],
-                status[i, j],
-            )
+            here = power[i, j], carried[i, j], found[i, j], status[i, j]
+            write(speed, torques, temperature, *here)
+            if parameters.flank_bulk_resistance > 0.0:
+                for k in np.flatnonzero(here[-1] == 0):
+                    warm = _warm_flanks(parameters, write, speed, torques[k], temperature)
+                    bulk[i, j, k], status[i, j, k] = warm.temperature, warm.status
+                    power[i, j, k, _OF_FILMS] = warm.power[_OF_FILMS]
+                    exceeded = found[i, j, k, 2]
+                    found[i, j, k] = warm.found
+                    if extremes and warm.status == 0:
+                        found[i, j, k, 2] = int(exceeded) | int(warm.found[2])
     power[status != 0] = np.nan
     power[np.abs(power) < _ROUNDING * power.sum(axis=-1, keepdims=True)] = 0.0
     carried[status != 0] = np.nan
@@ -198,5 +219,38 @@ def axle_losses(
         exceeded=found[..., 2],
         friction_bound=found[..., 3],
         share_outside=found[..., 4],
+        bulk_temperature=bulk,
         status=status.astype(int),
     )
+
+
+class _Warm(NamedTuple):
+    """A point with warm flanks."""
+
+    temperature: float  # of their bulk [K]
+    status: int
+    power: Array
+    found: Array
+
+
+def _warm_flanks(
+    parameters: HypoidAxleParameters,
+    write: Callable[..., None],
+    speed: float,
+    torque: float,
+    oil: float,
+) -> _Warm:
+    """Return a point with films at the temperature of the flanks' bulk."""
+    power, found = np.full((1, N_LOSSES), np.nan), np.full((1, N_EXTREMES), np.nan)
+    carried, status = np.zeros(1), np.zeros(1)
+
+    def friction(temperature: float) -> float:
+        write(speed, np.array([torque]), temperature, power, carried, found, status)
+        return float(power[0, _RUBBING].sum()) if status[0] == 0 else 0.0
+
+    highest = parameters.oil.temperature_high + _BEYOND
+    temperature = bulk_temperature(friction, oil, parameters.flank_bulk_resistance, highest)
+    if np.isnan(temperature):
+        return _Warm(temperature, TOO_HOT, power[0], np.full(N_EXTREMES, np.nan))
+    friction(temperature)
+    return _Warm(temperature, int(status[0]), power[0], found[0])

@@ -30,11 +30,13 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     blend_mesh,
     place_at_load,
 )
-from gearlube_core.dynamics.hypoid_axle.outputs import (
+from gearlube_core.dynamics.hypoid_axle.output_names import (
     FLANKS,
     LOSS_BOUND,
     RANGES,
     SHARE_OUTSIDE,
+)
+from gearlube_core.dynamics.hypoid_axle.outputs import (
     write_outputs,
 )
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs

@@ -27,7 +27,9 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     blend_mesh,
     place_at_load,
 )
-from gearlube_core.dynamics.hypoid_axle.outputs import OUTPUT_NAMES
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    OUTPUT_NAMES,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM_CURE, OK, REST_WORK
@@ -41,7 +43,7 @@ from gearlube_core.dynamics.stepped_model import (
     TorqueLimits,
     Words,
 )
-from gearlube_core.errors import ConvergenceError
+from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.oil.lubricant_state import lubricant_state
 
@@ -58,6 +60,11 @@ STEP_REFUSALS = {
     ),
     TOO_FAST: TOO_FAST_WORDS,
 }
+MARCH_WITH_WARM_FLANKS = (
+    "flank_bulk_resistance must be 0 K/W in a march in time: teeth warm up in minutes, a march "
+    "lasts a second. Take `gearlube map` or `gearlube cycle`, which use mean losses, or leave "
+    "film.bulk_resistance_k_w out."
+)
 _WORDS = Words("axle", "the bearing modes", STEP_REFUSALS)
 
 
@@ -89,7 +96,7 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     Examples
     --------
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> axle = HypoidAxle(mohammadpour_2015_axle())
     >>> axle.initialise(
     ...     pinion_speed=209.4, pinion_torque=50.0, wheel_torque=140.0, oil_temperature=333.15
@@ -100,6 +107,10 @@ class HypoidAxle(SteppedModel[StepControl]):
     """
 
     def __init__(self, parameters: HypoidAxleParameters) -> None:
+        if parameters.flank_bulk_resistance > 0.0:
+            raise ParameterError(
+                f"{MARCH_WITH_WARM_FLANKS} Got {parameters.flank_bulk_resistance:g} K/W."
+            )
         self.parameters = parameters
         self.packed: PackedMesh = pack_mesh(
             parameters.mesh,

@@ -1,4 +1,4 @@
-"""Outputs of the axle: their names, which are the FMU's public contract, and their kernels."""
+"""Kernels that write the outputs of the axle; `output_names` says which these are."""
 
 from __future__ import annotations
 
@@ -7,27 +7,18 @@ import math
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import shaft_energy
 from gearlube_core.dynamics.hypoid_axle.bearing_outputs import (
-    BEARING_OUTPUTS,
-    N_BEARING_QUANTITIES,
     write_shaft,
 )
 from gearlube_core.dynamics.hypoid_axle.continuous import (
-    EVENT_INDICATORS,
-    RATE_NAMES,
-    STATE_NAMES,
     write_event_indicators,
     write_rates,
 )
 from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
-    FLANK_BOUNDS,
-    FLANK_OUTPUTS,
     write_flanks,
 )
 from gearlube_core.dynamics.hypoid_axle.flanks import (
-    BETWEEN_NODES,
     BOUND_POWER,
-    EXACT,
     FILMS,
     N_FRICTION,
 )
@@ -44,6 +35,48 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     backlash_deflection,
     mesh_force,
     reference_frequency,
+)
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    AXLE_EFFICIENCY,
+    BEARING_LOSS,
+    BOUNDARY_LOSS,
+    CHURNING_LOSS,
+    DAMPING_LOSS,
+    DTE,
+    EFFICIENCY,
+    EFFICIENCY_BOUND,
+    ENERGIES,
+    EVENTS,
+    FIRST_FLANK_BOUND,
+    FIRST_ROLLER,
+    FLANKS,
+    FRICTION_LOSS,
+    GEAR_BEARINGS,
+    GEAR_CAGE,
+    LOAD_LEVEL,
+    LOSS_BOUND,
+    MESH_FORCE,
+    MESH_FREQUENCY,
+    MESH_STIFFNESS,
+    PINION_ACCELERATION,
+    PINION_ANGLE,
+    PINION_BEARINGS,
+    PINION_CAGE,
+    PINION_DISPLACEMENT,
+    PINION_SPEED,
+    PINION_VELOCITY,
+    RANGES,
+    RATES,
+    ROLLING_LOSS,
+    SEAL_LOSS,
+    SEPARATED,
+    SHARE_OUTSIDE,
+    STORED_ENERGY,
+    WHEEL_ACCELERATION,
+    WHEEL_ANGLE,
+    WHEEL_DISPLACEMENT,
+    WHEEL_SPEED,
+    WHEEL_VELOCITY,
 )
 from gearlube_core.dynamics.hypoid_axle.rhs import (
     AT_EXPANSION,
@@ -84,120 +117,15 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WORK_MARK,
     X,
 )
+from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
+    BETWEEN_NODES,
+    EXACT,
+)
 from gearlube_core.dynamics.mean_power import mean_power
-from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS, write_ranges
+from gearlube_core.dynamics.ranges import write_ranges
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import R_P, blend_levels, load_bracket
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
-
-_OUTPUTS: tuple[str, ...] = (
-    "pinion.angle",
-    "wheel.angle",
-    "pinion.speed",
-    "wheel.speed",
-    "pinion.acceleration",
-    "wheel.acceleration",
-    "mesh.dte",
-    "mesh.force",
-    "mesh.separated",
-    "mesh.stiffness",
-    "mesh.frequency",
-    *FLANK_OUTPUTS,
-    "friction.power_loss",
-    "friction.power_loss_boundary",
-    "bearing.power_loss",
-    "churning.power_loss",
-    "seal.power_loss",
-    "friction.power_loss_rolling",
-    "damping.power_loss",
-    "efficiency",
-    "axle.efficiency",
-    "friction.power_loss_bound",
-    "efficiency_bound",
-    *(f"{member}.displacement.{c}" for member in ("pinion", "wheel") for c in "xyz"),
-    *BEARING_OUTPUTS,
-    "bearing[1].roller[1].load",
-    "bearing[1].cage.angle",
-    "bearing[3].cage.angle",
-    "energy.pinion_work",
-    "energy.wheel_work",
-    "energy.friction_viscous",
-    "energy.friction_boundary",
-    "energy.mesh_damping",
-    "energy.bearing_damping",
-    "energy.bearing_torque",
-    "energy.churning",
-    "energy.seals",
-    "energy.friction_rolling",
-    "energy.stored",
-    *RANGE_OUTPUTS,
-    "film.share_outside",
-    *FLANK_BOUNDS,
-)
-# for another integrator: the other states, the rates of all, and the event indicators
-_OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
-OUTPUT_NAMES = (*_OUTPUTS, *_OTHER_STATES, *RATE_NAMES, *EVENT_INDICATORS)
-OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
-N_OUTPUTS = len(OUTPUT_NAMES)
-
-# places of the outputs that the kernel writes by name
-PINION_ANGLE = OUTPUT_INDEX["pinion.angle"]
-WHEEL_ANGLE = OUTPUT_INDEX["wheel.angle"]
-PINION_SPEED = OUTPUT_INDEX["pinion.speed"]
-WHEEL_SPEED = OUTPUT_INDEX["wheel.speed"]
-PINION_ACCELERATION = OUTPUT_INDEX["pinion.acceleration"]
-WHEEL_ACCELERATION = OUTPUT_INDEX["wheel.acceleration"]
-DTE = OUTPUT_INDEX["mesh.dte"]
-MESH_FORCE = OUTPUT_INDEX["mesh.force"]
-SEPARATED = OUTPUT_INDEX["mesh.separated"]
-MESH_STIFFNESS = OUTPUT_INDEX["mesh.stiffness"]
-MESH_FREQUENCY = OUTPUT_INDEX["mesh.frequency"]
-FRICTION_LOSS = OUTPUT_INDEX["friction.power_loss"]
-BOUNDARY_LOSS = OUTPUT_INDEX["friction.power_loss_boundary"]
-BEARING_LOSS = OUTPUT_INDEX["bearing.power_loss"]
-CHURNING_LOSS = OUTPUT_INDEX["churning.power_loss"]
-SEAL_LOSS = OUTPUT_INDEX["seal.power_loss"]
-ROLLING_LOSS = OUTPUT_INDEX["friction.power_loss_rolling"]
-DAMPING_LOSS = OUTPUT_INDEX["damping.power_loss"]
-EFFICIENCY = OUTPUT_INDEX["efficiency"]
-AXLE_EFFICIENCY = OUTPUT_INDEX["axle.efficiency"]
-LOSS_BOUND = OUTPUT_INDEX["friction.power_loss_bound"]
-EFFICIENCY_BOUND = OUTPUT_INDEX["efficiency_bound"]
-FIRST_ROLLER = OUTPUT_INDEX["bearing[1].roller[1].load"]
-PINION_CAGE = OUTPUT_INDEX["bearing[1].cage.angle"]
-GEAR_CAGE = OUTPUT_INDEX["bearing[3].cage.angle"]
-STORED_ENERGY = OUTPUT_INDEX["energy.stored"]
-SHARE_OUTSIDE = OUTPUT_INDEX["film.share_outside"]
-
-# first place of a group of outputs of one kind
-FLANKS = OUTPUT_INDEX[FLANK_OUTPUTS[0]]
-FIRST_FLANK_BOUND = OUTPUT_INDEX[FLANK_BOUNDS[0]]
-PINION_DISPLACEMENT = OUTPUT_INDEX["pinion.displacement.x"]
-WHEEL_DISPLACEMENT = OUTPUT_INDEX["wheel.displacement.x"]
-PINION_BEARINGS = OUTPUT_INDEX[BEARING_OUTPUTS[0]]
-GEAR_BEARINGS = PINION_BEARINGS + 2 * N_BEARING_QUANTITIES
-ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
-RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
-PINION_VELOCITY = OUTPUT_INDEX["pinion.velocity.x"]
-WHEEL_VELOCITY = OUTPUT_INDEX["wheel.velocity.x"]
-LOAD_LEVEL = OUTPUT_INDEX["mesh.load_torque"]
-RATES = OUTPUT_INDEX[RATE_NAMES[0]]  # in the order of the state
-EVENTS = OUTPUT_INDEX[EVENT_INDICATORS[0]]
-
-# what follows from the state and the mean mesh data alone
-MOTION_OUTPUTS: tuple[str, ...] = (
-    *OUTPUT_NAMES[:PINION_ACCELERATION],
-    *OUTPUT_NAMES[DTE:FLANKS],
-    *OUTPUT_NAMES[FRICTION_LOSS : EFFICIENCY_BOUND + 1],
-    *OUTPUT_NAMES[PINION_DISPLACEMENT : WHEEL_DISPLACEMENT + 3],
-    OUTPUT_NAMES[PINION_CAGE],
-    OUTPUT_NAMES[GEAR_CAGE],
-    *OUTPUT_NAMES[ENERGIES : ENERGIES + N_ENERGIES],
-    *_OTHER_STATES,
-)
-
-# of these, what an input changes at once while no step has been taken
-POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : EFFICIENCY_BOUND + 1])
 
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
@@ -363,8 +291,9 @@ def _write_rates(
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     inputs = step_inputs(s, torques[0], torques[1], oil, p)
     scratch = work[N_ODE:at_series]
-    for i in range(N_FILMS):
-        scratch[FILMS + i] = s[FILM_NODES + i]
+    if data.film_model.size > 0:
+        for i in range(N_FILMS):
+            scratch[FILMS + i] = s[FILM_NODES + i]
     axle_rhs(s, inputs, data, oil, p, asked, 1.0, scratch, rates)
     write_rates(s, rates, torques[0], out[RATES:EVENTS])
     write_event_indicators(s, table, data, p.mesh, out[EVENTS:])

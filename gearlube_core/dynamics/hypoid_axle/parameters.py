@@ -7,15 +7,13 @@ from typing import Annotated, Literal, get_args
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
-from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
-from gearlube_core.checks import check_option, check_within
+from gearlube_core.checks import check_option
 from gearlube_core.contact.greenwood_tripp_1971 import (
     FLANK_SIGMA_OVER_BETA,
     FLANK_XI_BETA_SIGMA,
     SurfaceParameters,
 )
 from gearlube_core.contact.solid import (
-    STEEL_MOHAMMADPOUR_2015,
     Solid,
     contact_modulus,
     solid_parameters,
@@ -45,7 +43,6 @@ from gearlube_core.friction.flank_laws import (
     MixedFlankFriction,
 )
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS, FlankRolling
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -126,6 +123,9 @@ class HypoidAxleParameters(AxleScalars):
     film_limiting_slope : float
         Limiting shear stress of the film over pressure [-], 0 for none: the film model knows none,
         so contacts whose mean stress comes near it count as outside.
+    flank_bulk_resistance : float
+        Rise of the flanks' bulk over the oil for each watt of their mean friction [K/W]; in mean
+        losses alone, a march refuses it. See `flank_bulk`.
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
@@ -173,6 +173,7 @@ class HypoidAxleParameters(AxleScalars):
     friction: Friction | FlankLawMaker = "consistent"
     film: Film = "formula"
     film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
+    flank_bulk_resistance: Annotated[float, Within(0.0, 10.0, "K/W", "Try 0.03 K/W.")] = 0.0
     rolling: FlankRolling = "none"
     bearing_torque_loss: TorqueLoss = "palmgren"
     churning: ChurningLaw = "none"
@@ -334,72 +335,3 @@ class HypoidAxleParameters(AxleScalars):
             flank_law=self._flank_law(),
             oil=self.oil.parameters(),
         )
-
-
-def mohammadpour_2015_axle(
-    *,
-    bearing_preload: float = 2500.0,
-    roughness_rms: float = 0.5e-6,
-    backlash: float = 150e-6,
-    mesh: MeshTable | None = None,
-    oil: str = "mohammadpour_2015",
-    bearing_approach: Approach = "full",
-) -> HypoidAxleParameters:
-    """Return the axle of Mohammadpour et al. 2015 (Tables 1 and A1-A4), to start from.
-
-    Options of the model have the defaults of `HypoidAxleParameters`; change them with `replace`.
-
-    Parameters
-    ----------
-    bearing_preload : float
-        Axial preload of every bearing at assembly [N].
-    roughness_rms : float
-        Composite roughness of the flanks [m]. The paper gives "Ra 0.5 um" for each solid. Its
-        formulas need the composite root mean square, and Karagiannis et al. 2012 give 0.5 um for
-        this pair.
-    backlash : float
-        Total backlash [m], from Karagiannis et al. 2012.
-    mesh : MeshTable, optional
-        Mesh table of another gear pair, e.g. one written by `gearlube contact`; inertias, masses
-        and bearings stay those of the paper. Default: the table that ships.
-    oil : str
-        Name in the lubricant library.
-    bearing_approach : {"full", "as_printed"}
-        Equation (26) of the paper with the full approach of the rollers, or with half of it, as
-        printed there.
-
-    Raises
-    ------
-    ParameterError
-        A value is out of range, or an option or oil does not exist.
-
-    Examples
-    --------
-    >>> from dataclasses import replace
-    >>> axle = mohammadpour_2015_axle(bearing_preload=6000.0)
-    >>> replace(axle, friction="off", equations="as_printed").gear_mass  # kg
-    49.9
-    """
-    check_option("bearing_approach", bearing_approach, get_args(Approach))
-    check_within(
-        "bearing_preload",
-        bearing_preload,
-        0.0,
-        1e5,
-        "N",
-        "Preload cannot pull; give 0 N for line-to-line bearings.",
-    )
-    return HypoidAxleParameters(
-        mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
-        bearing=TaperedRollerBearing.mohammadpour_2015(approach=bearing_approach).with_preload(
-            bearing_preload
-        ),
-        oil=Lubricant.named(oil),
-        solid=STEEL_MOHAMMADPOUR_2015,
-        pinion_inertia=1734e-6,
-        gear_inertia=5.81e-2,
-        pinion_mass=12.0,
-        gear_mass=49.9,
-        roughness_rms=roughness_rms,
-        backlash=backlash,
-    )

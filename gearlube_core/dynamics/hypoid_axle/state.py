@@ -29,6 +29,6 @@ TIME_IN_STEP = 30  # length of the last communication step [s]
 WORK_MARK = 31  # these energies at the start of the last communication step [J]
 SIDE = WORK_MARK + N_ENERGIES  # below 0: the mesh data are those of the coast flanks [-]
 FRICTION_BOUND = SIDE + 1  # of the flank friction losses of the last communication step [J]
-FILM_NODES = FRICTION_BOUND + 1  # `film_nodes` of all tooth pairs, with a film model
+FILM_NODES = FRICTION_BOUND + 1  # `film_nodes`, with a film model
 N_STATE = FILM_NODES + N_FILMS
 N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events

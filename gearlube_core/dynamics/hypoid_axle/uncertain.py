@@ -140,7 +140,7 @@ def uncertain_of(
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> axle = replace(mohammadpour_2015_axle(), bearing_torque_loss="biboulet_houpert_2010")
     >>> {one.name: one.factor for one in uncertain_of(axle)}["bearing_drag"]
     3.0

@@ -6,7 +6,7 @@ import hashlib
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from gearlube_core.ehl.case.contact_case import ContactCase, LineLoad, PartLength, Radius
 from gearlube_core.ehl.case.film_case import Wedge, refused
@@ -15,7 +15,9 @@ from gearlube_core.ehl.case.rough_surfaces import RoughSurface
 from gearlube_core.ehl.point.line_section import line_section
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import FEWEST_ROWS, MOST_ROWS
 from gearlube_core.ehl.point.solid_contact import SolidContact
+from gearlube_core.ehl.transient.history import check_scheme
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.section import moving_section
 from gearlube_core.input_file.input_file import Section
@@ -29,13 +31,14 @@ from gearlube_core.surface.schedule import RoughSchedule
 from gearlube_core.units import MILLIMETRE
 
 _MICRO, _GIGA = 1e-6, 1e9
+_HIGHEST = 10e9  # Pa, more than steel carries
 
 HalfWidths = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
 Growth = Annotated[float, Field(ge=1e-3, le=100.0, allow_inf_nan=False)]
 StepCount = Annotated[int, Field(ge=1, le=1_000_000)]
 Moment = Annotated[int, Field(ge=0, le=1_000_000)]
 Columns = Annotated[int, Field(ge=17, le=2049)]
-Rows = Annotated[int, Field(ge=1, le=2048)]
+Rows = Annotated[int, Field(ge=FEWEST_ROWS, le=MOST_ROWS)]
 Reach = Annotated[float, Field(ge=1.05, le=100.0, allow_inf_nan=False)]
 Layer = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Pressure = Annotated[float, Field(ge=1e-3, le=1000.0, allow_inf_nan=False)]
@@ -106,6 +109,11 @@ class RoughSolver(Section):
     wedge: Wedge = Field(
         default="quick", description="Difference formula for the wedge term of Reynolds' equation"
     )
+    discretisation: Literal["differences", "elements"] = Field(
+        default="differences",
+        description="differences: finite volumes; elements: Galerkin finite elements, with "
+        "upwinding where pressure hardly moves the oil, `wedge` does not matter then",
+    )
     scheme: Literal["bdf2", "crank_nicolson"] = Field(
         default="bdf2",
         description="Formula for the change of oil mass over time; crank_nicolson has a quarter "
@@ -126,6 +134,13 @@ class RoughSolver(Section):
     krylov_steps: Steps = Field(
         default=60, description="Largest number of iterations in a linear solution"
     )
+
+    @field_validator("rows")
+    @classmethod
+    def _even(cls, rows: int) -> int:
+        if rows % 2:
+            raise ValueError(f"the number of rows must be even, got {rows}. Take {rows + 1}")
+        return rows
 
 
 class RoughFrames(Section):
@@ -185,8 +200,15 @@ class RoughCase(ContactCase):
                 f"from the inlet, got {self.speed_1_m_s:g} and {self.speed_2_m_s:g} m/s"
             )
         with refused("In SI units: "):
-            self.section()
-            self.settings()
+            section = self.section()
+            check_scheme(self.solver.scheme, self.settings().discretisation)
+        hertz = section.hertz_contact[2]
+        if hertz > _HIGHEST:
+            raise ValueError(
+                f"the Hertz pressure must be at most {_HIGHEST / _GIGA:g} GPa, got "
+                f"{hertz / _GIGA:.4g} GPa by load_n_per_mm, radius_mm and reduced_modulus_gpa; "
+                "give them in N/mm, mm and GPa"
+            )
         with refused():
             self.roughness()
         return self
@@ -267,9 +289,15 @@ class RoughCase(ContactCase):
         regular = range(0, last + 1, every) if every else ()
         return tuple(sorted({*regular, *(k for k in self.frames.steps if k <= last)}))
 
+    def _unsaid(self) -> set[str]:
+        """Return what a solver setting left the records of before say nothing about."""
+        return {"discretisation"} if self.solver.discretisation == "differences" else set()
+
     def key(self) -> str:
         """Return a key of all that the march depends on: not of names and frames."""
-        told = self.model_dump_json(exclude={"name", "source", "frames"})
+        told = self.model_dump_json(
+            exclude={"name": True, "source": True, "frames": True, "solver": self._unsaid()}
+        )
         digest = hashlib.sha256(told.encode())
         for one in self.surfaces():
             digest.update(np.ascontiguousarray(one.heights.height).tobytes())

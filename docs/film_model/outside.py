@@ -1,0 +1,170 @@
+"""What the formulas err where the film model does not hold: python -m docs.film_model.outside.
+
+Contacts of the axle outside the model's domain are solved (129 x 33 nodes, about a second each,
+resumable: docs/film_model/outside.csv) and compared with what the axle takes there.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from docs.film_model.marked_page import put
+from gearlube.studies.film_model.draws import ANYWHERE
+from gearlube.studies.film_model.kinds import HYPOID_FLANK
+from gearlube.studies.film_model.plan import FilmPlan, FilmTask
+from gearlube.studies.film_model.samples import axle_contacts
+from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
+from gearlube.studies.film_model.train import failed_row, solve_task
+from gearlube_core.arrays import Array
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
+from gearlube_core.errors import GearLubeError
+from gearlube_core.film_model.groups import FilmContact
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.solved_film import solved_film
+from gearlube_core.friction.flank_data import FlankState, contact_geometry
+from gearlube_core.friction.flank_laws import consistent
+from gearlube_core.friction.solved_flank import FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
+from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.oil_file import read_oil
+
+TABLE = Path(__file__).with_name("outside.csv")
+SOLVES, SEED, DRAWS = 60, 220, 1000
+MODEL = FilmModel.named("hypoid_flank")
+SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
+FOUND = 0.1e9  # Pa, mean pressure below which most films are not found
+_SMOOTH = 1e-8  # m, of flanks without asperities in touch
+
+
+class Outside(NamedTuple):
+    """Contacts that the formulas take alone, solved; arrays (n,)."""
+
+    pressure: Array  # mean of Hertz [Pa]
+    film: Array  # solved over Chittenden's [-]
+    friction: Array  # solved [-]
+    formula: Array  # Evans and Johnson's [-]
+    isothermal: Array  # of an isothermal Eyring film as thick as Chittenden's [-]
+    loss: Array  # load times sliding times solved friction [W]
+
+
+def contacts() -> list[FilmContact]:
+    """Return contacts of the axle that lie outside, in the order of their draw."""
+    plan = FilmPlan()
+    oils = [read_oil(name).lubricant for name in plan.oils]
+    drawn = axle_contacts(DRAWS, SEED, shipped_mesh_table(plan.mesh_table), oils, ANYWHERE)
+    numbers = MODEL.copied_numbers()
+    found = [one for one in drawn if solved_film(numbers, one).outside > 0.0]
+    return found[:SOLVES]
+
+
+def solved() -> list[SolveRow]:
+    """Return all contacts solved; those in the table are not solved again."""
+    table = SolveTable(TABLE)
+    for n, one in enumerate(contacts()):
+        task = FilmTask("outside", n, HYPOID_FLANK.nodes, one)
+        if table.read(row_key(task)) is None:
+            try:
+                table.keep(row_key(task), solve_task(task))
+            except GearLubeError as error:
+                table.keep(row_key(task), failed_row(task, error))
+    return list(table.rows.values())
+
+
+def compared(rows: list[SolveRow]) -> Outside:
+    """Return solved films well outside the domain beside the formulas, by the axle's kernels."""
+    numbers, cells = MODEL.copied_numbers(), []
+    for row in rows:
+        c = row.task.contact
+        if row.failure or solved_film(numbers, c).outside < 1.0:
+            continue
+        oil, flank = state_of(c), formula_of(c)
+        p = flank.mean_pressure
+        rate = oil.eta0 * c.sliding_speed / (flank.film_thickness * oil.tau0)
+        isothermal = oil.tau0 / p * eyring_stress_ratio(rate, oil.alpha * p)
+        mu = row.solved.friction
+        cells.append(
+            (
+                p,
+                row.solved.central_film / flank.film_thickness,
+                mu,
+                flank.viscous_friction / c.load,
+                isothermal,
+                c.load * c.sliding_speed * mu,
+            )
+        )
+    return Outside(*np.array(cells).T)
+
+
+def formula_of(c: FilmContact) -> FlankState:
+    """Return film and friction by the formulas, flanks too smooth for asperities in touch."""
+    law = consistent(gear_flanks(_SMOOTH), SOLID)
+    geometry = contact_geometry(c.R_x, c.R_y, c.entrainment_angle, SOLID.contact_modulus)
+    return law.flank_state(c.load, c.entrainment_speed, c.sliding_speed, geometry, state_of(c))
+
+
+def sentences(rows: list[SolveRow]) -> str:
+    """Return what was found, with how many contacts exceed the bounds, as Markdown."""
+    found = compared(rows)
+    failed = [row for row in rows if row.failure]
+    thick, top = np.abs(found.film - 1.0), found.friction / found.isothermal
+    none = int((found.formula == 0.0).sum())
+    off = np.abs(found.friction - found.formula) / np.maximum(found.formula, 1e-30)
+    held = found.pressure >= FOUND
+    little = 100.0 * float(found.loss[~held].sum() / found.loss.sum())
+
+    def over(values: Array, bound: float) -> str:
+        above, below = values[held] > bound, values[~held] > bound
+        return f"{above.sum()} of {above.size} | {below.sum()} of {below.size}"
+
+    gpa = 1e-9 * found.pressure
+    share = f"{100.0 * FORMULA_FILM_BOUND:.0f} %"
+    return (
+        f"Of {len(rows)} contacts drawn outside, {gpa.size} lie where the formulas stand in alone "
+        f"and were solved ({gpa.min():.2f} to {gpa.max():.2f} GPa mean pressure); {len(failed)} "
+        f"were not found, all below {1e-9 * _highest(failed):.2f} GPa. The formula's friction is "
+        f"zero at {none} of them, so that no bound relative to it can hold. Contacts below "
+        f"{1e-9 * FOUND:.1f} GPa hold {little:.1g} % of the loss of those solved.\n\n"
+        f"| bound | exceeded above {1e-9 * FOUND:.1f} GPa | below |\n|---|---|---|\n"
+        f"| film, before: 33 % of the formula's | {over(thick, 0.33)} |\n"
+        f"| film, now: {share} of the formula's | {over(thick, FORMULA_FILM_BOUND)} |\n"
+        f"| friction, before: 57 % of the formula's | {over(off, 0.57)} |\n"
+        f"| friction, now: between 0 and {FORMULA_FRICTION_TOP:g} times the isothermal Eyring "
+        f"value | {over(top, FORMULA_FRICTION_TOP)} |\n"
+    )
+
+
+def _highest(rows: list[SolveRow]) -> float:
+    """Return the highest mean Hertz pressure of contacts [Pa]."""
+    contacts = [row.task.contact for row in rows]
+    return max((c.pressure_coefficient * c.load ** (1.0 / 3.0) for c in contacts), default=0.0)
+
+
+def main() -> None:
+    """Solve what is missing and write the page."""
+    put("outside", "outside", sentences(solved()))
+
+
+def state_of(c: FilmContact) -> LubricantState:
+    """Return the oil of a contact as the axle's flanks take it."""
+    limit, boundary = 2e6, 0.17  # of asperities, which are not compared here
+    return LubricantState(
+        c.eta0,
+        c.alpha,
+        c.beta,
+        c.eta0 * c.heat_capacity,  # nu is not used by a film
+        c.tau0,
+        limit,
+        boundary,
+        c.conductivity,
+        c.temperature,
+        c.heat_capacity,
+    )
+
+
+if __name__ == "__main__":
+    main()

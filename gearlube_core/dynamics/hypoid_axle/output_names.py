@@ -1,0 +1,121 @@
+"""Names of the axle's outputs, which are the FMU's public contract, and their places."""
+
+from __future__ import annotations
+
+from gearlube_core.dynamics.hypoid_axle.bearing_outputs import (
+    BEARING_OUTPUTS,
+    N_BEARING_QUANTITIES,
+)
+from gearlube_core.dynamics.hypoid_axle.continuous import EVENT_INDICATORS, RATE_NAMES, STATE_NAMES
+from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.state import N_ENERGIES
+from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS
+
+_OUTPUTS: tuple[str, ...] = (
+    "pinion.angle",
+    "wheel.angle",
+    "pinion.speed",
+    "wheel.speed",
+    "pinion.acceleration",
+    "wheel.acceleration",
+    "mesh.dte",
+    "mesh.force",
+    "mesh.separated",
+    "mesh.stiffness",
+    "mesh.frequency",
+    *FLANK_OUTPUTS,
+    "friction.power_loss",
+    "friction.power_loss_boundary",
+    "bearing.power_loss",
+    "churning.power_loss",
+    "seal.power_loss",
+    "friction.power_loss_rolling",
+    "damping.power_loss",
+    "efficiency",
+    "axle.efficiency",
+    "friction.power_loss_bound",
+    "efficiency_bound",
+    *(f"{member}.displacement.{c}" for member in ("pinion", "wheel") for c in "xyz"),
+    *BEARING_OUTPUTS,
+    "bearing[1].roller[1].load",
+    "bearing[1].cage.angle",
+    "bearing[3].cage.angle",
+    "energy.pinion_work",
+    "energy.wheel_work",
+    "energy.friction_viscous",
+    "energy.friction_boundary",
+    "energy.mesh_damping",
+    "energy.bearing_damping",
+    "energy.bearing_torque",
+    "energy.churning",
+    "energy.seals",
+    "energy.friction_rolling",
+    "energy.stored",
+    *RANGE_OUTPUTS,
+    "film.share_outside",
+    *FLANK_BOUNDS,
+)
+# for another integrator: the other states, the rates of all, and the event indicators
+_OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
+OUTPUT_NAMES = (*_OUTPUTS, *_OTHER_STATES, *RATE_NAMES, *EVENT_INDICATORS)
+OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
+N_OUTPUTS = len(OUTPUT_NAMES)
+
+# places of the outputs that the kernel writes by name
+PINION_ANGLE = OUTPUT_INDEX["pinion.angle"]
+WHEEL_ANGLE = OUTPUT_INDEX["wheel.angle"]
+PINION_SPEED = OUTPUT_INDEX["pinion.speed"]
+WHEEL_SPEED = OUTPUT_INDEX["wheel.speed"]
+PINION_ACCELERATION = OUTPUT_INDEX["pinion.acceleration"]
+WHEEL_ACCELERATION = OUTPUT_INDEX["wheel.acceleration"]
+DTE = OUTPUT_INDEX["mesh.dte"]
+MESH_FORCE = OUTPUT_INDEX["mesh.force"]
+SEPARATED = OUTPUT_INDEX["mesh.separated"]
+MESH_STIFFNESS = OUTPUT_INDEX["mesh.stiffness"]
+MESH_FREQUENCY = OUTPUT_INDEX["mesh.frequency"]
+FRICTION_LOSS = OUTPUT_INDEX["friction.power_loss"]
+BOUNDARY_LOSS = OUTPUT_INDEX["friction.power_loss_boundary"]
+BEARING_LOSS = OUTPUT_INDEX["bearing.power_loss"]
+CHURNING_LOSS = OUTPUT_INDEX["churning.power_loss"]
+SEAL_LOSS = OUTPUT_INDEX["seal.power_loss"]
+ROLLING_LOSS = OUTPUT_INDEX["friction.power_loss_rolling"]
+DAMPING_LOSS = OUTPUT_INDEX["damping.power_loss"]
+EFFICIENCY = OUTPUT_INDEX["efficiency"]
+AXLE_EFFICIENCY = OUTPUT_INDEX["axle.efficiency"]
+LOSS_BOUND = OUTPUT_INDEX["friction.power_loss_bound"]
+EFFICIENCY_BOUND = OUTPUT_INDEX["efficiency_bound"]
+FIRST_ROLLER = OUTPUT_INDEX["bearing[1].roller[1].load"]
+PINION_CAGE = OUTPUT_INDEX["bearing[1].cage.angle"]
+GEAR_CAGE = OUTPUT_INDEX["bearing[3].cage.angle"]
+STORED_ENERGY = OUTPUT_INDEX["energy.stored"]
+SHARE_OUTSIDE = OUTPUT_INDEX["film.share_outside"]
+
+# first place of a group of outputs of one kind
+FLANKS = OUTPUT_INDEX[FLANK_OUTPUTS[0]]
+FIRST_FLANK_BOUND = OUTPUT_INDEX[FLANK_BOUNDS[0]]
+PINION_DISPLACEMENT = OUTPUT_INDEX["pinion.displacement.x"]
+WHEEL_DISPLACEMENT = OUTPUT_INDEX["wheel.displacement.x"]
+PINION_BEARINGS = OUTPUT_INDEX[BEARING_OUTPUTS[0]]
+GEAR_BEARINGS = PINION_BEARINGS + 2 * N_BEARING_QUANTITIES
+ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
+RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
+PINION_VELOCITY = OUTPUT_INDEX["pinion.velocity.x"]
+WHEEL_VELOCITY = OUTPUT_INDEX["wheel.velocity.x"]
+LOAD_LEVEL = OUTPUT_INDEX["mesh.load_torque"]
+RATES = OUTPUT_INDEX[RATE_NAMES[0]]  # in the order of the state
+EVENTS = OUTPUT_INDEX[EVENT_INDICATORS[0]]
+
+# what follows from the state and the mean mesh data alone
+MOTION_OUTPUTS: tuple[str, ...] = (
+    *OUTPUT_NAMES[:PINION_ACCELERATION],
+    *OUTPUT_NAMES[DTE:FLANKS],
+    *OUTPUT_NAMES[FRICTION_LOSS : EFFICIENCY_BOUND + 1],
+    *OUTPUT_NAMES[PINION_DISPLACEMENT : WHEEL_DISPLACEMENT + 3],
+    OUTPUT_NAMES[PINION_CAGE],
+    OUTPUT_NAMES[GEAR_CAGE],
+    *OUTPUT_NAMES[ENERGIES : ENERGIES + N_ENERGIES],
+    *_OTHER_STATES,
+)
+
+# of these, what an input changes at once while no step has been taken
+POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : EFFICIENCY_BOUND + 1])

@@ -1,0 +1,244 @@
+"""Film and friction on one tooth pair, by formulas or by a film model."""
+
+from __future__ import annotations
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.film_nodes import (
+    NodeFlank,
+    film_between,
+    friction_between,
+    keep_flank,
+    node_film,
+    still_holds,
+)
+from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
+from gearlube_core.dynamics.packed_mesh import (
+    ARM_G,
+    ARM_P,
+    DELTA,
+    ELLIPTICITY,
+    ENTRAIN,
+    LINE_RADIUS,
+    N_CHANNELS,
+    PRESSURE,
+    PSI,
+    R_E,
+    R_Y,
+    SHARE,
+    SIDE_FLOW,
+    XI_X,
+    XI_Y,
+    XI_Z,
+)
+from gearlube_core.friction.flank_bound import (
+    NO_MODEL_FILM,
+    BoundedFlank,
+    FlankEllipse,
+    ModelFilm,
+)
+from gearlube_core.friction.flank_data import ContactGeometry
+from gearlube_core.friction.flank_law import FlankLaw, bounded_flank, model_film
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.mesh_table.kernels import pair_node
+from gearlube_core.oil.lubricant_state import LubricantState
+
+# how film and traction of the flanks are evaluated: a film model at the contact itself, or
+# interpolated between the nodes of the mesh table
+EXACT, BETWEEN_NODES = 1.0, 2.0
+
+
+@kernel
+def sliding_speed(s: Array, channels: Array) -> float:
+    """Return the sliding speed of the pinion over the gear flank [m/s].
+
+    dU = w_p r_p - w_g r_g + xi.(v_p - v_g): the rate that the friction force does work on, so that
+    its power is -f abs(dU) whatever the motion.
+    """
+    return (
+        channels[ARM_P] * s[W_P]
+        - channels[ARM_G] * s[W_G]
+        + channels[XI_X] * (s[V_P] - s[V_G])
+        + channels[XI_Y] * (s[V_P + 1] - s[V_G + 1])
+        + channels[XI_Z] * (s[V_P + 2] - s[V_G + 2])
+    )
+
+
+@kernel
+def contact_of(channels: Array) -> ContactGeometry:
+    """Return the geometry of a contact from the channels of the mesh table."""
+    return ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE])
+
+
+@kernel
+def pair_film(
+    s: Array,
+    load: float,
+    sliding: float,
+    channels: Array,
+    oil: LubricantState,
+    law: FlankLaw,
+    film_model: Array,
+) -> ModelFilm:
+    """Return what the film model says of one flank with this law; others as in `pair_friction`."""
+    return model_film(
+        law,
+        load,
+        channels[ENTRAIN] * s[W_P],
+        sliding,
+        contact_of(channels),
+        FlankEllipse(
+            channels[LINE_RADIUS],
+            channels[R_Y],
+            channels[ELLIPTICITY],
+            channels[PSI],
+            channels[DELTA],
+        ),
+        oil,
+        film_model,
+    )
+
+
+@kernel
+def pair_friction(
+    s: Array,
+    load: float,
+    sliding: float,
+    channels: Array,
+    oil: LubricantState,
+    law: FlankLaw,
+    film: ModelFilm,
+    film_model: Array,
+) -> BoundedFlank:
+    """Return the state of one flank with this law under `load` [N], sliding at `sliding` [m/s].
+
+    `film` is what a film model says of it, and `film_model` its numbers, empty without one.
+    """
+    return bounded_flank(
+        law,
+        load,
+        channels[ENTRAIN] * s[W_P],
+        sliding,
+        contact_of(channels),
+        film,
+        oil,
+        film_model,
+    )
+
+
+@kernel
+def _flank_at_node(
+    node: int,
+    s: Array,
+    force: float,
+    window: Array,
+    oil: LubricantState,
+    law: FlankLaw,
+    film_model: Array,
+) -> NodeFlank:
+    channels = window[node * N_CHANNELS : (node + 1) * N_CHANNELS]
+    load = abs(force) * channels[SHARE]
+    sliding = sliding_speed(s, channels)
+    film = pair_film(s, load, sliding, channels, oil, law, film_model)
+    if load == 0.0:
+        return NodeFlank(film.log_film, film.log_friction, film.outside, 0.0, 0.0, 0.0)
+    found = pair_friction(s, load, sliding, channels, oil, law, film, film_model)
+    viscous = found.state.viscous_friction / abs(force)
+    boundary = found.state.boundary_friction / abs(force)
+    bound = found.friction_bound * (viscous + boundary)
+    return NodeFlank(film.log_film, film.log_friction, film.outside, viscous, boundary, bound)
+
+
+@kernel
+def _kept_at_node(
+    node: int,
+    s: Array,
+    force: float,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    law: FlankLaw,
+    film_model: Array,
+    films: Array,
+) -> Array:
+    """Return what is kept of a node, evaluated anew if it no longer holds.
+
+    `films`, shape (N_FILMS,), keeps it; `law` of the flanks: handing over all parameters of the
+    axle takes longer than the rest. Others as in `flank_sum`.
+    """
+    place = node % n_nodes
+    kept = node_film(films, place)
+    if not still_holds(kept, place, force, s[W_P], oil.temperature):
+        flank = _flank_at_node(place, s, force, window, oil, law, film_model)
+        keep_flank(kept, place, force, s[W_P], oil.temperature, flank)
+    return kept
+
+
+@kernel
+def flank_film(
+    pair: int,
+    s: Array,
+    load: float,
+    force: float,
+    sliding: float,
+    channels: Array,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    z_p: float,
+    law: FlankLaw,
+    film_model: Array,
+    refresh: float,
+    films: Array,
+) -> ModelFilm:
+    """Return what the film model says of one flank, or NO_MODEL_FILM without a model.
+
+    At the contact itself where `refresh` is EXACT, else linear between the nodes of the mesh table,
+    as all data of the table are. `load` of this pair [N], `z_p` teeth of the pinion, `law` of the
+    flanks, `films` of shape (N_FILMS,); others as in `flank_sum`.
+    """
+    if film_model.size == 0:
+        return NO_MODEL_FILM
+    if refresh == EXACT:
+        return pair_film(s, load, sliding, channels, oil, law, film_model)
+    node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
+    before = _kept_at_node(node, s, force, window, n_nodes, oil, law, film_model, films)
+    after = _kept_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model, films)
+    return film_between(before, after, t)
+
+
+@kernel
+def flank_coefficients(
+    pair: int,
+    s: Array,
+    load: float,
+    force: float,
+    sliding: float,
+    channels: Array,
+    window: Array,
+    n_nodes: int,
+    oil: LubricantState,
+    z_p: float,
+    law: FlankLaw,
+    film_model: Array,
+    refresh: float,
+    films: Array,
+) -> tuple[float, float, float]:
+    """Return viscous and boundary friction of one flank over its load [-], and the bound of both.
+
+    With a film model, unless `refresh` is EXACT, friction over mesh force is linear between the
+    nodes of the mesh table. Arguments as in `flank_film`.
+    """
+    if film_model.size > 0 and refresh != EXACT:
+        node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
+        before = _kept_at_node(node, s, force, window, n_nodes, oil, law, film_model, films)
+        after = _kept_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model, films)
+        viscous, boundary, bound = friction_between(before, after, t)
+        of_load = abs(force) / load
+        return viscous * of_load, boundary * of_load, bound * of_load
+    film = NO_MODEL_FILM
+    if film_model.size > 0:
+        film = pair_film(s, load, sliding, channels, oil, law, film_model)
+    found = pair_friction(s, load, sliding, channels, oil, law, film, film_model)
+    viscous = found.state.viscous_friction / load
+    boundary = found.state.boundary_friction / load
+    return viscous, boundary, found.friction_bound * (viscous + boundary)

@@ -1,0 +1,104 @@
+"""Friction by the film model between nodes of the mesh table, and when nodes are renewed."""
+
+import numpy as np
+import pytest
+
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle, film_nodes, flanks, rhs, tooth_pair
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+    MeshAtLoad,
+    MeshLevels,
+    blend_mesh,
+)
+from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_STATE, PHI_P, W_G, W_P
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.oil.lubricant_state import lubricant_state
+from tests.helpers.axle_cases import OIL, axle_with
+
+FORCE, SPEED, TORQUE, TEETH = 2500.0, 145.0, 60.0, 13
+
+
+class Flanks:
+    """All flanks of the shipped axle with solved films under a given mesh force and speed."""
+
+    def __init__(self):
+        axle = HypoidAxle(axle_with(film="solved"))
+        mesh, self.p = axle.packed, axle.kernel_parameters
+        window = np.zeros(mesh.window_size)
+        levels = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+        at_load = MeshAtLoad(np.zeros(mesh.series_size), mesh.orders, window, mesh.nodes)
+        self.s = np.zeros(N_STATE)
+        self.s[LOAD_TORQUE] = TORQUE
+        blend_mesh(TORQUE, 1.0, levels, at_load)
+        self.window, self.nodes = window, mesh.nodes
+        self.model = axle.parameters.film_model()
+        self.kept = np.zeros(rhs.N_FRICTION)
+
+    def losses(self, phase, refresh, force=FORCE, speed=SPEED, oil=OIL):
+        """Viscous and boundary power [W], bound of their sum [W]; phase in windows."""
+        self.s[PHI_P] = phase * 2.0 * np.pi * 3.0 / TEETH
+        self.s[W_P], self.s[W_G] = speed, speed * TEETH / 36.0
+        found = flanks.flank_sum(
+            self.s, force, self.window, self.nodes, lubricant_state(self.p.oil, oil), self.p,
+            refresh, self.kept, np.zeros(N_CHANNELS), self.model,
+        )  # fmt: skip
+        return found.viscous_power, found.boundary_power, self.kept[flanks.BOUND_POWER]
+
+
+@pytest.fixture
+def axle():
+    return Flanks()
+
+
+def test_friction_between_nodes_is_near_that_at_the_contact_itself(axle):
+    phases = np.random.default_rng(3).uniform(0.0, 1.0, 100)
+    exact = np.array([axle.losses(x, tooth_pair.EXACT) for x in phases])
+    between = np.array([axle.losses(x, tooth_pair.BETWEEN_NODES) for x in phases])
+    error = between / exact - 1.0
+    # a pair's friction goes from 0 to its height and back over some 40 nodes: a line misses
+    # (pi/40)^2/8 = 8e-4 of a half sine, several times that where a flank goes over the border of
+    # the model's domain within one interval
+    assert abs(error[:, :2]).max() < 8e-3
+    assert abs(error[:, :2].mean(axis=0)).max() < 1e-3
+    # over that border the bound rises from 1 to 57 %
+    assert abs(error[:, 2].mean()) < 0.03
+
+
+def test_at_a_node_friction_is_that_at_the_contact_itself(axle):
+    for node in range(0, axle.nodes, 7):
+        phase = (node + 1e-9) / axle.nodes
+        at_node = axle.losses(phase, tooth_pair.BETWEEN_NODES)
+        # what lies in 1e-9 of an interval
+        assert at_node == pytest.approx(axle.losses(phase, tooth_pair.EXACT), rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("now", "holds"),
+    [
+        ({"force": 1.005 * FORCE}, True),
+        ({"force": 1.02 * FORCE}, False),
+        ({"force": -FORCE}, False),
+        ({"speed": 1.002 * SPEED}, True),
+        ({"speed": 0.99 * SPEED}, False),
+        ({"oil": OIL + 0.05}, True),
+        ({"oil": OIL + 0.2}, False),
+    ],
+)
+def test_nodes_are_evaluated_anew_when_force_speed_or_oil_have_changed(axle, now, holds):
+    axle.losses(0.3, tooth_pair.BETWEEN_NODES)
+    before = axle.kept[flanks.FILMS :].copy()
+    found = axle.losses(0.3, tooth_pair.BETWEEN_NODES, **now)
+    assert np.array_equal(axle.kept[flanks.FILMS :], before) == holds
+    if not holds:
+        # as by an axle that keeps nothing
+        assert found == Flanks().losses(0.3, tooth_pair.BETWEEN_NODES, **now)
+
+
+def test_nodes_that_share_a_place_do_not_serve_one_another(axle):
+    axle.losses(0.3, tooth_pair.BETWEEN_NODES)
+    films = axle.kept[flanks.FILMS :]
+    node = int(0.3 * axle.nodes)
+    slot = film_nodes.node_film(films, node)
+    other = node + film_nodes.NODES_KEPT
+    assert np.shares_memory(slot, film_nodes.node_film(films, other))
+    assert film_nodes.still_holds(slot, node, FORCE, SPEED, OIL)
+    assert not film_nodes.still_holds(slot, other, FORCE, SPEED, OIL)
