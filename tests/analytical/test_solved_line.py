@@ -81,6 +81,16 @@ def test_far_outside_all_is_the_formulas():
     assert solved(1e5, slope=0.01).outside == 1.0  # of the limiting stress
 
 
+def test_compiled_friction_equals_its_python_function():
+    inlet = line_inlet(OIL, SOLID, 0.0)
+    for load in (50.0, 1500.0, 1e5):
+        given = (load, R, SPEED, -SLIP, OIL, ROUGH, SOLID, inlet, NUMBERS)
+        compiled, python = solved_line_friction(*given), solved_line_friction.py_func(*given)
+        # rounding, which the bound's small difference of asperities enlarges
+        np.testing.assert_allclose(compiled.state, python.state, rtol=1e-12)
+        np.testing.assert_allclose(compiled[1:], python[1:], rtol=1e-9)
+
+
 def test_the_sign_follows_sliding():
     forward, back = solved(1e5).state, solved(1e5, slip=-SLIP).state
     assert back.signed_coefficient == -forward.signed_coefficient < 0.0

@@ -15,6 +15,7 @@ from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solves import SolveTable
 from gearlube.studies.film_model.train import failed_row
 from gearlube_core.errors import ParameterError
+from gearlube_core.film.moes_1992 import central_film_group
 from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.film_model.line_contact import (
     LineContact,
@@ -24,7 +25,7 @@ from gearlube_core.film_model.line_contact import (
 )
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.reference_friction import line_reference_friction
-from gearlube_core.film_model.solved_line import solved_line
+from gearlube_core.film_model.solved_line import solved_line, solved_line_at
 from gearlube_core.oil.lubricant import Lubricant
 
 E_STAR = 210e9 / (2.0 * (1.0 - 0.3**2))
@@ -149,6 +150,20 @@ def test_kernel_agrees_with_a_plain_evaluation(model):
     assert found.central_film == pytest.approx(film, rel=1e-12)
     assert found.friction_coefficient == pytest.approx(friction * math.exp(y[1]), rel=1e-12)
     assert (found.film_bound, found.friction_bound) == (model.film_bound, model.friction_bound)
+
+
+def test_compiled_kernels_equal_their_python_functions(model):
+    one = contact()
+    place, inlet = line_parts(one)
+    for kernel, given in (
+        (central_film_group, (3.0, 9.0)),
+        (line_reference_film, (1.1e5, 5.0, 0.01, inlet)),
+        (line_reference_friction, (6e-7, 4e8, 5.0, 0.8, 1.2e-4, 0.01, inlet)),
+        (line_contact_groups, (one,)),
+        (solved_line_at, (model.copied_numbers(), 1.1e5, 5.0, 0.8, place, inlet)),
+    ):
+        # rounding: sums of the net in another order
+        np.testing.assert_allclose(kernel(*given), kernel.py_func(*given), rtol=1e-12)
 
 
 def test_friction_near_pure_rolling_is_linear_in_sliding(model):
