@@ -57,7 +57,6 @@ TABLE = (
     "film that 50 % are below [nm]",
     "zone below 10 nm [%]",
     THIN_SHOWN,
-    "load on solids [%]",
 )
 THIN = 100e-9  # m
 THIN_SHARE = "share of the zone below 100 nm, rough"
