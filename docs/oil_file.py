@@ -140,6 +140,11 @@ axle file. The last oil of the table cannot be named in an axle file.
 {oils}
 No published data of the reference oils FVA 1, 2 and 4 were available.
 
+Take care with the oils of the hypoid papers: their pressure exponents, 0.39 (`karagiannis_2012`)
+and 0.83 (`mohammadpour_2015`), lie below and at the upper end of measured mineral oils, and 2 MPa
+is little. With `karagiannis_2012` flanks rub far less than published friction says, see
+[the comparison](film_model_axle.md#against-published-friction).
+
 ## Limits
 
 - The viscosity follows the straight line of ASTM D341 and holds above 2 mm2/s. Oils with much

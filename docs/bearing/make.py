@@ -227,7 +227,7 @@ def picture() -> Any:
                 if law == DEFAULT_LAW:
                     factor = curve[0].factor
                     ends = torque / factor, torque * factor
-                    words = "error bar of the default, k = 2"
+                    words = "error bar of the default law (95 %)"
                     ax.fill_between(speeds, *ends, color=GREY, alpha=0.35, lw=0.0, label=words)
                 ax.plot(speeds, torque, color=SERIES[i], label=LAW_NAMES[law])
             here = [point for point in POINTS if (point.degc, point.radial) == (degc, radial)]

@@ -27,14 +27,14 @@ def save_separation_figure(curves: Sequence[tuple[str, Sequence[Curve]]], file: 
             top.set_title(title)
             top.set_yscale("log")
             top.legend(loc="upper left")
-            bottom.set_xlabel("mesh frequency / that of the mesh's own mode")
+            bottom.set_xlabel("mesh frequency over natural frequency of the mesh")
             bottom.set_xlim(group[0].relative.min(), group[0].relative.max())
             bottom.set_ylim(0.0, None)
-        axes[0, 0].set_ylabel(r"$\delta_z$ peak to peak [µm]")
-        axes[1, 0].set_ylabel("time [%]")
+        axes[0, 0].set_ylabel(r"mesh deflection $\delta_z$, peak to peak [µm]")
+        axes[1, 0].set_ylabel("share of time [%]")
         figure.suptitle(
-            "Lines: with separation, dashed where unstable; dotted: springs that also pull.\n"
-            "Below: time without any contact (wide), with part of the lines off (thin)",
+            "Above: motion with tooth separation, dashed where unstable; dotted: springs that also "
+            "pull.\nBelow: time without any contact (wide), with part of the lines off (thin)",
             fontsize=10.0,
         )
         figure.savefig(file, dpi=150)

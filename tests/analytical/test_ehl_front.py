@@ -44,7 +44,7 @@ def test_band_is_the_string_over_an_obstacle():
     right, pressure, change = np.zeros((3, 3, n))
     right[1] = -load
     places = np.array([(1, i) for i in range(1, n - 1)])
-    relax_band(ROW, by_pressure, by_pressure[0], places, pressure, right, 20000, change)
+    relax_band(ROW, by_pressure, by_pressure[0], places, pressure, right, 0, 20000, change)
     at = x - 0.5 * dx  # the mirror stands half a spacing off node 0
     exact = np.where(at < a, a**2 - at**2 / 2.0, np.maximum(2.0 * a - at, 0.0) ** 2 / 2.0)
     # the load's edge and the front lie between nodes: an error of the first order
@@ -100,6 +100,7 @@ def test_front_may_unbalance_the_film_only_near_the_answer(
         offsets=np.array([[0, 0]]),
         by_pressure=derivative[None],
         by_film=np.zeros((1, *shape)),
+        centre=0,
         right=-residual,
     )
     level = SimpleNamespace(

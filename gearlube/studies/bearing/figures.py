@@ -42,7 +42,7 @@ def torque_of_laws(dataset: xr.Dataset) -> Any:
                 one, colour = at.sel(law=law), SERIES[i % len(SERIES)]
                 if i == 0:
                     band = (one["torque_low"], one["torque_high"])
-                    words = f"error bar of {LAW_NAMES[str(law)]}, k = 2"
+                    words = f"error bar of {LAW_NAMES[str(law)]} (95 %)"
                     ax.fill_between(x, *band, color=GREY, alpha=0.4, lw=0.0, label=words)
                 marker, name = MARKERS[i % len(MARKERS)], LAW_NAMES[str(law)]
                 ax.plot(x, one["torque"], color=colour, marker=marker, label=name)

@@ -44,7 +44,7 @@ def bearing_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
             Figure(
                 name="torque",
                 title="Torque by all laws",
-                caption="Thick line: the first law; dashed: the ends of its error bar (k = 2). A "
+                caption="Thick line: the first law; dashed: the ends of its error bar (95 %). A "
                 "law inside these lines agrees with it as far as either is known.",
                 chart=law_chart(dataset),
             ),

@@ -16,6 +16,7 @@ from gearlube_core.ehl.point.line_section import line_section
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
+from gearlube_core.ehl.transient.history import check_scheme
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.section import moving_section
 from gearlube_core.input_file.input_file import Section
@@ -106,6 +107,11 @@ class RoughSolver(Section):
     wedge: Wedge = Field(
         default="quick", description="Difference formula for the wedge term of Reynolds' equation"
     )
+    discretisation: Literal["differences", "elements"] = Field(
+        default="differences",
+        description="differences: finite volumes; elements: Galerkin finite elements, with "
+        "upwinding where pressure hardly moves the oil, `wedge` does not matter then",
+    )
     scheme: Literal["bdf2", "crank_nicolson"] = Field(
         default="bdf2",
         description="Formula for the change of oil mass over time; crank_nicolson has a quarter "
@@ -186,7 +192,7 @@ class RoughCase(ContactCase):
             )
         with refused("In SI units: "):
             self.section()
-            self.settings()
+            check_scheme(self.solver.scheme, self.settings().discretisation)
         with refused():
             self.roughness()
         return self
@@ -267,9 +273,15 @@ class RoughCase(ContactCase):
         regular = range(0, last + 1, every) if every else ()
         return tuple(sorted({*regular, *(k for k in self.frames.steps if k <= last)}))
 
+    def _unsaid(self) -> set[str]:
+        """Return what a solver setting left the records of before say nothing about."""
+        return {"discretisation"} if self.solver.discretisation == "differences" else set()
+
     def key(self) -> str:
         """Return a key of all that the march depends on: not of names and frames."""
-        told = self.model_dump_json(exclude={"name", "source", "frames"})
+        told = self.model_dump_json(
+            exclude={"name": True, "source": True, "frames": True, "solver": self._unsaid()}
+        )
         digest = hashlib.sha256(told.encode())
         for one in self.surfaces():
             digest.update(np.ascontiguousarray(one.heights.height).tobytes())

@@ -24,6 +24,10 @@ from gearlube_core.ehl.point.terms.state import Balance, FilmState
 from gearlube_core.kernels.row_workers import RowWorkers
 
 Scheme = Differences | Elements
+DISCRETE: dict[str, Callable[[PointGrid], Scheme]] = {
+    "differences": Differences,
+    "elements": Elements,
+}
 
 
 class PointLevel:
@@ -197,10 +201,8 @@ class PointLevel:
             ruptured=terms.cavitation.full,
         )
         carried = terms.entrainment.carried(state.mass)
-        self._scheme.residual(self.stencil, state, carried, terms.storage.source)
-        balance = self._balance(self.stencil)
-        terms.storage.add_residual(state, balance)
-        terms.cavitation.add_residual(state, balance)
+        self._scheme.residual(self.stencil, state, carried, terms.storage.released(state.mass))
+        terms.cavitation.add_residual(state, self._balance(self.stencil))
         return state
 
     def linearise(
@@ -229,7 +231,12 @@ class PointLevel:
         density = entrainment.carried(state.density), entrainment.carried(state.density_slope)
         stencil = self.stencil._replace(squeeze=self.stencil.squeeze + squeeze)
         offsets, by_pressure, by_film = self._scheme.derivatives(
-            stencil, state, density, terms.cavitation.rows(free, state)
+            stencil,
+            state,
+            density,
+            terms.cavitation.rows(free, state),
+            entrainment.rows,
+            terms.storage,
         )
         linear = Linearisation(
             offsets,
@@ -242,9 +249,7 @@ class PointLevel:
             centre=self._scheme.centre,
             sides=self.grid.sides,
         )
-        balance = self._balance(stencil)
-        terms.storage.add_derivatives(linear, state, balance)
-        terms.cavitation.add_derivatives(linear, state, balance)
+        terms.cavitation.add_derivatives(linear, state, self._balance(stencil))
         state.contact.add_derivatives(linear, state.residual)
         linear.sum_by_approach()
         terms.boundary.add_derivatives(linear, state.approach, self.grid, self.load)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.ehl.point.equations.stencil import CENTRE
 from gearlube_core.ehl.point.newton.newton import flow_residual
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.level import MovingLevel
@@ -45,6 +44,7 @@ def relax_band(
     places: np.ndarray,
     pressure: np.ndarray,
     right: np.ndarray,
+    centre: int,
     sweeps: int,
     change: np.ndarray,
 ) -> None:
@@ -55,13 +55,15 @@ def relax_band(
     offsets : ndarray of int, shape (n, 2)
         Steps to the neighbours along y and x.
     by_pressure : ndarray, shape (m, ny, nx), m <= n
-        Derivatives of the residual at given film; neighbour 0 is the node itself.
+        Derivatives of the residual at given film.
     slope : ndarray, shape (ny, nx)
         Of the node itself, with what its own pressure does to the film.
     places : ndarray of int, shape (k, 2)
         Nodes in the order of the sweep.
     pressure, right : ndarray, shape (ny, nx)
         Pressure, and what the derivatives times the changes have to be.
+    centre
+        Number of the node itself among its neighbours.
     sweeps
         Number of Gauss-Seidel sweeps.
     change : ndarray, shape (ny, nx)
@@ -73,7 +75,7 @@ def relax_band(
             j, i = places[m, 0], places[m, 1]
             if slope[j, i] >= 0.0:
                 continue
-            rest = right[j, i] - (slope[j, i] - by_pressure[0, j, i]) * change[j, i]
+            rest = right[j, i] - (slope[j, i] - by_pressure[centre, j, i]) * change[j, i]
             for k in range(by_pressure.shape[0]):
                 jj, ii = j + offsets[k, 0], i + offsets[k, 1]
                 if 0 <= jj < ny and 0 <= ii < nx:
@@ -119,14 +121,15 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
     mark_band(flow > _FEW * flow.max(), _BACK, _AHEAD, _BESIDE, band)
     band = state.contact.apart(state.boundary.within(band))
     linear = level.linearise(state, rows=band.copy())
-    change = np.zeros(level.shape)
+    change, centre = np.zeros(level.shape), linear.centre
     relax_band(
         linear.offsets,
         linear.by_pressure,
-        linear.by_pressure[CENTRE] + level.grid.own_deflection * linear.by_film[CENTRE],
+        linear.by_pressure[centre] + level.grid.own_deflection * linear.by_film[centre],
         np.argwhere(band),
         state.pressure,
         linear.right,
+        centre,
         _SWEEPS,
         change,
     )

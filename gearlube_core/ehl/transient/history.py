@@ -8,8 +8,32 @@ import numpy as np
 from scipy.ndimage import shift
 
 from gearlube_core.arrays import Array
+from gearlube_core.checks import check_option
 from gearlube_core.ehl.point.start.nested import zero_border
 from gearlube_core.ehl.point.terms.state import FilmState
+from gearlube_core.errors import ParameterError
+
+SCHEMES = ("bdf2", "crank_nicolson")
+
+
+def check_scheme(scheme: str, discretisation: str) -> None:
+    """Refuse a scheme of the storage term that is none or that a discretisation does not have.
+
+    Raises
+    ------
+    ParameterError
+
+    Notes
+    -----
+    "crank_nicolson" needs the flow of the step before at each node on its own; elements share
+    what is stored between nodes.
+    """
+    check_option("scheme", scheme, SCHEMES)
+    if scheme == "crank_nicolson" and discretisation == "elements":
+        raise ParameterError(
+            "differences are needed for scheme crank_nicolson, got elements. Take bdf2 or "
+            "differences."
+        )
 
 
 @dataclass(slots=True)

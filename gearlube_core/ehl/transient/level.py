@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
+from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.mesh import Grading
-from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.level import PointLevel, Scheme
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.terms.boundary import AmbientOutside
+from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.entrainment import RowEntrainment
 from gearlube_core.ehl.point.terms.film_terms import film_shear
 from gearlube_core.ehl.point.terms.storage import Storage
@@ -36,13 +39,15 @@ class MovingLevel(PointLevel):
         shape: tuple[int, int],
         wedge: str,
         grading: Grading | None = None,
+        *,
+        scheme: Callable[[PointGrid], Scheme] = Differences,
     ) -> None:
         if scales.swap or scales.flip_x or problem.entrainment[1] != 0.0:
             raise ParameterError(
                 "a film that changes in time must be entrained along x towards larger x, got "
                 f"{problem.entrainment} m/s. Turn the axes."
             )
-        super().__init__(problem, scales, shape, wedge, grading)
+        super().__init__(problem, scales, shape, wedge, grading, scheme=scheme)
         # it slides as the conditions of a time say
         shear = film_shear(problem, scales, self.grid, (0.0, 0.0))
         self.terms = replace(self.terms, shear=shear)
@@ -55,6 +60,11 @@ class MovingLevel(PointLevel):
             raise ParameterError(
                 "the mean of both surface speeds must be above 0 m/s on every row, got "
                 f"{mean.min():.4g} m/s. Turn the x axis."
+            )
+        if conditions.slope != 0.0 and self._scheme.upwinds_along_x:
+            raise ParameterError(
+                "elements in a film that changes in time need entrainment along x, got a slope of "
+                f"{conditions.slope:.4g}. Take differences."
             )
         check_within("slope", conditions.slope, 0.0, _STEEPEST, "", "Turn the y axis or the axes.")
         scales = self.scales

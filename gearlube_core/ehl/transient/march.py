@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.checks import check_positive, check_within
 from gearlube_core.ehl.point.cavitation import refuse_rupture
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
@@ -19,7 +19,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.time_error import TimeError
-from gearlube_core.ehl.transient.history import FilmHistory
+from gearlube_core.ehl.transient.history import FilmHistory, check_scheme
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.lift import lifted
 from gearlube_core.ehl.transient.newton import LaggedPreconditioner, step_newton
@@ -31,7 +31,6 @@ from gearlube_core.ehl.transient.steady import steady_state
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.kernels.row_workers import RowWorkers
 
-SCHEMES = ("bdf2", "crank_nicolson")
 # "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"
 MARCH_SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
 _MOST_PARTS = 4  # of a step that is not found as a whole
@@ -55,7 +54,8 @@ class FilmMarch:
     scheme : {"bdf2", "crank_nicolson"}
         Of the storage term; the first step of "bdf2" is a backward Euler step.
     settings
-        Stencil and tolerances; `MARCH_SETTINGS` by default.
+        Stencil and tolerances; `MARCH_SETTINGS` by default. Elements need a uniform grid,
+        entrainment along x and "bdf2".
     record
         Goes on from there instead of from a steady state.
     throw
@@ -94,15 +94,15 @@ class FilmMarch:
         throw: bool = True,
         threads: int = 1,
     ) -> None:
-        check_option("scheme", scheme, SCHEMES)
         check_positive("time_step", time_step, "s")
         check_within("start_time", start_time, -1e9, 1e9, "s")
         if settings is None:
             settings = MARCH_SETTINGS
+        check_scheme(scheme, settings.discretisation)
         refuse_rupture(settings, "that changes in time")
         self.film, self.time_step, self.start_time = film, time_step, start_time
         self.scheme, self.settings, self.steps = scheme, settings, 0
-        self._grids = film.row_grids(settings.wedge) if film.long else film.grids(settings.wedge)
+        self._grids = film.row_grids(settings) if film.long else film.grids(settings)
         level = self._grids.levels[-1]
         assert isinstance(level, MovingLevel)
         self._level, workers = level, RowWorkers(threads)
@@ -253,7 +253,7 @@ class FilmMarch:
         self._past = FilmHistory(state, record.masses[0], before, record.inflow, rise)
 
     def _steady(self) -> tuple[FilmState, NewtonRecord]:
-        grids = self.film.grids(self.settings.wedge)
+        grids = self.film.grids(self.settings)
         set_conditions(self.film, grids, self.start_time)
         state, work = steady_state(self.film, grids, self.settings)
         finest = grids.levels[-1]

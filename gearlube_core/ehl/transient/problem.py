@@ -8,16 +8,18 @@ from itertools import pairwise
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.mesh import Grading, x_nodes
-from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.level import DISCRETE, PointLevel
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.conditions import Conditions
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.rows import row_shapes
+from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import FilmOil
 
 _LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
@@ -116,32 +118,50 @@ class MovingFilm:
         dx, dy = self.reference().spacing
         return dy > _LONG * dx and not Sides(self.sides).closed
 
-    def grids(self, wedge: str) -> Hierarchy:
+    def grids(self, settings: PointSolverSettings) -> Hierarchy:
         """Return the nested grids with the conditions of no time yet."""
         (nx, ny), (dx, dy) = self.nodes, self.reference().spacing
-        return self._hierarchy(grid_shapes((ny, nx), (dy, dx), Sides(self.sides)), wedge)
+        return self._hierarchy(grid_shapes((ny, nx), (dy, dx), Sides(self.sides)), settings)
 
-    def row_grids(self, wedge: str) -> Hierarchy:
+    def row_grids(self, settings: PointSolverSettings) -> Hierarchy:
         """Return grids that differ in the number of their rows alone."""
         nx, ny = self.nodes
-        return self._hierarchy(row_shapes((ny, nx)), wedge)
+        return self._hierarchy(row_shapes((ny, nx)), settings)
 
-    def with_rows_below(self, grids: Hierarchy, wedge: str) -> Hierarchy:
+    def with_rows_below(self, grids: Hierarchy, settings: PointSolverSettings) -> Hierarchy:
         """Return `row_grids` with the finest of `grids`, whose conditions and load hold."""
         finest = grids.levels[-1]
-        rows = self._hierarchy(row_shapes(finest.shape), wedge, finest)
+        rows = self._hierarchy(row_shapes(finest.shape), settings, finest)
         for level in rows.levels:
             level.set_load(finest.load)
         return rows
 
     def _hierarchy(
-        self, shapes: list[tuple[int, int]], wedge: str, finest: PointLevel | None = None
+        self,
+        shapes: list[tuple[int, int]],
+        settings: PointSolverSettings,
+        finest: PointLevel | None = None,
     ) -> Hierarchy:
+        if settings.discretisation == "elements" and (self.long or self.grading is not None):
+            raise ParameterError(
+                "elements in a film that changes in time need a uniform grid whose rows are at "
+                f"most {_LONG:g} times as far apart as its columns, got rows "
+                f"{self.reference().spacing[1] / self.reference().spacing[0]:.3g} times as far "
+                "apart. Take differences, or more rows and no grading."
+            )
         problem = self.reference()
         scales = PointScales.of(problem)
         new = shapes if finest is None else shapes[:-1]
         levels: list[PointLevel] = [
-            MovingLevel(problem, scales, shape, wedge, self.grading) for shape in new
+            MovingLevel(
+                problem,
+                scales,
+                shape,
+                settings.wedge,
+                self.grading,
+                scheme=DISCRETE[settings.discretisation],
+            )
+            for shape in new
         ]
         if finest is not None:
             levels.append(finest)

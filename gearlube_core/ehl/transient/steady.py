@@ -75,7 +75,7 @@ def steady_state(
         build: Build = MultigridCycle
         if last and film.grading is not None and film.long:
             # rows that are solved in part lose their way where the spacing changes along them
-            part, build = film.with_rows_below(grids, settings.wedge), RowCycle
+            part, build = film.with_rows_below(grids, settings), RowCycle
         state = solve_level(part, state, settings, goal, record, not last, build)
     return state, record
 
@@ -149,7 +149,7 @@ def _on_grid(
 ) -> tuple[FilmSolution, str]:
     """Return the film on its own grid and the stencil of the answer."""
     begin = clock.perf_counter()
-    grids = film.grids(settings.wedge)
+    grids = film.grids(settings)
     set_conditions(film, grids, time)
     state, record = steady_state(film, grids, settings)
     level = grids.levels[-1]

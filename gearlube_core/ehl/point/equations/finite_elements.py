@@ -118,7 +118,8 @@ def element_residual(
 ) -> None:
     """Write the residual of all inner nodes, per cell as finite differences have it.
 
-    R_i = -int grad N_i . [Lambda s grad p - u (rho h)] - int N_i (squeeze rho h - source)
+    R_i = -int grad N_i . [Lambda s grad p - u (rho h) + b G] - int N_i S
+    S = squeeze rho h - source,  G_x = u d(rho h)/dx + S,  G_y = v d(rho h)/dy
 
     Parameters
     ----------
@@ -131,7 +132,7 @@ def element_residual(
     flow
         What pressure drives oil with.
     source : ndarray, shape (ny, nx)
-        What the squeeze term takes from earlier times [-].
+        What nodes held before, less what they store beside the squeeze term [-].
     compliance, density
         For `upwind_shares`: K, and rho [-], shape (ny, nx).
     residual : ndarray, shape (ny, nx)
@@ -143,6 +144,9 @@ def element_residual(
     2 x 2 Gauss points are exact. The wedge is in the form that conserves mass: its product rule
     as printed would not. Shape functions sum to one, so the sum of the residuals of any set of
     nodes is the flow over its border. Source: [jamali_2015 (3.13)] [jamali_2015 (3.14)]
+
+    Upwinding with the shares b acts on what is carried and stored together: where surfaces merely
+    carry a film along it is zero, so that waves in motion are not damped. [brooks_hughes_1982]
     """
     ny, nx = pressure.shape
     residual[:] = 0.0
@@ -167,7 +171,8 @@ def element_residual(
                     m_x += NX * mass[jj, ii]
                     m_y += NY * mass[jj, ii]
                     gather += N * (parameters.squeeze * mass[jj, ii] - source[jj, ii])
-                flow_x = px * sx * slope_x + pxy * sxy * slope_y - ux * (m - back_x * m_x)
+                lag_x = back_x * (ux * m_x + gather)
+                flow_x = px * sx * slope_x + pxy * sxy * slope_y - ux * m + lag_x
                 flow_y = py * sy * slope_y + pxy * sxy * slope_x - uy * (m - back_y * m_y)
                 for k in range(4):
                     residual[j + k // 2, i + k % 2] -= _WEIGHT * (
@@ -187,6 +192,7 @@ def element_derivatives(
     carried: CarriedMass,
     slopes: TensorSlopes,
     compliance: float,
+    rate: np.ndarray,
     free: np.ndarray,
     by_pressure: np.ndarray,
     by_film: np.ndarray,
@@ -203,6 +209,8 @@ def element_derivatives(
         Of rho h^3/eta times the components of the flow factor tensor.
     compliance
         As in `element_residual`; the shares of upwinding are held.
+    rate : ndarray, shape (ny, nx)
+        At which nodes store oil beside the squeeze term, over their entrainment [-].
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero, as on the border.
     by_pressure, by_film : ndarray, shape (n, ny, nx)
@@ -239,7 +247,9 @@ def element_derivatives(
                     # of the flow by xx, xy and yy of the node
                     by_xx, by_xy_x = N * px * slope_x, N * pxy * slope_y
                     by_yy, by_xy_y = N * py * slope_y, N * pxy * slope_x
-                    carried_x, carried_y = ux * (N - back_x * NX), uy * (N - back_y * NY)
+                    gathered = N * (parameters.squeeze + rate[jj, ii])
+                    carried_x = ux * N - back_x * (ux * NX + gathered)
+                    carried_y = uy * (N - back_y * NY)
                     x_p = px * sx * NX + pxy * sxy * NY - carried_x * rho_p * h
                     x_p += by_xx * xx.by_pressure[jj, ii] + by_xy_x * xy.by_pressure[jj, ii]
                     y_p = py * sy * NY + pxy * sxy * NX - carried_y * rho_p * h
@@ -248,7 +258,6 @@ def element_derivatives(
                     x_h = x_h / thin - carried_x * rho
                     y_h = by_yy * yy.by_film[jj, ii] + by_xy_y * xy.by_film[jj, ii]
                     y_h = y_h / thin - carried_y * rho
-                    gathered = parameters.squeeze * N
                     for k in range(4):
                         row, column = j + k // 2, i + k % 2
                         if not free[row, column]:

@@ -6,13 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.level import DISCRETE, PointLevel
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.sides import AMBIENT, Sides
-from gearlube_core.ehl.point.terms.differences import Differences
-from gearlube_core.ehl.point.terms.elements import Elements
 
 _DIRECT_NODES = 1300  # of the grid that is solved directly
 _SHORTEST = 12  # nodes of a side that is not halved any more
@@ -72,9 +70,10 @@ def build_hierarchy(
     (nx, ny), (dx, dy), sides = problem.nodes, problem.spacing, Sides(problem.sides)
     nodes, steps = ((nx, ny), (dx, dy)) if scales.swap else ((ny, nx), (dy, dx))
     shapes = grid_shapes(nodes, steps, sides)
-    scheme = Elements if discretisation == "elements" else Differences
     levels = [
-        PointLevel(problem, scales, shape, wedge, scheme=scheme, cavitation=cavitation)
+        PointLevel(
+            problem, scales, shape, wedge, scheme=DISCRETE[discretisation], cavitation=cavitation
+        )
         for shape in shapes
     ]
     transfers = [Transfer(fine, coarse, sides) for coarse, fine in pairwise(shapes)]

@@ -16,6 +16,7 @@ from gearlube_core.ehl.point.equations.stencil import (
 )
 from gearlube_core.ehl.point.terms.linearisation import Derivatives
 from gearlube_core.ehl.point.terms.state import FilmState
+from gearlube_core.ehl.point.terms.storage import NoStorage, Storage
 
 # rho h at a face over that of the node upstream of it; reached where the film halves in a cell
 _LEAST_FACE = 0.5
@@ -32,6 +33,7 @@ class Differences:
     """
 
     centre = CENTRE  # number of the node itself among its neighbours
+    upwinds_along_x = False
     face_limits = _LEAST_FACE, _MOST_FACE
 
     def __init__(self, grid: PointGrid) -> None:
@@ -45,7 +47,7 @@ class Differences:
     def residual(
         self, stencil: StencilParameters, state: FilmState, carried: Array, source: Array
     ) -> None:
-        """Write the residual of a state without storage.
+        """Write the residual of a state.
 
         Parameters
         ----------
@@ -56,7 +58,7 @@ class Differences:
         carried : ndarray, shape (ny, nx)
             rho h times the entrainment of the row [-].
         source : ndarray, shape (ny, nx)
-            What is stored already [-].
+            What is gathered beside the flow: what nodes held before, less what they store [-].
         """
         flow = state.film_flow
         reynolds_residual(stencil, self._metric, state.oil, carried, flow, source, state.residual)
@@ -68,6 +70,8 @@ class Differences:
         state: FilmState,
         density: tuple[Array, Array],
         rows: Flags,
+        entrainment: Array,
+        storage: NoStorage | Storage,
     ) -> Derivatives:
         """Return steps to the neighbours and derivatives by their pressure and film, (n, ny, nx).
 
@@ -79,6 +83,10 @@ class Differences:
             rho and d rho/dp times the entrainment of the row [-].
         rows : ndarray of bool, shape (ny, nx)
             Nodes whose derivatives are wanted; those of the others are zero.
+        entrainment : ndarray, shape (ny,)
+            Of the rows, over that of the problem [-].
+        storage
+            Of oil.
         """
         shear, flow = state.shear, state.film_flow
         count = SHEARED_NEIGHBOURS if shear.sheared else NEIGHBOURS
@@ -92,4 +100,5 @@ class Differences:
         shear.add_cross_derivatives(
             stencil, self._metric, state.oil, flow, state.film, slopes, rows, by_pressure, by_film
         )
+        storage.add_derivatives(state, rows, by_pressure[CENTRE], by_film[CENTRE])
         return OFFSETS, by_pressure, by_film

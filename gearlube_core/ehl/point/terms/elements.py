@@ -23,6 +23,7 @@ from gearlube_core.ehl.point.equations.stencil import (
 )
 from gearlube_core.ehl.point.terms.linearisation import Derivatives
 from gearlube_core.ehl.point.terms.state import FilmState
+from gearlube_core.ehl.point.terms.storage import NoStorage, Storage
 
 
 class Elements:
@@ -38,6 +39,7 @@ class Elements:
     """
 
     centre = ELEMENT_CENTRE  # number of the node itself among its neighbours
+    upwinds_along_x = True  # alone what is stored
     face_limits = -math.inf, math.inf
 
     def __init__(self, grid: PointGrid, compliance: float | None = None) -> None:
@@ -52,7 +54,7 @@ class Elements:
     def residual(
         self, stencil: StencilParameters, state: FilmState, carried: Array, source: Array
     ) -> None:
-        """Write the residual of a state without storage, as `Differences.residual`."""
+        """Write the residual of a state, as `Differences.residual`."""
         element_residual(
             stencil,
             state.oil,
@@ -70,6 +72,8 @@ class Elements:
         state: FilmState,
         density: tuple[Array, Array],
         rows: Flags,
+        entrainment: Array,
+        storage: NoStorage | Storage,
     ) -> Derivatives:
         """Return neighbours and derivatives, as `Differences.derivatives`."""
         count = SHEARED_ELEMENT_NEIGHBOURS if state.shear.sheared else ELEMENT_NEIGHBOURS
@@ -83,6 +87,7 @@ class Elements:
                 state.cubic * state.fluidity, state.dense, state.viscosity_slope
             ),
             self._compliance,
+            np.ascontiguousarray(storage.rate / entrainment[:, None]),
             rows,
             by_pressure,
             by_film,

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.terms.linearisation import Linearisation
-from gearlube_core.ehl.point.terms.state import Balance, FilmState
+from gearlube_core.arrays import Array, Flags
+from gearlube_core.ehl.point.terms.state import FilmState
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,10 +21,13 @@ class NoStorage:
         """Return the rate of storage, (ny, nx) [-]: zero."""
         return self.source
 
-    def add_residual(self, state: FilmState, balance: Balance) -> None:
-        """Leave the residual as it is."""
+    def released(self, mass: Array) -> Array:
+        """Return what nodes release of what they held, (ny, nx) [-]: nothing."""
+        return self.source
 
-    def add_derivatives(self, linear: Linearisation, state: FilmState, balance: Balance) -> None:
+    def add_derivatives(
+        self, state: FilmState, rows: Flags, by_pressure: Array, by_film: Array
+    ) -> None:
         """Leave the derivatives as they are."""
 
     def inflow(self, state: FilmState) -> Array:
@@ -48,19 +50,36 @@ class Storage:
             np.ascontiguousarray(np.broadcast_to(np.asarray(source, dtype=np.float64), shape)),
         )
 
-    def add_residual(self, state: FilmState, balance: Balance) -> None:
-        """Take off what is stored; the stencil has added the source."""
-        state.residual[1:-1, 1:-1] -= (self.rate * state.mass)[1:-1, 1:-1]
+    def released(self, mass: Array) -> Array:
+        """Return what nodes release of what they held, less what they store, (ny, nx) [-].
 
-    def add_derivatives(self, linear: Linearisation, state: FilmState, balance: Balance) -> None:
-        """Add the derivatives of what free nodes store."""
-        stored = np.where(linear.free, self.rate, 0.0)
+        Parameters
+        ----------
+        mass : ndarray, shape (ny, nx)
+            rho h now [-].
+        """
+        return np.asarray(self.source - self.rate * mass)
+
+    def add_derivatives(
+        self, state: FilmState, rows: Flags, by_pressure: Array, by_film: Array
+    ) -> None:
+        """Add the derivatives of what nodes store by their own pressure and film.
+
+        Parameters
+        ----------
+        state
+            State.
+        rows : ndarray of bool, shape (ny, nx)
+            Nodes whose derivatives are wanted.
+        by_pressure, by_film : ndarray, shape (ny, nx)
+            Changed.
+        """
+        stored = np.where(rows, self.rate, 0.0)
         stored[[0, -1]] = 0.0
         stored[:, [0, -1]] = 0.0
-        centre = linear.centre
-        linear.by_pressure[centre] -= stored * state.density_slope * state.film
-        linear.by_film[centre] -= stored * state.density
+        by_pressure -= stored * state.density_slope * state.film
+        by_film -= stored * state.density
 
     def inflow(self, state: FilmState) -> Array:
         """Return what flows into every node, (ny, nx) [-]."""
-        return np.asarray(state.residual - self.source + self.rate * state.mass)
+        return np.asarray(state.residual - self.released(state.mass))

@@ -1,0 +1,124 @@
+"""March cases A, B and C of the thesis with five seeds each, on one coarse grid; compare them.
+
+python -m docs.rough_line_contact.cases [FOLDER [NAME ...]]: ten minutes of one processor. Marches
+are kept as those of `variants`. Writes cases.csv and prints a table.
+"""
+
+from __future__ import annotations
+
+import csv
+import logging
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from docs.rough_line_contact.compare import SEEDS, Found, of
+from docs.rough_line_contact.make import GRID, ROOT
+from docs.rough_line_contact.variants import rows_of, seeded
+from gearlube.output.csv_text import csv_text
+from gearlube.studies.films.rough.run import run_rough
+from gearlube_core.ehl.case.rough_case import RoughCase
+from gearlube_core.storage.atomic_file import write_text
+
+NUMBERS = Path(__file__).parent / "cases.csv"
+# the waves of every seed of every case fit this grid; roughness grows in place
+COARSE: dict[str, Any] = GRID | {
+    "solver.nodes_x": 209,
+    "solver.rows": 32,
+    "surface_1.cutoff_um": 72.0,
+    "surface_2.cutoff_um": 72.0,
+    "times.steps_per_half_width": 56,
+    "times.feed": "in_place",
+    "times.until_rough": 0.8,
+    "times.rough": 1.2,
+    "solver.tolerance": 1e-4,
+    "frames.every": 0,
+}
+LAYS: dict[str, dict[str, Any]] = {
+    "crossed": {},
+    "straight": {"surface_1.turns": 0, "surface_2.turns": 0, "solver.rows": 16},
+}
+ANGLES = {"A": 2.8, "B": 2.8, "C": 1.0}  # between both lays [deg]
+MARCHES = {
+    f"case {case}, {lay}, seed {seed}": (case, lay, seed)
+    for seed in SEEDS
+    for case in ANGLES
+    for lay in LAYS
+}
+TABLE = (
+    "its mean over time [GPa]",
+    "pressure that 99.9 % are below [GPa]",
+    "film that 1 % are below [nm]",
+    "film that 50 % are below [nm]",
+    "zone below 10 nm [%]",
+    "zone below 25 nm [%]",
+    "load on solids [%]",
+)
+logger = logging.getLogger("docs.rough_line_contact")
+
+
+def case_of(name: str) -> RoughCase:
+    """Return the case of a march."""
+    case, lay, seed = MARCHES[name]
+    named = RoughCase.named(f"jamali_2015_{case.lower()}")
+    return named.varied(COARSE | LAYS[lay] | seeded(seed))
+
+
+def numbers() -> Found:
+    """Return what was written: march, quantity, value."""
+    found: Found = {}
+    with NUMBERS.open(newline="") as file:
+        for row in csv.DictReader(file):
+            found.setdefault(row["variant"], {})[row["quantity"]] = float(row["value"])
+    return found
+
+
+def of_seeds(found: Found, case: str, lay: str, shown: str) -> np.ndarray:
+    """Return a number of all seeds of a case."""
+    return np.array([of(found, f"case {case}, {lay}, seed {seed}", shown) for seed in SEEDS])
+
+
+def table(found: Found) -> Iterable[Sequence[str]]:
+    """Crossed and straight, and one over the other: mean, and least to largest, of five seeds."""
+    yield ("", *(f"case {case}, {angle} deg" for case, angle in ANGLES.items()))
+    for shown in TABLE:
+        for lay in LAYS:
+            values = (of_seeds(found, case, lay, shown) for case in ANGLES)
+            yield (
+                f"{shown}, {lay}",
+                *(f"{v.mean():.3g} ({v.min():.3g} to {v.max():.3g})" for v in values),
+            )
+        pairs = ([of_seeds(found, case, lay, shown) for lay in LAYS] for case in ANGLES)
+        ratios = [crossed / straight for crossed, straight in pairs]
+        yield (
+            f"{shown}, crossed over straight",
+            *(f"{r.mean():.2f} +- {r.std(ddof=1):.2f}: {np.round(np.sort(r), 2)}" for r in ratios),
+        )
+
+
+def main(work: Path, names: list[str]) -> None:
+    """March what is asked for, write the numbers of all that is finished, print the table."""
+    rows = []
+    for name in MARCHES:
+        done = work / name.replace(", ", "_").replace(" ", "_") / "rough.nc"
+        if name in names and not done.exists():
+            logger.info("%s", name)
+            run_rough(case_of(name), folder=done.parent)
+        if done.exists():
+            rows += rows_of(name, xr.load_dataset(done, engine="scipy"))
+    lines = ((n, q, f"{v:.4g}", u) for n, q, v, u in rows)
+    write_text(csv_text(("variant", "quantity", "value", "unit"), lines), NUMBERS)
+    for row in table(numbers()):
+        sys.stdout.write("| " + " | ".join(row) + " |\n")
+
+
+if __name__ == "__main__":
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s")
+    main(
+        Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "rough_line_contact" / "cases",
+        sys.argv[2:] or list(MARCHES),
+    )
