@@ -17,10 +17,12 @@ from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.bearing.figures import LAW_NAMES
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import DEFAULT_LAW, BearingLoss, LossModel, bearing_loss
+from gearlube_core.bearings.losses.race_rolling import ROLLER_MODEL
 from gearlube_core.bearings.losses.zhou_hoeprich_1991 import zhou_hoeprich_force
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
+from gearlube_core.film_model.model import FilmModel
 from gearlube_core.oil.film_oil_data import film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
@@ -47,7 +49,15 @@ MEASURED = (
     (42.0, 6500.0, 2000, 3.50),
     (42.0, 6500.0, 4000, 4.45),
 )
-LAWS = ("zhou_hoeprich", "palmgren", "aihara", "goksem_hargreaves", "skf", "biboulet_houpert")
+LAWS = (
+    "zhou_hoeprich",
+    "palmgren",
+    "aihara",
+    "goksem_hargreaves",
+    "skf",
+    "biboulet_houpert",
+    "solved_films",
+)
 HEIGHTS = (2.0, 2.5, 3.0)  # mm, of the rib contact
 
 
@@ -214,6 +224,45 @@ def _law(law: Callable[..., tuple[float, int]], at: tuple[float, ...], force: fl
     return f"{found:.0f} ({100 * (found / force - 1):+.0f} %)"
 
 
+def film_model() -> str:
+    """Return errors and domain of the film model of rollers."""
+    model = FilmModel.named(ROLLER_MODEL)
+    p = model.provenance
+    rows = []
+    bounds = (100.0 * model.film_bound, 100.0 * model.friction_bound)
+    for words, key in (
+        ("what the bearings visit", "errors_fresh_bearing"),
+        ("anywhere in the domain", "errors_box"),
+    ):
+        found = p[key]
+        for name, short, bound in zip(
+            ("central film", "rolling force"), ("film", "friction"), bounds, strict=True
+        ):
+            rows.append([
+                words, str(found["contacts"]), name, f"{found[f'{short}_rms_percent']:.2f}",
+                f"{found[f'{short}_max_percent']:.2f}", f"{bound:.2f}",
+            ])  # fmt: skip
+    head = ["contacts", "number", "quantity", "rms, %", "largest, %", "bound, %"]
+    domain = [[name, f"{low:g}", f"{high:g}"] for name, (low, high, _) in p["box"].items()]
+    return table(head, rows) + "\n" + table(["quantity", "least", "most"], domain)
+
+
+def model_numbers() -> dict[str, str]:
+    """Return the numbers of the film model in the text."""
+    p = FilmModel.named(ROLLER_MODEL).provenance
+    solves, over = p["solves"], p["bounds"]["fresh_violations"]
+    rest = p["grid_error_left_percent"]
+    return {
+        "TRAINED": str(solves["box"] + solves["edge"] + solves["bearing"]),
+        "KEPT": str(solves["calibration"]),
+        "FRESH": str(solves["fresh"]),
+        "OVER": f"{over[0]} and {over[1]}",
+        "FAILED": str(p["failed"]),
+        "FINE": str(p["fine_solves"]),
+        "GRID": f"{rest[0]:.2f} % rms of the film and {rest[1]:.2f} % of the force",
+    }
+
+
 def picture() -> Any:
     """Return the figure: measured torques with every law and the error bar of the default."""
     groups = ((50.0, 0.0), (50.0, 6500.0), (42.0, 6500.0))
@@ -229,7 +278,8 @@ def picture() -> Any:
                     ends = torque / factor, torque * factor
                     words = "error bar of the default law (95 %)"
                     ax.fill_between(speeds, *ends, color=GREY, alpha=0.35, lw=0.0, label=words)
-                ax.plot(speeds, torque, color=SERIES[i], label=LAW_NAMES[law])
+                look = {"color": SERIES[i]} if i < len(SERIES) else {"color": "black", "ls": "--"}
+                ax.plot(speeds, torque, label=LAW_NAMES[law], **look)
             here = [point for point in POINTS if (point.degc, point.radial) == (degc, radial)]
             ax.errorbar(
                 [point.rpm for point in here], [point.torque for point in here], yerr=0.1,
@@ -255,6 +305,8 @@ def page() -> str:
         "MISFITS": misfits(),
         "PARTS": parts(),
         "SOLVED": solved(),
+        "FILM_MODEL": film_model(),
+        **model_numbers(),
         "NEEDED": starved,
         "LAYERS": layers,
         "RISES": rises,

@@ -49,16 +49,40 @@ SMOOTH_PICTURES = (
     Picture(
         "crowning", "Crowning", "In motion; crosses: steps not converged.", figures_cycle.crowns
     ),
-    Picture("linear_relief", "Straight relief", "", figures_cycle.linear_relief),
-    Picture("parabolas", "Parabolic share", "", figures_cycle.parabolas),
-    Picture("speeds", "Speed", "", figures_cycle.speeds),
+    Picture(
+        "linear_relief",
+        "Straight relief",
+        "Dry contact every 25 steps, films at rest at steps 75 and 500. A corner of the gap "
+        "has no largest pressure: these values belong to this grid (J10).",
+        figures_cycle.linear_relief,
+    ),
+    Picture(
+        "parabolas",
+        "Parabolic share",
+        "Below k = 0.3 the pressure rises steeply. The film in motion is thinner than the "
+        "film at rest, and at k = 0.02 next to nothing is left of it (J10, J11).",
+        figures_cycle.parabolas,
+    ),
+    Picture(
+        "speeds",
+        "Speed",
+        "Where the film follows the speed to the power 0.68, the points of one step lie at "
+        "the same height (J16).",
+        figures_cycle.speeds,
+    ),
     Picture(
         "powers",
         "Power laws over the cycle",
         "Points: films at rest; lines: dry contact of the same gap.",
         figures_cycle.powers,
     ),
-    Picture("power_contours", "Power laws at step 75", "", figures_fields.power_contours),
+    Picture(
+        "power_contours",
+        "Power laws at step 75",
+        "beta = 1 has a corner, which concentrates the pressure and thins the film; above "
+        "beta = 2 little changes (J12).",
+        figures_fields.power_contours,
+    ),
     Picture(
         "power_lines",
         "Power laws along the line",
@@ -66,7 +90,16 @@ SMOOTH_PICTURES = (
         figures_fields.power_lines,
     ),
 )
-FACET_PICTURES = (Picture("facets", "Facets", "", figures_cycle.facets),)
+FACET_PICTURES = (
+    Picture(
+        "facets",
+        "Facets",
+        "Above: largest pressure and smallest film; below: section in the middle of the face."
+        " Each edge of a facet makes a spike of pressure, smaller with more facets (F1 to "
+        "F6).",
+        figures_cycle.facets,
+    ),
+)
 
 
 def shown(store: Store, pictures: Iterable[Picture], images: Path) -> str:

@@ -30,7 +30,7 @@ from gearlube_core.storage.atomic_file import write_text
 TABLE = Path(__file__).with_name("transient.csv")
 WORK = ROOT / "build" / "film_model_transient"  # marches, to go on from
 FIGURE = IMAGES / "film_model_transient.png"
-NODES, STEPS, STEADY = (97, 25), 48, 9
+NODES, STEPS, STEADY = (129, 33), 48, 9
 _RPM_PER_KMH = 22.95
 MODEL = FilmModel.named("hypoid_flank")
 

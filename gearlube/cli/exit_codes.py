@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -53,6 +54,8 @@ def _file_error(error: OSError) -> str:
     if error.strerror is None:
         return str(error)
     where = f" at {error.filename}" if error.filename is not None else ""
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        return f"The disk is full{where}. Free some space, then run the same command again."
     return f"The file system refused{where}: {error.strerror.lower()}. Check path and permissions."
 
 

@@ -18,8 +18,9 @@ from gearlube.variation.summary import cells, inputs_of, varies
 _MOST_SERIES = len(SERIES)
 _MOST_BARS = 12  # inputs of a chart of ranks
 _BINS = 30
-_DOTTED = "95 % lie between"
-_LETTERS, _TITLE_LETTERS = 42, 28  # in a line of a label, of the title of a narrow panel
+_DOTTED, _BAND = "95 % lie between", "line: median; band: 95 % of the points"
+# letters in a line of a label, of a label on its side, of the title of a narrow panel
+_LETTERS, _SIDE_LETTERS, _TITLE_LETTERS = 42, 32, 28
 
 
 def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Path) -> list[Path]:
@@ -38,18 +39,23 @@ def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Pat
 def _scale(results: xr.Dataset, name: str) -> tuple[float, str]:
     """Return the factor and unit in which a quantity is drawn."""
     unit = str(results[name].attrs["units"])
-    return (1e6, "µm") if unit == "m" else (1.0, unit)
+    return (1e6, "µm") if unit == "m" else (1.0, _unit_words(unit))
 
 
-def _about(results: xr.Dataset, name: str) -> str:
+def _unit_words(unit: str) -> str:
+    for plain, drawn in (("degC", "°C"), ("N m", "N·m"), ("um", "µm")):
+        unit = unit.replace(plain, drawn)
+    return "-" if unit in ("", "1") else unit
+
+
+def _about(results: xr.Dataset, name: str, letters: int = _LETTERS) -> str:
     unit = _scale(results, name)[1]
-    words = str(results[name].attrs["long_name"])
-    return fill(f"{words}{f' [{unit}]' if unit not in ('', '1') else ''}", _LETTERS)
+    return fill(f"{results[name].attrs['long_name']} [{unit}]", letters)
 
 
 def _words(values: dict[str, Any]) -> str:
     return ", ".join(
-        f"{name} {value:g}" if isinstance(value, float | np.floating) else f"{name} {value}"
+        f"{name} = {value:g}" if isinstance(value, float | np.floating) else f"{name} = {value}"
         for name, value in values.items()
     )
 
@@ -119,6 +125,8 @@ def rank_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
             else:
                 ax.set_yticks(np.arange(chosen.size), [""] * chosen.size)
             ax.set_xlim(-1.0, 1.0)
+            ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+            ax.axvline(0.0, color="black", lw=0.7)
             ax.set_xlabel("rank correlation [-]")
             ax.set_title(fill(results[name].attrs["long_name"], _TITLE_LETTERS), fontsize=9)
     return figure
@@ -149,9 +157,12 @@ def line_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
                 ax.plot(x, middle, marker=MARKERS[i], color=SERIES[i], label=_words(values) or None)
                 if summary.sizes["input"]:
                     low, high = (one.sel(statistic=p).values for p in ("p2.5", "p97.5"))
-                    ax.fill_between(x, low, high, color=SERIES[i], alpha=0.2, linewidth=0)
-            ax.set_xlabel(f"{along}{f' [{unit}]' if unit else ''}")
-            ax.set_ylabel(_about(results, name))
+                    label = None if i else _BAND
+                    ax.fill_between(
+                        x, low, high, color=SERIES[i], alpha=0.2, linewidth=0, label=label
+                    )
+            ax.set_xlabel(f"{along} [{_unit_words(unit)}]")
+            ax.set_ylabel(_about(results, name, _SIDE_LETTERS))
         if panels[0].get_legend_handles_labels()[1]:
             panels[0].legend()
     return figure

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
 from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
@@ -258,6 +258,26 @@ def film_inlet(
 
 
 @kernel
+def contact_inlet(contact: Any) -> FilmInlet:
+    """Return the inlet of a contact: `FilmContact`, or another tuple with the same names."""
+    c = contact
+    return film_inlet(
+        c.contact_modulus,
+        c.eta0,
+        c.alpha,
+        c.beta,
+        c.tau0,
+        c.limiting_stress,
+        c.limiting_slope,
+        c.temperature,
+        c.conductivity,
+        c.heat_capacity,
+        c.solid_conductivity,
+        c.solid_heat_capacity,
+    )
+
+
+@kernel
 def contact_parts(contact: FilmContact) -> tuple[FilmPlace, FilmInlet]:
     """Return place and inlet of a contact."""
     c = contact
@@ -272,21 +292,7 @@ def contact_parts(contact: FilmContact) -> tuple[FilmPlace, FilmInlet]:
         c.solid_conductivity,
         c.solid_heat_capacity,
     )
-    inlet = film_inlet(
-        c.contact_modulus,
-        c.eta0,
-        c.alpha,
-        c.beta,
-        c.tau0,
-        c.limiting_stress,
-        c.limiting_slope,
-        c.temperature,
-        c.conductivity,
-        c.heat_capacity,
-        c.solid_conductivity,
-        c.solid_heat_capacity,
-    )
-    return place, inlet
+    return place, contact_inlet(c)
 
 
 @kernel

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from gearlube_core.contact.line_hertz import line_mean_pressure
 from gearlube_core.film.groups import line_moes_groups
 from gearlube_core.film.moes_1992 import central_film_group
-from gearlube_core.film_model.groups import LEAST_SPEED, FilmGroups, FilmInlet, film_inlet
+from gearlube_core.film_model.groups import LEAST_SPEED, FilmGroups, FilmInlet, contact_inlet
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA
 
@@ -68,21 +68,7 @@ def line_parts(contact: LineContact) -> tuple[LinePlace, FilmInlet]:
     """Return place and inlet of a contact."""
     c = contact
     place = line_place(c.R, c.contact_modulus, c.solid_conductivity, c.solid_heat_capacity)
-    inlet = film_inlet(
-        c.contact_modulus,
-        c.eta0,
-        c.alpha,
-        c.beta,
-        c.tau0,
-        c.limiting_stress,
-        c.limiting_slope,
-        c.temperature,
-        c.conductivity,
-        c.heat_capacity,
-        c.solid_conductivity,
-        c.solid_heat_capacity,
-    )
-    return place, inlet
+    return place, contact_inlet(c)
 
 
 @kernel

@@ -52,7 +52,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
 # what a number is likely in that leaves its limits: unit, times so many of the field's unit
 _SLIPS: dict[str, tuple[tuple[str, float], ...]] = {
     "mm": (("m", 1e3), ("um", 1e-3), ("inch", 25.4)),
-    "um": (("m", 1e6), ("mm", 1e3), ("nm", 1e-3)),
+    "um": (("mm", 1e3), ("m", 1e6), ("nm", 1e-3)),
     "kg": (("t", 1e3), ("g", 1e-3)),
     "l": (("m3", 1e3), ("ml", 1e-3)),
     "kg.m2": (("kg.mm2", 1e-6), ("kg.cm2", 1e-4)),

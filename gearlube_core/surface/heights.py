@@ -21,6 +21,7 @@ _SPACINGS = (1e-9, 1e-3)  # m, of instruments and film grids
 _LOWEST_RQ = 1e-9  # m, below polished wafers
 _UNEVEN = 1e-3  # of a spacing
 _MOST_FILLED = 10.0  # even points for each measured one
+_CUT = "out a part whose ends meet (period_um in a case file, periodic_section in Python)"
 _CLOSED = 4.0  # times the rms step between neighbours that may lie at a periodic seam
 
 
@@ -205,7 +206,7 @@ def check_closed(surface: Surface) -> None:
 
 def _check_seam(name: str, height: Array, axis: int, closed: bool, along: str) -> None:
     if not closed:
-        cure = "Close it with periodic_section" if height.ndim == 1 else "Take a map that repeats"
+        cure = f"Cut {_CUT}" if height.ndim == 1 else "Take a map that repeats"
         raise ParameterError(f"{name} must be periodic{along}. {cure}, or generate it.")
     typical = float(np.sqrt(np.mean(np.diff(height, axis=axis) ** 2)))
     step = height.take(0, axis) - height.take(-1, axis)
@@ -215,11 +216,7 @@ def _check_seam(name: str, height: Array, axis: int, closed: bool, along: str) -
             f"{name}: the heights at both ends{along} must meet within "
             f"{_CLOSED * typical / MICROMETRE:.3g} um, {_CLOSED:g} times the rms step between "
             f"neighbours, got a jump of {jump / MICROMETRE:.3g} um. "
-            + (
-                "Cut it with periodic_section, which seeks a place where they meet."
-                if height.ndim == 1
-                else "Take another part, or generate the map."
-            )
+            + (f"Cut {_CUT}." if height.ndim == 1 else "Take another part, or generate the map.")
         )
 
 

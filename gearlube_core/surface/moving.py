@@ -128,7 +128,11 @@ class MovingSurface:
         check_plausible(heights)
         length = heights.length if isinstance(heights, Profile) else heights.lengths[0]
         if isinstance(heights, HeightMap):
-            check_divides(f"lay.width with {name}", self.lay.width, heights.lengths[1])
+            check_divides(
+                f"the width (length_mm in a case file) with {name}",
+                self.lay.width,
+                heights.lengths[1],
+            )
             if self.lay.measured != "along_x":
                 raise ParameterError(
                     f"lay.measured must be along_x for {name}, a map, got {self.lay.measured}."
@@ -312,13 +316,23 @@ class MovingRoughness:
             )
 
     def _check_waves(self, one: MovingSurface) -> None:
-        for axis, places, wave in zip("xy", (self.x, self.y), one.shortest_waves(), strict=True):
+        waves, length = one.shortest_waves(), float(self.x[-1] - self.x[0])
+        if waves[0] > length:
+            raise ParameterError(
+                f"{one.heights.name} must have waves along x shorter than the computed "
+                f"{length / MILLIMETRE:.4g} mm, got {waves[0] / MILLIMETRE:.4g} mm for the "
+                "shortest. Give places in mm, not in um, and lengths of waves in um."
+            )
+        for axis, places, wave in zip("xy", (self.x, self.y), waves, strict=True):
             step, limit = float(np.diff(places).max()), wave / NODES_PER_WAVE
             if step > limit * (1.0 + _SAME):
+                steps = math.ceil((step * (places.size - 1)) / limit * (1.0 - _SAME))
+                rows = math.ceil(step * places.size / limit * (1.0 - _SAME))
+                cure = f"{steps + 1} nodes along x" if axis == "x" else f"{rows + rows % 2} rows"
                 raise ParameterError(
                     f"The grid must have {NODES_PER_WAVE:g} nodes a wave along {axis}, a step of "
                     f"at most {limit / MICROMETRE:.4g} um for {one.heights.name}, got "
-                    f"{step / MICROMETRE:.4g} um. Take more nodes, or filter short waves out "
+                    f"{step / MICROMETRE:.4g} um. Take {cure} or more, or filter short waves out "
                     "(cutoff_um in a case file)."
                 )
 
@@ -329,7 +343,8 @@ class MovingRoughness:
             raise ParameterError(
                 f"time_step must be at most {node / abs(one.speed):.4g} s, so that "
                 f"{one.heights.name} moves by no more than a node of {node / MICROMETRE:.4g} um, "
-                f"got {self.schedule.time_step:.4g} s. Half of that is usual."
+                f"got {self.schedule.time_step:.4g} s. Take shorter steps (a larger "
+                "steps_per_half_width in a case file); half a node is usual."
             )
 
 

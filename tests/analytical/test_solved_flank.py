@@ -18,7 +18,12 @@ from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_film import flank_film_model
 from gearlube_core.friction.flank_laws import SOLVED, consistent
-from gearlube_core.friction.solved_flank import FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP
+from gearlube_core.friction.solved_flank import (
+    FORMULA_FILM_BOUND,
+    FORMULA_FRICTION_TOP,
+    formula_doubt,
+    solved_flank_friction,
+)
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL as AXLE_OIL
@@ -198,3 +203,18 @@ def test_where_the_formulas_stand_in_the_bound_reaches_an_isothermal_film_and_no
     assert most < doubt < most + OIL.gamma * light
     # no friction at all: there is nothing that a relative bound could be of
     assert bounded(smooth).friction_bound == 0.0
+
+
+@pytest.mark.parametrize("load", [1.0, 40.0, 2000.0])  # outside, on the border, inside
+def test_flank_and_bound_are_the_same_compiled_and_in_python(load):
+    numbers = flank_film_model(MODEL)
+    film = LAW.model_film(load, SPEED, SLIP, GEOMETRY, ELLIPSE, OIL, numbers)
+    given = (GEOMETRY, film, OIL, ROUGH, SOLID, 0, numbers)
+    compiled = solved_flank_friction(load, SPEED, SLIP, *given)
+    plain = solved_flank_friction.py_func(load, SPEED, SLIP, *given)
+    for one, other in zip(
+        (*compiled.state, *compiled[1:]), (*plain.state, *plain[1:]), strict=True
+    ):
+        assert one == pytest.approx(other, rel=1e-13)  # sums in another order
+    doubt = (load, SLIP, compiled.state, OIL, ROUGH, SOLID, 0)
+    assert formula_doubt(*doubt) == pytest.approx(formula_doubt.py_func(*doubt), rel=1e-13)

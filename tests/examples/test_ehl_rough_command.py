@@ -141,7 +141,7 @@ def test_a_stopped_march_goes_on_to_the_bit(case, tmp_path, whole):
         assert one.read_bytes() == other.read_bytes()
 
 
-def test_control_c_keeps_the_last_record(case, tmp_path, monkeypatch):
+def test_control_c_keeps_the_last_record(case, tmp_path, monkeypatch, caplog):
     out, taken = tmp_path / "out", FilmMarch.step
 
     def stopped(self, **given):
@@ -153,6 +153,7 @@ def test_control_c_keeps_the_last_record(case, tmp_path, monkeypatch):
     assert command("rough", str(case), "--out", str(out)).exit_code == INTERRUPTED
     (record,) = out.glob("march_*.npz")
     assert MarchRecord.read(record).steps == 4
+    assert "it continues from step 4 in" in caplog.text
 
 
 def test_a_full_disk_is_told_and_the_last_record_stays(case, tmp_path, monkeypatch, caplog):

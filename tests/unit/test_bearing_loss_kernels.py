@@ -13,6 +13,7 @@ from gearlube_core.bearings.losses import (
     laws,
     liebrecht_drag,
     physical_loss,
+    race_rolling,
     rib,
     ring_loads,
     rolling,
@@ -32,6 +33,8 @@ from tests.helpers.bearing_32216 import BEARING, DEG, loss_at
 OIL = lubricant_state(Lubricant.named("fva_3").parameters(), 323.15)
 P = BEARING.parameters()
 LOADS = np.linspace(2000.0, 0.0, 16)
+MODEL = race_rolling.roller_film_model("solved_films")
+INLET = race_rolling.roller_inlet(OIL, P.solid)
 CONTACT = (9.8e-3, 6e4, 2.3e11, 0.05, 2.1e-8, 1.4)
 CASES = [
     (biboulet_houpert_2010.biboulet_houpert_force, CONTACT),
@@ -54,8 +57,24 @@ CASES = [
     (laws.heating_factor, (laws.AIHARA_HEATING, 0.5, 0.004)),
     *((laws.rolling_force, (law, *CONTACT)) for law in laws.ROLLING_LAWS.values()),
     *(
-        (physical_loss.physical_loss, (P, physical_loss.LossSettings(0, 1, 0.0), LOADS, w, OIL))
+        (
+            physical_loss.physical_loss,
+            (P, physical_loss.LossSettings(*chosen), LOADS, w, OIL, numbers),
+        )
+        for chosen, numbers in (
+            ((0, 1, 0.0), race_rolling.NO_ROLLER_MODEL),
+            ((laws.SOLVED_FILMS, 0, 5e-6), MODEL),
+        )
         for w in (0.0, 200.0)
+    ),
+    (race_rolling.roller_inlet, (OIL, P.solid)),
+    *(
+        (race_rolling.solved_race, (9.8e-3, load, 1.4, OIL, P.solid, INLET, MODEL))
+        for load in (6e4, 500.0)
+    ),
+    *(
+        (race_rolling.race_rolling, (law, 1, 9.8e-3, 6e4, 1.4, OIL, P.solid, INLET, MODEL))
+        for law in laws.RACE_LAWS.values()
     ),
 ]
 
@@ -104,6 +123,7 @@ def test_wrong_geometry_is_refused_with_its_cure(changes, words):
         ({"rpm": 20000.0}, ["speed", "1.382e+04 rpm"]),
         ({"law": "timken"}, ["timken_g1"]),
         ({"law": "skf", "heating": "aihara"}, ["takes no heating"]),
+        ({"law": "solved_films", "heating": "aihara"}, ["heated by themselves", "got aihara"]),
         ({"law": "harris"}, ["law must be one of", "zhou_hoeprich"]),
     ],
 )

@@ -1,11 +1,15 @@
 """The table of commands: a study is a folder and a line, and is imported when it is used."""
 
+import errno
+import os
 import subprocess
 import sys
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
+from gearlube.cli.exit_codes import FAILED, exit_on_error
 from gearlube.cli.lazy_commands import LazyCommand
 from gearlube.command import COMMANDS, command_line
 
@@ -44,6 +48,20 @@ def test_a_study_needs_one_folder_and_one_line(app):
     result = CliRunner().invoke(app, ["spring", "--force", "5"])
     assert result.exit_code == 0
     assert result.output.strip() == "2.5 m"
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        (errno.ENOSPC, "The disk is full at runs/a. Free some space, then run the same command"),
+        (errno.EACCES, "The file system refused at runs/a: permission denied. Check path and"),
+    ],
+)
+def test_errors_of_the_file_system_say_what_to_do(number, words, caplog):
+    with pytest.raises(typer.Exit) as ended, exit_on_error():
+        raise OSError(number, os.strerror(number), "runs/a")
+    assert ended.value.exit_code == FAILED
+    assert words in caplog.text
 
 
 def test_its_errors_have_the_exit_code_of_a_bad_argument(app, caplog):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube_core.errors import ConvergenceError
+from gearlube_core.errors import ConvergenceError, FileError
 from gearlube_core.storage import process_pool
 from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays
 from gearlube_core.storage.process_pool import ProcessPool
@@ -82,6 +82,24 @@ def test_a_write_that_fails_leaves_the_older_file_and_nothing_else(tmp_path):
         write_half(partial)
     np.testing.assert_array_equal(read_arrays(path)["force"], ONE["force"])
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_damaged_file_is_named_wherever_the_damage_is(tmp_path):
+    # zip, deflate and npy each have an error of their own for it
+    path, force = tmp_path / "a.npz", np.arange(2000.0)
+    write_arrays(path, {"force": force}, compress=True)
+    whole, told = path.read_bytes(), 0
+    for place in range(40, 400):
+        damaged = bytearray(whole)
+        damaged[place] ^= 0xFF
+        path.write_bytes(damaged)
+        try:
+            found = read_arrays(path)
+        except FileError as error:
+            told += "a.npz must be an npz file" in str(error)
+        else:  # bytes that nothing depends on
+            np.testing.assert_array_equal(found["force"], force)
+    assert told > 300
 
 
 def square(x):

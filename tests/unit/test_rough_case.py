@@ -164,8 +164,16 @@ def test_a_march_stores_oil_by_the_scheme_of_its_case(scheme, monkeypatch):
         # rms slope 2 pi 5/100/sqrt(2)
         ({"surface_1.amplitude_um": 5.0}, "slope along x must be at most 0.2"),
         ({"surface_1.amplitude_um": 1e-4}, "a thousand times too small"),
-        ({"solver.rows": 14}, "even, within 16 to 2048"),
-        ({"solver.rows": 33}, "even, within 16 to 2048.*Take 34"),
+        ({"solver.rows": 14}, "solver.rows must be a whole number, 16 to 2048, got 14"),
+        ({"solver.rows": 33}, "solver.rows: the number of rows must be even, got 33. Take 34"),
+        # 4 a are 950.1 um, 217.2 steps of 35/8 um; 20 turns, eight rows each
+        ({"surface_1.period_um": 35.0}, "8 nodes a wave along x.*Take 219 nodes along x or more"),
+        ({"surface_1.turns": 20}, "Take 160 rows or more"),
+        ({"surface_1.period_um": 0.1}, "surface_1.period_um must be .*Is it in mm"),
+        ({"surface_1.period_um": 4000.0}, "shorter than the computed 0.95.. mm, got 4 mm"),
+        # 0.965 GPa of the thesis times the root of a thousand
+        ({"load_n_per_mm": 3.6e5}, "Hertz pressure must be at most 10 GPa, got 30.5"),
+        ({"length_mm": 1000.0}, "length_mm must be .*Is it in um. 1000 um is 1 mm"),
         ({"times.steps_per_half_width": 40}, "time_step must be at most"),
         ({"speed_2_m_s": 0.0}, "must be above 0 m/s"),
         ({"side_conditions": "open"}, "side_conditions must be"),
@@ -187,3 +195,14 @@ def test_surfaces_of_equal_speed_take_as_many_steps_as_either_needs():
     assert rolling.section().sliding == (0.0, 0.0)
     # both surfaces move alike: as many steps for five half widths of either
     assert rolling.schedule().until_rough == 500
+
+
+def test_elements_make_another_march_and_refuse_crank_nicolson():
+    case = RoughCase.named("jamali_2015_a")
+    elements = case.varied({"solver.discretisation": "elements"})
+    assert elements.settings().discretisation == "elements"
+    assert elements.key() != case.key()
+    # records of before there was a choice belong to finite volumes
+    assert case.varied({"solver.discretisation": "differences"}).key() == case.key()
+    with pytest.raises(ParameterError, match=r"crank_nicolson, got elements.*Take bdf2"):
+        elements.varied({"solver.scheme": "crank_nicolson"})

@@ -53,8 +53,8 @@ def bearing(
         list[str] | None,
         typer.Option(
             help="Repeat it for several: zhou_hoeprich, biboulet_houpert, goksem_hargreaves, "
-            "aihara, palmgren, skf, timken, or all that the file has numbers for. Default: "
-            "zhou_hoeprich and palmgren.",
+            "aihara, solved_films, palmgren, skf, timken, or all that the file has numbers for. "
+            "Default: zhou_hoeprich and palmgren.",
             metavar="LAW",
         ),
     ] = None,

@@ -17,6 +17,7 @@ LAW_NAMES = {
     "zhou_hoeprich": "Zhou and Hoeprich",
     "goksem_hargreaves": "Goksem and Hargreaves",
     "aihara": "Aihara",
+    "solved_films": "Solved films",
     "palmgren": "Palmgren",
     "skf": "SKF",
     "timken": "Timken",

@@ -84,10 +84,14 @@ def bearing_warnings(dataset: xr.Dataset) -> list[str]:
                 if float(at["out_of_range"].isel(speed=i).max()) > 0.0:
                     worst = rads_to_rpm(float(speed))
                     break
+            what = f"the range of the fit ({MATERIAL_LIMIT_WORDS})"
+            rest = "the torque is still computed."
+            if law == "solved_films":
+                what = "the domain of the film model"
+                rest = "formulas stand in for it there."
             found.append(
-                f"{law}: raceway contacts leave the range of the fit ({MATERIAL_LIMIT_WORDS}) from "
-                f"{worst:.4g} rpm on, up to {100 * out:.0f} % of them; the torque is still "
-                "computed."
+                f"{law}: raceway contacts leave {what} from {worst:.4g} rpm on, up to "
+                f"{100 * out:.2g} % of them; {rest}"
             )
         if str(law) in CATALOGUE_LAWS:
             continue

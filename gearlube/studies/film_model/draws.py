@@ -14,14 +14,20 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameter
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
+from gearlube_core.units import celsius_to_kelvin
 
 STEEL = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 SOLID_HEAT_CAPACITY = STEEL.density * STEEL.heat_capacity  # by volume [J/(m3 K)]
 
+_STEEL_FIELDS = {
+    "solid_conductivity": STEEL.conductivity,
+    "solid_heat_capacity": SOLID_HEAT_CAPACITY,
+}
+
 # name: lowest, highest, and whether evenly ("even") or evenly in the logarithm ("log")
 Box = dict[str, tuple[float, float, str]]
-Make = Callable[[Array], Any]  # a contact from numbers between 0 and 1
-Fits = Callable[[Any], bool]
+Make = Callable[[Box, Array], Any]  # a contact from numbers between 0 and 1
+Fits = Callable[[Any, "Limits"], bool]
 
 
 class Limits(NamedTuple):
@@ -75,39 +81,96 @@ def numbers_of(box: Box, draw: Array) -> list[float]:
     ]
 
 
-def even_draws(
-    size: int, make: Make, fits: Fits, count: int, seed: int, *, random: bool = False
-) -> list[Any]:
-    """Return contacts drawn evenly from a box.
+def oil_of_draw(
+    eta0: float, Z: float, tau0: float, S0: float, temperature: float, k: float, c: float
+) -> dict[str, float]:
+    """Return the fields of a contact that oil and steel decide, from the numbers of a box.
 
     Parameters
     ----------
-    size
-        Numbers of a draw.
-    make, fits
-        Contact of a draw, and whether it is taken.
-    count, seed
-        Number of contacts and what decides them.
-    random
-        Independent draws, as a calibration needs them; else a scrambled sequence of Sobol.
+    eta0, Z, tau0, S0, temperature, k, c
+        [Pa s], of Roelands, [MPa], of Houpert, [degC], [W/(m K)], [MJ/(m3 K)].
     """
-    rng = np.random.default_rng(seed)
-    draws = (
-        rng.random((4 * count + 64, size))
-        if random
-        else qmc.Sobol(size, scramble=True, rng=rng).random_base2(
-            math.ceil(math.log2(2 * count + 64))
+    log_ratio = math.log(eta0 / ROELANDS_KAPPA)
+    kelvin = celsius_to_kelvin(temperature)
+    return {
+        "eta0": eta0,
+        "alpha": ROELANDS_PRESSURE * Z * log_ratio,
+        "beta": S0 * log_ratio / (kelvin - GLASS_TEMPERATURE),
+        "tau0": 1e6 * tau0,
+        "temperature": kelvin,
+        "conductivity": k,
+        "heat_capacity": 1e6 * c,
+        **_STEEL_FIELDS,
+    }
+
+
+def oil_of_library(oil: Lubricant, temperature: float, tau0: float) -> dict[str, float]:
+    """Return the fields of a contact that oil and steel decide, for an oil of the library.
+
+    Parameters
+    ----------
+    oil, temperature
+        Oil and its temperature [K].
+    tau0
+        Eyring stress [Pa].
+    """
+    state = lubricant_state(oil.parameters(), temperature)
+    return {
+        "eta0": state.eta0,
+        "alpha": state.alpha,
+        "beta": state.beta,
+        "tau0": tau0,
+        "temperature": temperature,
+        "conductivity": state.conductivity,
+        "heat_capacity": oil.density * oil.heat_capacity,
+        **_STEEL_FIELDS,
+    }
+
+
+def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
+    """Return a number drawn evenly in the logarithm."""
+    return math.exp(rng.uniform(math.log(low), math.log(high)))
+
+
+class Drawn(NamedTuple):
+    """A box with what draws need of its kind of contact."""
+
+    box: Box
+    make: Make  # contact of a draw of the box
+    fits: Fits  # whether a contact lies within limits
+    domain: Limits
+    trained: Limits  # a little wider
+
+    def even(self, count: int, seed: int, *, random: bool = False) -> list[Any]:
+        """Return contacts drawn evenly from the box.
+
+        Parameters
+        ----------
+        count, seed
+            Number of contacts and what decides them.
+        random
+            Independent draws of the domain, as a calibration needs them; else a scrambled sequence
+            of Sobol, which also covers the margin of the training.
+        """
+        size, rng = len(self.box), np.random.default_rng(seed)
+        draws = (
+            rng.random((4 * count + 64, size))
+            if random
+            else qmc.Sobol(size, scramble=True, rng=rng).random_base2(
+                math.ceil(math.log2(2 * count + 64))
+            )
         )
-    )
-    return [one for one in map(make, draws) if fits(one)][:count]
+        limits = self.domain if random else self.trained
+        made = (self.make(self.box, draw) for draw in draws)
+        return [one for one in made if self.fits(one, limits)][:count]
 
-
-def draws_until(size: int, make: Make, fits: Fits, count: int, seed: int) -> list[Any]:
-    """Return as many independent contacts as asked for; arguments as in `even_draws`."""
-    found: list[Any] = []
-    rng = np.random.default_rng(seed)
-    while len(found) < count:
-        one = make(rng.random(size))
-        if fits(one):
-            found.append(one)
-    return found
+    def until(self, wanted: Callable[[Any], bool], count: int, seed: int) -> list[Any]:
+        """Return independent contacts of the training's limits that are wanted."""
+        found: list[Any] = []
+        rng = np.random.default_rng(seed)
+        while len(found) < count:
+            one = self.make(self.box, rng.random(len(self.box)))
+            if self.fits(one, self.trained) and wanted(one):
+                found.append(one)
+        return found

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import partial
 
 import numpy as np
 
 from gearlube.studies.film_model.draws import (
-    SOLID_HEAT_CAPACITY,
     STEEL,
     Box,
+    Drawn,
     Limits,
-    draws_until,
-    even_draws,
+    log_uniform,
     numbers_of,
+    oil_of_draw,
+    oil_of_library,
     oil_temperatures,
 )
 from gearlube_core.arrays import Array
@@ -26,9 +26,7 @@ from gearlube_core.friction.line_points import line_points
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
-from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
-from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
+from gearlube_core.units import rpm_to_rads
 
 _E = STEEL.contact_modulus
 
@@ -77,25 +75,15 @@ def line_box_contact(box: Box, draw: Array) -> LineContact:
     """Return the contact of one draw, numbers from 0 to 1 in the order of the box."""
     p, slide, eta0, Z, tau0, per, times, S0, T, k, c = numbers_of(box, draw)
     R, u = math.sqrt(times / per), math.sqrt(times * per)
-    log_ratio = math.log(eta0 / ROELANDS_KAPPA)
-    temperature = celsius_to_kelvin(T)
     return LineContact(
         line_load=(1e9 * p) ** 2 / line_mean_pressure(1.0, R, _E) ** 2,
         contact_modulus=_E,
         R=R,
         entrainment_speed=u,
         sliding_speed=u * math.sqrt(max(slide * slide - LEAST_SLIDING * LEAST_SLIDING, 0.0)),
-        eta0=eta0,
-        alpha=ROELANDS_PRESSURE * Z * log_ratio,
-        beta=S0 * log_ratio / (temperature - GLASS_TEMPERATURE),
-        tau0=1e6 * tau0,
         limiting_stress=0.0,
         limiting_slope=0.0,
-        temperature=temperature,
-        conductivity=k,
-        heat_capacity=1e6 * c,
-        solid_conductivity=STEEL.conductivity,
-        solid_heat_capacity=SOLID_HEAT_CAPACITY,
+        **oil_of_draw(eta0, Z, tau0, S0, T, k, c),
     )
 
 
@@ -103,26 +91,18 @@ def line_box_contacts(
     box: Box, count: int, seed: int, *, random: bool = False
 ) -> list[LineContact]:
     """Return contacts drawn evenly from a box; arguments as in `samples.box_contacts`."""
-    limits = LINE_DOMAIN if random else LINE_TRAINED
-    return even_draws(
-        len(box),
-        partial(line_box_contact, box),
-        lambda one: line_fits(one, limits),
-        count,
-        seed,
-        random=random,
-    )
+    return _drawn(box).even(count, seed, random=random)
 
 
 def line_edge_contacts(box: Box, count: int, seed: int) -> list[LineContact]:
     """Return contacts of a box near its thick films, drawn evenly there."""
+    return _drawn(box).until(
+        lambda one: line_contact_groups(one).thickness >= _EDGE_THICKNESS, count, seed
+    )
 
-    def thick(one: LineContact) -> bool:
-        return (
-            line_fits(one, LINE_TRAINED) and line_contact_groups(one).thickness >= _EDGE_THICKNESS
-        )
 
-    return draws_until(len(box), partial(line_box_contact, box), thick, count, seed)
+def _drawn(box: Box) -> Drawn:
+    return Drawn(box, line_box_contact, line_fits, LINE_DOMAIN, LINE_TRAINED)
 
 
 def pair_contacts(
@@ -151,8 +131,8 @@ def pair_contacts(
     while len(found) < count:
         name, plane, x, total = places[int(rng.integers(len(places)))]
         n = int(rng.integers(x.size))
-        torque = _TORQUES.get(name, _USUAL_TORQUE) * _even_log(rng, *_TORQUE_SHARES)
-        speed = rpm_to_rads(_even_log(rng, *_SPEEDS))
+        torque = _TORQUES.get(name, _USUAL_TORQUE) * log_uniform(rng, *_TORQUE_SHARES)
+        speed = rpm_to_rads(log_uniform(rng, *_SPEEDS))
         oil = oils[int(rng.integers(len(oils)))]
         temperature = rng.uniform(*oil_temperatures(oil))
         motion = line_kinematics(float(x[n]), speed, plane)
@@ -164,7 +144,7 @@ def pair_contacts(
             abs(motion.sliding),
             oil,
             temperature,
-            1e6 * _even_log(rng, 1.0, 10.0),
+            1e6 * log_uniform(rng, 1.0, 10.0),
         )
         if line_fits(one, limits):
             found.append(one)
@@ -193,26 +173,13 @@ def line_contact_of(
     tau0
         Eyring stress [Pa].
     """
-    state = lubricant_state(oil.parameters(), temperature)
     return LineContact(
         line_load=line_load,
         contact_modulus=_E,
         R=R,
         entrainment_speed=entrainment,
         sliding_speed=sliding,
-        eta0=state.eta0,
-        alpha=state.alpha,
-        beta=state.beta,
-        tau0=tau0,
         limiting_stress=0.0,
         limiting_slope=0.0,
-        temperature=temperature,
-        conductivity=state.conductivity,
-        heat_capacity=oil.density * oil.heat_capacity,
-        solid_conductivity=STEEL.conductivity,
-        solid_heat_capacity=SOLID_HEAT_CAPACITY,
+        **oil_of_library(oil, temperature, tau0),
     )
-
-
-def _even_log(rng: np.random.Generator, low: float, high: float) -> float:
-    return math.exp(rng.uniform(math.log(low), math.log(high)))

@@ -79,7 +79,7 @@ def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmPro
     spread = float(rest.std())
     kernel = ConstantKernel(4.0, (1e-2, 1e5)) * RBF(np.full(x.shape[1], 5.0), _LENGTHS)
     process = GaussianProcessRegressor(kernel + WhiteKernel(noise, _NOISE))
-    some = slice(None, None, max(1, len(x) // _LEARNT))
+    some = slice(None, None, max(1, round(len(x) / _LEARNT)))
     with warnings.catch_warnings():
         # lengths at their limit belong to features that do not matter
         warnings.simplefilter("ignore", ConvergenceWarning)

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from gearlube.studies.film_model.draws import (
-    SOLID_HEAT_CAPACITY,
     STEEL,
     Box,
+    Drawn,
     Limits,
-    draws_until,
-    even_draws,
+    log_uniform,
     numbers_of,
+    oil_of_draw,
+    oil_of_library,
     oil_temperatures,
 )
 from gearlube.studies.film_model.line_samples import line_fits
@@ -28,9 +28,7 @@ from gearlube_core.contact.line_hertz import line_mean_pressure
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.rolling import RollerContact, rolling_groups, rolling_line
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
-from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
-from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
+from gearlube_core.units import rpm_to_rads
 
 _E = STEEL.contact_modulus
 
@@ -89,22 +87,12 @@ def roller_box_contact(box: Box, draw: Array) -> RollerContact:
     """Return the contact of one draw, numbers from 0 to 1 in the order of the box."""
     p, eta0, Z, tau0, per, times, S0, T, k, c = numbers_of(box, draw)
     R, u = math.sqrt(times / per), math.sqrt(times * per)
-    log_ratio = math.log(eta0 / ROELANDS_KAPPA)
-    temperature = celsius_to_kelvin(T)
     return RollerContact(
         line_load=(1e9 * p) ** 2 / line_mean_pressure(1.0, R, _E) ** 2,
         contact_modulus=_E,
         R=R,
         speed=u,
-        eta0=eta0,
-        alpha=ROELANDS_PRESSURE * Z * log_ratio,
-        beta=S0 * log_ratio / (temperature - GLASS_TEMPERATURE),
-        tau0=1e6 * tau0,
-        temperature=temperature,
-        conductivity=k,
-        heat_capacity=1e6 * c,
-        solid_conductivity=STEEL.conductivity,
-        solid_heat_capacity=SOLID_HEAT_CAPACITY,
+        **oil_of_draw(eta0, Z, tau0, S0, T, k, c),
     )
 
 
@@ -112,24 +100,18 @@ def roller_box_contacts(
     box: Box, count: int, seed: int, *, random: bool = False
 ) -> list[RollerContact]:
     """Return contacts drawn evenly from a box; arguments as in `samples.box_contacts`."""
-    limits = ROLLER_DOMAIN if random else ROLLER_TRAINED
-    return even_draws(
-        len(box),
-        partial(roller_box_contact, box),
-        lambda one: roller_fits(one, limits),
-        count,
-        seed,
-        random=random,
-    )
+    return _drawn(box).even(count, seed, random=random)
 
 
 def roller_edge_contacts(box: Box, count: int, seed: int) -> list[RollerContact]:
     """Return contacts of a box near its thick films, drawn evenly there."""
+    return _drawn(box).until(
+        lambda one: rolling_groups(one).thickness >= _EDGE_THICKNESS, count, seed
+    )
 
-    def thick(one: RollerContact) -> bool:
-        return roller_fits(one, ROLLER_TRAINED) and rolling_groups(one).thickness > _EDGE_THICKNESS
 
-    return draws_until(len(box), partial(roller_box_contact, box), thick, count, seed)
+def _drawn(box: Box) -> Drawn:
+    return Drawn(box, roller_box_contact, roller_fits, ROLLER_DOMAIN, ROLLER_TRAINED)
 
 
 def roller_contacts(
@@ -167,12 +149,12 @@ def roller_contacts(
         one = races[int(rng.integers(len(races)))]
         oil = oils[int(rng.integers(len(oils)))]
         contact = roller_contact_of(
-            _even_log(rng, *one.loads),
+            log_uniform(rng, *one.loads),
             one.R[int(rng.integers(2))],
-            one.ratio * _even_log(rng, *one.speeds),
+            one.ratio * log_uniform(rng, *one.speeds),
             oil,
             rng.uniform(*oil_temperatures(oil)),
-            1e6 * _even_log(rng, 1.0, 10.0),
+            1e6 * log_uniform(rng, 1.0, 10.0),
         )
         if roller_fits(contact, limits):
             found.append(contact)
@@ -193,23 +175,10 @@ def roller_contact_of(
     tau0
         Eyring stress [Pa].
     """
-    state = lubricant_state(oil.parameters(), temperature)
     return RollerContact(
         line_load=line_load,
         contact_modulus=_E,
         R=R,
         speed=speed,
-        eta0=state.eta0,
-        alpha=state.alpha,
-        beta=state.beta,
-        tau0=tau0,
-        temperature=temperature,
-        conductivity=state.conductivity,
-        heat_capacity=oil.density * oil.heat_capacity,
-        solid_conductivity=STEEL.conductivity,
-        solid_heat_capacity=SOLID_HEAT_CAPACITY,
+        **oil_of_library(oil, temperature, tau0),
     )
-
-
-def _even_log(rng: np.random.Generator, low: float, high: float) -> float:
-    return math.exp(rng.uniform(math.log(low), math.log(high)))

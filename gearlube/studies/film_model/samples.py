@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import partial
 
 import numpy as np
 
@@ -12,10 +11,10 @@ from gearlube.studies.film_model.draws import (
     SOLID_HEAT_CAPACITY,
     STEEL,
     Box,
+    Drawn,
     Limits,
-    draws_until,
-    even_draws,
     numbers_of,
+    oil_of_draw,
     oil_temperatures,
     widened,
 )
@@ -27,8 +26,7 @@ from gearlube_core.film_model.groups import FilmContact, contact_groups, film_co
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
-from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
-from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
+from gearlube_core.units import rpm_to_rads
 
 _E = STEEL.contact_modulus
 
@@ -79,24 +77,18 @@ def box_contacts(box: Box, count: int, seed: int, *, random: bool = False) -> li
         Independent draws of the domain, as a calibration needs them; else a scrambled sequence of
         Sobol, which also covers the margin below the domain's pressures.
     """
-    limits = DOMAIN if random else TRAINED
-    return even_draws(
-        len(box),
-        partial(box_contact, box),
-        lambda one: _fits(one, limits),
-        count,
-        seed,
-        random=random,
-    )
+    return _drawn(box).even(count, seed, random=random)
 
 
 def edge_contacts(box: Box, count: int, seed: int) -> list[FilmContact]:
     """Return contacts of a box near its thick films, drawn evenly there; as `box_contacts`."""
+    return _drawn(box).until(
+        lambda one: contact_groups(one).thickness >= _EDGE_THICKNESS, count, seed
+    )
 
-    def thick(one: FilmContact) -> bool:
-        return _fits(one, TRAINED) and contact_groups(one).thickness >= _EDGE_THICKNESS
 
-    return draws_until(len(box), partial(box_contact, box), thick, count, seed)
+def _drawn(box: Box) -> Drawn:
+    return Drawn(box, box_contact, _fits, DOMAIN, TRAINED)
 
 
 def _fits(contact: FilmContact, limits: Limits) -> bool:
@@ -116,8 +108,6 @@ def box_contact(box: Box, draw: Array) -> FilmContact:
     p, ratio, psi, slide, delta, eta0, Z, tau0, per, times, S0, T, k, c = numbers_of(box, draw)
     R_x, u = math.sqrt(times / per), math.sqrt(times * per)
     coefficient = hertz_coefficients(R_x, ratio * R_x, _E)[2]
-    log_ratio = math.log(eta0 / ROELANDS_KAPPA)
-    temperature = celsius_to_kelvin(T)
     return FilmContact(
         load=(1e9 * p / coefficient) ** 3,
         contact_modulus=_E,
@@ -129,17 +119,9 @@ def box_contact(box: Box, draw: Array) -> FilmContact:
         entrainment_angle=math.radians(psi),
         sliding_speed=slide * u,
         sliding_angle=math.radians(delta),
-        eta0=eta0,
-        alpha=ROELANDS_PRESSURE * Z * log_ratio,
-        beta=S0 * log_ratio / (temperature - GLASS_TEMPERATURE),
-        tau0=1e6 * tau0,
         limiting_stress=0.0,
         limiting_slope=0.0,
-        temperature=temperature,
-        conductivity=k,
-        heat_capacity=1e6 * c,
-        solid_conductivity=STEEL.conductivity,
-        solid_heat_capacity=SOLID_HEAT_CAPACITY,
+        **oil_of_draw(eta0, Z, tau0, S0, T, k, c),
     )
 
 

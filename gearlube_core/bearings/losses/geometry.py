@@ -29,7 +29,12 @@ from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option, check_positive, check_within
-from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, reduced_modulus
+from gearlube_core.contact.solid import (
+    STEEL_MOHAMMADPOUR_2015,
+    Solid,
+    reduced_modulus,
+    solid_parameters,
+)
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import film_geometry
 
@@ -290,6 +295,7 @@ class BearingGeometry:
             roughness=float(self.roughness),
             rolling_scale=1.0 if self.rolling_scale is None else float(self.rolling_scale),
             rib=self._rib_parameters(),
+            solid=solid_parameters(self.solid, self.solid),
         )
 
     def _rib_parameters(self) -> RibParameters:

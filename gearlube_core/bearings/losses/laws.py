@@ -16,10 +16,13 @@ ROLLING_LAWS = {
     "goksem_hargreaves": GOKSEM_HARGREAVES,
     "aihara": AIHARA,
 }
+# films by a film model, see `race_rolling`; for contacts that `rolling_force` does not know
+SOLVED_FILMS = 4
+RACE_LAWS = {**ROLLING_LAWS, "solved_films": SOLVED_FILMS}
 MATERIAL_LIMIT_WORDS = "M 0.2 to 200, L 4 to 16"  # range of biboulet_houpert_2010
 CATALOGUE_LAWS = ("palmgren", "skf", "timken")
 PALMGREN, SKF = 0, 1  # of them, for kernels
-LAWS = (*ROLLING_LAWS, *CATALOGUE_LAWS)
+LAWS = (*RACE_LAWS, *CATALOGUE_LAWS)
 
 NO_HEATING, AIHARA_HEATING, ZHU_CHENG_HEATING = 0, 1, 2
 HEATINGS = {"none": NO_HEATING, "aihara": AIHARA_HEATING, "zhu_cheng": ZHU_CHENG_HEATING}
@@ -29,6 +32,7 @@ USUAL_HEATING = {
     "zhou_hoeprich": "zhu_cheng",
     "goksem_hargreaves": "aihara",
     "aihara": "aihara",
+    "solved_films": "none",
 }
 
 

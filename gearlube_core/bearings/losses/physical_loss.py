@@ -6,16 +6,15 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.losses.laws import heating_factor, rolling_force
 from gearlube_core.bearings.losses.liebrecht_drag import liebrecht_drag
+from gearlube_core.bearings.losses.race_rolling import race_rolling, roller_inlet
 from gearlube_core.bearings.losses.rib import RibParameters, rib_friction
 from gearlube_core.bearings.losses.rolling import (
     hysteresis_power,
     rolling_power,
 )
+from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_starvation
-from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
-from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -37,12 +36,13 @@ class LossParameters(NamedTuple):
     roughness: float  # of the raceways, composite rms [m]
     rolling_scale: float  # measured over computed rolling torque; 1: not calibrated
     rib: RibParameters
+    solid: SolidParameters  # of rollers and races
 
 
 class LossSettings(NamedTuple):
     """How the raceways are computed."""
 
-    law: int  # of ROLLING_LAWS
+    law: int  # of RACE_LAWS
     heating: int  # of HEATINGS
     inlet_layer: float  # oil at the inlet of the raceways [m]; 0: flooded
 
@@ -64,7 +64,12 @@ class PhysicalLoss(NamedTuple):
 
 @kernel
 def physical_loss(
-    b: LossParameters, settings: LossSettings, loads: Array, speed: float, oil: LubricantState
+    b: LossParameters,
+    settings: LossSettings,
+    loads: Array,
+    speed: float,
+    oil: LubricantState,
+    film_model: Array,
 ) -> PhysicalLoss:
     """Return the losses of one row of a tapered roller bearing.
 
@@ -82,6 +87,8 @@ def physical_loss(
         Of the shaft, not negative [rad/s].
     oil
         At the temperature of the inlet.
+    film_model : ndarray
+        Numbers of the film model of rollers, written into; empty without the law of solved films.
 
     Returns
     -------
@@ -98,7 +105,7 @@ def physical_loss(
     if speed <= 0.0:
         return PhysicalLoss(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     u = b.mean_ratio * speed
-    number = inlet_heating_number(oil.eta0, oil.beta, u, oil.conductivity)
+    inlet = roller_inlet(oil, b.solid)
     contacts = 0
     most = 0.0
     for i in range(int(b.n_rollers)):
@@ -110,20 +117,19 @@ def physical_loss(
             R = b.R_outer if race == 0 else b.R_inner
             q = Q / b.length
             E = b.reduced_modulus
-            force, status = rolling_force(settings.law, R, q, E, oil.eta0, oil.alpha, u)
-            film = minimum_line_film_thickness(R, oil.eta0, oil.alpha, u, q, E)
-            pressure_ratio = math.sqrt(q / (2.0 * math.pi * R * E))
-            force *= heating_factor(settings.heating, number, pressure_ratio)
-            force *= biboulet_houpert_starvation(settings.inlet_layer, film)
-            power = rolling_power(force, u, b.length)
+            found = race_rolling(
+                settings.law, settings.heating, R, q, u, oil, b.solid, inlet, film_model
+            )
+            starved = biboulet_houpert_starvation(settings.inlet_layer, found.film)
+            power = rolling_power(found.force * starved, u, b.length)
             if race == 0:
                 outer += power
             else:
                 inner += power
             hysteresis += hysteresis_power(Q, q, R, E, u)
-            film_ratio = min(film_ratio, film / b.roughness)
+            film_ratio = min(film_ratio, found.film / b.roughness)
             contacts += 1
-            out += status
+            out += found.outside
         end = rib_friction(b.rib, b.rib_share * Q_outer, speed, oil)
         rib += end.power
         rib_ratio = min(rib_ratio, end.film_ratio)

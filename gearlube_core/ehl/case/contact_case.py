@@ -37,7 +37,7 @@ _GIGA, _MICRO = 1e9, 1e-6
 
 Radius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Speed = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
-PartLength = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
+PartLength = Annotated[float, Field(ge=0.01, le=100.0, allow_inf_nan=False)]
 LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]

@@ -6,7 +6,7 @@ import hashlib
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from gearlube_core.ehl.case.contact_case import ContactCase, LineLoad, PartLength, Radius
 from gearlube_core.ehl.case.film_case import Wedge, refused
@@ -15,6 +15,7 @@ from gearlube_core.ehl.case.rough_surfaces import RoughSurface
 from gearlube_core.ehl.point.line_section import line_section
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import FEWEST_ROWS, MOST_ROWS
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.history import check_scheme
 from gearlube_core.ehl.transient.problem import MovingFilm
@@ -30,13 +31,14 @@ from gearlube_core.surface.schedule import RoughSchedule
 from gearlube_core.units import MILLIMETRE
 
 _MICRO, _GIGA = 1e-6, 1e9
+_HIGHEST = 10e9  # Pa, more than steel carries
 
 HalfWidths = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
 Growth = Annotated[float, Field(ge=1e-3, le=100.0, allow_inf_nan=False)]
 StepCount = Annotated[int, Field(ge=1, le=1_000_000)]
 Moment = Annotated[int, Field(ge=0, le=1_000_000)]
 Columns = Annotated[int, Field(ge=17, le=2049)]
-Rows = Annotated[int, Field(ge=1, le=2048)]
+Rows = Annotated[int, Field(ge=FEWEST_ROWS, le=MOST_ROWS)]
 Reach = Annotated[float, Field(ge=1.05, le=100.0, allow_inf_nan=False)]
 Layer = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Pressure = Annotated[float, Field(ge=1e-3, le=1000.0, allow_inf_nan=False)]
@@ -133,6 +135,13 @@ class RoughSolver(Section):
         default=60, description="Largest number of iterations in a linear solution"
     )
 
+    @field_validator("rows")
+    @classmethod
+    def _even(cls, rows: int) -> int:
+        if rows % 2:
+            raise ValueError(f"the number of rows must be even, got {rows}. Take {rows + 1}")
+        return rows
+
 
 class RoughFrames(Section):
     """Which films are kept."""
@@ -191,8 +200,15 @@ class RoughCase(ContactCase):
                 f"from the inlet, got {self.speed_1_m_s:g} and {self.speed_2_m_s:g} m/s"
             )
         with refused("In SI units: "):
-            self.section()
+            section = self.section()
             check_scheme(self.solver.scheme, self.settings().discretisation)
+        hertz = section.hertz_contact[2]
+        if hertz > _HIGHEST:
+            raise ValueError(
+                f"the Hertz pressure must be at most {_HIGHEST / _GIGA:g} GPa, got "
+                f"{hertz / _GIGA:.4g} GPa by load_n_per_mm, radius_mm and reduced_modulus_gpa; "
+                "give them in N/mm, mm and GPa"
+            )
         with refused():
             self.roughness()
         return self

@@ -30,6 +30,7 @@ _SPACING = 1e-6  # m, of generated heights without a shortest wave
 _SOURCES = ("file", "stand_in", "ra_um", "amplitude_um")
 
 Length = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
+Period = Annotated[float, Field(ge=1.0, le=1e5, allow_inf_nan=False)]
 Height = Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False)]
 Angle = Annotated[float, Field(gt=-89.0, lt=89.0, allow_inf_nan=False)]
 Turns = Annotated[int, Field(ge=-1000, le=1000)]
@@ -55,7 +56,7 @@ class RoughSurface(Section):
     amplitude_um: Height | None = Field(
         default=None, description="Makes a cosine wave: half its height from trough to crest"
     )
-    period_um: Length | None = Field(
+    period_um: Period | None = Field(
         default=None,
         description="Period along x: of a wave, of a random profile, or of the part that is cut "
         "from a profile file, which without it is one period as a whole",

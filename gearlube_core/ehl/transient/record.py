@@ -49,7 +49,9 @@ class MarchRecord:
             stored = read_arrays(Path(path))
             values = {name: stored[name] for name in cls.__dataclass_fields__}
         except (FileError, KeyError) as error:
+            lack = f"one without {error}" if isinstance(error, KeyError) else "a damaged one"
             raise ParameterError(
-                f"{path} must be the record of a march, got {error}. Start again."
+                f"{path} must be the record of a march, got {lack}. Remove it and run again: the "
+                "march starts from the beginning. Films that were kept stay."
             ) from error
         return cls(**{k: v.item() if v.ndim == 0 else v for k, v in values.items()})

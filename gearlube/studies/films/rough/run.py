@@ -21,7 +21,7 @@ from gearlube_core.ehl.statistics.rough_film import statistics_of_run
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.errors import ConvergenceError, FileError, ParameterError
+from gearlube_core.errors import ConvergenceError, FileError, InterruptedRunError, ParameterError
 from gearlube_core.progress import Progress, no_progress
 
 logger = logging.getLogger("gearlube")
@@ -70,6 +70,8 @@ def run_rough(
         Ten steps in turn did not converge, or a film is not finite; the last record is kept.
     FileError
         A file could not be written; the last record is kept.
+    InterruptedRunError
+        Ctrl-C while steps were written to a folder; the last record is kept.
 
     Examples
     --------
@@ -107,6 +109,33 @@ def run_rough(
         _keep(case, folder, 0, march.solution, key)
     else:
         logger.info("Continuing from step %d.", march.steps)
+    recorded = march.steps
+    try:
+        for step in _steps(march, last, gathered, progress):
+            _keep(case, folder, step, march.solution, key)
+            if folder is not None and (step % case.frames.record_every == 0 or step == last):
+                with _told(folder, step):
+                    march.save(_record_file(folder, key), gathered.packed())
+                recorded = step
+    except KeyboardInterrupt:
+        if folder is None:
+            raise
+        where = f"from step {recorded}" if recorded else "from the beginning"
+        raise InterruptedRunError(
+            f"Stopped in step {march.steps} of {last}. Run the same command again: it "
+            f"continues {where} in {folder}."
+        ) from None
+    dataset = _with_attributes(gathered.dataset(), case, key)
+    if folder is not None:
+        progress(last / (last + 1), "writing files and figures")
+        with _told(folder, march.steps):
+            write_rough_results(dataset, folder)
+    progress(1.0, "done")
+    return dataset
+
+
+def _steps(march: FilmMarch, last: int, gathered: Gathered, progress: Progress) -> Iterator[int]:
+    """March to a step and gather; yield the number of every step. Raise where a film is lost."""
     lost = 0
     while march.steps < last:
         solution = march.step(throw=False)
@@ -118,22 +147,12 @@ def run_rough(
             raise ConvergenceError(
                 f"Steps {step - _LOST + 1} to {step} did not converge. {solution.outcome}"
             )
-        _keep(case, folder, step, solution, key)
-        if folder is not None and (step % case.frames.record_every == 0 or step == last):
-            with _told(folder, step):
-                march.save(_record_file(folder, key), gathered.packed())
+        yield step
         progress(
             step / (last + 1),
             f"step {step}: {1e-9 * solution.maximum_pressure:.2f} GPa, smallest film "
             f"{1e9 * solution.minimum_film:.0f} nm",
         )
-    dataset = _with_attributes(gathered.dataset(), case, key)
-    if folder is not None:
-        progress(last / (last + 1), "writing files and figures")
-        with _told(folder, march.steps):
-            write_rough_results(dataset, folder)
-    progress(1.0, "done")
-    return dataset
 
 
 def statistics_again(case: RoughCase, folder: Path) -> xr.Dataset:

@@ -1,0 +1,144 @@
+"""Rolling force and film of one contact of a roller and a race, by any law of the raceways."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.losses.aihara_1987 import aihara_heating
+from gearlube_core.bearings.losses.laws import SOLVED_FILMS, heating_factor, rolling_force
+from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
+from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
+from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from gearlube_core.film.groups import inlet_heating_number
+from gearlube_core.film_model.groups import FilmInlet, film_inlet
+from gearlube_core.film_model.line_contact import line_place
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.rolling import solved_rolling_at
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
+
+ROLLER_MODEL = "roller_race"  # name of the film model in the package
+NO_ROLLER_MODEL = np.empty(0)  # in place of its numbers, for laws without one
+
+
+class RaceRolling(NamedTuple):
+    """One contact; all floats, SI."""
+
+    force: float  # F on either surface per length, flooded [N/m]
+    film: float  # smallest film; by solved films the central one [m]
+    outside: float  # of the range of the law: 0 or 1; of the film model's domain: 0 to 1 [-]
+
+
+@cache
+def _shipped() -> FilmModel:
+    return FilmModel.named(ROLLER_MODEL)
+
+
+def roller_film_model(law: str) -> Array:
+    """Return the numbers of the film model that a law takes, a copy of its own; empty: none.
+
+    Kernels write into them: two threads must not share them.
+    """
+    return _shipped().copied_numbers() if law == "solved_films" else NO_ROLLER_MODEL
+
+
+@kernel
+def roller_inlet(oil: LubricantState, solid: SolidParameters) -> FilmInlet:
+    """Return oil and steel as the film model takes them."""
+    return film_inlet(
+        solid.contact_modulus,
+        oil.eta0,
+        oil.alpha,
+        oil.beta,
+        oil.tau0,
+        0.0,
+        0.0,
+        oil.temperature,
+        oil.conductivity,
+        oil.volume_heat,
+        solid.conductivity,
+        solid.density * solid.heat_capacity,
+    )
+
+
+@kernel
+def solved_race(
+    R: float,
+    line_load: float,
+    speed: float,
+    oil: LubricantState,
+    solid: SolidParameters,
+    inlet: FilmInlet,
+    film_model: Array,
+) -> RaceRolling:
+    """Return rolling force and central film by the film model; arguments as in `race_rolling`.
+
+    Notes
+    -----
+    Towards the outside of the model's domain both go over into formulas with the weight `outside`:
+    the force of Biboulet and Houpert with Aihara's heating, the film of Dowson and Toyoda.
+    """
+    place = line_place(
+        R, solid.contact_modulus, solid.conductivity, solid.density * solid.heat_capacity
+    )
+    found = solved_rolling_at(film_model, line_load, speed, place, inlet)
+    force, film, w = 0.5 * found.friction_coefficient * line_load, found.central_film, found.outside
+    if w > 0.0:
+        E = 2.0 * solid.contact_modulus
+        number = inlet_heating_number(oil.eta0, oil.beta, speed, oil.conductivity)
+        cold, _ = biboulet_houpert_force(R, line_load, E, oil.eta0, oil.alpha, speed)
+        force += w * (cold * aihara_heating(number) - force)
+        film += w * (line_film_thickness(R, oil.eta0, oil.alpha, speed, line_load, E) - film)
+    return RaceRolling(force, film, w)
+
+
+@kernel
+def race_rolling(
+    law: int,
+    heating: int,
+    R: float,
+    line_load: float,
+    speed: float,
+    oil: LubricantState,
+    solid: SolidParameters,
+    inlet: FilmInlet,
+    film_model: Array,
+) -> RaceRolling:
+    """Return rolling force and film of one flooded contact, heated once.
+
+    Parameters
+    ----------
+    law
+        Value of `laws.RACE_LAWS`.
+    heating
+        Value of `laws.HEATINGS`; solved films are heated by themselves.
+    R
+        Relative radius [m].
+    line_load
+        q, above zero [N/m].
+    speed
+        u of rolling, above zero [m/s].
+    oil
+        At the inlet.
+    solid
+        Roller and race.
+    inlet
+        Of `roller_inlet`.
+    film_model : ndarray
+        Numbers of the film model, written into; empty with other laws.
+    """
+    if law == SOLVED_FILMS:
+        return solved_race(R, line_load, speed, oil, solid, inlet, film_model)
+    E = 2.0 * solid.contact_modulus
+    force, status = rolling_force(law, R, line_load, E, oil.eta0, oil.alpha, speed)
+    film = minimum_line_film_thickness(R, oil.eta0, oil.alpha, speed, line_load, E)
+    number = inlet_heating_number(oil.eta0, oil.beta, speed, oil.conductivity)
+    pressure_ratio = math.sqrt(line_load / (2.0 * math.pi * R * E))
+    force *= heating_factor(heating, number, pressure_ratio)
+    return RaceRolling(force, film, float(status))
