@@ -141,7 +141,7 @@ def test_loss_map_warns_of_failures_and_ranges_and_steady_points_without_rest(a_
     assert "between 25 and 90 °C" in found(said, "steady oil temperature is between").headline
     assert found(said, "1 of 6 torques").level == WARNING
     html = report_html(loss_map_report(a_map))
-    assert "known to (k = 2)" in html
+    assert "known to (95 %)" in html
 
 
 @pytest.fixture
