@@ -109,8 +109,12 @@ written in any case: crowns, twist and tip relief of the drive flanks and the pi
 change, at 15 and 30 % of the torque of the relief, with small errors of assembly, and under limits
 of pressure, loss, sensitivity and coast flanks. Change it as you like
 ([problem_file.md](problem_file.md)) and run it again. The quieter pair has a report of its own in
-`my_design/optimised`. The search is local and not every design gains as much as the pairs of
-[optimise.md](optimise.md): read there what was gained, and try other ranges or starts.
+`my_design/optimised`. On the shipped blank it changed
+all mesh orders together by -10.0 dB at 45 N.m and -5.4 dB at 90 N.m, and by -8.2 and -4.3 dB with
+the worst error of assembly. Highest pressure (1.03 and 1.23 GPa), sliding loss and sensitivity
+rose by 0.4 % at most. Order 2 alone rose by 10 dB at 45 N.m. That took 7 minutes beside other work.
+The search is local, and not every design gains as much: read the report, and try other ranges or
+starts. [optimise.md](optimise.md) has three more pairs.
 
 These five commands lead from "13 to 42 teeth, 15 mm offset" to a loss map and FMUs. They take about
 seven minutes on a small machine, five of them for the FMUs of five platforms:

@@ -49,15 +49,17 @@ MARCHES = {
     for case in ANGLES
     for lay in LAYS
 }
+THIN_SHOWN = "zone below 100 nm [%]"
 TABLE = (
     "its mean over time [GPa]",
     "pressure that 99.9 % are below [GPa]",
     "film that 1 % are below [nm]",
     "film that 50 % are below [nm]",
     "zone below 10 nm [%]",
-    "zone below 25 nm [%]",
-    "load on solids [%]",
+    THIN_SHOWN,
 )
+THIN = 100e-9  # m
+THIN_SHARE = "share of the zone below 100 nm, rough"
 logger = logging.getLogger("docs.rough_line_contact")
 
 
@@ -78,26 +80,35 @@ def numbers() -> Found:
 
 
 def of_seeds(found: Found, case: str, lay: str, shown: str) -> np.ndarray:
-    """Return a number of all seeds of a case."""
-    return np.array([of(found, f"case {case}, {lay}, seed {seed}", shown) for seed in SEEDS])
+    """Return a number of the seeds that were marched with both lays."""
+    names = ([f"case {case}, {one}, seed {seed}" for one in (lay, *LAYS)] for seed in SEEDS)
+    kept = [own for own, *both in names if set(both) <= set(found)]
+    if shown == THIN_SHOWN:
+        return np.array([100.0 * found[name][THIN_SHARE] for name in kept])
+    return np.array([of(found, name, shown) for name in kept])
+
+
+def ratio(crossed: np.ndarray, straight: np.ndarray) -> str:
+    """Return mean, spread, least and largest of the ratios of the seeds."""
+    some = straight > 0.0
+    each = crossed[some] / straight[some]
+    if each.size < 2:
+        return "-"
+    return f"{each.mean():.2f} +- {each.std(ddof=1):.2f} ({each.min():.2f} to {each.max():.2f})"
 
 
 def table(found: Found) -> Iterable[Sequence[str]]:
-    """Crossed and straight, and one over the other: mean, and least to largest, of five seeds."""
+    """Crossed and straight, and one over the other: mean, and least to largest, of the seeds."""
     yield ("", *(f"case {case}, {angle} deg" for case, angle in ANGLES.items()))
     for shown in TABLE:
-        for lay in LAYS:
-            values = (of_seeds(found, case, lay, shown) for case in ANGLES)
+        both = [[of_seeds(found, case, lay, shown) for lay in LAYS] for case in ANGLES]
+        for k, lay in enumerate(LAYS):
+            values = (pair[k] for pair in both)
             yield (
                 f"{shown}, {lay}",
                 *(f"{v.mean():.3g} ({v.min():.3g} to {v.max():.3g})" for v in values),
             )
-        pairs = ([of_seeds(found, case, lay, shown) for lay in LAYS] for case in ANGLES)
-        ratios = [crossed / straight for crossed, straight in pairs]
-        yield (
-            f"{shown}, crossed over straight",
-            *(f"{r.mean():.2f} +- {r.std(ddof=1):.2f}: {np.round(np.sort(r), 2)}" for r in ratios),
-        )
+        yield (f"{shown}, crossed over straight", *(ratio(*pair) for pair in both))
 
 
 def main(work: Path, names: list[str]) -> None:
@@ -109,7 +120,9 @@ def main(work: Path, names: list[str]) -> None:
             logger.info("%s", name)
             run_rough(case_of(name), folder=done.parent)
         if done.exists():
-            rows += rows_of(name, xr.load_dataset(done, engine="scipy"))
+            run = xr.load_dataset(done, engine="scipy")
+            below = np.interp(THIN, run["film_edge"].values, run["film_function"].values)
+            rows += [*rows_of(name, run), (name, THIN_SHARE, float(below), "1")]
     lines = ((n, q, f"{v:.4g}", u) for n, q, v, u in rows)
     write_text(csv_text(("variant", "quantity", "value", "unit"), lines), NUMBERS)
     for row in table(numbers()):

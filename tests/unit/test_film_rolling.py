@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.film_model.kinds import BEARING_ROLLER, kind_of
+from gearlube.studies.film_model.model_lines import model_lines
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.roller_samples import (
     ROLLER_BOX,
@@ -127,6 +128,12 @@ def test_groups_are_those_of_a_line_without_sliding():
     assert faster.rate - still.rate == pytest.approx(math.log(2.0), abs=1e-12)
     assert faster.pressure - still.pressure == pytest.approx(0.25 * math.log(2.0), abs=1e-12)
     assert faster.slide_roll == pytest.approx(still.slide_roll, abs=1e-12)
+
+
+def test_the_model_of_the_package_tells_its_domain_without_what_is_constant_in_it():
+    lines = model_lines(FilmModel.named("roller_race"))
+    assert any("mean pressure over E*" in line for line in lines)
+    assert not any(words in line for line in lines for words in ("a_y/a_x", "[deg]", "sliding"))
 
 
 def test_draws_lie_in_the_domain_and_the_shipped_bearings_in_the_box():

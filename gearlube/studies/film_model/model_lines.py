@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.model import FLANK, LINE, ROLLER, FilmModel
 
 _WORDS = {
     "pressure": ("mean pressure over E*", True),
@@ -24,6 +24,12 @@ _WORDS = {
     "heat": ("beta eta0 u^2/k of the oil", True),
     "thickness": ("(h R_x)^(1/2)/a_x", False),
 }
+# groups that are constant in contacts of a kind
+_CONSTANT = {
+    FLANK: (),
+    LINE: ("ellipse", "psi", "delta"),
+    ROLLER: ("ellipse", "psi", "delta", "slide_roll"),
+}
 
 
 def model_lines(model: FilmModel) -> list[str]:
@@ -38,6 +44,8 @@ def model_lines(model: FilmModel) -> list[str]:
     )
     lines.append("domain:")
     for group, (low, high) in model.domain.items():
+        if group in _CONSTANT[model.kind]:
+            continue
         words, logarithmic = _WORDS[group]
         if logarithmic:
             low, high = math.exp(low), math.exp(high)
