@@ -52,6 +52,17 @@ flank_state = by_class()(FlankLaw.flank_state)
 
 
 @kernel
+def _no_model(law: FlankLaw) -> bool:
+    return False
+
+
+@by_class(_no_model)
+def takes_film_model(law: FlankLaw) -> bool:
+    """Return whether film and friction of the oil are those of a film model with this law."""
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
+
+
+@kernel
 def _no_film(
     law: FlankLaw,
     load: float,

@@ -63,6 +63,11 @@ class MixedFlankFriction(NamedTuple):
         )
 
     @kernel
+    def takes_film_model(self) -> bool:
+        """Return whether film and friction of the oil are those of a film model."""
+        return self.film == SOLVED
+
+    @kernel
     def model_film(
         self,
         load: float,

@@ -59,8 +59,8 @@ def test_friction_between_nodes_is_near_that_at_the_contact_itself(axle):
     # the model's domain within one interval
     assert abs(error[:, :2]).max() < 8e-3
     assert abs(error[:, :2].mean(axis=0)).max() < 1e-3
-    # over that border the bound rises from 1 to 57 %
-    assert abs(error[:, 2].mean()) < 0.03
+    # over that border the bound rises from 1 % to that of the formulas
+    assert np.median(abs(error[:, 2])) < 0.01
 
 
 def test_at_a_node_friction_is_that_at_the_contact_itself(axle):
@@ -74,11 +74,11 @@ def test_at_a_node_friction_is_that_at_the_contact_itself(axle):
 @pytest.mark.parametrize(
     ("now", "holds"),
     [
-        ({"force": 1.005 * FORCE}, True),
-        ({"force": 1.02 * FORCE}, False),
+        ({"force": 1.02 * FORCE}, True),
+        ({"force": 1.04 * FORCE}, False),
         ({"force": -FORCE}, False),
-        ({"speed": 1.002 * SPEED}, True),
-        ({"speed": 0.99 * SPEED}, False),
+        ({"speed": 1.02 * SPEED}, True),
+        ({"speed": 0.96 * SPEED}, False),
         ({"oil": OIL + 0.05}, True),
         ({"oil": OIL + 0.2}, False),
     ],
@@ -97,8 +97,22 @@ def test_nodes_that_share_a_place_do_not_serve_one_another(axle):
     axle.losses(0.3, tooth_pair.BETWEEN_NODES)
     films = axle.kept[flanks.FILMS :]
     node = int(0.3 * axle.nodes)
-    slot = film_nodes.node_film(films, node)
     other = node + film_nodes.NODES_KEPT
-    assert np.shares_memory(slot, film_nodes.node_film(films, other))
-    assert film_nodes.still_holds(slot, node, FORCE, SPEED, OIL)
-    assert not film_nodes.still_holds(slot, other, FORCE, SPEED, OIL)
+    assert film_nodes.place_of_node(other) == film_nodes.place_of_node(node)
+    assert film_nodes.still_holds(films, node, FORCE, SPEED, OIL)
+    assert not film_nodes.still_holds(films, other, FORCE, SPEED, OIL)
+
+
+@pytest.mark.parametrize("now", [{"force": 1.025 * FORCE}, {"speed": 0.975 * SPEED}])
+def test_what_is_kept_follows_force_and_speed(axle, now):
+    phases = np.arange(0.0, 1.0, 0.05)
+    for phase in phases:
+        axle.losses(phase, tooth_pair.BETWEEN_NODES)
+    kept = np.array([axle.losses(phase, tooth_pair.BETWEEN_NODES, **now)[:2] for phase in phases])
+    anew = Flanks()
+    exact = np.array([anew.losses(phase, tooth_pair.BETWEEN_NODES, **now)[:2] for phase in phases])
+    then = np.array([axle.losses(phase, tooth_pair.BETWEEN_NODES)[:2] for phase in phases])
+    # friction power follows force and speed by 1 to 3 %; slopes are those over the next 2 %, so
+    # that 0.025 (0.025 + 0.02)/2 = 6e-4 is left, times a curvature of about one
+    assert abs(kept / exact - 1.0).max() < 1e-3
+    assert abs(then / exact - 1.0).max() > 1e-2

@@ -93,8 +93,8 @@ def naming(text: str, *folders: str) -> set[str]:
 @pytest.mark.parametrize(
     ("folder", "table", "name", "kernel"),
     [
-        (AXLE, "variables", '"mesh.stiffness"', "outputs"),
-        (AXLE, "variables", '"axle.efficiency"', "outputs"),
+        (AXLE, "variables", '"mesh.stiffness"', "output_names"),
+        (AXLE, "variables", '"axle.efficiency"', "output_names"),
         (AXLE, "variables", "roller_load_min", "bearing_outputs"),
         (PAIR, "helical_variables", '"mesh.coast_contact"', "outputs"),
         (PAIR, "helical_variables", '"pair.efficiency"', "outputs"),

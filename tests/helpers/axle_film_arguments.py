@@ -33,8 +33,11 @@ def film_cases(axle):
     state, force, window, n_nodes, oil, p, by_model, numbers, channels, friction = axle
     law = by_model.flank_law
     z_p = p.mesh.z_p
-    before = np.array([8.0, force, SPEED, oil.temperature, -15.0, -4.0, 0.0, 3e-3, 4e-3, 1e-4])
-    after = np.array([9.0, force, SPEED, oil.temperature, -15.1, -3.9, 0.2, 0.0, 0.0, 0.0])
+    before = film_nodes.NodeFlank(-15.0, -4.0, 3e-3, 4e-3, 0.0, 1e-4)
+    after = film_nodes.NodeFlank(-15.1, -3.9, 2.9e-3, 4.1e-3, 0.2, 2e-4)
+    kept = np.zeros(film_nodes.N_FILMS)
+    for node in (7, 8):
+        film_nodes.keep_flank(kept, node, force, SPEED, oil.temperature, before, after, after)
     of_nodes = (window, n_nodes, oil)
     films = np.zeros(film_nodes.N_FILMS)
     return [
@@ -49,14 +52,16 @@ def film_cases(axle):
                 *((by_model, ModelFilm(-15.0, -4.0, outside)) for outside in (0.0, 0.3, 1.0)),
             )
         ),
+        (tooth_pair.ellipse_of, (channels,)),
         *(
-            (tooth_pair._flank_at_node, (node, state, force, window, oil, law, numbers))
+            (tooth_pair._flank_under, (F, 5.0, -0.7, channels, oil, law, numbers))
+            for F in (900.0, 0.0)
+        ),
+        *(
+            (tooth_pair._renew_node, (node, state, force, window, oil, law, numbers, films))
             for node in range(0, n_nodes, 6)  # some carry nothing
         ),
-        *(
-            (tooth_pair._kept_at_node, (node, state, force, *of_nodes, law, numbers, films))
-            for node in (7, n_nodes)
-        ),
+        (tooth_pair.flank_at_nodes, (0, state, force, *of_nodes, z_p, law, numbers, films)),
         *(
             (
                 kernel,
@@ -72,9 +77,12 @@ def film_cases(axle):
                 (numbers, tooth_pair.BETWEEN_NODES),
             )
         ),
-        (film_nodes.node_film, (films, film_nodes.NODES_KEPT + 1)),
+        (film_nodes.place_of_node, (film_nodes.NODES_KEPT + 1,)),
+        *((film_nodes._relative, (SPEED, then)) for then in (140.0, 0.0)),
+        (film_nodes._value, (kept, film_nodes.place_of_node(7), 2, 0.01, -0.02)),
+        (film_nodes.film_of, (before,)),
         *(
-            (film_nodes.still_holds, (before, *now))
+            (film_nodes.still_holds, (kept, *now))
             for now in (
                 (7, force, SPEED, oil.temperature),
                 (6, force, SPEED, oil.temperature),
@@ -85,13 +93,9 @@ def film_cases(axle):
         ),
         (
             film_nodes.keep_flank,
-            (
-                *(before.copy(), 3, force, SPEED, oil.temperature),
-                film_nodes.NodeFlank(-15.0, -4.0, 0.2, 3e-3, 4e-3, 1e-4),
-            ),
+            (kept.copy(), 3, force, SPEED, oil.temperature, before, after, after),
         ),
-        (film_nodes.friction_between, (before, after, 0.4)),
-        (film_nodes.film_between, (before, after, 0.4)),
+        (film_nodes.flank_between, (kept, 7, 8, 0.4, 1.01 * force, 0.98 * SPEED)),
         *(
             (
                 flanks.flank_sum,

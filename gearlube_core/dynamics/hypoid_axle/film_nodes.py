@@ -2,7 +2,8 @@
 
 It is part of the state of an axle. Evaluating the model takes longer than all else of a flank, and
 in steady running each tooth pair meets a node under the load and speed of the pair before it. So
-each node is evaluated once and kept until force, speed or oil have changed.
+each node is evaluated once, with its slopes over force and speed, and kept until force, speed or
+oil have changed.
 """
 
 from __future__ import annotations
@@ -22,81 +23,116 @@ class NodeFlank(NamedTuple):
 
     log_film: float  # as in `ModelFilm`
     log_friction: float
-    outside: float
     viscous: float  # friction of the film over the mesh force [-]
     boundary: float  # of asperities [-]
-    bound: float  # of both together [-]
+    outside: float  # as in `ModelFilm`
+    bound: float  # of both frictions together [-]
 
 
 # places of one node: 1 + its number, 0 for none; mesh force [N], pinion speed [rad/s] and oil
-# temperature [K] of then; its flank
+# temperature [K] of then; its flank; slopes of the first four over relative force and speed
 _NODE, _FORCE, _SPEED, _OIL, _VALUES = range(5)
-_N_VALUES = len(NodeFlank._fields)
-N_NODE_FILM = _VALUES + _N_VALUES
+_SLOPED = 4
+_OUTSIDE, _BOUND = _VALUES + _SLOPED, _VALUES + _SLOPED + 1
+_OVER_FORCE = _VALUES + len(NodeFlank._fields)
+_OVER_SPEED = _OVER_FORCE + _SLOPED
+N_NODE_FILM = _OVER_SPEED + _SLOPED
 NODES_KEPT = 64  # a table with more nodes works too: nodes 64 apart then take one another's place
 N_FILMS = NODES_KEPT * N_NODE_FILM
-# changes that ask for new values
-_FORCE_REACH = 0.01  # relative
-_SPEED_REACH = 0.005  # relative
+# relative changes of force and speed that slopes are taken over, and that ask for new values
+NUDGE = 0.02
+_REACH = 0.03
 _OIL_REACH = 0.1  # K
 
 
 @kernel
-def node_film(films: Array, node: int) -> Array:
-    """Return the part of a node of `films`, shape (>= N_FILMS,): `kept` of shape (N_NODE_FILM,)."""
-    first = (node % NODES_KEPT) * N_NODE_FILM
-    return films[first : first + N_NODE_FILM]
+def place_of_node(node: int) -> int:
+    """Return where what is kept of a node begins in `films`, shape (>= N_FILMS,)."""
+    return (node % NODES_KEPT) * N_NODE_FILM
 
 
 @kernel
-def still_holds(kept: Array, node: int, force: float, speed: float, temperature: float) -> bool:
+def still_holds(films: Array, node: int, force: float, speed: float, temperature: float) -> bool:
     """Return whether what is kept was found at this node, and about under the same conditions.
 
     Parameters
     ----------
-    kept : ndarray of shape (N_NODE_FILM,)
+    films : ndarray of shape (>= N_FILMS,)
     node : int
     force, speed, temperature : float
         Mesh force [N], pinion speed [rad/s] and oil temperature [K] now.
     """
+    at = place_of_node(node)
     return (
-        kept[_NODE] == node + 1.0
-        and abs(force - kept[_FORCE]) <= _FORCE_REACH * abs(kept[_FORCE])
-        and abs(speed - kept[_SPEED]) <= _SPEED_REACH * abs(kept[_SPEED])
-        and abs(temperature - kept[_OIL]) <= _OIL_REACH
+        films[at + _NODE] == node + 1.0
+        and abs(force - films[at + _FORCE]) <= _REACH * abs(films[at + _FORCE])
+        and abs(speed - films[at + _SPEED]) <= _REACH * abs(films[at + _SPEED])
+        and abs(temperature - films[at + _OIL]) <= _OIL_REACH
     )
 
 
 @kernel
 def keep_flank(
-    kept: Array, node: int, force: float, speed: float, temperature: float, flank: NodeFlank
+    films: Array,
+    node: int,
+    force: float,
+    speed: float,
+    temperature: float,
+    flank: NodeFlank,
+    under_force: NodeFlank,
+    at_speed: NodeFlank,
 ) -> None:
-    """Keep the flank at a node; others as in `still_holds`."""
-    kept[_NODE] = node + 1.0
-    kept[_FORCE] = force
-    kept[_SPEED] = speed
-    kept[_OIL] = temperature
-    for i in range(_N_VALUES):
-        kept[_VALUES + i] = flank[i]
+    """Keep a flank at a node, and how it changes with force and with speed.
+
+    Parameters
+    ----------
+    flank, under_force, at_speed : NodeFlank
+        As it is, under a force and at speeds greater by NUDGE; others as in `still_holds`.
+    """
+    at = place_of_node(node)
+    films[at + _NODE] = node + 1.0
+    films[at + _FORCE] = force
+    films[at + _SPEED] = speed
+    films[at + _OIL] = temperature
+    for i in range(len(flank)):
+        films[at + _VALUES + i] = flank[i]
+    for i in range(_SLOPED):
+        films[at + _OVER_FORCE + i] = (under_force[i] - flank[i]) / NUDGE
+        films[at + _OVER_SPEED + i] = (at_speed[i] - flank[i]) / NUDGE
 
 
 @kernel
-def film_between(before: Array, after: Array, t: float) -> ModelFilm:
-    """Return the model's film between two nodes as they are kept, 0 <= t <= 1."""
-    v = _VALUES
-    return ModelFilm(
-        before[v] + t * (after[v] - before[v]),
-        before[v + 1] + t * (after[v + 1] - before[v + 1]),
-        before[v + 2] + t * (after[v + 2] - before[v + 2]),
+def _relative(now: float, then: float) -> float:
+    return now / then - 1.0 if then != 0.0 else 0.0
+
+
+@kernel
+def _value(films: Array, at: int, i: int, force: float, speed: float) -> float:
+    # value i of the node that is kept at `at`, force and speed relative to those of then
+    here = films[at + _VALUES + i] + films[at + _OVER_FORCE + i] * force
+    return here + films[at + _OVER_SPEED + i] * speed
+
+
+@kernel
+def flank_between(
+    films: Array, before: int, after: int, t: float, force: float, speed: float
+) -> NodeFlank:
+    """Return the flank between two nodes that are kept, 0 <= t <= 1; others as in `still_holds`."""
+    a, b = place_of_node(before), place_of_node(after)
+    force_a, speed_a = _relative(force, films[a + _FORCE]), _relative(speed, films[a + _SPEED])
+    force_b, speed_b = _relative(force, films[b + _FORCE]), _relative(speed, films[b + _SPEED])
+    u = 1.0 - t
+    return NodeFlank(
+        u * _value(films, a, 0, force_a, speed_a) + t * _value(films, b, 0, force_b, speed_b),
+        u * _value(films, a, 1, force_a, speed_a) + t * _value(films, b, 1, force_b, speed_b),
+        u * _value(films, a, 2, force_a, speed_a) + t * _value(films, b, 2, force_b, speed_b),
+        u * _value(films, a, 3, force_a, speed_a) + t * _value(films, b, 3, force_b, speed_b),
+        u * films[a + _OUTSIDE] + t * films[b + _OUTSIDE],
+        u * films[a + _BOUND] + t * films[b + _BOUND],
     )
 
 
 @kernel
-def friction_between(before: Array, after: Array, t: float) -> tuple[float, float, float]:
-    """Return viscous and boundary friction and their bound between two nodes, over mesh force."""
-    v = _VALUES + 3
-    return (
-        before[v] + t * (after[v] - before[v]),
-        before[v + 1] + t * (after[v + 1] - before[v + 1]),
-        before[v + 2] + t * (after[v + 2] - before[v + 2]),
-    )
+def film_of(flank: NodeFlank) -> ModelFilm:
+    """Return what the film model says of a flank."""
+    return ModelFilm(flank.log_film, flank.log_friction, flank.outside)

@@ -152,6 +152,7 @@ class HypoidAxleParameters(AxleScalars):
     Examples
     --------
     >>> from dataclasses import replace
+    >>> from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
     >>> dry = replace(mohammadpour_2015_axle(), friction="off")
     >>> round(dry.equivalent_mass, 2)  # kg
     3.39

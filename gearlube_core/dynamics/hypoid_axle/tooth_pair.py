@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.film_nodes import (
+    NUDGE,
     NodeFlank,
-    film_between,
-    friction_between,
+    film_of,
+    flank_between,
     keep_flank,
-    node_film,
     still_holds,
 )
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
@@ -37,7 +37,12 @@ from gearlube_core.friction.flank_bound import (
     ModelFilm,
 )
 from gearlube_core.friction.flank_data import ContactGeometry
-from gearlube_core.friction.flank_law import FlankLaw, bounded_flank, model_film
+from gearlube_core.friction.flank_law import (
+    FlankLaw,
+    bounded_flank,
+    model_film,
+    takes_film_model,
+)
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_node
 from gearlube_core.oil.lubricant_state import LubricantState
@@ -70,6 +75,18 @@ def contact_of(channels: Array) -> ContactGeometry:
 
 
 @kernel
+def ellipse_of(channels: Array) -> FlankEllipse:
+    """Return the rest of it, which a film model needs."""
+    return FlankEllipse(
+        channels[LINE_RADIUS],
+        channels[R_Y],
+        channels[ELLIPTICITY],
+        channels[PSI],
+        channels[DELTA],
+    )
+
+
+@kernel
 def pair_film(
     s: Array,
     load: float,
@@ -86,13 +103,7 @@ def pair_film(
         channels[ENTRAIN] * s[W_P],
         sliding,
         contact_of(channels),
-        FlankEllipse(
-            channels[LINE_RADIUS],
-            channels[R_Y],
-            channels[ELLIPTICITY],
-            channels[PSI],
-            channels[DELTA],
-        ),
+        ellipse_of(channels),
         oil,
         film_model,
     )
@@ -126,51 +137,85 @@ def pair_friction(
 
 
 @kernel
-def _flank_at_node(
-    node: int,
+def _flank_under(
+    force: float,
+    entrainment: float,
+    sliding: float,
+    channels: Array,
+    oil: LubricantState,
+    law: FlankLaw,
+    film_model: Array,
+) -> NodeFlank:
+    """Return the flank at a node under a mesh force [N], entrained and sliding [m/s]."""
+    load = force * channels[SHARE]
+    contact = contact_of(channels)
+    film = model_film(
+        law, load, entrainment, sliding, contact, ellipse_of(channels), oil, film_model
+    )
+    if load == 0.0:
+        return NodeFlank(film.log_film, film.log_friction, 0.0, 0.0, film.outside, 0.0)
+    found = bounded_flank(law, load, entrainment, sliding, contact, film, oil, film_model)
+    viscous = found.state.viscous_friction / force
+    boundary = found.state.boundary_friction / force
+    bound = found.friction_bound * (viscous + boundary)
+    return NodeFlank(film.log_film, film.log_friction, viscous, boundary, film.outside, bound)
+
+
+@kernel
+def _renew_node(
+    place: int,
     s: Array,
     force: float,
     window: Array,
     oil: LubricantState,
     law: FlankLaw,
     film_model: Array,
-) -> NodeFlank:
-    channels = window[node * N_CHANNELS : (node + 1) * N_CHANNELS]
-    load = abs(force) * channels[SHARE]
+    films: Array,
+) -> None:
+    """Evaluate a node unless what `films` keeps of it still holds; others as in `flank_film`."""
+    if still_holds(films, place, force, s[W_P], oil.temperature):
+        return
+    channels = window[place * N_CHANNELS : (place + 1) * N_CHANNELS]
+    entrainment = channels[ENTRAIN] * s[W_P]
     sliding = sliding_speed(s, channels)
-    film = pair_film(s, load, sliding, channels, oil, law, film_model)
-    if load == 0.0:
-        return NodeFlank(film.log_film, film.log_friction, film.outside, 0.0, 0.0, 0.0)
-    found = pair_friction(s, load, sliding, channels, oil, law, film, film_model)
-    viscous = found.state.viscous_friction / abs(force)
-    boundary = found.state.boundary_friction / abs(force)
-    bound = found.friction_bound * (viscous + boundary)
-    return NodeFlank(film.log_film, film.log_friction, film.outside, viscous, boundary, bound)
+    more = 1.0 + NUDGE
+    F = abs(force)
+    keep_flank(
+        films,
+        place,
+        force,
+        s[W_P],
+        oil.temperature,
+        _flank_under(F, entrainment, sliding, channels, oil, law, film_model),
+        _flank_under(more * F, entrainment, sliding, channels, oil, law, film_model),
+        _flank_under(F, more * entrainment, more * sliding, channels, oil, law, film_model),
+    )
 
 
 @kernel
-def _kept_at_node(
-    node: int,
+def flank_at_nodes(
+    pair: int,
     s: Array,
     force: float,
     window: Array,
     n_nodes: int,
     oil: LubricantState,
+    z_p: float,
     law: FlankLaw,
     film_model: Array,
     films: Array,
-) -> Array:
-    """Return what is kept of a node, evaluated anew if it no longer holds.
+) -> NodeFlank:
+    """Return one flank with a film model, linear between the nodes of the mesh table.
 
-    `films`, shape (N_FILMS,), keeps it; `law` of the flanks: handing over all parameters of the
-    axle takes longer than the rest. Others as in `flank_sum`.
+    As all data of the table are. `z_p` teeth of the pinion, `law` of the flanks: handing over all
+    parameters of the axle takes longer than the rest. `films`, shape (N_FILMS,), keeps the nodes.
+    Others as in `flank_sum`.
     """
-    place = node % n_nodes
-    kept = node_film(films, place)
-    if not still_holds(kept, place, force, s[W_P], oil.temperature):
-        flank = _flank_at_node(place, s, force, window, oil, law, film_model)
-        keep_flank(kept, place, force, s[W_P], oil.temperature, flank)
-    return kept
+    before, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
+    after = (before + 1) % n_nodes
+    _renew_node(before, s, force, window, oil, law, film_model, films)
+    _renew_node(after, s, force, window, oil, law, film_model, films)
+    return flank_between(films, before, after, t, force, s[W_P])
 
 
 @kernel
@@ -190,20 +235,18 @@ def flank_film(
     refresh: float,
     films: Array,
 ) -> ModelFilm:
-    """Return what the film model says of one flank, or NO_MODEL_FILM without a model.
+    """Return what the film model says of one flank, or NO_MODEL_FILM where the law takes none.
 
-    At the contact itself where `refresh` is EXACT, else linear between the nodes of the mesh table,
-    as all data of the table are. `load` of this pair [N], `z_p` teeth of the pinion, `law` of the
-    flanks, `films` of shape (N_FILMS,); others as in `flank_sum`.
+    At the contact itself where `refresh` is EXACT, else as `flank_at_nodes`. `load` of this pair
+    [N]; others as there.
     """
-    if film_model.size == 0:
+    if film_model.size == 0 or not takes_film_model(law):
         return NO_MODEL_FILM
     if refresh == EXACT:
         return pair_film(s, load, sliding, channels, oil, law, film_model)
-    node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
-    before = _kept_at_node(node, s, force, window, n_nodes, oil, law, film_model, films)
-    after = _kept_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model, films)
-    return film_between(before, after, t)
+    return film_of(
+        flank_at_nodes(pair, s, force, window, n_nodes, oil, z_p, law, film_model, films)
+    )
 
 
 @kernel
@@ -228,15 +271,13 @@ def flank_coefficients(
     With a film model, unless `refresh` is EXACT, friction over mesh force is linear between the
     nodes of the mesh table. Arguments as in `flank_film`.
     """
-    if film_model.size > 0 and refresh != EXACT:
-        node, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
-        before = _kept_at_node(node, s, force, window, n_nodes, oil, law, film_model, films)
-        after = _kept_at_node(node + 1, s, force, window, n_nodes, oil, law, film_model, films)
-        viscous, boundary, bound = friction_between(before, after, t)
+    modelled = film_model.size > 0 and takes_film_model(law)
+    if modelled and refresh != EXACT:
+        flank = flank_at_nodes(pair, s, force, window, n_nodes, oil, z_p, law, film_model, films)
         of_load = abs(force) / load
-        return viscous * of_load, boundary * of_load, bound * of_load
+        return flank.viscous * of_load, flank.boundary * of_load, flank.bound * of_load
     film = NO_MODEL_FILM
-    if film_model.size > 0:
+    if modelled:
         film = pair_film(s, load, sliding, channels, oil, law, film_model)
     found = pair_friction(s, load, sliding, channels, oil, law, film, film_model)
     viscous = found.state.viscous_friction / load
