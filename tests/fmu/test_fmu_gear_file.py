@@ -88,7 +88,9 @@ def test_the_fmu_computes_with_its_own_pair_bit_for_bit(
     pair = carried.start_model(parameters, [*torques, 333.15])
     for _ in range(5):
         pair.step(H, *torques, 333.15)
-    assert host.outputs() == pair.outputs.tolist()
+    # by name: younger outputs stand at the end of an FMU
+    told = [n for n, v in host.variables.items() if v.causality in ("output", "local")]
+    assert host.outputs() == [pair.output(name) for name in told]
     # not the numbers of the shipped pair, nor those without the mesh
     gear = HelicalGearFile.from_toml(gear_file)
     parameters["mesh.stiffness_model"] = "uniform"
