@@ -27,7 +27,7 @@ def density_ratio(law: Any, p: float) -> tuple[float, float, float]:
     tuple of float
         rho/rho0 [-], one at p = 0, above zero everywhere; [1/Pa]; [1/Pa2].
     """
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 class ScaledDensity(NamedTuple):

@@ -71,7 +71,7 @@ def rate_ratios(law: Any, q: np.ndarray, G: np.ndarray, slope: np.ndarray) -> No
     G, slope : ndarray, shape (n,)
         Result [-].
     """
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @kernel

@@ -30,4 +30,4 @@ def rate_ratio(law: Any, q: float) -> tuple[float, float]:
     tuple of float
         G [-], one at q = 0 and never falling with q; dG/dq [-], finite at q = 0.
     """
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name

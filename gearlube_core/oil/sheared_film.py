@@ -96,25 +96,25 @@ def flow_factor(law: Any, sigma: float, a: float) -> tuple[float, float, float]:
     tuple of float
         S [-], dS/dsigma, dS/da.
     """
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(_mid_stress)
 def mid_stress(law: Any, sigma: float, a: float) -> float:
     """Return the shear stress at mid-film over tau0 [-]; `sigma` and `a` as in `flow_factor`."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(_shear_rate)
 def shear_rate(law: Any, stress: float, eta: float) -> float:
     """Return the shear rate du/dz [1/s] at a stress [Pa] and a viscosity [Pa s]."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(_stress_share)
 def stress_share(law: Any, stress: float) -> float:
     """Return d ln(tau)/d ln(eta) at one shear rate [-]; stress [Pa], not negative."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(_layered_stress)
@@ -137,4 +137,4 @@ def layered_stress(law: Any, eta: np.ndarray, h: float, slope: float, sliding: f
     float
         tau_m [Pa], so that the shear rates add up to the sliding by the trapezoidal rule.
     """
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
