@@ -43,8 +43,18 @@ LAYS: dict[str, dict[str, Any]] = {
     "straight": {"surface_1.turns": 0, "surface_2.turns": 0, "solver.rows": 16},
 }
 ANGLES = {"A": 2.8, "B": 2.8, "C": 1.0}  # between both lays [deg]
+# waves from 42 um on, so that solids touch; the same schedule
+FINE: dict[str, Any] = COARSE | {
+    "solver.nodes_x": 309,
+    "solver.rows": 48,
+    "surface_1.cutoff_um": 42.0,
+    "surface_2.cutoff_um": 42.0,
+    "times.steps_per_half_width": 80,
+}
+GRIDS = {"": COARSE, ", fine": FINE}
 MARCHES = {
-    f"case {case}, {lay}, seed {seed}": (case, lay, seed)
+    f"case {case}, {lay}, seed {seed}{grid}": (case, lay, seed, grid)
+    for grid in GRIDS
     for seed in SEEDS
     for case in ANGLES
     for lay in LAYS
@@ -65,9 +75,9 @@ logger = logging.getLogger("docs.rough_line_contact")
 
 def case_of(name: str) -> RoughCase:
     """Return the case of a march."""
-    case, lay, seed = MARCHES[name]
+    case, lay, seed, grid = MARCHES[name]
     named = RoughCase.named(f"jamali_2015_{case.lower()}")
-    return named.varied(COARSE | LAYS[lay] | seeded(seed))
+    return named.varied(GRIDS[grid] | LAYS[lay] | seeded(seed))
 
 
 def numbers() -> Found:

@@ -53,6 +53,8 @@ HIS_COLUMNS: dict[str, Any] = {
     "solver.nodes_x": 801,
     "times.steps_per_half_width": 400,
     "solver.tolerance": 10.0,  # times that of `GRID`: the default
+    "frames.every": 0,
+    "frames.steps": [2500, 4000, 4480],
 }
 VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "crossed": (A, {}),
@@ -84,6 +86,7 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     # the columns, the time step and the schedule of the thesis, 4488 steps
     "his columns, 32 rows": (A, HIS_COLUMNS | {"solver.rows": 32} | filtered(54.0)),
     "his columns, 64 rows": (A, HIS_COLUMNS | {"solver.rows": 64} | filtered(27.0)),
+    "his columns, 128 rows": (A, HIS_COLUMNS | {"solver.rows": 128} | filtered(13.5)),
 }
 
 

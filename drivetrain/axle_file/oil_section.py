@@ -11,24 +11,26 @@ from drivetrain.axle_file.field_units import field_value, unit_of
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.oil.field_limits import (
+    Conductivity,
+    Density,
+    HeatCapacity,
+    PressureViscosity,
+    Share,
+    Strength,
+    Stress,
+    Temperature,
+    Text,
+    Viscosity,
+)
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.units import celsius_to_kelvin
 
-Text = Annotated[str, Field(min_length=1)]
-Viscosity = Annotated[float, Field(ge=2.0, le=1e5, allow_inf_nan=False)]
 WaltherA = Annotated[float, Field(ge=1.0, le=30.0, allow_inf_nan=False)]
 WaltherB = Annotated[float, Field(ge=0.3, le=10.0, allow_inf_nan=False)]
-Density = Annotated[float, Field(ge=500.0, le=2000.0, allow_inf_nan=False)]
-PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
-Stress = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False)]
-Strength = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
-Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Conductivity = Annotated[float, Field(ge=0.02, le=2.0, allow_inf_nan=False)]
 Slope = Annotated[float, Field(ge=-1e-2, le=1e-2, allow_inf_nan=False)]
-HeatCapacity = Annotated[float, Field(ge=100.0, le=1e4, allow_inf_nan=False)]
-Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False)]
 
 OIL = "mohammadpour_2015"
 _SHEET = ("viscosity_40_degc_mm2_s", "viscosity_100_degc_mm2_s")

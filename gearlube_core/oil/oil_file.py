@@ -13,26 +13,28 @@ from gearlube_core.errors import ParameterError, why
 from gearlube_core.input_file.field_notes import field_unit
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.oil.field_limits import (
+    Conductivity,
+    Density,
+    HeatCapacity,
+    PressureViscosity,
+    Share,
+    Strength,
+    Stress,
+    Temperature,
+    Text,
+    Viscosity,
+)
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.sheet_values import SheetValues, sheet_values
 
 FILE_IN_FMU = "oil.toml"  # among the resources of an FMU
 
-Text = Annotated[str, Field(min_length=1)]
-Viscosity = Annotated[float, Field(ge=2.0, le=1e5, allow_inf_nan=False)]
 Index = Annotated[float, Field(ge=0.0, le=400.0, allow_inf_nan=False)]
-Density = Annotated[float, Field(ge=500.0, le=2000.0, allow_inf_nan=False)]
 DensitySlope = Annotated[float, Field(ge=-2.0, le=0.0, allow_inf_nan=False)]
-PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
 Factor = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
-Stress = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False)]
-Strength = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
 Limit = Annotated[float, Field(ge=0.005, le=0.3, allow_inf_nan=False)]
-Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Conductivity = Annotated[float, Field(ge=0.02, le=2.0, allow_inf_nan=False)]
-HeatCapacity = Annotated[float, Field(ge=100.0, le=1e4, allow_inf_nan=False)]
-Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False)]
 
 _ORIGINS: dict[str, Origin] = {
     "printed": "given",

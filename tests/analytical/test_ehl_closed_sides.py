@@ -12,8 +12,9 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.ehl.point.dry_contact import dry_contact
+from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
 from gearlube_core.ehl.point.line_section import line_section
-from gearlube_core.ehl.point.problem import EllipticParaboloid, elliptical_contact
+from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.point.solver import solve_point_contact

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
+from gearlube_core.ehl.point.elliptical_contact import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.far_field import FarField
-from gearlube_core.ehl.point.problem import ContactDomain, PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError

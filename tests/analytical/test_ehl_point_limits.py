@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from gearlube_core.ehl.point.elliptical_contact import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.level import PointLevel
-from gearlube_core.ehl.point.problem import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil_data import film_oil

@@ -8,13 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.limiter import limited_faces
 from gearlube_core.ehl.point.equations.mesh import Grading
 from gearlube_core.ehl.point.grid_film import nested_film
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.line_section import line_section
-from gearlube_core.ehl.point.problem import elliptical_contact, expected_film
+from gearlube_core.ehl.point.problem import expected_film
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.terms.differences import Differences

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
+from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
 from gearlube_core.ehl.point.equations.finite_elements import (
     ELEMENT_OFFSETS,
     element_derivatives,
@@ -27,7 +28,6 @@ from gearlube_core.ehl.point.newton.galerkin import sparse_operator
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
 from gearlube_core.ehl.point.newton.newton import newton
 from gearlube_core.ehl.point.newton.transfer import Transfer
-from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.sides import AMBIENT

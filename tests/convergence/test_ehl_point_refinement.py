@@ -6,7 +6,8 @@ import math
 
 import pytest
 
-from gearlube_core.ehl.point.problem import ContactDomain, PointContactProblem
+from gearlube_core.ehl.point.elliptical_contact import ContactDomain
+from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from tests.helpers.ehl_point_cases import moes_contact

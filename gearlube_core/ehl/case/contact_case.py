@@ -24,8 +24,9 @@ from gearlube_core.ehl.case.surfaces import (
 from gearlube_core.ehl.gap.micro_geometry import RoughGap
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.point.cavitation import check_cavitation
+from gearlube_core.ehl.point.elliptical_contact import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.line_section import DOMAIN, check_repeats, line_section
-from gearlube_core.ehl.point.problem import ContactDomain, PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.thermal.solver import check_thermal

@@ -63,7 +63,7 @@ def solve_point_contact(
 
     Examples
     --------
-    >>> from gearlube_core.ehl.point.problem import elliptical_contact
+    >>> from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
     >>> from gearlube_core.oil.film_oil_data import film_oil
     >>> oil = film_oil(eta0=0.04, alpha=2e-8)
     >>> ball = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0,

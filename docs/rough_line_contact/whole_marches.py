@@ -1,0 +1,128 @@
+"""Draw and tabulate the whole marches on the columns of the thesis, for 32, 64 and 128 rows.
+
+python -m docs.rough_line_contact.whole_marches [FOLDER]: seconds, from the marches that `variants`
+has finished or begun there. Draws docs/images/rough_rows.png and rough_rows_sections.png.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from docs.rough_line_contact.make import IMAGES, ROOT
+from docs.rough_line_contact.variants import VARIANTS
+from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.studies.films.rough.files import frame_file
+
+ROWS = (32, 64, 128)
+ROUGH = 2888  # steps until the whole contact is rough
+SECTIONS = ((4000, 0.0), (4480, 75e-6))  # step, x [m]: figures 7.19 and 7.20 of the thesis
+GIGAPASCAL, NANOMETRE, MILLIMETRE = 1e9, 1e-9, 1e-3
+
+
+def folder_of(work: Path, rows: int) -> Path:
+    """Return the folder of a march."""
+    return work / f"his_columns_{rows}_rows"
+
+
+def label_of(rows: int) -> str:
+    """Return how a march is named in figures and tables."""
+    more = VARIANTS[f"his columns, {rows} rows"][1]
+    return f"{rows} rows, waves from {more['surface_1.cutoff_um']:g} µm"
+
+
+def pressures(found: dict[int, xr.Dataset]) -> Any:
+    """Draw the largest pressure over the step, as figure 7.18 of the thesis."""
+    with house_style():
+        figure = new_figure(8.0, 4.4)
+        ax = figure.subplots()
+        for k, (rows, run) in enumerate(found.items()):
+            ax.plot(run["pressure_max"] / GIGAPASCAL, color=SERIES[k], lw=1.2, label=label_of(rows))
+        ax.axvline(ROUGH, color="0.4", lw=0.8, ls="--")
+        ax.text(ROUGH + 30, 0.15, "rough everywhere", color="0.3", fontsize=8.5)
+        ax.set(xlabel="time step", ylabel="largest pressure [GPa]", ylim=(0.0, None))
+        ax.margins(x=0.0)
+        ax.legend(loc="upper left")
+        ax.set_title("More rows resolve shorter waves, and these carry the peaks of pressure")
+    return figure
+
+
+def sections(work: Path, found: dict[int, xr.Dataset]) -> Any:
+    """Draw pressure and film along y at two steps, as figures 7.19 and 7.20 of the thesis."""
+    with house_style():
+        figure = new_figure(8.0, 6.4)
+        axes = figure.subplots(2, len(SECTIONS), sharex=True, sharey="row")
+        for k, rows in enumerate(found):
+            for column, (step, x) in enumerate(SECTIONS):
+                file = frame_file(folder_of(work, rows), step)
+                if not file.exists():
+                    continue
+                frame = xr.load_dataset(file, engine="scipy").isel(time=0)
+                line = frame.sel(x=x, method="nearest")
+                y = line["y"] / MILLIMETRE
+                style = {"color": SERIES[k], "lw": 1.2, "label": label_of(rows)}
+                axes[0, column].plot(y, line["pressure"] / GIGAPASCAL, **style)
+                axes[1, column].plot(y, line["film"] / NANOMETRE, **style)
+        for column, (step, x) in enumerate(SECTIONS):
+            axes[0, column].set_title(f"step {step}, x = {x / MILLIMETRE:g} mm")
+            axes[1, column].set_xlabel("y [mm]")
+        axes[0, 0].set(ylabel="pressure [GPa]", ylim=(0.0, None))
+        axes[1, 0].set(ylabel="film [nm]", ylim=(0.0, None))
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        figure.suptitle("Along the contact line")
+    return figure
+
+
+def table(found: dict[int, xr.Dataset]) -> list[str]:
+    """Return the lines of a table: pressures, films, contact and work of each march."""
+    words = (
+        "march",
+        "largest pressure at step 2500",
+        f"the same after {ROUGH}, least and largest",
+        "smallest film",
+        "zone below 10 nm",
+        "load on solids, least and largest",
+        "steps not converged",
+        f"Newton, Krylov after {ROUGH}",
+    )
+    lines = [" | ".join(words)]
+    for rows, run in found.items():
+        rough = run.isel(time=slice(ROUGH, None))
+        peak, solid = rough["pressure_max"].values / GIGAPASCAL, 100.0 * rough["solid_share"].values
+        zone = 100.0 * float(rough["contact_share"].sel(threshold=10e-9, method="nearest").mean())
+        work = (float(rough[name].mean()) for name in ("newton_steps", "krylov_steps"))
+        lines.append(
+            " | ".join(
+                (
+                    label_of(rows),
+                    f"{float(run['pressure_max'][2500]) / GIGAPASCAL:.2f} GPa",
+                    f"{peak.min():.2f} to {peak.max():.2f} GPa",
+                    f"{float(rough['film_min'].min()) / NANOMETRE:.1f} nm",
+                    f"{zone:.2f} %",
+                    f"{solid.min():.2f} to {solid.max():.2f} %",
+                    f"{int((~run['converged'].values.astype(bool)).sum())}",
+                    ", ".join(f"{one:.1f}" for one in work),
+                )
+            )
+        )
+    return [f"| {line} |" for line in lines]
+
+
+def main(work: Path) -> None:
+    """Draw and print."""
+    files = {rows: folder_of(work, rows) / "rough.nc" for rows in ROWS}
+    found = {
+        rows: xr.load_dataset(file, engine="scipy") for rows, file in files.items() if file.exists()
+    }
+    pressures(found).savefig(IMAGES / "rough_rows.png", dpi=110)
+    sections(work, found).savefig(IMAGES / "rough_rows_sections.png", dpi=110)
+    sys.stdout.write("\n".join((*table(found), "")))
+
+
+if __name__ == "__main__":
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "rough_line_contact")
