@@ -278,7 +278,8 @@ _ROLLER_OUTPUTS = (
       for variable in (
           output(f"bearing[{j}].film_thickness", "m", f"Thinnest central film of the rollers in "
                  f"bearing {j}; 0 with other laws than solved_films", 1e-6, "um"),
-          output(f"bearing[{j}].film_bound", "1", "Bound of this film, relative", 0.05),
+          output(f"bearing[{j}].film_bound", "1", f"Bound of the film thickness of bearing {j}, "
+                 "relative", 0.05),
       )),
     output("bearing.power_loss_bound", "W", "Bound of bearing.power_loss by the rolling of the "
            "rollers; 0 with other laws than solved_films", 10.0),

@@ -58,11 +58,11 @@ def table() -> str:
         ratio: Array = drag["solved_films"] / drag[law]
         return f"{ratio.min():.2f} to {ratio.max():.2f}, median {np.median(ratio):.2f}"
 
+    doubt = 100.0 * solved.drag_bound / drag["solved_films"]
     words = (
         f"Solved over Biboulet and Houpert: {over('biboulet_houpert_2010')}; over Zhou and "
         f"Hoeprich: {over('zhou_hoeprich_1991')}; over Palmgren: {over('palmgren')}. Bound over "
-        f"loss: median {100.0 * np.median(solved.drag_bound / drag['solved_films']):.1f} %, at most "
-        f"{100.0 * np.max(solved.drag_bound / drag['solved_films']):.1f} %."
+        f"loss: median {np.median(doubt):.1f} %, at most {doubt.max():.1f} %."
     )
     return "\n".join(lines) + f"\n\n{words}\n"
 

@@ -8,9 +8,9 @@ from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.line_hertz import line_mean_pressure
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.film_model import net
 from gearlube_core.film_model.groups import FilmInlet, film_inlet
 from gearlube_core.film_model.line_contact import line_place
+from gearlube_core.film_model.solved_film import SolvedFilm
 from gearlube_core.film_model.solved_line import solved_line_at
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
 from gearlube_core.friction.flank_data import CONSISTENT
@@ -69,7 +69,32 @@ def line_inlet(
 
 
 @kernel
-def solved_line_friction(
+def line_film(
+    film_model: Array,
+    line_load: float,
+    R: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    solid: SolidParameters,
+    inlet: FilmInlet,
+) -> SolvedFilm:
+    """Return what a film model gives at a point; arguments as in `solved_line_friction`."""
+    place = line_place(
+        R, solid.contact_modulus, solid.conductivity, solid.density * solid.heat_capacity
+    )
+    return solved_line_at(
+        film_model,
+        max(line_load, LINE_LOAD_FLOOR),
+        max(abs(entrainment_speed), SPEED_FLOOR),
+        abs(sliding_speed),
+        place,
+        inlet,
+    )
+
+
+@kernel
+def line_with_film(
+    film: SolvedFilm,
     line_load: float,
     R: float,
     entrainment_speed: float,
@@ -77,21 +102,17 @@ def solved_line_friction(
     lubricant: LubricantState,
     surface: SurfaceParameters,
     solid: SolidParameters,
-    inlet: FilmInlet,
-    film_model: Array,
 ) -> BoundedLine:
-    """Return film, friction and temperature at a point of a contact line by a film model.
+    """Return friction and temperature at a point of a contact line whose film is known.
 
     f_v = mu (w - w_a),  f_b = tau_l0 A_a + gamma w_a, with h and mu of the solved film
 
     Parameters
     ----------
+    film
+        What a film model gives at this point.
     line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
         As in `line_friction`.
-    inlet
-        Of `line_inlet` for this oil.
-    film_model : ndarray, shape (N_ARRAY,)
-        Numbers of a model of lines; their scratch is written into.
 
     Returns
     -------
@@ -108,10 +129,6 @@ def solved_line_friction(
     w_film = max(w, LINE_LOAD_FLOOR)
     speed = max(abs(entrainment_speed), SPEED_FLOOR)
     slip = abs(sliding_speed)
-    place = line_place(
-        R, solid.contact_modulus, solid.conductivity, solid.density * solid.heat_capacity
-    )
-    film = solved_line_at(film_model, w_film, speed, slip, place, inlet)
     out = film.outside
     formula = LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if out > 0.0:
@@ -140,11 +157,11 @@ def solved_line_friction(
         solid,
         CONSISTENT,
     )
-    model_bound = film_model[net.BOUNDS]
+    model_bound = film.film_bound
     thinner = h * (1.0 - model_bound) / surface.sigma
     W_a, A_a = asperity_contact(w, w / p, thinner, surface, solid, CONSISTENT)
     more = boundary_friction(W_a, A_a, slip, lubricant) - solved.boundary_friction
-    doubt = own * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
+    doubt = own * (film.friction_bound * solved.viscous_friction + max(more, 0.0))
     doubt += (
         out * LINE_FORMULA_FRICTION_BOUND * (formula.viscous_friction + formula.boundary_friction)
     )
@@ -167,4 +184,38 @@ def solved_line_friction(
         out,
         own * model_bound + out * LINE_FORMULA_FILM_BOUND,
         doubt / (f_v + f_b) if doubt > 0.0 else 0.0,
+    )
+
+
+@kernel
+def solved_line_friction(
+    line_load: float,
+    R: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    inlet: FilmInlet,
+    film_model: Array,
+) -> BoundedLine:
+    """Return film, friction and temperature at a point of a contact line by a film model.
+
+    Parameters
+    ----------
+    line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
+        As in `line_friction`.
+    inlet
+        Of `line_inlet` for this oil.
+    film_model : ndarray, shape (N_ARRAY,)
+        Numbers of a model of lines; their scratch is written into.
+
+    Returns
+    -------
+    BoundedLine
+        As of `line_with_film`.
+    """
+    film = line_film(film_model, line_load, R, entrainment_speed, sliding_speed, solid, inlet)
+    return line_with_film(
+        film, line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
     )

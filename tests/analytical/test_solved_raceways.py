@@ -131,7 +131,8 @@ def test_between_kept_loads_force_and_film_are_those_of_the_model(by, temperatur
     assert np.all(exact[:, 2] == 0.0)
     # slopes over the next 2 % of speed: 0.025 (0.025 + 0.02)/2 times a curvature of a tenth
     np.testing.assert_allclose(kept[:, 0], exact[:, 0], rtol=1e-4)
-    np.testing.assert_allclose(kept[:, 1], exact[:, 1], atol=1e-4)
+    # the film bends more over load; a fifteenth of its bound
+    np.testing.assert_allclose(kept[:, 1], exact[:, 1], atol=6e-4)
     np.testing.assert_allclose(kept[:, 2:], exact[:, 2:], rtol=1e-14)
 
 
