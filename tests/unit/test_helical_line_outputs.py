@@ -35,7 +35,7 @@ POINTS[0, :2, 0] = 1e6
 POINTS[1, 2, 0] = 0.0  # apart, with a length
 POINTS[2, :, 3] *= -1.0
 MU_OF = 0.02 + 0.05 * RNG.random((LINES, POINTS_PER_LINE))
-BOUNDS = RNG.random((LINES, POINTS_PER_LINE, 3))  # share outside, bounds of film and friction
+BOUNDS = RNG.random((LINES, POINTS_PER_LINE, 3))  # share outside, bounds of film and coefficient
 COEFFICIENTS = 0.02 + 0.05 * RNG.random(2 * FLANK_POINTS)
 
 
@@ -61,7 +61,7 @@ def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=
             length,
             motion,
             SimpleNamespace(
-                state=state, outside=outside, film_bound=of_film, friction_bound=of_friction
+                state=state, outside=outside, film_bound=of_film, coefficient_bound=of_friction
             ),
         )
 
@@ -111,12 +111,12 @@ def test_bounds_are_means_over_load_and_friction_and_loss(monkeypatch):
     outside, of_film, of_friction = np.moveaxis(BOUNDS, -1, 0)
     for line, slot in ((0, 1), (1, 0), (2, 2)):
         film = np.sum(of_film[line] * load[line]) / load[line].sum()
-        friction = np.sum(of_friction[line] * force[line]) / force[line].sum()
+        friction = np.sum(of_friction[line] * load[line]) / force[line].sum()
         np.testing.assert_allclose(rows[slot], [film, friction], rtol=1e-13)
     assert np.all(rows[LINES:] == 0.0)
     assert found.outside == pytest.approx(np.sum(outside * load) / load.sum(), rel=1e-13)
-    power = force * abs(POINTS[..., 3])
-    wanted = np.sum(of_friction * power) / power.sum()
+    speed = abs(POINTS[..., 3])
+    wanted = np.sum(of_friction * load * speed) / np.sum(force * speed)
     assert found.loss_bound == pytest.approx(wanted, rel=1e-13)
 
 

@@ -40,7 +40,7 @@ def with_point(sums: BoundSums, load: float, sliding: float, film: BoundedLine) 
         Film and friction there.
     """
     force = film.state.friction_coefficient * load
-    doubt, speed = film.friction_bound * force, abs(sliding)
+    doubt, speed = film.coefficient_bound * load, abs(sliding)
     return BoundSums(
         sums.load + load,
         sums.outside + film.outside * load,
