@@ -162,13 +162,13 @@ def test_cycle_is_exact_where_lines_and_the_coarse_grid_share_the_solution() -> 
         return 0.5 * (residual - column * approach), float(approach)
 
     grid = SimpleNamespace(integral=lambda field: share * field.sum())
-    operator = SimpleNamespace(apply=lambda p, h: 2.0 * p + by_approach * h)
+    operator = SimpleNamespace(rest=lambda r, p, h: r - 2.0 * p - by_approach * h)
     cycle = object.__new__(MultigridCycle)
     cycle._levels = (None, SimpleNamespace(shape=shape, grid=grid, load=1.0))
     cycle._operators, cycle._free, cycle._direct = [operator], [free], direct
     cycle._transfers = (SimpleNamespace(down=down, up=up),)
     expected, approach = rng.standard_normal(shape), 0.7
-    residual = operator.apply(expected, approach)
+    residual = 2.0 * expected + by_approach * approach
     load = grid.integral(expected)
     # lines along rows alone, and lines both ways: the second ones find what the first have left
     for lines in ([lambda r: 0.5 * r], [lambda r: 0.2 * r, lambda r: 0.5 * r]):

@@ -65,12 +65,12 @@ class MultigridCycle:
         level, operator, transfer = self._levels[k], self._operators[k - 1], self._transfers[k - 1]
         pressure = self._smooth(k, residual)
         carried = level.grid.integral(pressure) / level.load
-        rest = residual - operator.apply(pressure, 0.0)
+        rest = operator.rest(residual, pressure, 0.0)
         coarse, approach = self._cycle(k - 1, transfer.down(rest), load_residual - carried)
         correction = transfer.up(coarse)
         correction *= self._free[k - 1]
         pressure += correction
-        rest = residual - operator.apply(pressure, approach)
+        rest = operator.rest(residual, pressure, approach)
         pressure += self._smooth(k, rest)
         return pressure, approach
 
@@ -84,7 +84,7 @@ class MultigridCycle:
         pressure: Any = None
         for lines in self._smoothers[k - 1]:
             if pressure is not None:
-                rest = residual - self._operators[k - 1].apply(pressure, 0.0)
+                rest = self._operators[k - 1].rest(residual, pressure, 0.0)
             change = lines(rest)
             change -= transfer.up(transfer.down(change))
             change *= self._free[k - 1]

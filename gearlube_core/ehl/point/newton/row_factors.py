@@ -10,7 +10,7 @@ import numpy as np
 
 from gearlube_core.kernels.jit import row_kernel
 
-BELOW = 6  # nodes to each side that a node of a row depends on
+BELOW = 4  # nodes to each side that a node of a row depends on
 LARGEST_SHARE = 10.0  # of an equation that is taken off another; 1 where none had to be exchanged
 _TOGETHER = 16  # rows of nodes: a line of the cache
 
@@ -33,8 +33,8 @@ def fill_side_by_side(
     ----------
     start, column, entry, free, local, across, period, rows
         As in `fill_rows`.
-    band : ndarray, shape (nx, 13, ny)
-        Result: by node, place of the other node from -6 to 6, and row; zero on entry.
+    band : ndarray, shape (nx, 9, ny)
+        Result: by node, place of the other node from -4 to 4, and row; zero on entry.
     """
     nx, reach = free.shape[1], BELOW - 2
     for begin in range(rows[0], rows[1], _TOGETHER):
@@ -70,7 +70,7 @@ def factor_side_by_side(rows: tuple[int, int], band: np.ndarray, largest: np.nda
     ----------
     rows
         First row of nodes and the one behind the last.
-    band : ndarray, shape (nx, 13, ny)
+    band : ndarray, shape (nx, 9, ny)
         Of `fill_side_by_side`; L and U on return.
     largest : ndarray, shape (ny,)
         Result: largest share of an equation that was taken off another, for every row of nodes.

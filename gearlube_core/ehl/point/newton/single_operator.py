@@ -23,17 +23,18 @@ class SingleOperator:
 
     def __init__(self, grid: PointGrid, operator: SparseOperator) -> None:
         self._grid, self._operator = grid, operator
+        ny, nx = grid.shape
         self._stencil = SingleStencil.of(
-            operator.matrix, grid.shape, grid.sides.period(grid.shape[0])
+            operator.matrix, (ny, nx), grid.sides.period(ny), grid.own_deflection[0]
         )
         self._by_approach: Any = operator.by_approach.astype(Single)
 
-    def apply(self, pressure: Any, approach: float) -> Any:
-        """Return the change, shape (ny, nx)."""
+    def rest(self, right: Any, pressure: Any, approach: float) -> Any:
+        """Return what is left of a right-hand side, shape (ny, nx)."""
         if self._stencil is None:
-            return self._operator.apply(self._grid, pressure, approach).astype(Single)
+            return (right - self._operator.apply(self._grid, pressure, approach)).astype(Single)
         film = self._grid.single_deflection(pressure)
-        result = self._stencil.multiply(pressure, film, self._grid.workers)
+        rest = self._stencil.rest(right, pressure, film, self._grid.workers)
         if approach != 0.0:
-            result += Single(approach) * self._by_approach
-        return result
+            rest -= Single(approach) * self._by_approach
+        return rest

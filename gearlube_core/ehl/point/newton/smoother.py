@@ -22,7 +22,9 @@ from gearlube_core.ehl.point.newton.wave import TransposedGrid, wave_deflection
 from gearlube_core.kernels.jit import row_kernel
 from gearlube_core.kernels.row_workers import RowWorkers
 
-REACH = 4  # nodes over which the local deflection acts to each side
+# nodes over which the local deflection acts to each side; of the waves that rows solve it falls to
+# a tenth or less by then
+REACH = 2
 _BELOW = REACH + 2  # the far upstream neighbour
 _ABOVE = REACH + 2
 _DIAGONAL = _BELOW + _ABOVE  # its place in the band of factors
