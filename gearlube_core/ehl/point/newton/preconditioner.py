@@ -40,11 +40,14 @@ class MultigridCycle:
         for k in range(len(self._levels) - 1, 0, -1):
             fine, coarse = self._levels[k], self._levels[k - 1]
             halved = (coarse.shape[0] < fine.shape[0], coarse.shape[1] < fine.shape[1])
-            lines: list[Lines] = [RowSmoother(fine.grid, operator, halved, _DAMPING)]
+            single = SingleOperator(fine.grid, operator)
+            lines: list[Lines] = [
+                RowSmoother(fine.grid, operator, single.stencil, halved, _DAMPING)
+            ]
             if fine.stencil.wedge_y > _OBLIQUE * fine.stencil.wedge_x and not fine.grid.graded:
                 lines.append(ColumnSmoother(fine.grid, operator, halved, _DAMPING))
             self._smoothers.insert(0, lines)
-            self._operators.insert(0, SingleOperator(fine.grid, operator))
+            self._operators.insert(0, single)
             self._free.insert(0, operator.free)
             operator = coarse_operator(operator, self._transfers[k - 1])
         self._direct = CoarseSolution(self._levels[0].grid, operator, self._levels[0].load)
@@ -60,8 +63,7 @@ class MultigridCycle:
 
     def _cycle(self, k: int, residual: Any, load_residual: float) -> tuple[Any, float]:
         if k == 0:
-            pressure, approach = self._direct(residual, load_residual)
-            return pressure.astype(Single), approach
+            return self._direct(residual, load_residual)
         level, operator, transfer = self._levels[k], self._operators[k - 1], self._transfers[k - 1]
         pressure = self._smooth(k, residual)
         carried = level.grid.integral(pressure) / level.load
