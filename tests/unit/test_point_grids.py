@@ -100,7 +100,9 @@ def solved(entries, free, residual, halved, spacing) -> np.ndarray:
     across = np.cos(np.arange(5) * min(wave * dy, 0.55 * np.pi))
     return np.array(
         [
-            np.linalg.solve(dense_row(entries, free, local, across, j, 2, smoother.REACH), row * free[j])
+            np.linalg.solve(
+                dense_row(entries, free, local, across, j, 2, smoother.REACH), row * free[j]
+            )
             for j, row in enumerate(residual)
         ]
     )

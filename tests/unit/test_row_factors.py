@@ -77,7 +77,9 @@ def test_rows_are_solved_as_dense_matrices_say(kind):
 def test_rows_side_by_side_do_not_depend_on_the_threads(monkeypatch):
     monkeypatch.setattr("gearlube_core.kernels.row_workers._FEW", 1)
     found = [
-        rows_of(smoother._SideBySide, equations(-6.0), RowWorkers(threads)).solve(RESIDUAL, np.float32(1.0))
+        rows_of(smoother._SideBySide, equations(-6.0), RowWorkers(threads)).solve(
+            RESIDUAL, np.float32(1.0)
+        )
         for threads in (1, 2, 3)
     ]
     assert (found[0] == found[1]).all()

@@ -68,16 +68,11 @@ def test_oil_that_passes_ruptured_film_reaches_beyond_a_stencil():
     matrix = stencil_matrix(0, reach=3)
     assert SingleStencil.of(matrix, SHAPE, 0, OWN) is None
     sides = SimpleNamespace(period=lambda rows: 0)
-    grid = SimpleNamespace(
-        shape=SHAPE,
-        sides=sides,
-        deflection=lambda p: 0.5 * p,
-        own_deflection=np.full(SHAPE, 0.5),
-    )
+    grid = SimpleNamespace(shape=SHAPE, sides=sides, own_deflection=np.full(SHAPE, 0.5))
     pressure = np.random.default_rng(6).normal(size=SHAPE)
     operator = SparseOperator(matrix, np.ones(SHAPE, dtype=bool), np.ones(SHAPE))
     right = np.ones(SHAPE)
-    found = right - SingleOperator(grid, operator).rest(right, pressure, 2.0)
+    found = right - SingleOperator(grid, operator).rest(right, pressure, 0.5 * pressure, 2.0)
     expected = (matrix.real + 0.5 * matrix.imag) @ pressure.ravel() + 2.0
     assert found.ravel() == pytest.approx(expected, rel=1e-5, abs=1e-5)
 

@@ -186,9 +186,7 @@ class _SideBySide:
         None would have had to be exchanged with one of a tenth of its weight.
     """
 
-    def __init__(
-        self, stencil: SingleStencil, equations: Equations, workers: RowWorkers
-    ) -> None:
+    def __init__(self, stencil: SingleStencil, equations: Equations, workers: RowWorkers) -> None:
         self._free, self._workers = equations.free, workers
         ny, nx = equations.free.shape
         self._band = band = np.zeros((nx, 2 * BELOW + 1, ny), dtype=np.float32)
