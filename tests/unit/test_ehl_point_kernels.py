@@ -17,8 +17,8 @@ from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ConvergenceError, ParameterError
 from tests.helpers.ehl_point_cases import moes_contact

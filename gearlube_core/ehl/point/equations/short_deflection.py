@@ -72,8 +72,8 @@ class ShortDeflection:
 
     Notes
     -----
-    Of the transform of the coefficients the share 1 - (cos(k_x dx/2) cos(k_y dy/2))^16 is kept, with
-    a cosine for each side that is halved. The rest is what means of neighbours have as well.
+    The share 1 - (cos(k_x dx/2) cos(k_y dy/2))^16 of the transform of the coefficients is kept,
+    with a cosine for each side that is halved. The rest is what means of neighbours have as well.
     """
 
     def __init__(self, coefficients: Array, sides: Sides, halved: tuple[bool, bool]) -> None:

@@ -249,10 +249,11 @@ class RowSmoother:
             grid.sides.period(grid.shape[0]),
         )
         self._damping = Single(damping)
-        self._rows: _SideBySide | _ExchangedRows | None = None
-        if stencil is not None:
-            self._rows = _SideBySide(stencil, equations, grid.workers)
-        if self._rows is None or not self._rows.sound:
+        side_by_side = None if stencil is None else _SideBySide(stencil, equations, grid.workers)
+        self._rows: _SideBySide | _ExchangedRows
+        if side_by_side is not None and side_by_side.sound:
+            self._rows = side_by_side
+        else:
             self._rows = _ExchangedRows(equations, grid.workers)
 
     def __call__(self, residual: Array) -> Array:
