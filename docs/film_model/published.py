@@ -353,7 +353,10 @@ def _draw_needed(axes: Any, found: dict[str, OilFriction]) -> None:
             ends = [min(max(end, 0.9), BEYOND) for end in (low, middle, high)]
             axes.plot(ends[::2], [n + shift] * 2, color=colour, lw=2.0)
             axes.plot(ends[1], n + shift, "o", color=colour)
-        axes.plot(one.own, n, "x", color="black", ms=7, mew=2, label="own" if n == 0 else None)
+        label = "stress of the oil" if n == 0 else None
+        axes.plot(one.own, n, "x", color="black", ms=7, mew=2, label=label)
+    axes.plot([], [], "o-", color="0.4", lw=2.0, label="5 to 95 % of the points, median")
+    axes.legend(loc="upper right", fontsize=8, frameon=True, framealpha=0.9)
     axes.axvspan(MOST, BEYOND * 1.05, color="#E8E8E8")
     axes.set_xscale("log")
     axes.set_xlim(0.9, BEYOND * 1.05)
@@ -362,7 +365,7 @@ def _draw_needed(axes: Any, found: dict[str, OilFriction]) -> None:
     axes.set_yticks(range(len(found)), list(found))
     axes.invert_yaxis()
     axes.set_xlabel("Eyring stress [MPa]; grey: above 10")
-    axes.set_title("stress needed (● median), × own")
+    axes.set_title("stress that gives the published friction")
 
 
 def main() -> None:

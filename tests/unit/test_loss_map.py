@@ -128,6 +128,7 @@ def drag_of(law, **options):
         ("aihara_1987", 2.0),
         ("palmgren_loaded", 2.0),
         ("skf_2013", 2.5),
+        ("solved_films", 3.0),
     ],
 )
 def test_bearing_drag_is_as_uncertain_as_the_law_of_a_single_bearing(law, factor):
