@@ -58,8 +58,8 @@ def instability(stability: xr.Dataset) -> Any:
         for ax in axes[:2]:
             ax.set_ylabel("factor on the\nmesh variation")
             ax.axhline(1.0, color="#404040", lw=0.9, ls="--")
-            name = {"ha": "right", "va": "bottom", "fontsize": 8}
-            text = ax.text(0.995, 1.0, "as it is", transform=ax.get_yaxis_transform(), **name)
+            on_line = ax.get_yaxis_transform()
+            text = ax.text(0.995, 1.0, "as it is", transform=on_line, ha="right", va="bottom")
             outlined(text, "white")
         axes[2].set_ylabel("damping ratio of\nmesh and supports")
         axes[2].set_yscale("log")
