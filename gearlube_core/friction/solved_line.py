@@ -30,6 +30,8 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 from gearlube_core.oil.lubricant_state import LubricantState
 
+LINE_FILM_MODEL = "helical_line"  # of the package, for flanks of steel
+
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
 # with at least 0.1 GPa, see docs/film_model/outside_line.py. Of the film, over that of the formula;
 # and the most friction of the film, over that of an isothermal Eyring film of the formula's film.
@@ -260,3 +262,45 @@ def solved_line_friction(
     return line_with_film(
         film, line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
     )
+
+
+@kernel
+def bounded_line_friction(
+    line_load: float,
+    R: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    film_model: Array,
+) -> BoundedLine:
+    """Return film, friction and temperature by a film model, or by the formulas if it is empty.
+
+    Parameters
+    ----------
+    line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
+        As in `line_friction`.
+    film_model : ndarray, shape (N_ARRAY,) or (0,)
+        As in `solved_line_friction`.
+
+    Returns
+    -------
+    BoundedLine
+        As of `line_with_film`; without bounds where the formulas are asked for.
+    """
+    if film_model.size > 0:
+        inlet = line_inlet(lubricant, solid, 0.0)
+        return solved_line_friction(
+            line_load,
+            R,
+            entrainment_speed,
+            sliding_speed,
+            lubricant,
+            surface,
+            solid,
+            inlet,
+            film_model,
+        )
+    state = line_friction(line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid)
+    return BoundedLine(state, 0.0, 0.0, 0.0)
