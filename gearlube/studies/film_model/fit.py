@@ -134,9 +134,7 @@ def fit_model(
     )
     progress(0.95, "calibration")
     kept = {kind: targets_of(solved_rows(rows, kind)) for kind in ("calibration", "fresh")}
-    limits = {
-        kind: at_limit(one, corrections, own_steps(rows, kind)) for kind, one in kept.items()
-    }
+    limits = {kind: at_limit(one, corrections, own_steps(rows, kind)) for kind, one in kept.items()}
     found = {kind: evaluated(model, one.contacts) for kind, one in kept.items()}
     misses = {kind: Misses(found[kind] / limits[kind] - 1.0) for kind in kept}
     spread = conformal_bounds(misses["calibration"].values)
