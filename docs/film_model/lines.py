@@ -16,6 +16,7 @@ from docs.film_model.outside_line import MODEL, formula_film, formula_friction, 
 from docs.film_model.pictures import errors_picture, parity_picture
 from gearlube.studies.film_model.draws import ANYWHERE, STEEL
 from gearlube.studies.film_model.kinds import HELICAL_LINE
+from gearlube.studies.film_model.limiting import limit_in_words
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.film_model.model import FilmModel
@@ -139,6 +140,7 @@ def page(model: FilmModel, tests: Tests) -> str:
         name=p["name"],
         checksum=model.checksum,
         domain=domain_table(p["box"]),
+        limits=limit_in_words(tests["fresh"]["friction_solved"], "films that the pairs visit"),
     )
 
 
