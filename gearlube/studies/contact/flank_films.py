@@ -171,7 +171,8 @@ def flank_films(
     modulus = contact_modulus(parameters.solid, parameters.solid)
     axes = np.full((*shape, 3), np.nan)
     for index in zip(*np.nonzero(load > 0.0), strict=True):
-        axes[index] = hertz_ellipse(*at["radii"][index], modulus, load[index])
+        R_x, R_y = at["radii"][index]
+        axes[index] = hertz_ellipse(R_x, R_y, modulus, load[index])
     return FlankFilms(
         phase=phase,
         load=load,
