@@ -25,6 +25,7 @@ from scipy.integrate import solve_ivp
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import AxleRaceways
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_rhs
@@ -95,7 +96,7 @@ def right_hand_side(axle: HypoidAxle) -> tuple[Any, ...]:
     series, window = np.zeros(mesh.series_size), np.zeros(mesh.window_size)
     at_load = MeshAtLoad(series, mesh.orders, window, mesh.nodes)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, at_load)
-    inputs = step_inputs(s, INPUTS[0], INPUTS[1], oil, p)
+    inputs = step_inputs(s, INPUTS[0], INPUTS[1], oil, p, AxleRaceways())
     return s, inputs, at_load, oil, p
 
 

@@ -1,9 +1,11 @@
-"""What solved films cost the axle: `python -m benchmarks.bench_solved_film [--fmu]`.
+"""What solved films cost the axle: `python -m benchmarks.bench_solved_film [--fmu] [--pair]`.
 
 Processor time of communication steps by formula and by the film model, turn by turn in one process.
 Each turn starts from the same state: with less friction an axle speeds up and takes more steps.
 The bare axle does so within a turn, by one per cent in 20 ms, so that nodes are evaluated anew more
-often than in a car. With `--fmu` the same through HypoidAxle.fmu and FMPy, over the same time.
+often than in a car. With `--fmu` the same through HypoidAxle.fmu and FMPy, over the same time. With
+`--pair` it is the helical pair of He et al. at 1000 rpm, whose load holds its speed, and with
+`--fmu` HelicalPair.fmu, in Python and native.
 """
 
 from __future__ import annotations
@@ -20,13 +22,21 @@ from pathlib import Path
 
 from fmpy import extract, fmi2, read_model_description
 
-from fmu_src.build import build_hypoid_axle
+from fmu_src.build import build_helical_pair, build_hypoid_axle, build_models
+from fmu_src.native.build import NativeOptions
+from fmu_src.native.platforms import platform_of_this_machine
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.parameters import Film
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 _LOGGER = logging.getLogger("bench_solved_film")
 _OIL = 368.15  # K
 _POINT = 240.4, 66.2, 176.0  # rad/s, N.m, N.m: 100 km/h
+_PAIR_OIL = 353.15  # K
+_PAIR_POINT = 104.71975511965977, 225.97, 280.2028  # rad/s, N.m, N.m: 1000 rpm, 2000 lbf in
+_PAIR_GAIN = 1.0  # N.m s/rad
 _SIMULATED = 0.05  # s
 _TURNS = 25
 
@@ -112,11 +122,98 @@ def compare(formula: Callable[[float], float], solved: Callable[[float], float])
         )  # fmt: skip
 
 
+def compare_pair() -> None:
+    """Compare both in the helical pair as a Python model."""
+    models = []
+    for film in ("formula", "solved"):
+        parameters = helical_march_parameters(HelicalGearFile.named("he_2007"))
+        model = HelicalPairModel(replace(parameters, film=film))
+        speed, torque, load = _PAIR_POINT
+        model.initialise(
+            pinion_speed=speed, pinion_torque=torque, wheel_torque=load, oil_temperature=_PAIR_OIL
+        )
+        models.append(model)
+
+    def held(model: HelicalPairModel, h: float) -> float:
+        state = model.get_state()
+        begin = time.process_time()
+        for _ in range(round(_SIMULATED / h)):
+            speed, loss = model.output("pinion.speed"), model.output("friction.power_loss")
+            model.step(h, _PAIR_POINT[1], holding_load(speed, loss), _PAIR_OIL)
+        taken = time.process_time() - begin
+        model.set_state(state)
+        return taken
+
+    for model in models:
+        for _ in range(100):
+            speed, loss = model.output("pinion.speed"), model.output("friction.power_loss")
+            model.step(1e-3, _PAIR_POINT[1], holding_load(speed, loss), _PAIR_OIL)
+    formula, solved = models
+    compare(lambda h: held(formula, h), lambda h: held(solved, h))
+
+
+def holding_load(speed: float, loss: float) -> float:
+    """Return the wheel torque that holds the speed of the pair [N.m]."""
+    _, torque, load = _PAIR_POINT
+    return load - load / torque * loss / speed + _PAIR_GAIN * (speed - _PAIR_POINT[0])
+
+
+def running_pair_fmu(folder: Path, film: str) -> Callable[[float], float]:
+    """Return what steps of an instance of HelicalPair.fmu that has run in take [s]."""
+    description = read_model_description(str(folder))
+    place = {v.name: v.valueReference for v in description.modelVariables}
+    fmu = fmi2.FMU2Slave(
+        guid=description.guid,
+        unzipDirectory=str(folder),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName=film,
+    )
+    fmu.instantiate()
+    inputs = [place["pinion.torque"], place["wheel.torque"]]
+    outputs = [place[name] for name in ("pinion.speed", "friction.power_loss", "mesh.dte")]
+    outputs.append(place["mesh.film_thickness_min"])
+    (option,) = (v for v in description.modelVariables if v.name == "film.model")
+    (value,) = (item.value for item in option.declaredType.items if item.name == film)
+    fmu.setInteger([option.valueReference], [int(value)])
+    fmu.setReal([place["oil.temperature"]], [_PAIR_OIL])
+    fmu.setupExperiment()
+    fmu.enterInitializationMode()
+    fmu.exitInitializationMode()
+    now, found = 0.0, [_PAIR_POINT[0], 0.0]
+
+    def run(h: float, steps: int) -> float:
+        nonlocal now, found
+        begin = time.process_time()
+        for _ in range(steps):
+            fmu.setReal(inputs, [_PAIR_POINT[1], holding_load(found[0], found[1])])
+            fmu.doStep(now, h)
+            found = fmu.getReal(outputs)
+            now += h
+        return time.process_time() - begin
+
+    run(1e-3, 200)
+    return lambda h: run(h, round(_SIMULATED / h))
+
+
 def main() -> None:
     """Compare both at two communication steps."""
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--fmu", action="store_true")
-    if options.parse_args().fmu:
+    options.add_argument("--pair", action="store_true")
+    chosen = options.parse_args()
+    if chosen.pair and chosen.fmu:
+        with tempfile.TemporaryDirectory() as name:
+            native = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
+            (made,) = build_models(Path(name) / "native", "helical-pair", native=native)
+            for words, path in (("Python", build_helical_pair(name)), ("native", made)):
+                folder = Path(extract(str(path), str(Path(name) / f"{words}-pair")))
+                _LOGGER.info(words)
+                compare(*(running_pair_fmu(folder, film) for film in ("formula", "solved")))
+        return
+    if chosen.pair:
+        compare_pair()
+        return
+    if chosen.fmu:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(extract(str(build_hypoid_axle(Path(name))), str(Path(name) / "axle")))
             compare(*(running_fmu(folder, film) for film in ("formula", "solved")))

@@ -138,10 +138,11 @@ for note in paper.assumed:
   refuses it. 0, the default, leaves it out.
   [film_model_axle.md](film_model_axle.md#heat-of-the-flanks-bulk) says what is known of the number.
 - Rolling friction of the flanks is only modelled if `flank_rolling` of `[model]` names its law.
-- `bearing_torque_loss` of `[model]` selects the law of the bearing drag. All laws except palmgren
-  use the forces of each bearing or the load of each roller, updated at least once in 12 integrator
-  steps. With the laws that sum over the rollers a communication step of 0.1 ms takes 2 to 4 times
-  as long.
+- `bearing_torque_loss` of `[model]` selects the law of the bearing drag; `solved_films` takes the
+  rollers' friction and films from [solved films](film_model_axle.md#rollers-with-solved-films).
+  All laws except palmgren use the forces of each bearing or the load of each roller, updated at
+  least once in 12 integrator steps. With the laws that sum over the rollers a communication step
+  of 0.1 ms takes 2 to 4 times as long.
 - `oil.file` names an [oil file](oil_file.md), which describes your oil by its data sheet. It
   replaces all other fields of `[oil]`.
 - Churning is only modelled if the file has a field of `[housing]`, seals only if it has a field of

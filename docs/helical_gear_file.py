@@ -19,6 +19,7 @@ SECTIONS = {
     "operation": "[operation]: default torque and speed",
     "meshing_steps": "[meshing_steps]: the source's steps of a contact line",
     "oil": "[oil]: of the source, for films",
+    "film": "[film]: film and friction of the oil, of `gearlube helical` and the marching model",
     "film_mesh": "[film_mesh]: nodes of films",
 }
 

@@ -70,6 +70,7 @@ DEFINITION = Definition(
         "gearlube_core/mesh_table/data/mohammadpour_2015.nc",
         "gearlube_core/oil/lubricants.toml",
         "gearlube_core/film_model/data/hypoid_flank.json",
+        "gearlube_core/film_model/data/roller_race.json",
     ),
 )
 

@@ -267,7 +267,24 @@ _FILM_OUTPUTS = (
       for name, words in (("film", "film thickness"), ("friction", "friction"))),
     output("friction.power_loss_bound", "W", "Bound of friction.power_loss by those of the flanks; "
            "0 with formulas", 10.0),
-    output("efficiency_bound", "1", "The same of efficiency and axle.efficiency", 0.001),
+    output("efficiency_bound", "1", "The same of efficiency", 0.001),
+)  # fmt: skip
+# rollers by a model of solved films
+_ROLLER_OUTPUTS = (
+    output("bearing.share_outside", "1", "Share of the rollers' load outside the domain of the "
+           "model of solved films; 0 with other laws than solved_films"),
+    *(variable
+      for j in (1, 2, 3, 4)
+      for variable in (
+          output(f"bearing[{j}].film_thickness", "m", f"Thinnest central film of the rollers in "
+                 f"bearing {j}; 0 with other laws than solved_films", 1e-6, "um"),
+          output(f"bearing[{j}].film_bound", "1", f"Bound of the film thickness of bearing {j}, "
+                 "relative", 0.05),
+      )),
+    output("bearing.power_loss_bound", "W", "Bound of bearing.power_loss by the rolling of the "
+           "rollers; 0 with other laws than solved_films", 10.0),
+    output("axle.efficiency_bound", "1", "Bound of axle.efficiency by the films of flanks and "
+           "rollers", 0.001),
 )  # fmt: skip
 _LATER_ENERGIES = _DRAG_ENERGIES + _ROLLING_ENERGIES
 _LATER_STATES = tuple(variable.name for variable in _LATER_ENERGIES)
@@ -291,4 +308,5 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *_FILM,
     *options_by_number(_FILM),
     *_FILM_OUTPUTS,
+    *_ROLLER_OUTPUTS,
 )

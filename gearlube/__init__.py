@@ -37,6 +37,8 @@ __all__ = tuple(_NAMES)
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return import_module("gearlube_core").__version__
     if name not in _NAMES:
         raise AttributeError(f"gearlube has no public name {name!r}. See docs/api.md.")
     module, there = _NAMES[name]

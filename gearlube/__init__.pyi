@@ -1,6 +1,8 @@
 # The public names, and the only list of them: the package reads this file, type checkers and
 # docs/api.py do too. "# -- " begins a group.
 
+__version__: str
+
 # -- Hypoid axle
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle as HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.parameters import (

@@ -39,9 +39,9 @@ def verdicts(claims: Iterable[Claim], store: Store) -> list[Verdict]:
         try:
             found.append(claim.evaluate(store))
         except MissingFilmError as error:
-            found.append(Verdict("-", MISSING, f"`{error}` is not computed yet"))
+            found.append(Verdict("-", MISSING, f"`{error}` is not computed yet."))
         except GivenUpError as error:
-            found.append(Verdict("-", FAILS, f"a march was {error}"))
+            found.append(Verdict("-", FAILS, f"A march was {error}."))
     return found
 
 

@@ -48,7 +48,7 @@ def _load(store: Store) -> Verdict:
     return Verdict(
         f"A / B: at most {listed(most, '{:.0e}')} over {listed(steps, '{:.0f}')} steps",
         judge(max(most) < 5e-3 and all(m.failures == 0 for m in marches.values())),
-        "load and film are solved together",
+        "Load and film are solved together.",
     )
 
 
@@ -71,9 +71,9 @@ def _step_counts(store: Store) -> Verdict:
         "; ".join(f"{count}: {p:.2f} %, {h:.2f} %" for count, (p, h) in off.items())
         + f" off {COUNTS[-1]} (pressure, film)",
         judge(max(off[400]) < 1.0),
-        f"steps {at[0]:.0f} to {at[-1]:.0f} of design A, from rest at step {first}; with a "
-        "first-order wedge four times the steps change the film by 0.5 % on 97 x 81 and 6 % on "
-        "182 x 161 nodes: see the smallest film in motion, below",
+        f"Compared are steps {at[0]:.0f} to {at[-1]:.0f} of design A, started from rest at step "
+        f"{first}. With a first-order wedge, four times the steps change the film by 0.5 % on "
+        "97 x 81 nodes and by 6 % on 182 x 161 nodes. See the smallest film in motion, below.",
     )
 
 
@@ -88,11 +88,12 @@ def _ranges(store: Store, design: str, pressures: tuple[float, float], films: tu
     return Verdict(
         f"{span(p.min(), p.max(), '{:.3f}')} GPa, {span(h.min(), h.max(), '{:.3f}')} um",
         judge(off_range(p, *pressures) < _PRESSURE, off_range(h, *films) < _FILM),
-        f"thinnest at step {thinnest}, y = {place:.1f} mm; films at rest at steps 75, 300, 500 are "
-        f"{rest} um. Not converged in time: behind the relief of A shorter steps go to "
-        f"{UM * limit:.3f} um, error {UM * error:.3f} um. With a first-order wedge on the "
-        f"thesis' spacing: at least {UM * printed:.3f} um, so that the printed film is probably "
-        "thick by numerics; see the smallest film in motion, below",
+        f"The film is thinnest at step {thinnest}, y = {place:.1f} mm. At rest the smallest films "
+        f"at steps 75, 300 and 500 are {rest} um. The film in motion has not converged in time: "
+        f"behind the relief of A shorter steps lead to {UM * limit:.3f} um, with an error of "
+        f"{UM * error:.3f} um. With a first-order wedge on the spacing of the thesis the film is "
+        f"at least {UM * printed:.3f} um. So the printed film is probably too thick by numerical "
+        "error. See the smallest film in motion, below.",
     )
 
 
@@ -118,7 +119,8 @@ def _best_crown(store: Store) -> Verdict:
         f"{span(p.min(), p.max())} GPa, {span(h.min(), h.max(), '{:.3f}')} um; the five: at most "
         f"{listed(tops.values())} GPa, at least {listed(films.values(), '{:.3f}')} um",
         judge(off_range(p, 0.98, 1.17) < _PRESSURE, off_range(h, 0.16, 0.22) < _FILM, best == 0.25),
-        f"lowest pressure without a film thinner by 5 % than that of F_o = 0: F_o = {best:g} F",
+        "The best is the one with the lowest pressure among those whose film is not thinner by 5 % "
+        f"than that of F_o = 0. Here this is F_o = {best:g} F.",
     )
 
 
@@ -135,7 +137,8 @@ def _crown_films(store: Store) -> Verdict:
             abs(films[0] / 0.21 - 1.0) < _FILM, abs(films[1] / 0.14 - 1.0) < _FILM,
             tops[0] > 1.02 * tops[1] and abs(place) > 10.0,
         ),
-        "a spike counts if it is 2 % above the pressure of 0.25 F and away from mid-face",
+        "A spike is a pressure that is 2 % above that of 0.25 F and away from the middle of the "
+        "face.",
     )  # fmt: skip
 
 
@@ -151,9 +154,9 @@ def _crown_order(store: Store) -> Verdict:
         f"mean over both ends {listed(sides, '{:.3f}')} GPa; peaks along the line at step 300: "
         f"{listed(counts, '{:.0f}')}",
         judge(bool((np.diff(sides) < 0.0).all()), counts[0] == 1 and min(counts[1:]) >= 2),
-        "F_o = "
+        "The values are for F_o = "
         + listed(CROWNS, "{:g}")
-        + " F; a peak counts if it rises by 1 % of the largest pressure",
+        + " F. A peak counts if it rises by 1 % of the largest pressure.",
     )
 
 
@@ -171,7 +174,7 @@ def _places(store: Store) -> Verdict:
     return Verdict(
         ", ".join(words),
         judge(*good),
-        "the steps at which the place of the largest pressure jumps by 3 mm",
+        "These are the steps at which the place of the largest pressure jumps by 3 mm.",
     )
 
 
@@ -185,7 +188,7 @@ def _highest(store: Store) -> Verdict:
     return Verdict(
         f"A {found[0]:.0f}, {found[1]:.0f}; B {found[2]:.0f}, {found[3]:.0f}",
         judge(max(off) <= 50.0),
-        "the step of the largest pressure in each half of the cycle",
+        "These are the steps with the largest pressure in each half of the cycle.",
     )
 
 

@@ -50,8 +50,8 @@ def _twenty(store: Store) -> Verdict:
     return Verdict(
         _values(p, h, count, failed),
         judge(_within(p, 2.44, 3.16, _PRESSURE), failed > 0 or h.min() < 0.02),
-        "at rest; a pressure at a corner depends on the grid; film fails: none found, or below "
-        "0.02 um",
+        "These are films at rest. The pressure at a corner depends on the grid. A film fails if "
+        "none is found or if it is below 0.02 um.",
     )
 
 
@@ -65,7 +65,7 @@ def _thirty(store: Store) -> Verdict:
             abs(p.max() / 2.27 - 1.0) < _PRESSURE, abs(drop - 0.28) < 0.05,
             failed > 0 or h.min() < 0.02,
         ),
-        "at rest",
+        "These are films at rest.",
     )  # fmt: skip
 
 
@@ -78,7 +78,7 @@ def _forty(store: Store) -> Verdict:
             _within(p, 1.6, 1.9, _PRESSURE), _within(h, 0.11, 0.16, _FILM),
             failed == 0 and h.min() > 0.02,
         ),
-        "three steps at rest and steps 281 to 300 in motion",
+        "Judged are three steps at rest and steps 281 to 300 in motion.",
     )  # fmt: skip
 
 
@@ -93,7 +93,7 @@ def _hundred(store: Store) -> Verdict:
             _within(p, 1.18, 1.42, _PRESSURE), _within(h, 0.14, 0.20, _FILM),
             abs(rise - 0.136) < 0.05,
         ),
-        "three steps at rest and steps 281 to 300 in motion",
+        "Judged are three steps at rest and steps 281 to 300 in motion.",
     )  # fmt: skip
 
 
@@ -105,7 +105,7 @@ def _monotone(store: Store) -> Verdict:
     return Verdict(
         f"{listed(p)} GPa, {listed(h, '{:.3f}')} um",
         judge(bool((np.diff(p) < 0.0).all()), bool((np.diff(h) > 0.0).all())),
-        f"step 300 at rest, n_f = {listed(FACETS, '{:g}')} / smooth",
+        f"The values are at rest at step 300, for n_f = {listed(FACETS, '{:g}')} / smooth.",
     )
 
 
@@ -115,8 +115,8 @@ def _spikes(store: Store) -> Verdict:
     return Verdict(
         f"{found}",
         judge(abs(found - 13) <= 1),
-        "maxima of the sections along the line that rise by a fifth of the largest pressure; the "
-        "face crosses 11.7 facets of either flank",
+        "A spike is a maximum of the section along the line that rises by a fifth of the largest "
+        "pressure. The face crosses 11.7 facets of either flank.",
     )
 
 
@@ -133,7 +133,8 @@ def _grids(store: Store) -> Verdict:
         "; ".join(f"n_f = {n}: {p:+.1f} %, {h:+.1f} %" for n, (p, h) in off.items())
         + " (pressure, film)",
         judge(max(map(abs, off[20])) < 10.0, max(map(abs, off[100])) < 2.0),
-        "half the nodes across, step 300; little is 10 %, very little 2 %",
+        "The numbers are changes with half the nodes across, at step 300. Little is 10 %, very "
+        "little is 2 %.",
     )
 
 
@@ -160,7 +161,7 @@ def _geometry(_: Store) -> Verdict:
         f"{length:.2f} mm; gap off by {listed([UM * g for g in gaps], '{:.3f}')} um, power "
         f"{slope:.2f}",
         judge(abs(length - 1.0) < 0.1, abs(slope + 2.0) < 0.1),
-        "20 facets on the line of action; the power follows from chords of an arc",
+        "There are 20 facets on the line of action. The power follows from chords of an arc.",
     )
 
 

@@ -36,7 +36,8 @@ def _motion(store: Store) -> Verdict:
             all(abs(s.film_ratio - 1.0) < 0.05 for _, _, s in alike),
             pressure < 0.05,
         ),
-        "smallest films of sections at y, mm, of design A; thinner means by 3 % and more",
+        "The numbers compare the smallest films of sections at y in mm, for design A. Thinner "
+        "means by 3 % and more.",
     )
 
 
@@ -58,8 +59,8 @@ def _lines(store: Store) -> Verdict:
         "; ".join(f"{y:g} mm: {p:+.1f}, {h:+.1f} %" for y, (p, h) in zip(_LINES, off, strict=True))
         + " (pressure, film)",
         judge(max(worst[:-1]) < 3.0, worst[-1] < 15.0),
-        "contact line over line contact of the same load per length, gap and speeds; 17 mm may be "
-        "15 % off",
+        "The numbers compare a section of the contact line with a line contact of the same load "
+        "per length, gap and speeds. The section at 17 mm may be 15 % off.",
     )
 
 
@@ -78,8 +79,9 @@ def _speeds(store: Store) -> Verdict:
         f"at rest {listed(slopes, '{:.3f}')}, transient at step 500 {moving:.3f}; pressure within "
         f"{100.0 * max(tops):.1f} % at rest, {100.0 * moved:.1f} % transient",
         judge(all(abs(v - 0.68) <= 0.02 for v in (*slopes, moving)), max(*tops, moved) < 0.03),
-        "slope of log h_min over log speed at 1, 2, 5, 10 times; at rest at steps 75 / 300 / 500 "
-        "on the finer grid: a coarse one thins the slow film most",
+        "The exponent is the slope of log h_min over log speed at 1, 2, 5 and 10 times the speed. "
+        "At rest it is given for steps 75 / 300 / 500 on the finer grid, because a coarse one "
+        "thins the slow film most.",
     )
 
 
@@ -110,8 +112,8 @@ def _elements(store: Store) -> Verdict:
         f"lines: within {100.0 * max(worst):.2f} %; contact line of A (pressure, film): "
         + ", ".join(words),
         judge(max(worst) < 0.02 and whole[0] < 0.02, whole[1] < 0.02),
-        "step 300; sections of A and B as line contacts, Galerkin against central and upwind "
-        "differences; all of A's line with the speeds of its middle",
+        "This is step 300. Sections of A and B as line contacts compare Galerkin's method with "
+        "central and upwind differences. The whole line of A has the speeds of its middle.",
     )
 
 
@@ -137,7 +139,8 @@ def _length(store: Store) -> Verdict:
         f"{shares[0]:.3f} w; with one crowned tooth {shares[1]:.2f} w; with relief and film at "
         f"step 300 {lubricated:.2f} w",
         judge(abs(shares[0] - 0.93) <= 0.01),
-        f"dry, no relief, 14.4 kN, crown on both teeth, {LINE[1]} rows",
+        "This is the dry contact at 14.4 kN without relief, with a crown on both teeth and "
+        f"{LINE[1]} rows of nodes.",
     )
 
 

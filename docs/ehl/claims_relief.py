@@ -50,8 +50,9 @@ def _parabola_pressures(store: Store) -> Verdict:
             tops[0.0] > 3.0,
             tops[0.3] < 1.15 * tops[1.0],
         ),
-        "about 2 GPa is read from a plot in space; a corner of the gap has no largest pressure: "
-        "that of k = 0 follows the grid; concentration: 15 % above k = 1",
+        "The 2 GPa are read from a plot in space. A corner of the gap has no largest pressure: "
+        "that of k = 0 follows the grid. The pressure is concentrated from 15 % above that of k = "
+        "1 on.",
     )
 
 
@@ -68,8 +69,8 @@ def _parabola_films(store: Store) -> Verdict:
         + " um; at rest " + ", ".join(f"{k:g}: {h:.3f}" for k, h in at_rest.items())
         + f" um; falls by {ratio:.1f} from 1 to 0.1",
         judge(2.0 <= ratio <= 4.0, fails),
-        "film fails: steps that find none, or less than 0.02 um, or solids that touch (with their "
-        "largest share of the load)",
+        "The film fails in a step that finds none, or one below 0.02 um, or in which the solids "
+        "touch. The largest share of the load that the solids carry is given.",
     )  # fmt: skip
 
 
@@ -96,7 +97,8 @@ def _powers_b(store: Store) -> Verdict:
             all(abs(h / 0.185 - 1.0) < 0.15 for h in moving[1:]),
             abs(starts[1.0]) < 1.0 and abs(starts[4.0] + 5.0) < 1.0,
         ),
-        "beta = 1 / 2 / 3 / 4; 3.2 GPa at a corner depends on the grid (15 %)",
+        "The values are for beta = 1 / 2 / 3 / 4. The 3.2 GPa are at a corner and depend on the "
+        "grid, so 15 % are allowed for them.",
     )
 
 
@@ -111,8 +113,8 @@ def _powers_a(store: Store) -> Verdict:
     return Verdict(
         f"{listed(tops)} GPa; lower by {listed(ratios)}; from 2 on {100.0 * gain:.0f} %",
         judge(min(ratios) >= 3.0, 0.0 < gain < 0.15),
-        "beta = 1 / 2 / 3 / 4, largest of steps 75 and 500; beta = 1 is a corner, its pressure "
-        "that of the grid; little: below 15 %",
+        "The values are for beta = 1 / 2 / 3 / 4, the largest of steps 75 and 500. With beta = 1 "
+        "there is a corner, whose pressure follows the grid. Little means below 15 %.",
     )
 
 

@@ -6,16 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from docs.ehl.cases import CYCLE, FACETED, FilmCase, facet_case, parabola_case
-from docs.ehl.claims import GPA, MM, UM
+from docs.ehl.cases import CYCLE, FACETED, FilmCase, parabola_case
+from docs.ehl.claims import GPA, UM
 from docs.ehl.claims_cycle import drawn_crowned, drawn_cycle
 from docs.ehl.dry_cycle import dry_cycle
 from docs.ehl.lines import March
 from docs.ehl.runs import (
     APPROACH,
     CROWNS,
-    FACET_MARCH,
-    FACET_STEPS,
     MARCHED_PARABOLAS,
     PARABOLAS,
     POSITIONS,
@@ -25,7 +23,15 @@ from docs.ehl.runs import (
     power_case,
 )
 from docs.ehl.store import Store
-from gearlube.plotting.style import BLUE, GREY, SERIES, VERMILLION, house_style, new_figure
+from gearlube.plotting.style import (
+    BLUE,
+    GREY,
+    MARKERS,
+    SERIES,
+    VERMILLION,
+    house_style,
+    new_figure,
+)
 
 COLOURS = dict(zip("ab", (BLUE, VERMILLION), strict=True))
 
@@ -65,7 +71,9 @@ def designs(store: Store) -> Any:
         top.legend(ncols=2)
         bottom.legend(ncols=2)
         bottom.set_ylim(0.0, None)
-        figure.suptitle("Parabolic relief, $k$ = 1, $F_o$ = 0", fontsize=11)
+        figure.suptitle(
+            "Both designs over the cycle: parabolic relief, $k$ = 1, $F_o$ = 0", fontsize=11
+        )
     return figure
 
 
@@ -108,7 +116,10 @@ def linear_relief(store: Store) -> Any:
         ax.set(xlabel="step of the cycle", ylabel="largest pressure [GPa]", xlim=(0, 575))
         ax.set_ylim(0.0, None)
         ax.legend(ncols=2)
-        figure.suptitle("Straight relief, k = 0: a corner of the gap, on a fixed grid", fontsize=11)
+        figure.suptitle(
+            "Straight tip relief, k = 0: the pressure at its corner depends on the grid",
+            fontsize=11,
+        )
     return figure
 
 
@@ -129,7 +140,7 @@ def parabolas(store: Store) -> Any:
         for ax, name, unit in ((left, "max_pressure", GPA), (right, "min_film", UM)):
             ax.plot(
                 [k for k, _ in done], [unit * m.at(name, 500) for _, m in done], "s",
-                color=VERMILLION, label="A, transient",
+                color=VERMILLION, label="A, in motion",
             )  # fmt: skip
         b = [store.steady(parabola_case("b", k), 500) for k in shares]
         left.plot(
@@ -139,11 +150,18 @@ def parabolas(store: Store) -> Any:
         left.set(ylabel="largest pressure [GPa]")
         right.set(ylabel="smallest film [µm]")
         for ax in (left, right):
-            ax.set(xlabel="k, on a scale of its square root", xlim=(0.0, 1.05), ylim=(0.0, None))
+            ax.set(
+                xlabel="parabolic share k, on a scale of its square root",
+                xlim=(0.0, 1.05),
+                ylim=(0.0, None),
+            )
             ax.set_xscale("function", functions=(np.sqrt, np.square))
             ax.set_xticks([0.0, 0.02, 0.1, 0.3, 0.5, 0.7, 1.0])
             ax.legend()
-        figure.suptitle("Step 500, parabolic share k of the tip relief", fontsize=11)
+        figure.suptitle(
+            "Designs A and B, step 500: tip relief from straight (k = 0) to parabolic (k = 1)",
+            fontsize=11,
+        )
     return figure
 
 
@@ -184,62 +202,24 @@ def powers(store: Store) -> Any:
                 films = [store.steady(case, n) for n in POWER_STEPS]
                 dry = dry_cycle(store.folder, case, every=5)
                 top.plot(dry.step, GPA * dry.max_pressure, color=colour, lw=1.0)
+                mark = MARKERS[row]
                 top.plot(
-                    POWER_STEPS, [GPA * f.max_pressure for f in films], "o", color=colour, ms=4,
-                    label=f"beta = {beta:g}",
+                    POWER_STEPS, [GPA * f.max_pressure for f in films], mark, color=colour, ms=4,
+                    label=f"β = {beta:g}, film at rest",
                 )  # fmt: skip
                 bottom.plot(
-                    POWER_STEPS, [UM * f.min_film for f in films], "o-", color=colour, ms=4, lw=1.0
-                )
+                    POWER_STEPS, [UM * f.min_film for f in films], f"{mark}-", color=colour, ms=4,
+                    lw=1.0,
+                )  # fmt: skip
+            top.plot([], [], color="black", lw=1.0, label="dry contact")
             top.set_title(f"design {d.upper()}")
             bottom.set(xlabel="step of the cycle", xlim=(0, 575))
         axes[1, 0].set_ylim(0.0, None)
-        axes[0, 0].legend()
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=4, loc="outside lower center")
         axes[0, 0].set_ylabel("largest pressure [GPa]")
         axes[1, 0].set_ylabel("smallest film [µm]")
-    return figure
-
-
-def facets(store: Store) -> Any:
-    """Return pressure and film over the number of facets, and sections: figs 6.7 and 6.14."""
-    with house_style():
-        figure = new_figure(9.6, 7.0)
-        axes = figure.subplots(2, 2)
-        for row, step in enumerate((300, *FACET_STEPS)):
-            films = [store.steady(facet_case(n), step) for n in (20, 30, 40, 100)]
-            films += [store.steady(FilmCase(nodes=FACETED), step)]
-            places = range(5)
-            axes[0, 0].plot(
-                places, [GPA * f.max_pressure for f in films], "o-", color=SERIES[row],
-                label=f"step {step}, at rest", lw=1.0,
-            )  # fmt: skip
-            axes[0, 1].plot(
-                places, [UM * f.min_film for f in films], "o-", color=SERIES[row], lw=1.0
-            )
-        for place, n in ((2, 40), (3, 100)):
-            march = store.march(facet_case(n), *FACET_MARCH, FACET_MARCH[1:])
-            for ax, name, unit in ((axes[0, 0], "max_pressure", GPA), (axes[0, 1], "min_film", UM)):
-                values = unit * march[name]
-                ax.vlines(place + 0.12, values.min(), values.max(), color=GREY, lw=5)
-        for ax in axes[0]:
-            ax.set_xticks(range(5), ["20", "30", "40", "100", "smooth"])
-            ax.set(xlabel="facets $n_f$", ylim=(0.0, None))
-        axes[0, 0].set_ylabel("largest pressure [GPa]")
-        axes[0, 1].set_ylabel("smallest film [µm]")
-        axes[0, 0].legend()
-        for row, n in enumerate((20, 40, 100, 0)):
-            film = store.steady(facet_case(n), 300)
-            j, label = film.column(0.0), f"$n_f$ = {n}" if n else "smooth"
-            x = MM * film.x
-            axes[1, 0].plot(x, GPA * film.pressure[:, j], color=SERIES[row], lw=1.1, label=label)
-            axes[1, 1].plot(x, UM * film.film[:, j], color=SERIES[row], lw=1.1)
-        for ax in axes[1]:
-            ax.set(xlabel="across the line, x [mm], y = 0", xlim=(-0.45, 0.4))
-        axes[1, 0].set_ylabel("pressure [GPa]")
-        axes[1, 0].legend()
-        axes[1, 1].set(ylabel="film [µm]", ylim=(0.0, 1.0))
         figure.suptitle(
-            "Design A with faceted flanks; below: step 300. Grey bars: steps 281 to 300 in motion",
+            "Tip relief that grows with the power β of the distance: above 2 little changes",
             fontsize=11,
         )
     return figure

@@ -50,7 +50,7 @@ def transient_steady(store: Store) -> Any:
             ends = relief_starts(FilmCase(nodes=CYCLE), step)
             starts = [y for y in ends if abs(y) < 0.999 * rest.y[-1]]
             for j, (words, fields) in enumerate(
-                (("transient", moving), ("at rest", (rest.pressure, rest.film)))
+                (("in motion", moving), ("at rest", (rest.pressure, rest.film)))
             ):
                 row = axes[2 * i + j]
                 thick, dense = _maps(row, rest.x, rest.y, *fields, _PRESSURES)
@@ -64,6 +64,11 @@ def transient_steady(store: Store) -> Any:
             ax.set_xlabel("along the line, y [mm]")
         figure.colorbar(thick, ax=axes[:, 0], label="film [µm]", location="bottom", aspect=40)
         figure.colorbar(dense, ax=axes[:, 1], label="pressure [GPa]", location="bottom", aspect=40)
+        figure.suptitle(
+            "Design A: pressures in motion and at rest are alike, films are not; dotted: where the "
+            "tip relief begins",
+            fontsize=11,
+        )
     return figure
 
 
@@ -95,7 +100,7 @@ def sections(store: Store) -> Any:
         for below in axes[1]:
             below.set_xlabel("x [mm]")
         figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=3, loc="outside lower center")
-        figure.suptitle("Design B, step 300: sections across the line", fontsize=11)
+        figure.suptitle("Design B, step 300: sections across the contact line", fontsize=11)
     return figure
 
 
@@ -109,7 +114,7 @@ def power_contours(store: Store) -> Any:
             film = store.steady(power_case("b", beta), 75)
             thick, dense = _maps(row, film.x, film.y, film.pressure, film.film, levels)
             row[0].set_title(
-                f"beta = {beta:g}: film, {UM * film.min_film:.3f} µm at least", fontsize=9
+                f"β = {beta:g}: film, {UM * film.min_film:.3f} µm at least", fontsize=9
             )
             row[1].set_title(f"pressure, {GPA * film.max_pressure:.2f} GPa at most", fontsize=9)
             row[0].set_ylabel("x [mm]")
@@ -118,7 +123,10 @@ def power_contours(store: Store) -> Any:
             ax.set_xlabel("along the line, y [mm]")
         figure.colorbar(thick, ax=axes[:, 0], label="film [µm]", location="bottom", aspect=40)
         figure.colorbar(dense, ax=axes[:, 1], label="pressure [GPa]", location="bottom", aspect=40)
-        figure.suptitle("Design B, step 75, at rest", fontsize=11)
+        figure.suptitle(
+            "Design B, step 75, at rest: tip relief that grows with the power β of the distance",
+            fontsize=11,
+        )
     return figure
 
 
@@ -134,10 +142,14 @@ def power_lines(store: Store) -> Any:
                 dry = dry_cycle(store.folder, case, every=5)
                 places = (dry.step, MM * dry.y)
                 drawn = _filled(ax, places, GPA * dry.pressure.T, levels, "magma_r", "max")
-                ax.set_title(f"{d.upper()}, beta = {beta:g}", fontsize=9)
+                ax.set_title(f"design {d.upper()}, β = {beta:g}", fontsize=9)
                 ax.grid(visible=False)
             row[0].set_ylabel("along the line, y [mm]")
         figure.supxlabel("step of the cycle", fontsize=10)
+        figure.suptitle(
+            "Dry contact over the cycle: tip relief that grows with the power β of the distance",
+            fontsize=11,
+        )
         words = "largest pressure of the section [GPa]"
         figure.colorbar(drawn, ax=axes, label=words, ticks=levels)
     return figure

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from docs.ehl import figures_cycle, figures_fields
+from docs.ehl import figures_cycle, figures_facets, figures_fields
 from docs.ehl.lines import GivenUpError
 from docs.ehl.store import MissingFilmError, Store
 
@@ -73,20 +73,21 @@ SMOOTH_PICTURES = (
     Picture(
         "powers",
         "Power laws over the cycle",
-        "Points: films at rest; lines: dry contact of the same gap.",
+        "β (beta in the tables) is the power with which the relief grows: 2 is the parabola. "
+        "Points: films at rest; lines above: dry contact of the same gap.",
         figures_cycle.powers,
     ),
     Picture(
         "power_contours",
         "Power laws at step 75",
-        "beta = 1 has a corner, which concentrates the pressure and thins the film; above "
-        "beta = 2 little changes (J12).",
+        "β = 1 has a corner, which concentrates the pressure and thins the film; above "
+        "β = 2 little changes (J12).",
         figures_fields.power_contours,
     ),
     Picture(
         "power_lines",
         "Power laws along the line",
-        "Dry contact; films lie within about 1 % of it, but for the corner of beta = 1.",
+        "Dry contact; films lie within about 1 % of it, but for the corner of β = 1.",
         figures_fields.power_lines,
     ),
 )
@@ -97,7 +98,7 @@ FACET_PICTURES = (
         "Above: largest pressure and smallest film; below: section in the middle of the face."
         " Each edge of a facet makes a spike of pressure, smaller with more facets (F1 to "
         "F6).",
-        figures_cycle.facets,
+        figures_facets.facets,
     ),
 )
 

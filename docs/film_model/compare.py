@@ -132,14 +132,14 @@ def figure(cases: dict[str, dict[str, Array]]) -> Any:
                 y, bound = (
                     values[key][place] for key in ("mesh_efficiency_percent", "bound_percent")
                 )
-                grid[0, column].plot(x, y, line, color=colour, label=name)
+                grid[0, column].plot(x, y, line, color=colour, label=name.replace(", ", ", τ₀ = "))
                 grid[0, column].fill_between(x, y - bound, y + bound, color=colour, alpha=0.2, lw=0)
                 if name.endswith("2 MPa"):  # films hardly feel the Eyring stress
                     grid[1, column].plot(x, values["least_film_ratio"][place], line, color=colour)
             grid[1, column].axhline(1.0, color=GREEN, lw=1.0, ls=":")
             grid[1, column].set_xlabel(label)
         grid[0, 0].set_ylabel("efficiency of the mesh [%]")
-        grid[1, 0].set_ylabel("least film ratio λ [-]")
+        grid[1, 0].set_ylabel("least film ratio λ [-]\n(τ₀ = 2 MPa; τ₀ hardly matters)")
         grid[1, 0].annotate("film as thick as the roughness", (22.0, 1.02), fontsize=8, color=GREEN)
         grid[0, 0].set_title("100 N·m, 95 °C")
         grid[0, 1].set_title("100 km/h, 95 °C")

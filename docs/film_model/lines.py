@@ -12,26 +12,20 @@ import sys
 import numpy as np
 
 from docs.film_model.make import HERE, ROOT, Tests, domain_table, error_numbers, errors, read_tests
+from docs.film_model.outside_line import MODEL, formula_film, formula_friction, sentences
 from docs.film_model.pictures import errors_picture, parity_picture
 from gearlube.studies.film_model.draws import ANYWHERE, STEEL
 from gearlube.studies.film_model.kinds import HELICAL_LINE
+from gearlube.studies.film_model.limiting import limit_in_words
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
-from gearlube_core.contact.line_hertz import line_mean_pressure
-from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
-from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_line import solved_line
-from gearlube_core.friction.evans_johnson_1986 import (
-    solid_resistance,
-    surface_heating_number,
-    viscous_friction_coefficient,
-)
 from gearlube_core.friction.line_friction import line_friction
 from gearlube_core.friction.line_points import line_points, uniform_line_load
 from gearlube_core.friction.solved_line import (
     LINE_FORMULA_FILM_BOUND,
-    LINE_FORMULA_FRICTION_BOUND,
+    LINE_FORMULA_FRICTION_TOP,
     line_inlet,
     solved_line_friction,
 )
@@ -44,38 +38,10 @@ from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 PAGE = ROOT / "docs" / "film_model_line.md"
 KEPT = HERE / "tests_line.csv"
-MODEL = "helical_line"
 KINDS = {"fresh": "pair", "calibration": "box"}
 _INSTANTS = 3000
 _PAIR, _TORQUE = "he_2007", 226.0  # N.m
 _SPEEDS, _TEMPERATURES = (500.0, 1000.0, 3000.0, 6000.0), (40.0, 60.0, 90.0)  # rpm, degC
-
-
-def formula_friction(contact: LineContact, film: float) -> float:
-    """Return the friction coefficient of the film by Evans and Johnson [-]."""
-    c = contact
-    p = line_mean_pressure(c.line_load, c.R, c.contact_modulus)
-    effusivity_squared = c.solid_conductivity * c.solid_heat_capacity
-    modulus = 2.0 * c.contact_modulus
-    resistance = solid_resistance(c.R, p, c.entrainment_speed, modulus, effusivity_squared)
-    return viscous_friction_coefficient(
-        film,
-        p,
-        c.sliding_speed,
-        c.eta0,
-        c.alpha,
-        c.beta,
-        c.tau0,
-        c.conductivity,
-        surface_heating_number(film, c.conductivity, resistance),
-    )
-
-
-def formula_film(contact: LineContact) -> float:
-    """Return the film by Dowson and Toyoda [m]."""
-    c = contact
-    modulus = 2.0 * c.contact_modulus
-    return line_film_thickness(c.R, c.eta0, c.alpha, c.entrainment_speed, c.line_load, modulus)
 
 
 def of_visits(model: FilmModel) -> dict[str, str]:
@@ -133,7 +99,7 @@ def losses(model: FilmModel) -> str:
                 sums += (
                     old.friction_coefficient * power,
                     new.state.friction_coefficient * power,
-                    new.friction_bound * new.state.friction_coefficient * power,
+                    new.coefficient_bound * power,
                     new.outside * w * length,
                     w * length,
                 )
@@ -157,7 +123,8 @@ def page(model: FilmModel, tests: Tests) -> str:
         **of_visits(model),
         losses=losses(model),
         formula_film_bound=f"{100.0 * LINE_FORMULA_FILM_BOUND:.0f}",
-        formula_mu_bound=f"{100.0 * LINE_FORMULA_FRICTION_BOUND:.0f}",
+        formula_mu_top=f"{LINE_FORMULA_FRICTION_TOP:g}",
+        outside=sentences(),
         nodes=kind.nodes[0],
         second=p["fine_solves"],
         second_nodes=kind.second[0],
@@ -173,6 +140,7 @@ def page(model: FilmModel, tests: Tests) -> str:
         name=p["name"],
         checksum=model.checksum,
         domain=domain_table(p["box"]),
+        limits=limit_in_words(tests["fresh"]["friction_solved"], "films that the pairs visit"),
     )
 
 

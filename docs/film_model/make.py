@@ -16,6 +16,7 @@ import numpy as np
 
 from docs.film_model.pictures import errors_picture, parity_picture
 from gearlube.studies.film_model.draws import ANYWHERE
+from gearlube.studies.film_model.limiting import limit_in_words
 from gearlube.studies.film_model.samples import axle_contacts
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FilmModel
@@ -56,7 +57,13 @@ def errors(columns: dict[str, Array]) -> tuple[Array, Array]:
 
 def numbers(model: FilmModel, tests: Tests) -> dict[str, str]:
     """Return all numbers of the page as text."""
-    return {**_of_model(model), **inside_shares(model), **error_numbers(model, tests, KINDS)}
+    limits = limit_in_words(tests["fresh"]["friction_solved"], "films that the axle visits")
+    return {
+        **_of_model(model),
+        **inside_shares(model),
+        **error_numbers(model, tests, KINDS),
+        "limits": limits,
+    }
 
 
 def error_numbers(model: FilmModel, tests: Tests, kinds: dict[str, str]) -> dict[str, str]:

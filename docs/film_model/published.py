@@ -325,8 +325,9 @@ def figure(found: dict[str, OilFriction]) -> Any:
         over_speed.set_ylabel("mean friction coefficient [-]")
         over_speed.set_ylim(0.0, 0.07)
         _draw_needed(needed, found)
-        handles, labels = over_speed.get_legend_handles_labels()
-        made.legend(handles, labels, loc="outside upper center", ncol=4)
+        lines, points = (ax.get_legend_handles_labels() for ax in (over_speed, needed))
+        handles, labels = (one + other for one, other in zip(lines, points, strict=True))
+        made.legend(handles, labels, loc="outside upper center", ncol=5)
     return made
 
 
@@ -353,7 +354,9 @@ def _draw_needed(axes: Any, found: dict[str, OilFriction]) -> None:
             ends = [min(max(end, 0.9), BEYOND) for end in (low, middle, high)]
             axes.plot(ends[::2], [n + shift] * 2, color=colour, lw=2.0)
             axes.plot(ends[1], n + shift, "o", color=colour)
-        axes.plot(one.own, n, "x", color="black", ms=7, mew=2, label="own" if n == 0 else None)
+        label = "stress of the oil (right)" if n == 0 else None
+        axes.plot(one.own, n, "x", color="black", ms=7, mew=2, label=label)
+    axes.plot([], [], "o-", color="0.4", lw=2.0, label="5 to 95 % of the points, median (right)")
     axes.axvspan(MOST, BEYOND * 1.05, color="#E8E8E8")
     axes.set_xscale("log")
     axes.set_xlim(0.9, BEYOND * 1.05)
@@ -362,7 +365,7 @@ def _draw_needed(axes: Any, found: dict[str, OilFriction]) -> None:
     axes.set_yticks(range(len(found)), list(found))
     axes.invert_yaxis()
     axes.set_xlabel("Eyring stress [MPa]; grey: above 10")
-    axes.set_title("stress needed (● median), × own")
+    axes.set_title("stress that gives the published friction")
 
 
 def main() -> None:

@@ -15,7 +15,16 @@ import numpy as np
 from docs.film_model.compare import axle_of, found
 from docs.film_model.marked_page import IMAGES, put
 from drivetrain.axle_file.read_axle import read_axle
-from gearlube.plotting.style import BLUE, GREEN, VERMILLION, house_style, new_figure
+from gearlube.plotting.style import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+    house_style,
+    new_figure,
+)
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.samples import DOMAIN, axle_contacts
 from gearlube_core.arrays import Array
@@ -39,6 +48,7 @@ LIMITS = np.array([0.035, 0.05, 0.08])  # limiting stress over pressure [-]
 CONTACTS, SEED = 1500, 206
 _SMOOTH = 1e-8  # m, of flanks without asperities in touch
 _COLOURS = (GREEN, BLUE, VERMILLION)
+_LIMIT_COLOURS = (PURPLE, ORANGE, SKY)
 
 
 class Efficiency(NamedTuple):
@@ -147,7 +157,7 @@ def figure(made: Efficiency, by_oil: dict[str, tuple[Array, Array, Array]]) -> A
         left.plot([], [], "k-", label="solved films")
         left.plot([], [], "k--", label="formulas")
         left.set_ylabel("efficiency of the mesh [%]")
-        left.set_title("100 N·m, 95 °C")
+        left.set_title("Efficiency at 100 N·m, 95 °C")
         left.legend(loc="lower left", fontsize=8)
         highest = 0.0
         for (name, (solved, _, weights)), line in zip(by_oil.items(), ("-", ":"), strict=True):
@@ -156,16 +166,16 @@ def figure(made: Efficiency, by_oil: dict[str, tuple[Array, Array, Array]]) -> A
             if percent.max() < 0.5:
                 right.plot(STRESSES, 0.0 * STRESSES, f"k{line}", label=f"{name}: 0 % throughout")
                 continue
-            for n, (limit, colour) in enumerate(zip(LIMITS, _COLOURS, strict=True)):
+            for n, (limit, colour) in enumerate(zip(LIMITS, _LIMIT_COLOURS, strict=True)):
                 right.plot(STRESSES, percent[:, n], line, color=colour)
                 right.annotate(
-                    f"limit {limit:g} p", (10.0, percent[-1, n]), (0, 4), fontsize=8, color=colour,
+                    f"limit {limit:g} p", (10.0, percent[-1, n]), (0, 4), fontsize=8, color="0.2",
                     textcoords="offset points", ha="right",
                 )  # fmt: skip
             right.plot([], [], f"k{line}", label=name)
         right.set_ylim(-2.0, 1.24 * highest)
-        right.set_ylabel("share of the friction loss above the limit [%]")
-        right.set_title("mean stress of solved films, all points")
+        right.set_ylabel("friction loss above the limit [%]")
+        right.set_title("Where a limit of stress over pressure would act")
         right.legend(loc="upper left", fontsize=8)
         for ax in (left, right):
             ax.set_xlabel("Eyring stress [MPa]")

@@ -27,7 +27,8 @@ def contact_ratio(_: Evidence) -> Verdict:
     return Verdict(
         f"{ratio:.5f}; {' or '.join(str(n) for n in sorted(pairs))} pairs",
         judge(abs(ratio - _RATIO) < 1e-4 and abs(ratio - 2.7) < 0.05 and pairs == {2, 3}),
-        f"transverse {HE.transverse_contact_ratio:.4f}, overlap {HE.overlap_ratio:.4f}",
+        f"The transverse contact ratio is {HE.transverse_contact_ratio:.4f}, the overlap ratio is "
+        f"{HE.overlap_ratio:.4f}.",
     )
 
 
@@ -40,8 +41,8 @@ def landmark_places(_: Evidence) -> Verdict:
         "; ".join(f"{letter} {1e3 * ours[letter]:.4f}" for letter in ORDER)
         + f" mm; off the drawing by {worst:.0e}",
         judge(worst < 1e-6 and ordered),
-        "circles and a tangent drawn from the printed inches; zone 6, E to H, is only "
-        f"{1e6 * (drawn['H'] - drawn['E']):.0f} um long",
+        "The places are drawn with circles and a tangent from the printed inches. Zone 6, E to H, "
+        f"is only {1e6 * (drawn['H'] - drawn['E']):.0f} um long.",
     )
 
 
@@ -62,7 +63,8 @@ def length_trapezoid(_: Evidence) -> Verdict:
     return Verdict(
         f"mean {1e3 * mean:.4f} mm, off by {off:.0e}; range {100.0 * swing:.1f} % of it",
         judge(off < 1e-6 and abs(swing - _SWING) < 5e-4 and bend < 1e-6),
-        f"straight between {events.size - 1} kinks to {bend:.0e}; the paper prints no number",
+        f"The length is straight between {events.size - 1} kinks to {bend:.0e}. The paper prints "
+        "no number.",
     )
 
 
@@ -80,10 +82,10 @@ def trapezoidal_stiffness(evidence: Evidence) -> Verdict:
         "one density: the same curve; loaded contact: correlation with length "
         f"{single:.3f} for one pair, {total:.3f} for all",
         judge(single > 0.999 and total > 0.999, single > 0.98 and total > 0.9),
-        "one pair rises, stays and falls as its line; corner contact gives a pair "
-        f"{100.0 * corner:.1f} % of the torque where its line has no length yet, a step as in "
-        "fig. 2; stiffness also depends on where on the teeth a line lies, which shows most in "
-        "all pairs together",
+        "The stiffness of one pair rises, stays level and falls as its line does. By corner "
+        f"contact a pair carries {100.0 * corner:.1f} % of the torque where its line has no "
+        "length yet, a step as in fig. 2. The stiffness also depends on where on the teeth a line "
+        "lies. This shows most in all pairs together.",
     )
 
 
@@ -95,8 +97,8 @@ def closed_forms(_: Evidence) -> Verdict:
     return Verdict(
         f"{worst:.0e}",
         judge(worst < 1e-10),
-        "with x_g for the misprinted x_e; with x_e = x_D, the end of contact, (10b) alone is off "
-        f"by up to {100.0 * max(printed):.0f} %",
+        "This is with x_g in place of the misprinted x_e. With x_e = x_D, the end of contact, "
+        f"(10b) alone is off by up to {100.0 * max(printed):.0f} %.",
     )
 
 
@@ -114,7 +116,7 @@ def no_friction(_: Evidence) -> Verdict:
             and found.off_line == 0.0
             and moved == 0.0
         ),
-        "compression is linear along the lines, so the rank is two, for a spur pair too",
+        "Compression is linear along the lines. So the rank is two, for a spur pair too.",
     )
 
 
@@ -124,8 +126,9 @@ def action_reaction(_: Evidence) -> Verdict:
     return Verdict(
         f"forces {found.force:.0e}, moments about any point {found.moment:.0e}",
         judge(found.force < 1e-12 and found.moment < 1e-12),
-        "over the force, arms of a metre; mu 0 to 0.3, all phases, random displacements, helical "
-        "and spur; the printed (22), whose first term lacks mu, has no such balance",
+        "The numbers are relative to the force, with arms of a metre. They cover mu from 0 to "
+        "0.3, all phases and random displacements of the helical and of the spur pair. The "
+        "printed (22), whose first term lacks mu, has no such balance.",
     )
 
 
@@ -135,7 +138,7 @@ def reversal(_: Evidence) -> Verdict:
     return Verdict(
         f"v_s at the pitch line {ratio:.0e} of that at A",
         judge(there and ratio < 1e-12),
-        "changes sign at x_p = r_bp tan(alpha_w) at every point of every line",
+        "The sliding changes sign at x_p = r_bp tan(alpha_w) at every point of every line.",
     )
 
 
@@ -154,9 +157,9 @@ def axial_share(_: Evidence) -> Verdict:
         + " / ".join(f"{angle:g}" for angle in _HELIX)
         + " deg, mu = 0.01",
         judge(identity and bool(np.all(np.diff(swings) > 0.0)), identity),
-        "F_z grows as sin b at a given variation of the normal force, as eq. (15) says; but with "
-        "the angle overlap grows and that variation falls, so that this pair's F_z does not rise "
-        "with the angle",
+        "At a given variation of the normal force, F_z grows as sin b, as eq. (15) says. But with "
+        "the angle the overlap grows and this variation falls. So F_z of this pair does not rise "
+        "with the angle.",
     )
 
 

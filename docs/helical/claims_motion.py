@@ -41,7 +41,7 @@ def off_line(_: Evidence) -> Verdict:
         f"{ratios.min():.2f} to {ratios.max():.2f} times for ten times mu; all 15 orders "
         f"{every.min():.1f} to {every.max():.1f}",
         judge(bool(np.abs(ratios - 10.0).max() < 0.1), bool(np.abs(ratios - 10.0).max() < 1.0)),
-        "orders 4, 8, 12 have next to no term of first order in mu and are left out",
+        "Orders 4, 8 and 12 have next to no term of first order in mu and are left out.",
     )
 
 
@@ -53,7 +53,8 @@ def along_line(_: Evidence) -> Verdict:
         f"n = 1, 2: {first[0]:.1f}, {first[1]:.1f} times; n = 4, 5, 7 to 15: "
         f"{rest.min():.2f} to {rest.max():.2f}; n = 3, 6: {ratio[2]:.2f}, {ratio[5]:.2f}",
         judge(bool(first.min() > 5.0 and np.abs(rest - 1.0).max() < 0.2), first.min() > 5.0),
-        "observation 1 adds growth at higher orders near the torsional-transverse mode: n = 6 here",
+        "Observation 1 adds growth at higher orders near the torsional-transverse mode. Here this "
+        "is n = 6.",
     )
 
 
@@ -69,8 +70,8 @@ def axial(_: Evidence) -> Verdict:
         f"n = 7, 8, 9: {', '.join(f'{r:.3f}' for r in resonance)}; n = 1, 2: {first[0]:.1f}, "
         f"{first[1]:.1f} times; u_zp = -u_xp tan b to {same:.0e}",
         judge(insensitive and least, insensitive),
-        "with K_xx = K_zz axial and line-of-action motion are one, so neither can be the less "
-        "sensitive; K_zz is not printed",
+        "With K_xx = K_zz the axial motion and the motion along the line of action are one. So "
+        "neither can be the less sensitive. The paper does not print K_zz.",
     )
 
 
@@ -82,7 +83,8 @@ def resonances(_: Evidence) -> Verdict:
     return Verdict(
         "natural frequencies at n = " + ", ".join(f"{n:.2f}" for n in orders),
         CALIBRATED,
-        f"{inside.size} lie in 8 to 10; the bearings' stiffness, not printed, was chosen for it",
+        f"{inside.size} frequencies lie in 8 to 10. The paper does not print the stiffness of the "
+        "bearings; it was chosen to meet this statement.",
     )
 
 
@@ -105,7 +107,7 @@ def elastic_bearings(_: Evidence) -> Verdict:
     return Verdict(
         f"force over K u at most {largest:.4f}",
         judge(largest < 1.02 and float(np.max(offs)) < 1e-3),
-        f"sqrt(1 + (2 zeta n f_m/f_0)^2) to {np.max(offs):.0e}, n <= 15",
+        f"The ratio is sqrt(1 + (2 zeta n f_m/f_0)^2) to {np.max(offs):.0e}, for n <= 15.",
     )
 
 
@@ -121,8 +123,8 @@ def below_spur(_: Evidence) -> Verdict:
     return Verdict(
         "spur over helical, x / y of the pinion, peak to peak: " + ", ".join(parts),
         judge(least > 10.0, least > 1.0),
-        "same section, load, bodies and density with helix angle zero; the paper compares with "
-        "another spur pair",
+        "The spur pair has the same section, load, bodies and stiffness density, with helix angle "
+        "zero. The paper compares with another spur pair.",
     )
 
 
@@ -137,7 +139,7 @@ def transmission_error(_: Evidence) -> Verdict:
         judge(
             bool(0.9 < ratio[0] < 1.1 and ratio[1] > 3.0 and np.argmax(ratio) == 1 and dominant > 1)
         ),
-        "observation 5; sec. 6 before it says the opposite of delta_z and delta_x",
+        "This is observation 5. Before it, sec. 6 says the opposite of delta_z and delta_x.",
     )
 
 
@@ -149,8 +151,8 @@ def composites(_: Evidence) -> Verdict:
     return Verdict(
         "; ".join(f"{n}: n = 1, 2: {r[0]:.1f}, {r[1]:.1f} times" for n, r in ratios.items()),
         judge(second and first, second),
-        "n = 2 grows most of all; of delta_y "
-        f"n = {1 + int(np.argsort(ratios['delta_y'])[-2])} grows more than n = 1",
+        "Order n = 2 grows most of all. Of delta_y, "
+        f"n = {1 + int(np.argsort(ratios['delta_y'])[-2])} grows more than n = 1.",
     )
 
 
@@ -164,8 +166,8 @@ def two_orders(_: Evidence) -> Verdict:
         f"n = 1: {ratios[0]:.0f} / {ratios[1]:.0f} times delta_x / delta_y at mu = 0.01, "
         f"{ratios[2]:.0f} / {ratios[3]:.0f} at 0.1",
         judge(min(ratios) > 100.0, max(ratios) > 100.0),
-        "printed of the rate, meant of delta_z; depends on the tilting stiffness, which is "
-        "completed",
+        "The paper prints this of the rate, but means delta_z. It depends on the tilting "
+        "stiffness, which is completed here.",
     )
 
 
@@ -177,7 +179,8 @@ def six_dof(_: Evidence) -> Verdict:
         "x, y of both members, n <= 6: within "
         + ", ".join(f"{100.0 * v:.1f} % (mu = {mu:g})" for mu, v in found.items()),
         judge(max(found.values()) < 0.1, max(found.values()) < 0.3),
-        f"n <= 15: within {100.0 * every:.0f} %, where axial motion takes part in resonances",
+        f"For n <= 15 they agree within {100.0 * every:.0f} %. There axial motion takes part in "
+        "resonances.",
     )
 
 
@@ -188,7 +191,7 @@ def crossing(_: Evidence) -> Verdict:
         f"n = 2 of its rate grows {ratio[1]:.2f} times, the others at most "
         f"{np.delete(ratio, 1).max():.2f}",
         judge(bool(ratio[1] > 3.0), bool(np.argmax(ratio) == 1)),
-        "two lines cross the pitch line one after the other",
+        "Two lines cross the pitch line, one after the other.",
     )
 
 
@@ -200,7 +203,7 @@ def linear_in_mu(_: Evidence) -> Verdict:
     return Verdict(
         f"off a straight line by {100.0 * off:.2f} %",
         judge(off < 0.02),
-        "the paper describes the sweep and leaves its figures out",
+        "The paper describes this sweep, but shows no figures of it.",
     )
 
 

@@ -53,8 +53,8 @@ def path_limits(_: Evidence) -> Verdict:
     return Verdict(
         f"A {found[0]:.2f} to {found[1]:.2f}, B {found[2]:.2f} to {found[3]:.2f} mm",
         judge(bool(off.max() < 0.05)),
-        "with the working pressure angle; the reference angle would begin B at "
-        f"{1e3 * reference:.2f}",
+        "This is with the working pressure angle. With the reference angle B would begin at "
+        f"{1e3 * reference:.2f} mm.",
     )
 
 
@@ -63,7 +63,9 @@ def path_ratio(_: Evidence) -> Verdict:
     path = [high - low for low, high in (limits(d) for d in DESIGNS)]
     more = path[1] / path[0] - 1.0
     return Verdict(
-        f"{100.0 * more:.2f} %", judge(abs(more - 0.044) < 1e-3), "ratio of the paths above"
+        f"{100.0 * more:.2f} %",
+        judge(abs(more - 0.044) < 1e-3),
+        "This is the ratio of the paths above.",
     )
 
 
@@ -76,7 +78,7 @@ def lines_in_contact(_: Evidence) -> Verdict:
     return Verdict(
         " / ".join(" or ".join(str(n) for n in sorted(c)) for c in counts),
         judge(all(c == {2, 3} for c in counts)),
-        f"A / B; at most {int(line_count(PAIRS['a'].plane))}",
+        f"The numbers are for A / B. At most there are {int(line_count(PAIRS['a'].plane))} lines.",
     )
 
 
@@ -87,7 +89,8 @@ def length_lost(_: Evidence) -> Verdict:
     return Verdict(
         f"A / B: {both(lost)} %",
         judge(bool(off.max() < 1.0)),
-        "a percentage point, for the printed relief zones are not those of their formula (G9)",
+        "A percentage point is allowed, because the printed zones of relief are not those of their "
+        "formula (G9).",
     )
 
 
@@ -102,7 +105,8 @@ def length_variation(_: Evidence) -> Verdict:
     return Verdict(
         f"A / B: {both(found)} %",
         judge(near, inside),
-        "the size holds, the order does not: z_w decides it, and the printed z_w cannot be B's",
+        "The size holds, the order does not. It depends on z_w, and the printed z_w cannot be "
+        "that of B.",
     )
 
 
@@ -122,7 +126,8 @@ def largest_load(_: Evidence) -> Verdict:
     return Verdict(
         f"A / B: {both(loads)} kN, level about s_i = -7.5 mm",
         judge(all(abs(v - 14.4) < 0.05 for v in loads) and all(inside)),
-        f"T_1/r_b1 shared by length, as he does; normal to the flanks it is {both(normal)} kN",
+        "T_1/r_b1 is shared by the lengths of the lines, as in the thesis. Normal to the flanks "
+        f"the load is {both(normal)} kN.",
     )
 
 
@@ -141,7 +146,7 @@ def entrainment(_: Evidence) -> Verdict:
         f"A {speeds['a'].min():.2f} to {speeds['a'].max():.2f}, B from {first:.2f} m/s, "
         f"{100.0 * change:.1f} %",
         judge(level < 0.06 and abs(first - 5.8) < 0.05 and abs(change - 0.25) < 0.03),
-        "the change over the mean of the path",
+        "The change is relative to the mean of the path.",
     )
 
 
@@ -156,7 +161,7 @@ def radii(_: Evidence) -> Verdict:
         f"A: ends {ends:.3f} of each other; B rises from {1e3 * R['b'][0]:.1f} to "
         f"{1e3 * R['b'][-1]:.1f} mm",
         judge(abs(ends - 1.0) < 0.05 and bool((np.diff(R["b"]) > 0.0).all())),
-        "normal radii",
+        "The radii are those of the normal section.",
     )
 
 

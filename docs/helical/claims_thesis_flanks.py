@@ -29,8 +29,9 @@ def relief_zones(_: Evidence) -> Verdict:
     return Verdict(
         f"A {both(list(found['a']))}, B {both(list(found['b']))} mm",
         judge(max(off.values()) < 0.05, off["a"] < 0.2),
-        "eq. (2.14), (2.15) as they stand, equal to the integral of r dr/sqrt(r^2 - r_b^2); no "
-        "radius, angle or depth of Table 4.1 gives the printed pair, and 4.4 mm cannot be B's",
+        "Eq. (2.14) and (2.15) are used as they stand. They equal the integral of "
+        "r dr/sqrt(r^2 - r_b^2). No radius, angle or depth of Table 4.1 gives the printed pair of "
+        "numbers, and 4.4 mm cannot be that of B.",
     )
 
 
@@ -46,7 +47,8 @@ def relief_starts(_: Evidence) -> Verdict:
     return Verdict(
         ", ".join(f"{v:.2f}" for v in got) + " mm",
         judge(bool(off.max() < 0.05), bool(off.max() < 1.0)),
-        "the last three are read where relief becomes apparent in a figure and depend on z_p, z_w",
+        "The last three are read where relief becomes apparent in a figure. They depend on z_p and "
+        "z_w.",
     )
 
 
@@ -62,8 +64,8 @@ def side_faces(_: Evidence) -> Verdict:
     return Verdict(
         ", ".join(f"{d.upper()} {low:.1f} to {high:.1f}" for d, (low, high) in found.items()),
         judge(all(abs(g) < 0.5 for g in gaps), all(0.0 < g < 8.5 for g in gaps)),
-        "the printed steps are read from pressures, which the relief keeps off the last 0.3 mm, 8 "
-        "steps, at a tip",
+        "The printed steps are read from pressures. At a tip the relief keeps the pressure off "
+        "the last 0.3 mm, which are 8 steps.",
     )
 
 
@@ -76,7 +78,7 @@ def lay_range(_: Evidence) -> Verdict:
         f"theta_p {angles[0, 0]:.2f} to {angles[0, 1]:.2f}, theta_w {angles[1, 0]:.2f} to "
         f"{angles[1, 1]:.2f} deg",
         judge(bool(off.max() < 0.3)),
-        "0.3 deg: s of the ends read to 1 mm",
+        "The tolerance is 0.3 deg, because s of the ends is read to 1 mm.",
     )
 
 
@@ -87,7 +89,7 @@ def lay_at_pitch_line(_: Evidence) -> Verdict:
     return Verdict(
         f"{exact:.3f} deg, by chords of 1 mm {both(chords)}",
         judge(abs(exact - 7.08) < 0.05),
-        "arctan(sin b tan(alpha_w)); no reading of the geometry gives 7.08",
+        "The angle is arctan(sin b tan(alpha_w)). No reading of the geometry gives 7.08 deg.",
     )
 
 
@@ -103,7 +105,7 @@ def relief_line(_: Evidence) -> Verdict:
     return Verdict(
         f"A / B: {both(angles)} deg",
         judge(all(abs(v - 8.5) < 0.1 for v in angles)),
-        "step 300, where the start of the pinion's relief crosses the contact line",
+        "This is at step 300, where the start of the pinion's relief crosses the contact line.",
     )
 
 
@@ -122,8 +124,8 @@ def table_7_1(_: Evidence) -> Verdict:
         f"at 5.25 mm {got.slide_roll:.4f}, {R:.2f} mm, {got.entrainment:.3f} m/s; at 5.75 mm "
         f"{at_text.slide_roll:.4f}",
         judge(here and there, here),
-        "the numbers are those of s = 5.25 mm, the reference pressure angle and the transverse "
-        "radius",
+        "The printed numbers are those of s = 5.25 mm, with the reference pressure angle and the "
+        "transverse radius.",
     )
 
 
@@ -137,7 +139,8 @@ def extrusion(_: Evidence) -> Verdict:
     return Verdict(
         both(angles) + " deg",
         judge(off < 0.05),
-        "arctan(L_x/L_y): L_x is the period already, and Delta of the printed formula too much",
+        "The angle is arctan(L_x/L_y). L_x is the period already, so Delta of the printed formula "
+        "is too much.",
     )
 
 

@@ -24,8 +24,9 @@ def damping_ratio(evidence: Evidence) -> Verdict:
         judge(abs(ours / 0.03 - 1.0) < 1e-3, abs(ours / 0.03 - 1.0) < 0.2),
         f"{theirs:.5f}",
         judge(abs(theirs / 0.03 - 1.0) < 1e-3),
-        "k0 is reconstructed from c and zeta, so the second column is an identity; the analysed "
-        f"tangent stiffness is {1e-6 * evidence.shipped.stiffness:.0f} N/um in place of 455",
+        "The paper gives no k0. Here it is computed from the printed c and zeta, so the second "
+        "column must agree. The contact analysis gives a tangent stiffness of "
+        f"{1e-6 * evidence.shipped.stiffness:.0f} N/um instead of 455.",
     )
 
 
@@ -41,7 +42,8 @@ def static_deflection(evidence: Evidence) -> Verdict:
         judge(abs(off(ours)) < 0.01, abs(off(ours)) < 0.3),
         f"{75.0 + UM * theirs.static_deflection:.2f} um",
         judge(abs(off(theirs)) < 0.01),
-        "in the paper's coordinate, b + T_p0/(R_p0 k0); follows k0 of claim 1",
+        "This is the coordinate of the paper, b + T_p0/(R_p0 k0). The result follows from k0 of "
+        "claim 1.",
     )
 
 
@@ -58,7 +60,8 @@ def constant_radii(evidence: Evidence) -> Verdict:
         judge(all(abs(o) < 0.02 for o in ours)),
         _percents(theirs),
         judge(all(abs(o) < 0.02 for o in theirs)),
-        "peak to peak at 0.3 and 1.0; the rest is the pinion's speed ripple and R' F of the error",
+        "The numbers are differences of the peak to peak at 0.3 and 1.0 w_n. They come from the "
+        "speed ripple of the pinion and from the term R' F of the error.",
     )
 
 
@@ -85,8 +88,8 @@ def wide_band(evidence: Evidence) -> Verdict:
         + " / ".join(f"{d:.0f}" for _, d in theirs)
         + " % (down)",
         judge(all(good), any(good)),
-        "0.6 to 1.4, frequencies with a stable motion of one mesh period; it is the mismatch that "
-        "aggravates, not the second degree of freedom",
+        "Counted are the frequencies from 0.6 to 1.4 w_n with a stable motion of one mesh period. "
+        "The mismatch makes the motion larger, not the second degree of freedom.",
     )
 
 
@@ -107,10 +110,10 @@ def early_separation(evidence: Evidence) -> Verdict:
         "from " + " / ".join(_first(o) for o in onset_up) + f" up, 1-DOF {_first(one_up)}; at 0.65 "
         f"{_shares(low)} % apart up, {_shares(high)} % down",
         judge(ordered and any(at_065), ordered and any(down_065[1:])),
-        "by the onset of a sweep up it holds from 0.3 %; at 0.65 itself teeth are apart on the "
-        "separated branch alone, which a sweep down or a start at the paper's x = 0 "
-        "reaches (up, 0.4 %: least deflection "
-        f"{UM * low[0.004].minimum:.2f} um)",
+        "Judged by where a sweep up loses contact, the statement holds from a mismatch of 0.3 % "
+        "on. At 0.65 itself the teeth separate on the separated branch alone. A sweep down "
+        "reaches this branch, and so does a start at x = 0 of the paper. (Sweep up with 0.4 %: "
+        f"the least deflection is {UM * low[0.004].minimum:.2f} um.)",
     )
 
 
@@ -128,8 +131,9 @@ def first_order(evidence: Evidence) -> Verdict:
         judge(0.35 < ours < 0.65),
         " / ".join(f"{value:.2f}" for value in theirs),
         judge(all(inside), any(inside)),
-        "1-DOF over 2-DOF, of the one motion that repeats with the mesh; with a mismatch others of "
-        "several mesh periods coexist",
+        "The numbers are the order of the 1-DOF pair over that of the 2-DOF pair, for the one "
+        "motion that repeats with the mesh. With a mismatch, other motions of several mesh "
+        "periods exist too.",
     )
 
 
@@ -148,9 +152,9 @@ def separation_at_resonance(evidence: Evidence) -> Verdict:
         ),
         " / ".join(_percent(s) for s in theirs) + f" % apart, 1-DOF {_percent(one)} %",
         judge(two_do and one_do, two_do),
-        "the 1-DOF pair with an error amplitude of 0.96 um parts for a quarter of the period, with "
-        f"half of it for {_percent(half)} %; the paper gives the mean of the error, not its "
-        "harmonics",
+        "With an error amplitude of 0.96 um the teeth of the 1-DOF pair are apart for a quarter of "
+        f"the period, with half this amplitude for {_percent(half)} % of it. The paper gives the "
+        "mean of the error, but not its harmonics.",
     )
 
 
@@ -172,10 +176,10 @@ def richer_at_03(evidence: Evidence) -> Verdict:
         + " / ".join(f"{b:.1f}" for b in fourth)
         + " times 1-DOF",
         judge(all(good), any(good)),
-        "order 4 is "
+        "Order 4 is "
         + " / ".join(f"{NM * p.harmonics[3]:.1f}" for p in theirs)
-        + f" nm with the synthetic mesh of two orders; the analysed mesh has "
-        f"{NM * ours.harmonics[3]:.0f} nm in both models",
+        + f" nm with the synthetic mesh, which has two orders. With the analysed mesh it is "
+        f"{NM * ours.harmonics[3]:.0f} nm in both models.",
     )
 
 
@@ -197,7 +201,8 @@ def superharmonic(evidence: Evidence) -> Verdict:
         + " / ".join(f"{g:.1f}" for _, g in theirs)
         + " times",
         judge(all(0.32 <= p <= 0.34 for p, _ in theirs)),
-        "order 3 of the transmission error; in the 1-DOF pair too, where the paper shows none",
+        "Order 3 of the transmission error is judged. The 1-DOF pair has this resonance too, where "
+        "the paper shows none.",
     )
 
 
@@ -216,8 +221,9 @@ def small_variation(evidence: Evidence) -> Verdict:
         f"1 % of both radii {together:.2f}; of one radius alone 0.2 % "
         f"{alone[0]:.2f}, 0.4 % {alone[1]:.2f}, 1 % {alone[2]:.1f} at 0.5",
         judge(together > 1.5, alone[2] > 1.5),
-        "shipped: over constant radii at 0.3 / 0.5 / 0.65 / 1.0. It matters only where the ratio "
-        "varies, and then as the transmission error that claim 14 says it is",
+        "For the shipped mesh, the numbers are relative to constant radii at 0.3 / 0.5 / 0.65 / "
+        "1.0. The radii matter only where their ratio varies. They then act as the transmission "
+        "error of claim 14.",
     )
 
 
@@ -232,8 +238,8 @@ def oil_on_motion(evidence: Evidence) -> Verdict:
         judge(all(abs(o) < 0.02 for o in offs)),
         "-",
         "-",
-        "peak to peak, lubricated over dry, at 0.3 and 1.0, both on the motion from static "
-        "deflection",
+        "The numbers compare the peak to peak with oil and dry, at 0.3 and 1.0. Both are the "
+        "motion that is reached from static deflection.",
     )
 
 
@@ -248,7 +254,8 @@ def friction_torque(evidence: Evidence) -> Verdict:
         judge(all(v < 4.0 for v in found.values()), found[0.3, COLD] < 4.0),
         "-",
         "-",
-        "largest sum over the pairs; 0.3 at 40 and 100 degC, 1.0 at 40 and 100 degC",
+        "The numbers are the largest sum over all pairs: at 0.3 with 40 and 100 degC, then at 1.0 "
+        "with 40 and 100 degC.",
     )
 
 
@@ -261,8 +268,8 @@ def friction_sign(evidence: Evidence) -> Verdict:
         judge(max(sums) <= 0.0),
         "-",
         "-",
-        "zero while teeth are apart; lengthwise sliding by the offset never reverses, so that no "
-        "single flank drives either",
+        "The torque is zero while the teeth are apart. The lengthwise sliding, which the offset "
+        "causes, never reverses. So the friction on a single flank never drives the pinion either.",
     )
 
 
@@ -278,8 +285,8 @@ def double_count(evidence: Evidence) -> Verdict:
         f"1-DOF within {100.0 * worst:.1f} % (0.2 %: {100.0 * np.nanmax(np.abs(at_02)):.1f} %), "
         f"2-DOF within {same:.0e}",
         judge(worst < 0.01, float(np.nanmax(np.abs(at_02))) < 0.02 and same < 1e-6),
-        "the table above; with the error in place of the radii the 2-DOF motion is the same "
-        "to rounding, the 1-DOF one leaves out what claim 3 leaves out",
+        "See the table above. With the error in place of the radii the 2-DOF motion is the same to "
+        "rounding. The 1-DOF motion leaves out the terms that are named at claim 3.",
     )
 
 

@@ -124,13 +124,14 @@ def draw(found: Found) -> None:
             ratio = [of(found, name, "smooth film/Rq") for name in names]
             for ax, shown in ((left, "zone below 25 nm [%]"), (right, "load on solids [%]")):
                 share = [of(found, name, shown) for name in names]
-                ax.plot(ratio, share, "os"[k], color=SERIES[k], label=lay, fillstyle="none")
+                line = {"color": SERIES[k], "label": f"{lay} lays", "fillstyle": "none"}
+                ax.plot(ratio, share, "os"[k], **line)
         left.set(ylabel="Hertz zone with a film below 25 nm [%]")
         right.set(ylabel="load on touching solids [%]")
         for ax in (left, right):
             ax.set(xlim=(0.0, None), ylim=(0.0, None))
             ax.set_xlabel("film of the smooth contact over roughness Rq")
-            ax.legend()
+        right.legend()
         figure.suptitle("Contact falls fast with the film: five seeds, and one at higher speeds")
         figure.savefig(IMAGES / "rough_lambda.png", dpi=110)
 

@@ -114,9 +114,9 @@ def side_differences(work: Path) -> Any:
                 ax.plot(
                     y, unit * np.abs(off[inside]).max(axis=0), color=SERIES[k], label=f"step {step}"
                 )
-        upper.set_ylabel("Pressure [GPa]")
-        lower.set(ylabel="Film [µm]", xlabel="y [mm]")
-        upper.set_title("Cyclic less no-flow sides, largest of each row of the Hertz zone")
+        upper.set_ylabel("pressure, difference [GPa]")
+        lower.set(ylabel="film, difference [µm]", xlabel="y [mm], along the contact line")
+        upper.set_title("Cyclic less no-flow sides: largest difference per row of the Hertz zone")
         upper.legend(ncols=3)
     return figure
 

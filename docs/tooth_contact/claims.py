@@ -48,7 +48,7 @@ def most_pairs(dataset: xr.Dataset) -> Verdict:
     return Verdict(
         f"{most['drive']} on drive, {most['coast']} on coast; mean at 50 N.m {average}",
         _verdict(max(most.values()) <= 3),
-        "pairs with over 0.1 % of the torque, 5 to 400 N.m",
+        "Counted are pairs with over 0.1 % of the torque, from 5 to 400 N.m.",
     )
 
 
@@ -66,10 +66,10 @@ def radii_vary_little(dataset: xr.Dataset) -> Verdict:
     return Verdict(
         "; ".join(parts) + f" at {' / '.join(f'{t:g}' for t in torques)} N.m",
         _verdict(not failing, len(failing) < len(torques)),
-        f"above 2 % at {', '.join(failing)} N.m of drive torque, where one pair carries alone over "
-        "much of the period and its contact walks along the face"
+        f"The radii vary by more than 2 % at {', '.join(failing)} N.m of drive torque. There one "
+        "pair carries alone over much of the period, and its contact walks along the face."
         if failing
-        else "pairs that share the load average the walk of each contact out",
+        else "Pairs that share the load average out the walk of each contact.",
     )
 
 
@@ -82,8 +82,8 @@ def stiffness_level(dataset: xr.Dataset) -> Verdict:
         f"implied {1e-6 * wanted:.0f} N/um; secant {1e-6 * values[0]:.0f} ({100.0 * off[0]:+.0f} "
         f"%), tangent {1e-6 * values[1]:.0f} N/um ({100.0 * off[1]:+.0f} %)",
         _verdict(all(abs(o) < 0.3 for o in off), any(abs(o) < 0.3 for o in off)),
-        "the tangent is meant by eq. (30), a natural frequency; the papers use the same k0 as a "
-        "secant, F = k x. 30 %: zeta is printed with one digit",
+        "Eq. (30) is a natural frequency, so it means the tangent. The papers use the same k0 as a "
+        "secant, F = k x. The tolerance is 30 % because zeta is printed with one digit.",
     )
 
 
@@ -102,8 +102,8 @@ def stiffness_rises(dataset: xr.Dataset) -> Verdict:
     return Verdict(
         ", ".join(texts) + " from 20 to 100 N.m",
         _verdict(rising and flattening),
-        "means rise, ripple falls; a Hertz point contact alone has T^0.33, a line contact about "
-        "T^0.1, teeth in bending T^0; pairs that join add",
+        "The means rise, the ripple falls. A Hertz point contact alone has T^0.33, a line contact "
+        "about T^0.1, teeth in bending T^0. Pairs that join add to this.",
     )
 
 
@@ -113,7 +113,7 @@ def error_level(dataset: xr.Dataset) -> Verdict:
     return Verdict(
         f"{values[0]:.2f} um drive, {values[1]:.2f} um coast",
         "calibrated" if all(abs(v / 0.96 - 1.0) < 0.05 for v in values) else FAILS,
-        "this validates nothing: the blade edge radius was chosen to meet it",
+        "This validates nothing, because the blade edge radius was chosen to meet it.",
     )
 
 
@@ -125,7 +125,7 @@ def error_order(dataset: xr.Dataset) -> Verdict:
         f"first order has {100.0 * share:.0f} % of the power; "
         f"{1e6 * unloaded_span(dataset, 'drive'):.1f} um peak to peak",
         _verdict(share > 0.8),
-        "the error is a parabola from one handover of the load to the next",
+        "The error is a parabola from one handover of the load to the next.",
     )
 
 
@@ -139,9 +139,9 @@ def radius_course(dataset: xr.Dataset) -> Verdict:
     return Verdict(
         "; ".join(f"{s} {c[0]:.0f}, {c.max():.0f}, {c[-1]:.0f} mm" for s, c in courses.items()),
         _verdict(all(good.values()), good["drive"]),
-        f"at entry, highest, at exit; along the sliding direction, 50 N.m; on the coast side it "
-        f"first falls by {dip:.0f} %. Along the minor axis it goes steadily from {minor[0]:.0f} to "
-        f"{minor[-1]:.0f} mm on the drive side",
+        "The values are those at entry, the highest, and those at exit, along the sliding "
+        f"direction at 50 N.m. On the coast side the radius first falls by {dip:.0f} %. Along the "
+        f"minor axis it goes steadily from {minor[0]:.0f} to {minor[-1]:.0f} mm on the drive side.",
     )
 
 
@@ -156,8 +156,9 @@ def entrainment_course(dataset: xr.Dataset) -> Verdict:
         f"{1e3 * inner.max():.1f}, at the end {1e3 * speed[-1]:.1f} mm; coast falls from "
         f"{1e3 * coast[0]:.1f} to {1e3 * coast[-1]:.1f} mm",
         _verdict(whole, middle or inner.max() > 1.02 * inner.min()),
-        "mean of the surface speeds along sliding over the pinion speed, 50 N.m: rises then falls "
-        "on the drive side but for the first contact at the edge of the gear tip",
+        "The values are the mean of the surface speeds along sliding over the pinion speed, at 50 "
+        "N.m. On the drive side they rise and then fall, but for the first contact at the edge of "
+        "the gear tip.",
     )
 
 
@@ -176,7 +177,11 @@ def share_course(dataset: xr.Dataset) -> Verdict:
         top = np.argmax(share) / (share.size - 1)
         tops.append(f"{side} {share.max():.2f} at {top:.2f} of the cycle")
         good = good and rises_then_falls(share) and bool(abs(top - 0.5) < 0.1)
-    return Verdict("; ".join(tops), _verdict(good), "50 N.m, quasi-static; printed at 0.3 w_n")
+    return Verdict(
+        "; ".join(tops),
+        _verdict(good),
+        "This is quasi-static, at 50 N.m. The paper prints it at 0.3 w_n.",
+    )
 
 
 def ratio_on_average(dataset: xr.Dataset) -> Verdict:
@@ -188,8 +193,9 @@ def ratio_on_average(dataset: xr.Dataset) -> Verdict:
     return Verdict(
         "mean over the period off by " + ", ".join(texts) + " (drive / coast)",
         _verdict(float(off[LOAD].max()) < 0.1),
-        "virtual work over a period; forces are taken where the flanks stand before they close, so "
-        "the error grows with the closing. The unloaded extreme meets it exactly",
+        "This follows from virtual work over a period. The forces are taken where the flanks stand "
+        "before they close, so the error grows with the closing. The unloaded extreme meets the "
+        "statement exactly.",
     )
 
 
@@ -212,7 +218,8 @@ def mid_flank_pressure(dataset: xr.Dataset) -> Verdict:
     return Verdict(
         "; ".join(texts) + f" at 50 N.m; 20 to 200 N.m within {100.0 * worst:.1f} %",
         _verdict(worst < 0.03),
-        "where the pair carries most; cells on the true gap against the ellipse from its radii",
+        "This is where the pair carries most. Cells on the true gap are compared with the ellipse "
+        "from its radii.",
     )
 
 

@@ -58,7 +58,7 @@ def mesh_frequency(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"{range_text(sweep['mesh_frequency'].values)} Hz; {np.mean(per_kmh):.3f} Hz per km/h",
         _verdict(bool(error < 0.03)),
-        "with the dynamic radius 3.05 D/(2 pi) of the tyre",
+        "This is with the dynamic radius 3.05 D/(2 pi) of the tyre.",
     )
 
 
@@ -82,7 +82,7 @@ def road_torque(_: xr.Dataset) -> Verdict:
     return Verdict(
         " / ".join(f"{t:.1f}" for t in torques) + " N.m at 20/40/60/80/100 km/h",
         _verdict(error < 0.01),
-        "eq. (7), (8) with Table A3; the paper prints no torque values",
+        "The torques follow from eq. (7), (8) and Table A3. The paper prints no values.",
     )
 
 
@@ -98,7 +98,7 @@ def preload_exponent(_: xr.Dataset) -> Verdict:
     return Verdict(
         f"exponent {slope:.5f}",
         _verdict(abs(slope - 0.05) < 1e-3),
-        "(n - 1)/(2 n) = 1/20, n = 10/9",
+        "The exponent is (n - 1)/(2 n) = 1/20 with n = 10/9.",
     )
 
 
@@ -110,7 +110,7 @@ def resonances_shift(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"{range_text(high / low - 1.0, '{:+.1f}', 100.0)} % from 2500 to 6000 N",
         _verdict(bool(np.all(high > low))),
-        "roller contacts stiffen with load",
+        "The contacts of the rollers stiffen with load.",
     )
 
 
@@ -126,7 +126,8 @@ def crossing(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         ", ".join(crossed) or "none",
         _verdict(bool(crossed)),
-        "depends on the contact angle, which the paper does not give (15 degrees here)",
+        "This depends on the contact angle of the bearings, which the paper does not give. Here "
+        "it is 15 degrees.",
     )
 
 
@@ -142,9 +143,9 @@ def bearing_lines(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"lines off the mesh orders above a tenth of the mesh orders' rms: {where}{found}",
         PARTLY if seen.any() and not seen.all() else _verdict(bool(seen.all())),
-        "only the printed sign feeds the lateral motion from the mesh"
+        "Only with the printed sign does the mesh feed the lateral motion."
         if seen.any()
-        else "the consistent model is stable: every line is a mesh order",
+        else "The consistent model is stable, so every line is a mesh order.",
     )
 
 
@@ -158,9 +159,9 @@ def dominance(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"others/mesh rms {range_text(ratio[0])} at 2500 N, {range_text(ratio[-1])} at 6000 N",
         HOLDS if dominated.all() and grows.all() else (PARTLY if dominated.any() else FAILS),
-        "dominated by a bearing line where the printed equations are unstable"
+        "A bearing line dominates where the printed equations are unstable."
         if dominated.any()
-        else "dominated by the mesh orders at every speed",
+        else "The mesh orders dominate at every speed.",
     )
 
 
@@ -172,7 +173,7 @@ def minimum_moves_away(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"minimum {range_text(up, '{:+.2f}', 1e6)} um, p-p {range_text(pp, '{:+.0f}', 100.0)} %",
         HOLDS if share == 1.0 else (PARTLY if share > 0.5 else FAILS),
-        f"both at {100 * share:.0f} % of the speeds",
+        f"Both hold at {100 * share:.0f} % of the speeds.",
     )
 
 
@@ -183,7 +184,7 @@ def radial_amplitude(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"p-p {range_text(change, '{:+.0f}', 100.0)} %, median {100 * np.median(change):+.0f} %",
         HOLDS if share == 1.0 else (PARTLY if share > 0.5 else FAILS),
-        f"smaller at {100 * share:.0f} % of the speeds",
+        f"It is smaller at {100 * share:.0f} % of the speeds.",
     )
 
 
@@ -199,7 +200,8 @@ def cage_lines(sweep: xr.Dataset) -> Verdict:
         f"{range_text(relative[-1], '{:.1f}', 100.0)} % at 6000 N; "
         f"absolute {range_text(absolute, '{:+.0f}', 100.0)} %",
         HOLDS if present and smaller else FAILS,
-        "relative to the mean load; the absolute amplitude hardly depends on preload",
+        "The shares are relative to the mean load. The absolute amplitude hardly depends on "
+        "preload.",
     )
 
 
@@ -220,9 +222,9 @@ def unloaded_rollers(sweep: xr.Dataset) -> Verdict:
         f"smallest roller load in the sweep {loaded:.0f} N; rollers unload below "
         f"{thresholds[0]:.0f} N preload at the lowest, {thresholds[1]:.0f} N at the highest speed",
         _verdict(loaded > 0.0),
-        "thresholds by the consistent equations; the paper gives none"
+        "The thresholds are those of the consistent equations. The paper gives none."
         if loaded > 0.0
-        else "the printed equations' limit cycle unloads rollers even at 2500 N",
+        else "The limit cycle of the printed equations unloads rollers even at 2500 N.",
     )
 
 
@@ -232,12 +234,14 @@ def efficiency_level(sweep: xr.Dataset) -> Verdict:
     inside = (values >= 0.9905) & (values <= 0.9915)
     from_kmh = sweep["speed_kmh"].values[np.all(inside, axis=0)]
     reasons = {
-        "consistent": "eq. (13) with the coefficient that its units require; what decides it "
-        "stands below",
-        "as_printed": "without beta in eq. (13), but with Hertz' mean pressure of the ellipse and "
-        "E' in the asperity load",
+        "consistent": "This is eq. (13) with the coefficient that its units require. What decides "
+        "it stands below.",
+        "as_printed": "Eq. (13) is without beta here. But the mean pressure is that of Hertz' "
+        "ellipse, and the asperity load has E'.",
     }
-    reached = f"within 99.05 to 99.15 % from {from_kmh.min():.0f} km/h on" if from_kmh.size else ""
+    reached = (
+        f"It is within 99.05 to 99.15 % from {from_kmh.min():.0f} km/h on." if from_kmh.size else ""
+    )
     return Verdict(
         f"{range_text(values, '{:.2f}', 100.0)} %",
         _verdict(bool(np.all((values >= 0.988) & (values <= 0.992)))),
@@ -249,7 +253,9 @@ def efficiency_flat(sweep: xr.Dataset) -> Verdict:
     """Claim 44."""
     spread = sweep["efficiency_mesh"].max("speed") - sweep["efficiency_mesh"].min("speed")
     worst = float(spread.max())
-    return Verdict(f"spread {100 * worst:.2f} %", _verdict(worst < 0.003), "gear mesh, eq. (21)")
+    return Verdict(
+        f"spread {100 * worst:.2f} %", _verdict(worst < 0.003), "This is the gear mesh, eq. (21)."
+    )
 
 
 def efficiency_and_preload(sweep: xr.Dataset) -> Verdict:
@@ -261,11 +267,13 @@ def efficiency_and_preload(sweep: xr.Dataset) -> Verdict:
         f"mesh {range_text(mesh.values, '{:+.3f}', 100.0)} %, "
         f"whole axle {range_text(axle.values, '{:+.2f}', 100.0)} %",
         HOLDS if falls else (PARTLY if bool(np.all(axle.values < -1e-4)) else FAILS),
-        "by flank friction"
+        "The friction of the flanks lowers it."
         if falls
-        else "not by flank friction; by the bearings' drag torque, which the paper leaves out"
+        else "The drag torque of the bearings lowers it, not the friction of the flanks. The paper "
+        "leaves this drag out."
         if bool(np.all(axle.values < -1e-4))
-        else "not by flank friction; drag of the bearings is left out, as in the paper",
+        else "The friction of the flanks does not lower it. Drag of the bearings is left out, as "
+        "in the paper.",
     )
 
 
@@ -277,7 +285,7 @@ def film_exponent(_: xr.Dataset) -> Verdict:
     return Verdict(
         f"d ln h/d ln W = {slope:.4f}",
         _verdict(abs(slope + 0.073) < 1e-6),
-        "eq. (22), sign restored",
+        "This is eq. (22) with its sign restored.",
     )
 
 
@@ -295,45 +303,30 @@ def impact_classes(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"{counts[0]} points in contact, {counts[1]} single-sided, {counts[2]} double-sided",
         _verdict(right),
-        "classification of section 2.1.1",
+        "The classes are those of section 2.1.1.",
     )
 
 
 CLAIMS = (
     Claim(
-        32,
-        "The mesh frequency is 100 to 500 Hz between 20 and 100 km/h",
-        "figs 3, 4",
-        "3 %",
-        mesh_frequency,
+        32, "The mesh frequency is 100 to 500 Hz between 20 and 100 km/h",
+        "figs 3, 4", "3 %", mesh_frequency,
     ),
     Claim(
-        33,
-        "The road load gives the torque at the ring gear",
-        "eq. (7), (8), Table A3",
-        "1 %",
-        road_torque,
+        33, "The road load gives the torque at the ring gear",
+        "eq. (7), (8), Table A3", "1 %", road_torque,
     ),
     Claim(
-        34,
-        "The natural frequencies of the bearings rise as the preload to the power 1/20",
-        "eq. (25)",
-        "1e-3",
-        preload_exponent,
+        34, "The natural frequencies of the bearings rise as the preload to the power 1/20",
+        "eq. (25)", "1e-3", preload_exponent,
     ),
     Claim(
-        35,
-        "A higher preload raises the resonance frequencies",
-        "sec. 3.1",
-        "sign",
-        resonances_shift,
+        35, "A higher preload raises the resonance frequencies",
+        "sec. 3.1", "sign", resonances_shift,
     ),
     Claim(
-        36,
-        "Between 20 and 100 km/h the mesh frequency meets a natural frequency of the bearings",
-        "sec. 3.1",
-        "existence",
-        crossing,
+        36, "Between 20 and 100 km/h the mesh frequency meets a natural frequency of the bearings",
+        "sec. 3.1", "existence", crossing,
     ),
     Claim(
         37,
@@ -352,32 +345,20 @@ CLAIMS = (
         dominance,
     ),
     Claim(
-        39,
-        "With more preload the smallest DTE moves away from zero, and its peak-to-peak falls",
-        "fig. 5",
-        "sign",
-        minimum_moves_away,
+        39, "With more preload the smallest DTE moves away from zero, and its peak-to-peak falls",
+        "fig. 5", "sign", minimum_moves_away,
     ),
     Claim(
-        40,
-        "The radial motion of the pinion is smaller at 6000 N than at 2500 N",
-        "fig. 8",
-        "sign",
-        radial_amplitude,
+        40, "The radial motion of the pinion is smaller at 6000 N than at 2500 N",
+        "fig. 8", "sign", radial_amplitude,
     ),
     Claim(
-        41,
-        "The load of a roller varies with the cage frequency, and less so at 6000 N",
-        "figs 9, 10",
-        "sign",
-        cage_lines,
+        41, "The load of a roller varies with the cage frequency, and less so at 6000 N",
+        "figs 9, 10", "sign", cage_lines,
     ),
     Claim(
-        42,
-        "With a low preload rollers lose their load; with 2500 and 6000 N they do not",
-        "sec. 3.3",
-        "threshold",
-        unloaded_rollers,
+        42, "With a low preload rollers lose their load; with 2500 and 6000 N they do not",
+        "sec. 3.3", "threshold", unloaded_rollers,
     ),
     Claim(43, "The efficiency is 99.05 to 99.15 %", "fig. 12", "98.8-99.2 %", efficiency_level),
     Claim(44, "The efficiency hardly changes with speed", "fig. 12", "0.3 %", efficiency_flat),
@@ -391,10 +372,7 @@ CLAIMS = (
         film_exponent,
     ),
     Claim(
-        47,
-        "Single-sided and double-sided impacts of the teeth are told apart",
-        "sec. 2.1.1",
-        "classes",
-        impact_classes,
+        47, "Single-sided and double-sided impacts of the teeth are told apart",
+        "sec. 2.1.1", "classes", impact_classes,
     ),
-)
+)  # fmt: skip

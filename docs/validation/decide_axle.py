@@ -109,37 +109,37 @@ def decisions() -> list[Decision]:
     return [
         Decision(
             "37",
-            "what the record holds",
-            "the steady motion: shares of the other lines as under claim 38 above",
-            f"the first {RECORD:g} s from shafts not yet displaced by the load: "
+            "The time that is recorded",
+            "Steady motion. The shares of the other lines are those of claim 38 above",
+            f"The first {RECORD:g} s, from shafts that the load has not yet displaced: "
             + " / ".join(f"{100.0 * r:.0f}" for r in from_start)
             + f" % at {words} km/h (asked: 10)",
-            "yes: no settling time is printed; the lines are then those of a start that rings "
-            "down, and shrink with a longer record",
+            "Yes. No settling time is printed. The lines are then those of a start that dies "
+            "down, and they shrink with a longer record.",
         ),
         Decision(
             "38",
-            "what the record holds, damping of the bearings",
+            "The time that is recorded, and the damping of the bearings",
             " / ".join(f"{100.0 * r:.0f}" for r in from_start)
             + " % at 2500 N and "
             + " / ".join(f"{100.0 * r:.0f}" for r in more)
             + f" % at 6000 N, {words} km/h, with the start",
-            "above 100 %; at 100 km/h with bearing damping times "
+            "Above 100 %. At 100 km/h, with the damping of the bearings times "
             + " / ".join(f"{f:g}" for f in weaker)
             + ": "
             + " / ".join(f"{100.0 * r:.0f}" for r in weaker.values())
             + " %",
-            "in part: the order of the two preloads holds with the start; that bearing lines "
-            "dominate asks for less damping than the paper's own or for its sign of the mesh force",
+            "In part. With the start, the order of the two preloads holds. For the lines of the "
+            "bearings to dominate, the damping must be lower than the paper's own, or the mesh "
+            "force must have the sign of the paper.",
         ),
         Decision(
             "42, as printed",
-            "preload, damping of the bearings",
-            f"2500 N: all rollers loaded up to {max(speeds):g} km/h, not above",
-            f"{round(preload_needed(SPEEDS[-1]), -2):.0f} N at {SPEEDS[-1]:g} km/h; damping, times "
-            + " / ".join(f"{f:g}" for f in _DAMPINGS)
-            + f": {damping}",
-            "no: preloads are printed; it is the printed sign that feeds the lateral motion, and "
-            "with the consistent sign the claim holds as it is",
+            "The preload, or the damping of the bearings",
+            f"2500 N: all rollers stay loaded up to {max(speeds):g} km/h, but not above",
+            f"{round(preload_needed(SPEEDS[-1]), -2):.0f} N at {SPEEDS[-1]:g} km/h. Of the "
+            "damping times " + " / ".join(f"{f:g}" for f in _DAMPINGS) + f": {damping}",
+            "No. The preloads are printed. It is the printed sign that feeds the lateral motion. "
+            "With the consistent sign the claim holds as it is.",
         ),
     ]

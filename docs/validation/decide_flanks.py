@@ -95,21 +95,22 @@ def flank_section() -> str:
     decisions = [
         Decision(
             "28",
-            "Eyring stress or roughness",
+            "The Eyring stress, or the roughness",
             f"2 MPa and 0.5 um: {100.0 * page.boundary_share:.0f} %",
             f"{1e-6 * stress:.1f} MPa, or {1e6 * roughness:.2f} um: {100.0 * LARGEST:.0f} %",
-            "yes for the stress: it is not printed, and fig. 19a bends where one of 5 MPa and more "
-            "would (claim 20), though the film is then 5 % warmer (claim 18); no for the "
-            "roughness, which is printed",
+            "For the stress: yes. It is not printed, and the curve of fig. 19a bends where one of "
+            "5 MPa and more would bend (claim 20), though the film is then 5 % warmer (claim 18). "
+            "For the roughness: no, because it is printed.",
         ),
         Decision(
             "30",
-            "what the viscosity is divided by",
-            f"both by the same number: {page.over_cold('effective_viscosity'):.3f}",
-            f"each by the viscosity of its inlet: {page.over_inlet:.2f} (0.2 to 0.5)",
-            "open: fig. 21a has no units, and the text says that it is divided as fig. 18. With "
-            "one divisor no Eyring stress does it: viscosity is stress over shear rate, the film "
-            "of a fifth (claim 26) sets the rate, and the stress would have to be higher hot",
+            "The number by which the viscosity is divided",
+            f"Both by the same number: {page.over_cold('effective_viscosity'):.3f}",
+            f"Each by the viscosity of its inlet: {page.over_inlet:.2f} (asked: 0.2 to 0.5)",
+            "Open. Fig. 21a has no units, and the text says that it is divided as fig. 18. With "
+            "one divisor no Eyring stress does it. Viscosity is stress over shear rate. The shear "
+            "rate is set by the hot film, which is a fifth of the cold one (claim 26). So the "
+            "stress would have to be higher in the hot film.",
         ),
     ]
     heads = ["Reading", "28: F_b/F_v, %", "30: viscosity, hot over cold", "each over its inlet"]

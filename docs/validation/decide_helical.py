@@ -55,32 +55,32 @@ def section() -> str:
     rows = [
         Decision(
             "G13",
-            "working pressure angle",
+            "The working pressure angle",
             f"{math.degrees(pair.working_pressure_angle):.2f} deg: {here:.3f} deg",
             f"{needed_pressure_angle():.2f} deg",
-            "no: teeth, module, helix angle and centre distance are printed and fix it",
+            "No. Numbers of teeth, module, helix angle and centre distance are printed and fix it.",
         ),
         Decision(
             "G13",
-            "helix angle, with the reference pressure angle",
+            "The helix angle, with the reference pressure angle",
             f"{math.degrees(pair.helix_angle):.1f} deg: "
             f"{lay_angle(pair.base_helix_angle, pair.transverse_pressure_angle):.3f} deg",
             f"20 deg: {round_helix():.3f} deg",
-            "possible: a rounded helix angle in one program; Table 4.1 prints 19.60",
+            "Possible. One program may have had a rounded helix angle. Table 4.1 prints 19.60.",
         ),
         Decision(
             "G13",
-            "distance AB of the chord",
+            "The distance AB of the chord",
             f"1 mm: {math.degrees(float(lay_angles(0.0, pair).pinion)):.3f} deg",
             f"{1e3 * needed_distance():.1f} mm",
-            "no: 1 mm is printed, and the wheel's angle would fall as the pinion's rises",
+            "No. 1 mm is printed, and the wheel's angle would fall as the pinion's rises.",
         ),
         Decision(
             "G13",
-            "place along the path",
+            "The place along the path",
             "s = 0",
             f"s = {1e3 * needed_place():.2f} mm for the pinion",
-            "no: printed as the point where both angles are equal",
+            "No. It is printed as the point where both angles are equal.",
         ),
     ]
     text = (Path(__file__).parent / "text" / "helical.md").read_text(encoding="utf-8")

@@ -227,39 +227,41 @@ def _decisions(
         d = least[number]
         if not d:
             return "none of those tried"
-        return f"{100.0 * d:g} %, {d / loaded:.0f} times, an error of {1e6 * arm * d:.1f} um"
+        times = round(d / loaded)
+        more = f"{times} times as much" if times > 1 else "about as here"
+        return f"{100.0 * d:g} %, {more}, an error of {1e6 * arm * d:.1f} um"
 
     unlikely = (
-        "no: a swing of the printed mean error, 0.96 um, is worth "
+        "No. A swing as large as the printed mean error, 0.96 um, gives only a d of "
         f"{96e-6 / arm:.2f} %. The printed settings alone would do, with 12 um peak to peak "
-        "([tooth contact](tooth_contact.md)), but then with a mean of 4.3 um"
+        "([tooth contact](tooth_contact.md)), but then with a mean of 4.3 um."
     )
     (long, long_times), (short, short_times) = fourth
-    ratio = "d, besides the error"
+    ratio = "The mismatch d, besides the error"
     return [
         Decision(
             "4",
             ratio,
             here,
             asked("4"),
-            "yes: the sign is all that is claimed, and the loaded radii do it where they act "
-            "besides e, as in a program that takes radii and error as they come",
+            "Yes. Only the sign is claimed. The loaded radii do it where they act besides e, as "
+            "in a program that takes radii and error as they come.",
         ),
         Decision(
             "5",
-            f"{ratio}; start",
-            f"{here}; static deflection",
+            f"{ratio}; the start",
+            f"{here}; from static deflection",
             f"{asked('5')}; or, started in the middle of the backlash, {asked('5s')}",
-            f"{unlikely}. The start: yes, none is printed",
+            f"{unlikely} For the start: yes, because none is printed.",
         ),
         Decision("6", ratio, here, asked("6"), unlikely),
         Decision(
             "8",
-            f"{ratio}; mesh orders kept",
+            f"{ratio}; the mesh orders that are kept",
             f"{here}; order four {1e9 * long:.0f} nm in 1-DOF",
-            f"no d does: up to {100.0 * LIKELY:g} % it grows at most {long_times:.2f} times; with "
-            f"mesh orders up to {SHORT} ({1e9 * short:.0f} nm) {short_times:.2f} times",
-            "only with a mesh like the reconstructed one, whose own order four is some nm",
+            f"No d does it: up to {100.0 * LIKELY:g} % order four grows at most {long_times:.2f} "
+            f"times; with mesh orders up to {SHORT} ({1e9 * short:.0f} nm) {short_times:.2f} times",
+            "Only with a mesh like the reconstructed one, whose own order four is a few nm.",
         ),
         Decision("10", ratio, here, asked("10"), unlikely),
         Decision(
@@ -267,6 +269,6 @@ def _decisions(
             ratio,
             f"{here}; 24 % without load",
             f"{asked('22')}, for 25 %",
-            "yes: a percentage point is less than what the blade edges leave open",
+            "Yes. A percentage point is less than what the unknown edges of the blades leave open.",
         ),
     ]

@@ -113,23 +113,23 @@ INPUTS: Mapping[str, tuple[str, float, str]] = {
     "viscosity": ("viscosity", 17.1, "mPa s"),
     "eyring_stress": ("Eyring stress", 2.0, "MPa"),
     "roughness": ("composite roughness", 0.5, "um"),
-    "entrainment": ("entrainment over the mean of both surface speeds", 1.0, ""),
-    "sliding": ("sliding over that of the surfaces", 1.0, ""),
-    "R_x": ("R_x over that of the contact analysis", 1.0, ""),
+    "entrainment": ("ratio of entrainment to the mean of both surface speeds", 1.0, ""),
+    "sliding": ("ratio of sliding to that of the surfaces", 1.0, ""),
+    "R_x": ("ratio of R_x to that of the contact analysis", 1.0, ""),
 }
 
 # whether the number that claim 43 needs is plausible
 _JUDGED = {
-    "alpha": "yes: Karagiannis et al. 2012 print 14.4 1/GPa for this pair; with their viscosity "
-    "law that is {alpha_hot:.1f} at 95 degC",
-    "viscosity": "no",
-    "eyring_stress": "hardly: 2 MPa is printed, and fig. 19a of Karagiannis et al. 2012 asks for "
-    "more",
-    "roughness": "no",
-    "entrainment": "no: the sum of both speeds in place of their mean is 2",
-    "sliding": "no: the offset and the spiral angles fix it; with (20) as printed, the shafts' "
-    "motion along the line of action, there would be next to no loss",
-    "R_x": "no: the machine settings fix it",
+    "alpha": "Yes. Karagiannis et al. 2012 print 14.4 1/GPa for this pair. With their viscosity "
+    "law this is {alpha_hot:.1f} 1/GPa at 95 degC.",
+    "viscosity": "No. No viscosity in this range gives the printed efficiency.",
+    "eyring_stress": "Hardly. 2 MPa is printed, and fig. 19a of Karagiannis et al. 2012 asks for "
+    "more.",
+    "roughness": "No. No roughness in this range gives the printed efficiency.",
+    "entrainment": "No. Even the sum of both speeds in place of their mean is only 2.",
+    "sliding": "No. The offset and the spiral angles fix it. With eq. (20) as printed, the motion "
+    "of the shafts along the line of action, there would be next to no loss.",
+    "R_x": "No. The machine settings fix it.",
 }
 
 
@@ -222,46 +222,47 @@ def decisions() -> list[Decision]:
     rows = [
         Decision(
             "43",
-            "friction formula and mean pressure",
-            f"corrected, ellipse: {here}",
-            "(13) as printed and the pressure of a circle: "
+            "The friction formula and the mean pressure",
+            f"Corrected formula, ellipse: {here}",
+            "Eq. (13) as printed and the pressure of a circle: "
             f"{100.0 * CIRCULAR.efficiency(JUDGED_AT):.2f} %",
-            "yes, as what the paper computed: (13) is printed so, and the circle is the pressure "
-            "that Karagiannis et al. 2012 print for this pair; not as what the axle loses",
+            "Yes, as what the paper computed. Eq. (13) is printed so, and Karagiannis et al. 2012 "
+            "print the pressure of the circle for this pair. No, as what the axle loses.",
         )
     ]
     for name, (words, value, unit) in INPUTS.items():
         factor = needed_factor(name)
-        needed = f"none from 1/{_WIDEST:g} to {_WIDEST:g} times"
+        needed = f"None from 1/{_WIDEST:g} to {_WIDEST:g} times"
         if factor is not None:
             needed = (
                 f"{factor * value:.3g} {unit} ({factor:.2f} times)" if unit else f"{factor:.2f}"
             )
         judged = _JUDGED[name].format(alpha_hot=_alpha_of_karagiannis())
-        rows.append(Decision("43", words, f"{value:g} {unit}".strip(), needed, judged))
+        rows.append(Decision("43", f"The {words}", f"{value:g} {unit}".strip(), needed, judged))
     rows += [
         Decision(
             "44, as printed",
-            "modulus in the asperity load (16)",
+            "The modulus in the asperity load, eq. (16)",
             f"E': spread {100.0 * spread(Reading(friction='as_printed')):.2f} %",
             f"E*: {100.0 * spread(Reading(friction=printed_traction)):.2f} % (asked: 0.3)",
-            "yes: the source of (16) has E*; boundary friction at low speed makes the spread",
+            "Yes. The source of eq. (16) has E*. The spread comes from boundary friction at low "
+            "speed.",
         ),
         Decision(
             "44, printed traction",
-            "composite roughness",
+            "The composite roughness",
             f"0.5 um: spread {100.0 * spread(CIRCULAR):.2f} %",
             f"{flat_roughness(CIRCULAR):.2f} um: 0.30 %",
-            "no: 0.5 um is Ra of each flank, and two such flanks make more. From 25 km/h on the "
-            f"spread is {100.0 * spread(CIRCULAR, (25.0, *_SWEPT[1:])):.2f} % as it is",
+            "No. 0.5 um is Ra of each flank, and two such flanks make more. From 25 km/h on the "
+            f"spread is {100.0 * spread(CIRCULAR, (25.0, *_SWEPT[1:])):.2f} % as it is.",
         ),
         Decision(
             "45",
-            "drag of the bearings",
-            "none: no change with preload",
-            "any drag that rises with preload",
-            "not as the paper computed it, which leaves drag out and blames the motion; that "
-            "changes the mesh by less than 0.04 %",
+            "The drag of the bearings",
+            "None, so preload changes nothing",
+            "Any drag that rises with preload",
+            "Not as the paper computed it. The paper leaves drag out and blames the motion. The "
+            "motion changes the mesh by less than 0.04 %.",
         ),
     ]
     return rows

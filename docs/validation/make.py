@@ -56,7 +56,7 @@ def row(claim: Claim, consistent: xr.Dataset, printed: xr.Dataset, traction: xr.
             cells += ["-", "-"]
             continue
         verdict = claim.evaluate(data)
-        cells += [f"{verdict.value} ({verdict.reason})", f"**{verdict.verdict}**"]
+        cells += [f"{verdict.value}. {verdict.reason}".strip(), f"**{verdict.verdict}**"]
     return "| " + " | ".join(cells) + " |\n"
 
 

@@ -192,7 +192,7 @@ class ModelOptions(ModelSection):
         default=None,
         description="Drag torque of the bearings. palmgren: under the preload; palmgren_loaded, "
         "skf_2013: under the forces on each bearing; others: raceways, ribs and oil, under the "
-        "load of each roller",
+        "load of each roller; solved_films: the raceways by a model of solved films",
     )
     bearing_approach: Literal["full", "as_printed"] | None = Field(
         default=None,

@@ -27,13 +27,11 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     pack_march_mesh,
 )
 from gearlube_core.dynamics.helical_pair.march.model import torque_limits
-from gearlube_core.dynamics.helical_pair.march.parameters import (
-    FILM_MODEL,
-    HelicalMarchParameters,
-)
+from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.model import FilmModel
+from gearlube_core.friction.solved_line import LINE_FILM_MODEL
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -87,7 +85,7 @@ def helical_cases(definition: Definition) -> HelicalCases:
         for model in literals["mesh.stiffness_model"]
     ]
     embedded = embedded_pair(definition.resources)
-    film_model = FilmModel.named(FILM_MODEL).copied_numbers()
+    film_model = FilmModel.named(LINE_FILM_MODEL).copied_numbers()
     blocks: list[Array] = []
     places = np.zeros(len(names))
     missing: dict[int, str] = {}

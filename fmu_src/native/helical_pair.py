@@ -43,8 +43,10 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import (
     write_constants,
 )
 from gearlube_core.dynamics.helical_pair.march.integrate import WORK_SIZE, StepControl
+from gearlube_core.dynamics.helical_pair.march.kept_films import forget
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     FILM_AT,
+    KEPT_AT,
     LEAST_OFFSET,
     data_size,
     place_mesh,
@@ -169,7 +171,7 @@ def take_parameters(parameters: Array, oils: Array, case: Array, work: Array) ->
     case : ndarray
         CaseHead and GivenPair of the chosen case.
     work : ndarray
-        Up to the end of the film model in the pair data.
+        Up to the end of the kept films in the pair data.
     """
     if parameters[STIFFNESS_MODEL] != 1.0 and parameters[DENSITY] > 0.0:
         return DENSITY_WITH_LINE_MESH
@@ -201,6 +203,7 @@ def take_parameters(parameters: Array, oils: Array, case: Array, work: Array) ->
     solved = parameters[FILM] - 1.0 == SOLVED
     for i in range(N_ARRAY):
         constants[FILM_AT + i] = oils[_FILM_MODEL_AT - _OILS_AT + i] if solved else 0.0
+    forget(constants[KEPT_AT:])
     write_bearing_shares(given, constants, work[BEARINGS_AT:GIVEN_AT])
     head: CaseHead = tuple_from_array(case, CaseHead)
     of_oil: GivenOil = tuple_from_array(oil, GivenOil)

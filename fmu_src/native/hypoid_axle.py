@@ -16,6 +16,7 @@ from fmu_src.native.model import Exchange, NativeModel, Operation
 from fmu_src.native.parameter_map import ParameterMap, parameter_map, write_packed
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.roller_contact import contact_angle_terms, preload_approach
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
@@ -56,6 +57,7 @@ from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.hypoid_axle.step_control import NO_MODES, NO_MODES_WORDS
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_data import CONSISTENT, ZHOU_HOEPRICH_SHARE
 from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model
 from gearlube_core.friction.flank_laws import SOLVED, MixedFlankFriction
@@ -90,6 +92,7 @@ class _Places(NamedTuple):
     series: int  # for each of `Radii`, for each of `MeshStiffness`
     windows: int  # for each of `PRESSURES`
     film_model: int
+    roller_model: int
     data_end: int
     # in work
     settings: int
@@ -97,7 +100,8 @@ class _Places(NamedTuple):
     trial: int
     control: int
     rollers: int
-    films: int  # the film model, whose numbers are written into
+    films: int  # the film models of flanks and rollers, whose numbers are written into
+    roller_films: int
     scratch: int
     work_end: int
     # packed floats that kernels derive
@@ -167,7 +171,7 @@ def _write_parameters(parameters: Array, data: Array, at: _Places, work: Array) 
     for i in range(_N_PARAMETERS):
         value = data[at.lossless + i]
         work[at.without_losses + i] = value if value == value else work[i]
-    for i in range(N_FLANK_MODEL):
+    for i in range(at.scratch - at.films):
         work[at.films + i] = data[at.film_model + i]
     if settings.modal != 0.0 and settings.modal_loss_factor == 0.0:
         return MODAL_WITHOUT_LOSS
@@ -190,7 +194,8 @@ def _chosen_mesh(data: Array, at: _Places, work: Array) -> MeshFields:
         at.orders,
         data[windows : windows + at.windows_size],
         at.nodes,
-        work[at.films : at.scratch],
+        work[at.films : at.roller_films],
+        work[at.roller_films : at.scratch],
     )
 
 
@@ -305,7 +310,8 @@ def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
     trial = without + _N_PARAMETERS
     rollers = trial + N_STATE + _N_CONTROL
     films = rollers + ROLLERS_MAX
-    scratch = films + N_FLANK_MODEL
+    roller_films = films + N_FLANK_MODEL
+    scratch = roller_films + N_ARRAY
     film_model = windows + len(PRESSURES) * mesh.windows.size
     return _Places(
         options=ends[0],
@@ -316,13 +322,15 @@ def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
         series=series,
         windows=windows,
         film_model=film_model,
-        data_end=film_model + N_FLANK_MODEL,
+        roller_model=film_model + N_FLANK_MODEL,
+        data_end=film_model + N_FLANK_MODEL + N_ARRAY,
         settings=_N_PARAMETERS,
         without_losses=without,
         trial=trial,
         control=trial + N_STATE,
         rollers=rollers,
         films=films,
+        roller_films=roller_films,
         scratch=scratch,
         work_end=scratch + max(work_size(mesh.series_size, mesh.nodes), START_WORK),
         **_DERIVED,
@@ -360,6 +368,7 @@ def native_model(definition: Definition) -> NativeModel:
             *series,
             *windows,
             flank_film_model(FilmModel.named(FILM_MODEL)),
+            roller_film_model("solved_films"),
         ]
     )
     unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))

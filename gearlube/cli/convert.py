@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gearlube.cli.example_file import prints_example
+from gearlube.cli.example_file import kept_example, prints_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 
@@ -30,10 +30,7 @@ class ConvertCommand(MultiValueCommand):
 
 
 def _example() -> str:
-    from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-    from gearlube_core.rexs.exchange import rexs_text
-
-    return rexs_text(HelicalGearFile.named("he_2007"))[0]
+    return kept_example("he_2007.rexs")
 
 
 def convert(

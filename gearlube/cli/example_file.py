@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.resources import files
 from typing import Any
 
 import typer
@@ -27,3 +28,12 @@ def prints_example(text: Callable[[], str], what: str) -> Any:
     return typer.Option(
         "--example", help=f"Print {what} to start from, and stop.", callback=show, is_eager=True
     )
+
+
+def kept_example(name: str) -> str:
+    """Return the text of a file in the folder data beside this module, without computing it.
+
+    >>> kept_example("traction.csv")[:16]
+    'slide_roll_ratio'
+    """
+    return (files("gearlube.cli") / "data" / name).read_text(encoding="utf-8")

@@ -68,16 +68,21 @@ def lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
     class LazyGroup(TyperGroup):
         listing = False  # whether the help is being written
 
+        def __init__(self, **given: Any) -> None:
+            super().__init__(**given)
+            # typer compares a mistyped name with these
+            self.commands = {
+                one.name: TyperCommand(one.name, help=one.summary, rich_help_panel=one.panel)
+                for one in commands
+            }
+
         def list_commands(self, ctx: Any) -> list[str]:
             return list(table)
 
         def get_command(self, ctx: Any, cmd_name: str) -> Any:
-            found = table.get(cmd_name)
-            if found is None:
-                return None
-            if not self.listing:
-                return found.load()
-            return TyperCommand(cmd_name, help=found.summary, rich_help_panel=found.panel)
+            if self.listing or cmd_name not in table:
+                return super().get_command(ctx, cmd_name)
+            return table[cmd_name].load()
 
         def format_help(self, ctx: Any, formatter: Any) -> None:
             self.listing = True

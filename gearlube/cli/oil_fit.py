@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gearlube.cli.example_file import prints_example
+from gearlube.cli.example_file import kept_example, prints_example
 from gearlube.cli.exit_codes import exit_on_error
-from gearlube.output.toml_text import toml_text
 
 if TYPE_CHECKING:
     from gearlube_core.friction.traction_fit import TractionFit
@@ -24,9 +23,7 @@ _DOUBT = 3.5  # standard deviations of a curve's mean: the worst of ten curves b
 
 
 def _example() -> str:
-    from gearlube_core.friction.traction_example import example_text
-
-    return example_text()
+    return kept_example("traction.csv")
 
 
 def fit(
@@ -59,6 +56,7 @@ def fit(
     Steel on steel, smooth surfaces, the traction law of the axle's flanks. docs/oil_file.md lists
     the columns of the table.
     """
+    from gearlube.output.toml_text import toml_text
     from gearlube_core.checks import check_within
     from gearlube_core.errors import ParameterError
     from gearlube_core.friction.traction_fit import fit_traction

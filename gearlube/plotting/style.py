@@ -28,6 +28,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P")
 HATCHES = ("", "////", "....", "xxxx", "\\\\\\\\", "++++")
 GREY = "#B0B0B0"
 YELLOW = "#F0E442"
+PARTS = (*SERIES, YELLOW, GREY)  # of parts that add up, in their order: the same in all figures
 
 _STYLE = {
     "font.size": 9.5,

@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from gearlube.plotting.style import GREY, SERIES, SIZES, WIDTHS, YELLOW
+from gearlube.plotting.style import PARTS, SIZES, WIDTHS
 from gearlube_core.arrays import Array
 
-COLOURS = (*SERIES, YELLOW, GREY)
+COLOURS = PARTS
 _SYMBOLS = ("circle", "square", "triangle-up", "diamond", "triangle-down", "cross")
 _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 _LETTERS = 30  # of a line of a label
@@ -135,12 +135,16 @@ def stack_chart(
     x_axis: Axis,
     y_axis: Axis,
     *,
+    kept: Sequence[bool] | Array | None = None,
     bars: bool = False,
     height: int = 440,
 ) -> Any:
-    """Return parts that add up, of shape (parts, len(x)): as areas, or as bars."""
+    """Return parts that add up, of shape (parts, len(x)): as areas, or as bars.
+
+    `kept` says which parts are drawn.
+    """
     figure = empty_chart(x_axis, y_axis, height)
-    add_stack(figure, names, x, parts, x_axis, y_axis, bars=bars)
+    add_stack(figure, names, x, parts, x_axis, y_axis, kept=kept, bars=bars)
     return figure
 
 

@@ -50,7 +50,8 @@ def _unit_words(unit: str) -> str:
 
 def _about(results: xr.Dataset, name: str, letters: int = _LETTERS) -> str:
     unit = _scale(results, name)[1]
-    return fill(f"{results[name].attrs['long_name']} [{unit}]", letters)
+    words = f"{results[name].attrs['long_name']}\u00a0[{unit}]"  # no line for a unit alone
+    return fill(words, letters)
 
 
 def _words(values: dict[str, Any]) -> str:
@@ -60,12 +61,13 @@ def _words(values: dict[str, Any]) -> str:
     )
 
 
-def _panels(results: xr.Dataset, count: int) -> tuple[Any, list[Any]]:
+def _panels(results: xr.Dataset, what: str) -> tuple[Any, list[Any]]:
+    count = len(_shown(results))
     figure = new_figure(4.4 * min(count, 2), 3.3 * -(-count // 2))
     axes = figure.subplots(-(-count // 2), min(count, 2), squeeze=False).ravel()
     for empty in axes[count:]:
         empty.set_visible(False)
-    figure.suptitle(results.attrs["title"].partition(",")[0], fontsize=10)
+    figure.suptitle(f"{what}: {results.attrs['title'].partition(',')[0]}", fontsize=11)
     return figure, list(axes[:count])
 
 
@@ -79,7 +81,7 @@ def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
 
     over = gridded(results)[_shown(results)].load()
     with house_style():
-        figure, panels = _panels(results, len(_shown(results)))
+        figure, panels = _panels(results, "How the results scatter")
         some = list(cells(summary))[:_MOST_SERIES]
         for name, ax in zip(_shown(results), panels, strict=True):
             for i, (values, _) in enumerate(some):
@@ -116,7 +118,7 @@ def rank_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
     strength = np.nan_to_num(np.abs(ranks.sel(quantity=_shown(results)).values)).max(axis=0)
     chosen = np.argsort(strength)[::-1][:_MOST_BARS][::-1]
     with house_style():
-        figure, panels = _panels(results, len(_shown(results)))
+        figure, panels = _panels(results, "Which input each result follows")
         for name, ax in zip(_shown(results), panels, strict=True):
             bars = ranks.sel(quantity=name).values[chosen]
             ax.barh(np.arange(chosen.size), bars, color=SERIES[0], hatch=HATCHES[0])
@@ -148,7 +150,7 @@ def line_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
     unit = {one["key"]: one["unit"] for one in inputs_of(results)}[along]
     first = summary.isel({along: 0})
     with house_style():
-        figure, panels = _panels(results, len(_shown(results)))
+        figure, panels = _panels(results, "Results over an input")
         for name, ax in zip(_shown(results), panels, strict=True):
             chosen = _scale(results, name)[0] * summary["statistics"].sel(quantity=name)
             for i, (values, _) in enumerate(list(cells(first))[:_MOST_SERIES]):

@@ -31,6 +31,30 @@ class ShaftMotion(NamedTuple):
     speed: float  # of the shaft [rad/s]
 
 
+class RollerFilms(NamedTuple):
+    """The model of solved films of rollers, and what is kept of it."""
+
+    model: Array  # numbers of the film model, written into; empty: none
+    nodes: Array  # of one shaft, shape (N_ROLLER_NODES,), or of both, one behind the other
+    kept: float  # not 0: between nodes that are kept; 0: each roller by itself, exact
+
+
+class SolvedRaceways(NamedTuple):
+    """Raceways of both bearings of a shaft by solved films; all floats."""
+
+    torque: float  # with the sign of the speed [N m]
+    torque_bound: float  # of the torque, not negative [N m]
+    load: float  # of all rollers [N]
+    load_outside: float  # of it outside the film model's domain [N]
+    first_film: float  # thinnest central film in the first bearing; 0 without load [m]
+    first_bound: float  # of this film, relative [-]
+    second_film: float  # likewise of the second bearing
+    second_bound: float
+
+
+NO_RACEWAYS = SolvedRaceways(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # without rollers, or at rest
+
+
 class ShaftBearings(Protocol):
     """Two opposed bearings of one shaft; a NamedTuple of floats with these methods.
 
@@ -88,10 +112,21 @@ class ShaftBearings(Protocol):
         """
 
     def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
-        """Return the torque of both bearings by a law of `losses.laws.ROLLING_LAWS` [N m].
+        """Return the torque of the raceways by a law of `losses.laws.ROLLING_LAWS` [N m].
 
-        With the sign of the speed, under the present load of each roller; 0 for a bearing without
-        rollers.
+        Of both bearings, with the sign of the speed, under the present load of each roller; 0 for
+        a bearing without rollers.
+        """
+
+    def solved_raceways(
+        self, motion: ShaftMotion, oil: LubricantState, films: RollerFilms
+    ) -> SolvedRaceways:
+        """Return the same by solved films, with the films; NO_RACEWAYS without rollers."""
+
+    def beside_raceways(self, motion: ShaftMotion, oil: LubricantState) -> float:
+        """Return the torque of ribs, of the steel's hysteresis and of oil on the rollers [N m].
+
+        Of both bearings, with the sign of the speed; 0 for a bearing without rollers.
         """
 
     def without_loss(self) -> Self:
@@ -115,3 +150,5 @@ shaft_energy = by_class()(ShaftBearings.shaft_energy)
 roller_load_range = by_class()(ShaftBearings.roller_load_range)
 shaft_drag = by_class()(ShaftBearings.shaft_drag)
 raceway_torque = by_class()(ShaftBearings.raceway_torque)
+solved_raceways = by_class()(ShaftBearings.solved_raceways)
+beside_raceways = by_class()(ShaftBearings.beside_raceways)

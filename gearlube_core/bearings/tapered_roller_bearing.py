@@ -288,4 +288,7 @@ class TaperedRollerBearing:
                 RIB_HEIGHT * self.roller_diameter if self.rib_height is None else self.rib_height
             ),
             rib_friction=float(self.rib_boundary_friction),
+            conductivity=float(self.solid.conductivity),
+            density=float(self.solid.density),
+            heat_capacity=float(self.solid.heat_capacity),
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.bearing_type import RollerFilms, ShaftMotion, SolvedRaceways
 from gearlube_core.bearings.losses.laws import SKF
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.bearings.parameters import BearingParameters
@@ -14,6 +14,7 @@ from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
 from gearlube_core.bearings.shaft_expansion import expand_shaft_bearings, expanded_shaft_forces
 from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
 from gearlube_core.bearings.skf_drag import skf_drag
+from gearlube_core.bearings.solved_raceways import solved_raceway_drag
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -112,12 +113,22 @@ class TaperedRollerParameters(BearingParameters):
 
     @kernel
     def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
-        """Return the torque of raceways, ribs, hysteresis and oil of both bearings [N m]."""
+        """Return the torque of the raceways of both bearings [N m]."""
+        return raceway_drag(motion, law, oil, self)
+
+    @kernel
+    def solved_raceways(
+        self, motion: ShaftMotion, oil: LubricantState, films: RollerFilms
+    ) -> SolvedRaceways:
+        """Return torque and films of the raceways of both bearings by solved films."""
+        return solved_raceway_drag(motion, oil, self, films)
+
+    @kernel
+    def beside_raceways(self, motion: ShaftMotion, oil: LubricantState) -> float:
+        """Return the torque of ribs, hysteresis and oil of both bearings [N m]."""
         ends = rib_drag(motion, oil, self)
         beside = ends.rib + ends.hysteresis + ends.oil
-        if motion.speed < 0.0:
-            beside = -beside
-        return raceway_drag(motion, law, oil, self) + beside
+        return -beside if motion.speed < 0.0 else beside
 
     def without_loss(self) -> TaperedRollerParameters:
         """Return the bearings without hysteresis."""

@@ -13,15 +13,16 @@ from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
-from gearlube_core.friction.line_friction import LINE_LOAD_FLOOR, line_friction
+from gearlube_core.friction.line_friction import LINE_LOAD_FLOOR
 from gearlube_core.friction.line_points import LinePoints
+from gearlube_core.friction.solved_line import bounded_line_friction
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
-_QUANTITIES = 8
+_QUANTITIES = 10
 
 
 class SmallestFilm(NamedTuple):
@@ -49,7 +50,7 @@ class LineFrictionCycle:
     coefficient : ndarray
         mu with the sign of sliding, negative before the pitch line [-].
     central_film, minimum_film : ndarray
-        [dowson_toyoda_1979], [dowson_1968] [m]; also given where nothing presses.
+        [dowson_toyoda_1979] or solved, and [dowson_1968] [m]; also given where nothing presses.
     film_ratio : ndarray
         Central film over composite roughness [-].
     temperature_rise : ndarray
@@ -58,6 +59,9 @@ class LineFrictionCycle:
         [Pa].
     entrainment, sliding : ndarray
         Across the line [m/s].
+    outside, coefficient_bound : ndarray
+        Of solved films: share that lies outside the domain of the film model, and bound of mu [-];
+        zeros with the formulas.
     """
 
     points: LinePoints
@@ -72,6 +76,8 @@ class LineFrictionCycle:
     mean_pressure: Array
     entrainment: Array
     sliding: Array
+    outside: Array
+    coefficient_bound: Array
 
     @property
     def power_loss(self) -> Array:
@@ -82,6 +88,18 @@ class LineFrictionCycle:
     def mean_power_loss(self) -> float:
         """Mean over the mesh period [W]."""
         return float(self.power_loss.mean())
+
+    @property
+    def power_loss_bound(self) -> float:
+        """Bound of `mean_power_loss` as if all errors had one sign [W]; 0 with the formulas."""
+        return float(self._sum(self.coefficient_bound * self.line_load * abs(self.sliding)).mean())
+
+    @property
+    def share_outside(self) -> float:
+        """Share of the load outside the domain of the film model [-]; 0 with the formulas."""
+        return float(
+            self._sum(self.outside * self.line_load).sum() / self._sum(self.line_load).sum()
+        )
 
     @property
     def efficiency(self) -> float:
@@ -127,13 +145,16 @@ def _friction_at_points(
     lubricant: LubricantState,
     surface: SurfaceParameters,
     solid: SolidParameters,
+    film_model: Array,
     result: Array,
 ) -> None:
     for j in range(x.size):
         motion = line_kinematics(x[j], pinion_speed, plane)
-        state = line_friction(
-            line_load[j], motion.R, motion.entrainment, motion.sliding, lubricant, surface, solid
+        R, u, slip = motion.R, motion.entrainment, motion.sliding
+        film = bounded_line_friction(
+            line_load[j], R, u, slip, lubricant, surface, solid, film_model
         )
+        state = film.state
         result[0, j] = state.signed_coefficient
         result[1, j] = state.film_thickness
         result[2, j] = minimum_line_film_thickness(
@@ -149,6 +170,8 @@ def _friction_at_points(
         result[5, j] = state.mean_pressure
         result[6, j] = motion.entrainment
         result[7, j] = motion.sliding
+        result[8, j] = film.outside
+        result[9, j] = film.coefficient_bound
 
 
 def friction_along_lines(
@@ -161,6 +184,7 @@ def friction_along_lines(
     oil_temperature: float,
     surface: SurfaceParameters,
     solid: SolidParameters,
+    film_model: Array | None = None,
 ) -> LineFrictionCycle:
     """Return friction, film and loss on all lines of a mesh period.
 
@@ -182,6 +206,8 @@ def friction_along_lines(
         Roughness of the pair.
     solid : SolidParameters
         Of the pair.
+    film_model : ndarray, optional
+        Numbers of a film model of lines, whose scratch is written into; by default the formulas.
 
     Returns
     -------
@@ -214,6 +240,7 @@ def friction_along_lines(
         lubricant_state(lubricant.parameters(), float(oil_temperature)),
         surface,
         solid,
+        np.empty(0) if film_model is None else film_model,
         result,
     )
     fields = result.reshape(_QUANTITIES, *load.shape)
@@ -230,4 +257,6 @@ def friction_along_lines(
         mean_pressure=fields[5],
         entrainment=fields[6],
         sliding=fields[7],
+        outside=fields[8],
+        coefficient_bound=fields[9],
     )

@@ -12,6 +12,7 @@ from gearlube_core.helical_geometry.gear_body import GearBody, SupportStiffness
 from gearlube_core.helical_geometry.gear_file_sections import (
     Bearing,
     DampingRatios,
+    Film,
     FilmMesh,
     Flank,
     LineSteps,
@@ -75,6 +76,7 @@ class HelicalGearFile(InputFile):
     operation: Operation | None = None
     meshing_steps: LineSteps | None = None
     oil: Oil | None = None
+    film: Film = Film()
     film_mesh: FilmMesh = FilmMesh()
     inferred: dict[Text, Text] = Field(
         default={},

@@ -281,6 +281,16 @@ class FilmMesh(Section):
     )
 
 
+class Film(Section):
+    """Film and friction of the oil on the flanks."""
+
+    model: Literal["formula", "solved"] = Field(
+        default="formula",
+        description="formula: Dowson and Toyoda 1979 with Evans and Johnson 1986; solved: a model "
+        "of solved thermal Eyring films, and the formulas outside its domain",
+    )
+
+
 class Oil(Section):
     """The lubricant that the source names."""
 

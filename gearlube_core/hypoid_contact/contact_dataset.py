@@ -59,6 +59,7 @@ _UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {
     "friction_arm_p": (_PAIR_DIMS, "m", "arm of friction about the pinion axis"),
     "friction_arm_g": (_PAIR_DIMS, "m", "arm of friction about the gear axis"),
     "xi": ((*_PAIR_DIMS, "axis"), "1", "direction of the pinion's sliding over the gear"),
+    "minor_axis": ((*_PAIR_DIMS, "axis"), "1", "direction of the contact ellipse's minor axis"),
     "pressure_map": (("side", "torque", "map_s", "map_t"), "Pa", "highest pressure over the mesh"),
     "pressure_cells": (
         ("side", "phase", "torque", "map_s", "map_t"),
@@ -234,6 +235,7 @@ def _pair_kinematics(pair: FlankPair, cycle: Record, settings: CycleSettings) ->
         "friction_arm_p": k.friction_arm_p,
         "friction_arm_g": k.friction_arm_g,
         "xi": k.xi,
+        "minor_axis": k.minor_axis,
     }
     result = {}
     for name, value in values.items():

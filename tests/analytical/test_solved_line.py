@@ -19,7 +19,7 @@ from gearlube_core.film_model.solved_line import solved_line
 from gearlube_core.friction.line_friction import line_friction
 from gearlube_core.friction.solved_line import (
     LINE_FORMULA_FILM_BOUND,
-    LINE_FORMULA_FRICTION_BOUND,
+    LINE_FORMULA_FRICTION_TOP,
     line_inlet,
     solved_line_friction,
 )
@@ -61,13 +61,12 @@ def test_inside_the_domain_film_and_friction_are_the_models():
     assert found.state.film_thickness == pytest.approx(film.central_film, rel=1e-12)
     # smooth flanks under a film of a hundred roughnesses: all of the load is the film's
     assert found.state.viscous_friction == pytest.approx(1e5 * film.friction_coefficient, rel=1e-12)
-    assert found.friction_bound == pytest.approx(MODEL.friction_bound, rel=1e-12)
+    wanted = MODEL.friction_bound * film.friction_coefficient
+    assert found.coefficient_bound == pytest.approx(wanted, rel=1e-12)
     assert found.film_bound == MODEL.film_bound
     # a rough flank: asperities on the solved film, whose load a thinner film would raise
     rough = solved(1e5)
-    assert rough.friction_bound * rough.state.friction_coefficient * 1e5 > (
-        MODEL.friction_bound * rough.state.viscous_friction
-    )
+    assert rough.coefficient_bound * 1e5 > MODEL.friction_bound * rough.state.viscous_friction
 
 
 def test_far_outside_all_is_the_formulas():
@@ -77,7 +76,15 @@ def test_far_outside_all_is_the_formulas():
         assert found.state == formula
         assert found.outside == 1.0
         assert found.film_bound == LINE_FORMULA_FILM_BOUND
-        assert found.friction_bound == LINE_FORMULA_FRICTION_BOUND
+        # an isothermal Eyring film as thick as the formula's, between flanks too smooth to touch
+        found = solved(load, surface=SMOOTH)
+        formula = line_friction(load, R, SPEED, SLIP, OIL, SMOOTH, SOLID)
+        p, h = formula.mean_pressure, formula.film_thickness
+        rate = OIL.eta0 * math.exp(OIL.alpha * p) * SLIP / (h * OIL.tau0)
+        most = LINE_FORMULA_FRICTION_TOP * OIL.tau0 * math.asinh(rate) / p
+        assert formula.viscous_friction < 0.5 * most * load or load == 0.0
+        wanted = most * load / max(load, 1.0) - formula.friction_coefficient
+        assert found.coefficient_bound == pytest.approx(wanted, abs=1e-3 * most)
     assert solved(1e5, slope=0.01).outside == 1.0  # of the limiting stress
 
 

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import gearlube
 from docs.licences import requirements
 
 ROOT = Path(__file__).parents[2]
@@ -18,6 +19,7 @@ def test_the_recipe_has_the_same_packages():
 def test_the_versions_agree():
     stated = re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text("utf-8"), re.M)
     assert stated
-    version = stated[1]
-    assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text("utf-8")
-    assert f'version: "{version}"' in (ROOT / "recipe" / "recipe.yaml").read_text("utf-8")
+    number = stated[1]
+    assert gearlube.__version__ == number
+    assert f"\nversion: {number}\n" in (ROOT / "CITATION.cff").read_text("utf-8")
+    assert f'version: "{number}"' in (ROOT / "recipe" / "recipe.yaml").read_text("utf-8")

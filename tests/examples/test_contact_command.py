@@ -235,6 +235,9 @@ def test_an_unknown_pair_or_file_ends_with_bad_argument(name, asked, caplog):
         ("--torques", "50", "50"),
         ("--positions", "2"),
         ("--offset-error-um", "1e9"),
+        ("--films-rpm", "1"),
+        ("--films-rpm", "2000", "--oil-temperature", "900"),
+        ("--films-rpm", "2000", "--oil", "no_such_oil"),
     ],
 )
 def test_options_out_of_range_end_with_bad_argument(options, asked):

@@ -1,6 +1,7 @@
 """What `--example` prints or writes can be read by the command that it is for."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -10,6 +11,7 @@ from typer.testing import CliRunner
 
 import gearlube as gl
 from drivetrain.axle_file.axle_file import AxleFile
+from gearlube.cli.example_file import kept_example
 from gearlube.command import app
 from gearlube.studies.sound.generic_path import generic_path
 from gearlube.studies.sound.transfer_csv import read_csv_path
@@ -19,6 +21,7 @@ from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.oil.oil_file import OilFile
+from gearlube_core.rexs.exchange import rexs_text
 from gearlube_core.surface.statistics import profile_statistics
 
 
@@ -51,6 +54,14 @@ def test_a_rexs_file_holds_the_pair_of_he_2007(tmp_path):
     )
     assert pair.centre_distance == pytest.approx(given.centre_distance, rel=1e-9)
     assert pair.face_width == pytest.approx(given.face_width, rel=1e-9)
+
+
+def test_the_kept_rexs_file_is_what_the_package_writes_today():
+    def dateless(text):
+        return re.sub(r'(date|applicationVersion)="[^"]*"', "", text)
+
+    written, _ = rexs_text(gl.HelicalGearFile.named("he_2007"))
+    assert dateless(printed("convert")) == dateless(written)
 
 
 def test_a_transfer_path_is_the_generic_one_also_between_its_lines(tmp_path):
@@ -102,6 +113,7 @@ def test_a_gear_file_is_read(words, kind, name, tmp_path):
 def test_files_are_printed_as_shipped_and_without_loading_what_computes():
     words = (["sweep"], ["map"], ["axle", "show"], ["bearing"], ["oil"], ["contact"], ["design"])
     whine = (["whine"], ["whine", "he_2007"])
+    kept = (["convert"], ["oil", "fit"])
     films = (["ehl", kind] for kind in ("line", "point", "hypoid", "rough", "helical"))
     script = (
         "import json, sys\n"
@@ -111,7 +123,7 @@ def test_files_are_printed_as_shipped_and_without_loading_what_computes():
         "texts = [CliRunner().invoke(app, [*one, '--example']).stdout for one in asked]\n"
         "print(json.dumps([texts, sorted({'numba', 'scipy', 'xarray'} & set(sys.modules))]))\n"
     )
-    asked = json.dumps([*words, *films, *whine])
+    asked = json.dumps([*words, *films, *whine, *kept])
     done = subprocess.run(
         [sys.executable, "-c", script, asked], capture_output=True, text=True, check=True
     )
@@ -132,5 +144,7 @@ def test_files_are_printed_as_shipped_and_without_loading_what_computes():
         gl.HelicalGearFile.shipped_text("jamali_2015_a"),
         gl.HypoidGearFile.shipped_text("mohammadpour_2015"),
         gl.HelicalGearFile.shipped_text("he_2007"),
+        kept_example("he_2007.rexs"),
+        kept_example("traction.csv"),
     ]
     assert loaded == []

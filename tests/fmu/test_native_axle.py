@@ -202,7 +202,7 @@ def test_steps_continue_as_in_python_and_outputs_of_a_restored_state_are_the_sam
 
 
 def test_solved_films_are_those_of_python(native):
-    values = {"film": "solved", "pinion_speed": 150.0}
+    values = {"film": "solved", "bearing_torque_loss": "solved_films", "pinion_speed": 150.0}
     run = native.instance(values, CURRENT)
     assert run(Operation.START) == OK
     axle = start_axle(values, CURRENT)
@@ -217,6 +217,7 @@ def test_solved_films_are_those_of_python(native):
     loaded = np.array([axle.output(f"flank[{i}].load") for i in (1, 2, 3)]) > 0.0
     bounds = np.array([axle.output(f"flank[{i}].friction_bound") for i in (1, 2, 3)])
     np.testing.assert_array_equal(bounds > 0.0, loaded)
+    assert 0.0 < axle.output("bearing.power_loss_bound") < 0.02 * axle.output("bearing.power_loss")
 
 
 def test_an_axle_file_changes_constants_alone_and_is_the_axle_of_python_over_20_ms(

@@ -56,6 +56,7 @@ from gearlube_core.mesh_table import kernels
 from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with, running_axle, with_coast_flanks
 from tests.helpers.axle_film_arguments import AxleFlank, film_cases
+from tests.helpers.axle_raceway_arguments import raceway_cases
 
 COMPILED = axle_kernels(TaperedRollerParameters, MixedFlankFriction)
 
@@ -81,7 +82,9 @@ def all_cases():
         )
     ).kernel_parameters
     state_of_oil = lubricant_state(p.oil, OIL)
-    inputs = integrate.step_inputs(state, torque_p, torque_g, state_of_oil, p)
+    inputs = integrate.step_inputs(
+        state, torque_p, torque_g, state_of_oil, p, bearing_drag.AxleRaceways()
+    )
     series, window = np.zeros(mesh.series_size), np.zeros(mesh.window_size)
     table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
     mesh_data = MeshAtLoad(series, mesh.orders, window, mesh.nodes)
@@ -186,10 +189,7 @@ def all_cases():
             for state in (state, separated, coasting)
             for parameters in (p, printed)
         ),
-        *(
-            (bearing_drag.bearing_drag, (state, state_of_oil, p._replace(drag=law)))
-            for law in (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
-        ),
+        *raceway_cases(state, state_of_oil, p),
         *(
             (bearing_drag.loaded_drag, (p.bearing_p, rhs.pinion_motion(state), law, state_of_oil))
             for law in (0, 1)
@@ -267,8 +267,14 @@ def all_cases():
             for first in (1.0, 0.0)
             for expand in (1.0, 0.0)
         ),
-        (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p)),
-        (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p._replace(drag=0.0))),
+        (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p, bearing_drag.AxleRaceways())),
+        (
+            integrate.step_inputs,
+            (
+                *(state, 60.0, 100.0, state_of_oil, p._replace(drag=0.0)),
+                bearing_drag.AxleRaceways(),
+            ),
+        ),
         (integrate.displacements, (state, 1e-5)),
         (
             integrate.largest_change,
@@ -331,7 +337,7 @@ def all_cases():
             for duration in (0.0, 1e-4)
         ),
         *(
-            (outputs.write_losses, (state, slope, 7.0, zeros(N_OUTPUTS)))
+            (outputs.write_losses, (state, slope, 7.0, 3.0, zeros(N_OUTPUTS)))
             for state in (state, at_start)
         ),
         *(
@@ -339,7 +345,7 @@ def all_cases():
             for duration in (1e-4, 1e9)
         ),
         *(
-            (outputs.write_motion, (one, slope, 7.0, series, mesh.orders, p, zeros(N_OUTPUTS)))
+            (outputs.write_motion, (one, slope, 7.0, 3.0, series, mesh.orders, p, zeros(N_OUTPUTS)))
             for one in (state, at_start, separated)
         ),
         (outputs.write_motion_after_step, (state, table, p, work, zeros(N_OUTPUTS))),

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.bearings.bearing_type import NO_RACEWAYS
 from gearlube_core.dynamics.hypoid_axle import (
     OUTPUT_INDEX,
     HypoidAxle,
@@ -56,6 +57,14 @@ class SpringBearings(NamedTuple):
 
     @kernel
     def raceway_torque(self, motion, law, oil):
+        return 0.0
+
+    @kernel
+    def solved_raceways(self, motion, oil, films):
+        return NO_RACEWAYS
+
+    @kernel
+    def beside_raceways(self, motion, oil):
         return 0.0
 
     def without_loss(self):

@@ -117,7 +117,7 @@ def test_ranges_of_the_cycle(low, high, film, verdict, monkeypatch):
     store = Given(lambda case, step: steady(), lambda case: march(steps, p, h))
     found = CLAIMS["J3"].evaluate(store)
     assert found.verdict == verdict
-    assert "0.114 um, error 0.002 um" in found.reason
+    assert "0.114 um, with an error of 0.002 um" in found.reason
     assert "at least 0.165 um" in found.reason
 
 
@@ -253,7 +253,7 @@ def test_claims_on_a_march_that_was_given_up_fail_with_the_step_it_came_to():
     short = replace(short, complete=False)
     found = verdicts([CLAIMS["J3"], CLAIMS["J9"], CLAIMS["J14"]], Given(steady, lambda case: short))
     assert [v.verdict for v in found] == [FAILS] * 3
-    assert {v.reason for v in found} == {"a march was given up after step 30"}
+    assert {v.reason for v in found} == {"A march was given up after step 30."}
     assert short.at("min_film", 39) == 2e-7
     with pytest.raises(GivenUpError):
         short.at("min_film", 300)

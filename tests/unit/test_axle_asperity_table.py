@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import xarray as xr
 from drivetrain.axle_file.read_axle import read_axle
 from fmu_src import identity
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
+from gearlube_core.contact.elliptical_hertz import ellipticity
 from gearlube_core.contact.greenwood_tripp_1971 import (
     SurfaceParameters,
     asperity_area,
@@ -20,13 +22,16 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.errors import TableError
 from gearlube_core.friction.flank import flank_friction
+from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import CONSISTENT, contact_geometry
+from gearlube_core.friction.flank_laws import consistent
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.oil.lubricant_state import lubricant_state
 
 RATIOS = np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0])
 USUAL = SurfaceParameters(0.5e-6, 0.055, 0.001)  # of finished gear flanks
 STEEP = SurfaceParameters(0.7e-6, 0.3, 0.02)
+MEDIUM = SurfaceParameters(0.7e-6, 0.1, 0.01)
 
 
 def table_of(surface: SurfaceParameters, path: Path, **changes: object) -> Path:
@@ -74,6 +79,33 @@ def test_friction_of_the_axle_is_that_of_the_surface_of_the_table(tmp_path):
     expected = oil.tau_l0 * touching + oil.gamma * on_asperities
     # junctions build up over 1 mm/s of sliding; the fit is exact to roundings for its own law
     assert found.boundary_friction == pytest.approx(expected, rel=1e-6)
+
+
+def test_with_solved_films_the_asperities_of_the_table_stand_on_the_solved_film(tmp_path):
+    table_of(MEDIUM, tmp_path / "own.nc")
+    axle = read_axle(axle_file(tmp_path, '[film]\nmodel = "solved"')).axle
+    law, oil = axle._flank_law(), lubricant_state(axle.oil.parameters(), 368.15)
+    modulus, load, numbers = law.solid.contact_modulus, 2000.0, axle.film_model()
+    R_x, R_y, psi = 0.0125, 1.0, 0.85
+    contact = (load, 5.0, 3.6, contact_geometry(R_x, R_y, psi, modulus))
+    ellipse = FlankEllipse(R_x, R_y, ellipticity(R_y / R_x), psi, 0.4)
+    film = law.model_film(*contact, ellipse, oil, numbers)
+    found = law.bounded_flank(*contact, film, oil, numbers)
+    assert found.outside == 0.0
+    solved = math.exp(film.log_film)
+    assert found.state.film_thickness == pytest.approx(solved, rel=1e-12)
+    formula = law._replace(film=0.0).flank_state(*contact, oil)
+    assert solved < 0.9 * formula.film_thickness
+    area = load / found.state.mean_pressure
+    on_asperities = asperity_load(solved / MEDIUM.sigma, area, modulus, MEDIUM)
+    touching = asperity_area(solved / MEDIUM.sigma, area, MEDIUM)
+    assert on_asperities < load
+    expected = oil.tau_l0 * touching + oil.gamma * on_asperities
+    assert found.state.boundary_friction == pytest.approx(expected, rel=1e-6)  # as above
+    # a thinner film under rougher asperities: more than either change alone
+    assert expected > 1.1 * formula.boundary_friction
+    plain = consistent(USUAL, law.solid)._replace(film=law.film)
+    assert expected > plain.bounded_flank(*contact, film, oil, numbers).state.boundary_friction
 
 
 def test_the_file_says_what_the_table_became_and_how_far_it_is_missed(tmp_path):

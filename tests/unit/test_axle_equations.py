@@ -159,7 +159,7 @@ def test_outputs_after_a_step_read_all_orders_of_the_mesh_between_levels(monkeyp
     monkeypatch.setattr(
         outputs,
         "write_motion",
-        lambda s, rates, _, series, *__: seen.append((rates, series.copy())),
+        lambda s, rates, _, __, series, *___: seen.append((rates, series.copy())),
     )
     s = np.zeros(N_STATE)
     s[LOAD_TORQUE], s[SIDE] = 50.0, side

@@ -69,7 +69,7 @@ def test_a_parameter_out_of_range_says_what_limit_and_cure(change, message):
         (
             "bearing_torque_loss",
             "none, palmgren, zhou_hoeprich_1991, biboulet_houpert_2010, aihara_1987, "
-            "palmgren_loaded, skf_2013",
+            "palmgren_loaded, skf_2013, solved_films",
         ),
     ],
 )

@@ -91,3 +91,9 @@ def test_help_imports_nothing_heavy(arguments):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1].strip() == "loaded:"
+
+
+def test_a_mistyped_command_brings_the_name_that_is_near(app):
+    result = CliRunner().invoke(app, ["swep"])
+    assert result.exit_code == 2
+    assert "Did you mean 'sweep'?" in result.output

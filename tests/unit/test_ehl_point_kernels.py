@@ -18,6 +18,7 @@ from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ConvergenceError, ParameterError
 from tests.helpers.ehl_point_cases import moes_contact
@@ -161,14 +162,21 @@ def test_cycle_is_exact_where_lines_and_the_coarse_grid_share_the_solution() -> 
         approach = (residual.sum() - load / share) / column.sum()
         return 0.5 * (residual - column * approach), float(approach)
 
-    grid = SimpleNamespace(integral=lambda field: share * field.sum())
-    operator = SimpleNamespace(apply=lambda p, h: 2.0 * p + by_approach * h)
+    grid = SimpleNamespace(
+        integral=lambda field: share * field.sum(),
+        short_deflection=lambda p, halved: 0.5 * p,
+        single_deflection=lambda p: 0.5 * p,
+        sides=AMBIENT,
+    )
+    # the film is half of the pressure
+    operator = SimpleNamespace(rest=lambda r, p, f, h: r - p - 2.0 * f - by_approach * h)
     cycle = object.__new__(MultigridCycle)
-    cycle._levels = (None, SimpleNamespace(shape=shape, grid=grid, load=1.0))
+    cycle._levels = (SimpleNamespace(grid=grid), SimpleNamespace(shape=shape, grid=grid, load=1.0))
+    cycle._halved = [(False, True)]
     cycle._operators, cycle._free, cycle._direct = [operator], [free], direct
     cycle._transfers = (SimpleNamespace(down=down, up=up),)
     expected, approach = rng.standard_normal(shape), 0.7
-    residual = operator.apply(expected, approach)
+    residual = 2.0 * expected + by_approach * approach
     load = grid.integral(expected)
     # lines along rows alone, and lines both ways: the second ones find what the first have left
     for lines in ([lambda r: 0.5 * r], [lambda r: 0.2 * r, lambda r: 0.5 * r]):

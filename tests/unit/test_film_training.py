@@ -13,7 +13,8 @@ from gearlube.studies.film_model.audit import Audit, AuditRow, audit_lines
 from gearlube.studies.film_model.calibration import conformal_bounds
 from gearlube.studies.film_model.fit import fit_model
 from gearlube.studies.film_model.fit_settings import FitSettings
-from gearlube.studies.film_model.kinds import HYPOID_FLANK
+from gearlube.studies.film_model.kinds import BEARING_ROLLER, HYPOID_FLANK
+from gearlube.studies.film_model.limiting import limits_of
 from gearlube.studies.film_model.net_fit import fit_net, net_values
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, box_contacts, widened_box
@@ -65,6 +66,19 @@ def test_a_plan_gives_the_same_contacts_again_and_all_kinds():
     assert first == again
     assert len(first) == SMALL.solves
     assert len({row_key(task) for task in first}) == SMALL.solves
+
+
+def test_training_says_where_a_limiting_stress_would_bind(rows):
+    table = SolveTable(Path("nowhere.csv"))
+    visited = [row for row in rows if row.task.kind == HYPOID_FLANK.visited]
+    for i, row in enumerate(visited):
+        friction = 0.02 if i % 2 else 0.06
+        solved = row.solved._replace(friction=friction)
+        table.rows[row_key(row.task)] = row._replace(solved=solved)
+    (sentence,) = limits_of(table)
+    # 0.06 is above 0.035 and 0.05 and below 0.08
+    assert "would cut 50, 50 or 0 % of the films that are visited" in sentence
+    assert limits_of(SolveTable(Path("nowhere.csv"), BEARING_ROLLER)) == []
 
 
 def test_random_contacts_lie_in_the_domain_and_spread_over_the_box():

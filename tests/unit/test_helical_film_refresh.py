@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.march.film_refresh import point_load
+from gearlube_core.dynamics.helical_pair.march.line_points import point_load
 from gearlube_core.dynamics.helical_pair.march.mesh_data import STATIONS_AT
 
 PHASES, LINES, STATIONS = 5, 2, 4

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from gearlube_core.dynamics.helical_pair.march import film_bounds
 from gearlube_core.dynamics.helical_pair.march import line_outputs as module
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView
 from gearlube_core.dynamics.helical_pair.march.state import (
@@ -18,6 +19,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
 )
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import line_groups
+from gearlube_core.friction.flank_laws import FORMULA, SOLVED
 from gearlube_core.oil.lubricant_state import LubricantState
 from tests.helpers.source_of import interpret, source_of
 
@@ -32,24 +34,36 @@ POINTS[0, :2, 1] = 0.0  # no line before the pitch line: what stands there must 
 POINTS[0, :2, 0] = 1e6
 POINTS[1, 2, 0] = 0.0  # apart, with a length
 POINTS[2, :, 3] *= -1.0
+MU_OF = 0.02 + 0.05 * RNG.random((LINES, POINTS_PER_LINE))
+BOUNDS = RNG.random((LINES, POINTS_PER_LINE, 3))  # share outside, bounds of film and coefficient
 COEFFICIENTS = 0.02 + 0.05 * RNG.random(2 * FLANK_POINTS)
 
 
-def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=MU):
+def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=MU, film=FORMULA):
     interpret(monkeypatch, module)
     s = np.zeros(N_STATE)
     s[W_P] = -120.0
     s[MU:] = COEFFICIENTS
 
-    def line_point(view, line, place, pinion_speed, data, lubricant, p):
+    def line_point(view, coast, line, place, pinion_speed, data, lubricant, p):
         assert (view.phase, pinion_speed, data, lubricant) == (PHASE, 120.0, "data", OIL)
+        assert coast == (mu_at != MU)
         w, length, film, sliding, entrainment, rise, pressure, R = points[line, place]
         motion = SimpleNamespace(sliding=sliding, entrainment=entrainment, R=R)
         ratio = film / SIGMA if ratio_of is None else ratio_of
         state = SimpleNamespace(
-            film_thickness=film, film_ratio=ratio, temperature_rise=rise, mean_pressure=pressure
+            film_thickness=film, film_ratio=ratio, temperature_rise=rise, mean_pressure=pressure,
+            friction_coefficient=MU_OF[line, place],
+        )  # fmt: skip
+        outside, of_film, of_friction = BOUNDS[line, place]
+        return (
+            w,
+            length,
+            motion,
+            SimpleNamespace(
+                state=state, outside=outside, film_bound=of_film, coefficient_bound=of_friction
+            ),
         )
-        return w, length, motion, state
 
     monkeypatch.setattr(module, "line_point", line_point)
     p = SimpleNamespace(
@@ -57,14 +71,19 @@ def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=
         solid=SimpleNamespace(contact_modulus=MODULUS),
         surface=SimpleNamespace(sigma=SIGMA),
         friction_form=friction_form,
+        film=film,
     )
     size = len(module.LINE_OUTPUTS)
-    out = np.full(FIRST + size + 1, -7.0)
+    end = FIRST + size + 1
+    out = np.full(end + len(film_bounds.LINE_BOUNDS) + 1, -7.0)
     view = FlankView(0.0, 0.0, PHASE)
-    found = source_of(module.write_lines)(view, mu_at, s, HOT, "data", OIL, p, FIRST, out)
+    found = source_of(module.write_lines)(view, mu_at, s, HOT, "data", OIL, p, FIRST, end, out)
     assert np.all(out[:FIRST] == -7.0)
-    assert out[-1] == -7.0
-    return out[FIRST:-1].reshape(LINES_MAX, 8), found
+    assert out[end - 1] == out[-1] == -7.0
+    if film == SOLVED:
+        return out[end:-1].reshape(LINES_MAX, 2), found
+    assert np.all(out[end:-1] == 0.0)
+    return out[FIRST : end - 1].reshape(LINES_MAX, 8), found
 
 
 @pytest.mark.parametrize("mu_at", [MU, MU + FLANK_POINTS])
@@ -82,6 +101,23 @@ def test_outputs_of_every_line_are_means_over_its_load(monkeypatch, mu_at, frict
         np.testing.assert_allclose(rows[slot], expected, rtol=1e-13)
     # a line that is not there
     np.testing.assert_array_equal(rows[LINES:], [[0.0] * 7 + [HOT]] * (LINES_MAX - LINES))
+
+
+def test_bounds_are_means_over_load_and_friction_and_loss(monkeypatch):
+    rows, found = written(monkeypatch, film=SOLVED)
+    load = POINTS[..., 0] * POINTS[..., 1]
+    load[POINTS[..., 1] == 0.0] = 0.0
+    force = MU_OF * load
+    outside, of_film, of_friction = np.moveaxis(BOUNDS, -1, 0)
+    for line, slot in ((0, 1), (1, 0), (2, 2)):
+        film = np.sum(of_film[line] * load[line]) / load[line].sum()
+        friction = np.sum(of_friction[line] * load[line]) / force[line].sum()
+        np.testing.assert_allclose(rows[slot], [film, friction], rtol=1e-13)
+    assert np.all(rows[LINES:] == 0.0)
+    assert found.outside == pytest.approx(np.sum(outside * load) / load.sum(), rel=1e-13)
+    speed = abs(POINTS[..., 3])
+    wanted = np.sum(of_friction * load * speed) / np.sum(force * speed)
+    assert found.loss_bound == pytest.approx(wanted, rel=1e-13)
 
 
 def test_order_of_the_outputs():
@@ -139,7 +175,7 @@ def test_flank_without_load_has_no_films(monkeypatch):
     points = POINTS.copy()
     points[..., 0] = 0.0
     rows, found = written(monkeypatch, points=points)
-    assert tuple(found) == (0.0,) * 6
+    assert tuple(found) == (0.0,) * 8
     lengths = [points[line, :, 1].sum() for line in (1, 0, 2)]
     np.testing.assert_allclose(rows[:LINES, 1], lengths, rtol=1e-14)
     assert np.all(rows[:, [0, 2, 3, 4, 5, 6]] == 0.0)

@@ -187,6 +187,9 @@ def test_kinematics_are_at_the_centre_of_force_of_every_loaded_pair(side):
     for axis, expected in zip("xyz", (-0.6, 0.48, 0.64), strict=True):
         values = data["xi"].sel(axis=axis)
         np.testing.assert_array_equal(values, np.where(known, expected, np.nan))
+    for axis, expected in zip("xyz", (0.0, 1.0, 0.0), strict=True):
+        values = data["minor_axis"].sel(axis=axis)
+        np.testing.assert_array_equal(values, np.where(known, expected, np.nan))
 
 
 def test_coordinates_and_attributes_are_those_of_the_settings_and_the_file():

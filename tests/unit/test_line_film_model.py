@@ -12,7 +12,10 @@ from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.kinds import HELICAL_LINE, HYPOID_FLANK, kind_of
 from gearlube.studies.film_model.line_samples import LINE_DOMAIN
 from gearlube.studies.film_model.plan import FilmPlan
-from gearlube.studies.film_model.solves import SolveTable
+from gearlube.studies.film_model.process import fit_process
+from gearlube.studies.film_model.solve import Solved
+from gearlube.studies.film_model.solves import SolveRow, SolveTable
+from gearlube.studies.film_model.targets import own_steps
 from gearlube.studies.film_model.train import failed_row
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.moes_1992 import central_film_group
@@ -237,6 +240,40 @@ def test_both_grids_lead_to_the_same_limit():
     for kind in (HYPOID_FLANK, HELICAL_LINE):
         first, second = (1.0 + 2.0 / (n - 1.0) ** 2 for n in (kind.nodes[0], kind.second[0]))
         assert first + kind.to_limit * (second - first) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_a_contact_on_both_grids_takes_its_own_way_to_the_limit():
+    plan = FilmPlan(contact="line", box=5, visited=1, edge=1, calibration=3, fresh=1, fine_box=0,
+                    fine_visited=0, fine_edge=0, fine_fresh=0, fine_calibration=2)  # fmt: skip
+    tasks = [task for task in plan.tasks() if task.kind == "calibration"]
+    assert [task.nodes for task in tasks] == 3 * [HELICAL_LINE.nodes] + 2 * [HELICAL_LINE.second]
+    rows = []
+    for task in tasks:
+        film = 1e-6 * (1.0 + task.number) * (1.0 + 500.0 / (task.nodes[0] - 1.0) ** 2)
+        rows.append(SolveRow(task, Solved(film, film, 0.01, 1e9, 1.0, 0.0, 1.0, 0.1), ""))
+    steps = own_steps(rows, "calibration")
+    assert steps.shape == (3, 2)
+    found = [
+        row.solved.central_film * math.exp(step)
+        for row, step in zip(rows[:3], steps[:, 0], strict=True)
+    ]
+    # of second order, as the step of the logarithm is to first order of 500/512^2
+    np.testing.assert_allclose(found[:2], [1e-6, 2e-6], rtol=1e-5)
+    assert np.isnan(steps[2]).all()
+
+
+def test_a_process_for_rough_values_learns_a_bend_better():
+    rng = np.random.default_rng(5)
+    drawn = HELICAL_LINE.box_contacts(HELICAL_LINE.box, 260, 3)
+    groups = np.array([HELICAL_LINE.groups(one) for one in drawn])
+    thickness = groups[:, -1]
+    values = np.abs(thickness - np.median(thickness)) + 1e-3 * rng.standard_normal(len(groups))
+    smooth, rough = (
+        fit_process(groups[:200], values[:200], smooth=one)(groups[200:]) - values[200:]
+        for one in (True, False)
+    )
+    assert np.sqrt((rough**2).mean()) < 0.1 * values.std()
+    assert np.sqrt((rough**2).mean()) < 1.1 * np.sqrt((smooth**2).mean())
 
 
 def test_the_box_holds_the_oils_of_the_pairs():

@@ -68,6 +68,23 @@ def test_the_mesh_is_not_damped_in_steady_running(found):
     assert np.all(found["loss"].sel(source="mesh_damping").values == 0.0)
 
 
+def test_a_map_with_solved_rollers_has_their_bound(found, tmp_path):
+    settings = gl.LossMapSettings(
+        axle=replace(AXLE, bearing_torque_loss="solved_films"),
+        torques=np.array([20.0, 50.0]),
+        speeds=np.array([100.0, 150.0]),
+        temperatures=np.array([333.15]),
+        draws=0,
+    )
+    made = gl.run_loss_map(settings, folder=tmp_path)
+    drag = made["loss"].sel(source="bearing_torque")
+    # raceways have the model's bound of 0.55 %, ribs and oil none; a few rollers lie outside
+    share = (made["drag_bound"] / drag).values
+    assert np.all((share > 0.002) & (share < 0.05))
+    assert np.all(made["rollers_outside"].values < 0.1)
+    assert "drag_bound" not in found
+
+
 def test_input_less_output_is_the_loss(found):
     ratio = found.attrs["ratio"]
     lost = found["torque"] - found["wheel_torque"] / ratio
@@ -128,6 +145,7 @@ def drag_of(law, **options):
         ("aihara_1987", 2.0),
         ("palmgren_loaded", 2.0),
         ("skf_2013", 2.5),
+        ("solved_films", 3.0),
     ],
 )
 def test_bearing_drag_is_as_uncertain_as_the_law_of_a_single_bearing(law, factor):

@@ -160,11 +160,11 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
         assert (pinion_torque, wheel_torque) == (50.0, 120.0)
         out[:] = rates
 
-    def write_lines(view, mu_at, s, temperature, data, oil, constants, first, out):
-        calls["lines"] = (mu_at, temperature, oil, first)
+    def write_lines(view, mu_at, s, temperature, data, oil, constants, first, bounds, out):
+        calls["lines"] = (mu_at, temperature, oil, first, bounds)
         return SimpleNamespace(
             thinnest_film=2e-7, film_load=1.0, film_material=2.0, traction=3.0, temperature=4.0,
-            pressure=5.0,
+            pressure=5.0, outside=0.25, loss_bound=0.1,
         )  # fmt: skip
 
     for name, stand_in in {
@@ -174,7 +174,6 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
         "line_sums": line_sums,
         "lubricant_state": lambda oil, temperature: (oil, temperature),
         "write_lines": write_lines,
-        "write_film_bounds": lambda *given: (0.25, 0.1),
         "write_ranges": lambda *given: calls.setdefault("ranges", given[:7]),
         "write_event_indicators": lambda *given: None,
     }.items():
@@ -205,7 +204,7 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
     leads = on_drive >= on_coast
     mu_at = MU if leads else MU + FLANK_POINTS
     first_line = outputs.OUTPUT_NAMES.index("line[1].load")
-    assert calls["lines"] == (mu_at, 340.0, ("oil", 340.0), first_line)
+    assert calls["lines"] == (mu_at, 340.0, ("oil", 340.0), first_line, outputs.BOUNDS)
     torque = max(0.8, max(on_drive, on_coast) * PLANE.r_bp * PLANE.cos_b)
     assert calls["ranges"][0] == pytest.approx(torque if leads else -torque)
     assert calls["ranges"][1:] == (1.0, 2.0, 3.0, 4.0, 5.0, ranges)

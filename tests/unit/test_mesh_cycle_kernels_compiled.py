@@ -10,6 +10,7 @@ import pytest
 from numba.core.dispatcher import Dispatcher
 
 from gearlube_core.dynamics.hypoid_axle import mesh_cycle
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import AxleRaceways
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
@@ -38,10 +39,10 @@ def all_cases():
     )
     blend_mesh(torque, 1.0, table, data)
     oil = lubricant_state(p.oil, OIL)
-    inputs = step_inputs(state, torque, wheel_torque, oil, p)
+    inputs = step_inputs(state, torque, wheel_torque, oil, p, AxleRaceways())
     work = np.zeros(mesh_cycle.cycle_work(mesh.orders, mesh.nodes))
     losses = np.zeros(mesh_cycle.N_LOSSES)
-    found = np.array([math.inf, OIL, 4.0, 0.1, 0.2])
+    found = np.array([math.inf, OIL, 4.0, 0.1, 0.2, 0.3, 0.4])
     cycle = (state, SPEED, torque, OIL, 3, table, p, without_losses(p), work, losses)
     coast = (state, SPEED, -torque, *cycle[3:])
     return (

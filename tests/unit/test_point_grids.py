@@ -10,6 +10,7 @@ import pytest
 
 from gearlube_core.ehl.point.newton import hierarchy, smoother
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
+from gearlube_core.ehl.point.newton.single_stencil import SingleStencil
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection
 from gearlube_core.ehl.point.sides import AMBIENT
@@ -81,7 +82,14 @@ def test_grids_below_keep_the_transfers_between_them():
 
 
 SHAPE = (7, 16)
-GRID = SimpleNamespace(shape=SHAPE, modulus=0.02, graded=False, sides=AMBIENT, workers=ALONE)
+GRID = SimpleNamespace(
+    shape=SHAPE,
+    modulus=0.02,
+    graded=False,
+    sides=AMBIENT,
+    workers=ALONE,
+    own_deflection=np.ones(SHAPE),
+)
 
 
 def solved(entries, free, residual, halved, spacing) -> np.ndarray:
@@ -92,7 +100,9 @@ def solved(entries, free, residual, halved, spacing) -> np.ndarray:
     across = np.cos(np.arange(5) * min(wave * dy, 0.55 * np.pi))
     return np.array(
         [
-            np.linalg.solve(dense_row(entries, free, local, across, j, 2, 4), row * free[j])
+            np.linalg.solve(
+                dense_row(entries, free, local, across, j, 2, smoother.REACH), row * free[j]
+            )
             for j, row in enumerate(residual)
         ]
     )
@@ -108,7 +118,8 @@ def test_rows_and_columns_are_solved_as_dense_matrices_say(monkeypatch, halved, 
     dy, dx = spacing
     grid = SimpleNamespace(**vars(GRID) | {"dx": dx, "dy": dy})
     residual = np.random.default_rng(1).normal(size=SHAPE)
-    found = RowSmoother(grid, operator, halved, 0.7)(residual)
+    stencil = SingleStencil.of(operator.matrix, SHAPE, 0, grid.own_deflection[0])
+    found = RowSmoother(grid, operator, stencil, halved, 0.7)(residual)
     expected = 0.7 * solved(entries, free, residual, halved, spacing)
     # factors of single precision
     assert found == pytest.approx(expected, rel=1e-3, abs=1e-4 * np.abs(expected).max())

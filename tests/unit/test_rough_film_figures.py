@@ -108,7 +108,7 @@ def test_frame_shows_pressure_film_and_a_row():
     maps = [ax.collections[0] for ax in figure.axes[:2]]
     assert float(np.max(maps[0].get_array())) == pytest.approx(2.0, rel=1e-12)
     assert float(np.min(maps[1].get_array())) == pytest.approx(0.0045, rel=1e-12)
-    assert "0.10 µs" in figure.axes[0].get_title()
+    assert "at 0.1 µs" in figure.axes[0].get_title()
 
 
 def test_animation_has_a_picture_for_every_frame_and_leaves_no_part(tmp_path: Path):

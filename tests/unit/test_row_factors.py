@@ -7,6 +7,7 @@ import pytest
 from scipy.sparse import csr_matrix
 
 from gearlube_core.ehl.point.newton import row_factors, smoother
+from gearlube_core.ehl.point.newton.single_stencil import SingleStencil
 from gearlube_core.ehl.point.newton.smoother import Equations
 from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 from tests.helpers.source_of import interpret
@@ -43,12 +44,22 @@ def solved(given: Equations, residual: np.ndarray) -> np.ndarray:
             for k in range(given.start[j * NX + i], given.start[j * NX + i + 1]):
                 jj, ii = divmod(int(given.column[k]), NX)
                 dense[i, ii] += given.entry[k].real * (jj == j)
-                near = np.abs(np.arange(NX) - ii) <= 4
+                near = np.abs(np.arange(NX) - ii) <= smoother.REACH
                 film = given.entry[k].imag * given.across[abs(jj - j)]
                 dense[i] += film * np.where(near, given.local[ii], 0.0)
         free = np.flatnonzero(given.free[j])
         result[j, free] = np.linalg.solve(dense[np.ix_(free, free)], residual[j, free])
     return result
+
+
+def rows_of(kind, given: Equations, workers: RowWorkers = ALONE):
+    """Rows of either kind; what takes stencils gets those of the same entries."""
+    if kind is smoother._ExchangedRows:
+        return kind(given, workers)
+    matrix = csr_matrix((given.entry, given.column, given.start), shape=(NY * NX, NY * NX))
+    stencil = SingleStencil.of(matrix, (NY, NX), given.period, np.full(NX, 0.4))
+    assert stencil is not None
+    return kind(stencil, given, workers)
 
 
 RESIDUAL = np.random.default_rng(5).normal(size=(NY, NX))
@@ -57,7 +68,7 @@ RESIDUAL = np.random.default_rng(5).normal(size=(NY, NX))
 @pytest.mark.parametrize("kind", [smoother._SideBySide, smoother._ExchangedRows])
 def test_rows_are_solved_as_dense_matrices_say(kind):
     given = equations(-6.0)
-    rows = kind(given, ALONE)
+    rows = rows_of(kind, given)
     # factors of single precision
     expected = 0.7 * solved(given, RESIDUAL)
     assert rows.solve(RESIDUAL, np.float32(0.7)) == pytest.approx(expected, abs=1e-5)
@@ -66,7 +77,9 @@ def test_rows_are_solved_as_dense_matrices_say(kind):
 def test_rows_side_by_side_do_not_depend_on_the_threads(monkeypatch):
     monkeypatch.setattr("gearlube_core.kernels.row_workers._FEW", 1)
     found = [
-        smoother._SideBySide(equations(-6.0), RowWorkers(threads)).solve(RESIDUAL, np.float32(1.0))
+        rows_of(smoother._SideBySide, equations(-6.0), RowWorkers(threads)).solve(
+            RESIDUAL, np.float32(1.0)
+        )
         for threads in (1, 2, 3)
     ]
     assert (found[0] == found[1]).all()
@@ -74,12 +87,12 @@ def test_rows_side_by_side_do_not_depend_on_the_threads(monkeypatch):
 
 
 def test_interpreted_kernels_are_the_compiled_ones(monkeypatch):
-    compiled = smoother._SideBySide(equations(-6.0), ALONE).solve(RESIDUAL, np.float32(1.0))
+    compiled = rows_of(smoother._SideBySide, equations(-6.0)).solve(RESIDUAL, np.float32(1.0))
     interpret(monkeypatch, row_factors, smoother)
-    found = smoother._SideBySide(equations(-6.0), ALONE).solve(RESIDUAL, np.float32(1.0))
+    found = rows_of(smoother._SideBySide, equations(-6.0)).solve(RESIDUAL, np.float32(1.0))
     assert found == pytest.approx(compiled, abs=1e-6)
 
 
 @pytest.mark.parametrize(("own", "sound"), [(-6.0, True), (-0.62, False), (np.nan, False)])
 def test_equations_with_a_weak_own_node_are_not_sound(own, sound):
-    assert smoother._SideBySide(equations(own), ALONE).sound is sound
+    assert rows_of(smoother._SideBySide, equations(own)).sound is sound

@@ -17,6 +17,7 @@ from gearlube_core.ehl.point.newton.single_stencil import SingleStencil
 
 SHAPE = (9, 12)
 PERIOD = SHAPE[0] - 2  # rows 0 and 8 are copies
+OWN = np.full(SHAPE[1], 0.5)  # deflection under unit pressure on a node's own cell
 
 
 def stencil_matrix(period: int, reach: int = 2) -> csr_matrix:
@@ -40,20 +41,38 @@ def stencil_matrix(period: int, reach: int = 2) -> csr_matrix:
 def test_stencils_multiply_as_their_matrix_does(period):
     matrix = stencil_matrix(period)
     pressure, film = np.random.default_rng(5).normal(size=(2, *SHAPE))
-    stencil = SingleStencil.of(matrix, SHAPE, period)
+    right = np.ones(SHAPE)
+    stencil = SingleStencil.of(matrix, SHAPE, period, OWN)
     expected = (matrix.real @ pressure.ravel() + matrix.imag @ film.ravel()).reshape(SHAPE)
     # at most fifteen neighbours of order one, rounded to 6e-8
-    assert stencil.multiply(pressure, film) == pytest.approx(expected, abs=1e-5)
+    assert right - stencil.rest(right, pressure, film) == pytest.approx(expected, abs=1e-5)
+
+
+def test_neighbours_of_little_weight_are_added_to_the_node_itself():
+    matrix = stencil_matrix(PERIOD)
+    rows, columns = matrix.nonzero()
+    far = np.abs(rows % SHAPE[1] - columns % SHAPE[1]) == 2
+    matrix.data[far] *= 1e-4
+    stencil = SingleStencil.of(matrix, SHAPE, PERIOD, OWN)
+    # without the far ones, three by three remain
+    assert sorted(map(tuple, stencil.offsets)) == sorted(map(tuple, stencil.film_offsets))
+    assert {abs(step) for _, step in stencil.offsets} == {0, 1}
+    # under even changes nothing is lost: every entry counts as the matrix has it
+    even = np.ones(SHAPE)
+    expected = (matrix.real @ even.ravel() - 2.0 * matrix.imag @ even.ravel()).reshape(SHAPE)
+    zero = np.zeros(SHAPE)
+    assert -stencil.rest(zero, even, -2.0 * even) == pytest.approx(expected, abs=1e-5)
 
 
 def test_oil_that_passes_ruptured_film_reaches_beyond_a_stencil():
     matrix = stencil_matrix(0, reach=3)
-    assert SingleStencil.of(matrix, SHAPE, 0) is None
+    assert SingleStencil.of(matrix, SHAPE, 0, OWN) is None
     sides = SimpleNamespace(period=lambda rows: 0)
-    grid = SimpleNamespace(shape=SHAPE, sides=sides, deflection=lambda p: 0.5 * p)
+    grid = SimpleNamespace(shape=SHAPE, sides=sides, own_deflection=np.full(SHAPE, 0.5))
     pressure = np.random.default_rng(6).normal(size=SHAPE)
     operator = SparseOperator(matrix, np.ones(SHAPE, dtype=bool), np.ones(SHAPE))
-    found = SingleOperator(grid, operator).apply(pressure, 2.0)
+    right = np.ones(SHAPE)
+    found = right - SingleOperator(grid, operator).rest(right, pressure, 0.5 * pressure, 2.0)
     expected = (matrix.real + 0.5 * matrix.imag) @ pressure.ravel() + 2.0
     assert found.ravel() == pytest.approx(expected, rel=1e-5, abs=1e-5)
 

@@ -124,8 +124,9 @@ def test_coarsest_grid_is_solved_as_its_dense_system():
     dense = operator.matrix.toarray()
     left = dense.real @ pressure.ravel() + dense.imag @ (deflection @ pressure.ravel())
     left += approach * operator.by_approach.ravel()
-    assert left[free.ravel()] == pytest.approx(residual[free], rel=1e-9)
-    assert (pressure * cells).sum() / 2.5 == pytest.approx(0.3)
+    # single precision, times a condition number of some hundreds
+    assert left[free.ravel()] == pytest.approx(residual[free], rel=1e-4)
+    assert (pressure * cells).sum() / 2.5 == pytest.approx(0.3, rel=1e-4)
 
 
 def test_mixing_solves_a_linear_iteration_in_as_many_turns_as_it_has_modes():

@@ -40,13 +40,12 @@ def torque_of_laws(dataset: xr.Dataset) -> Any:
         for ax, place in zip(panels, places, strict=True):
             at = dataset.sel(place)
             for i, law in enumerate(dataset["law"].values):
-                one, colour = at.sel(law=law), SERIES[i % len(SERIES)]
+                one = at.sel(law=law)
                 if i == 0:
                     band = (one["torque_low"], one["torque_high"])
                     words = f"error bar of {LAW_NAMES[str(law)]} (95 %)"
                     ax.fill_between(x, *band, color=GREY, alpha=0.4, lw=0.0, label=words)
-                marker, name = MARKERS[i % len(MARKERS)], LAW_NAMES[str(law)]
-                ax.plot(x, one["torque"], color=colour, marker=marker, label=name)
+                ax.plot(x, one["torque"], label=LAW_NAMES[str(law)], **_look(i))
             ax.set(title=place_words(place))
             ax.set_ylim(bottom=0.0)
         _label_outer(panels, _AXES[along])
@@ -68,13 +67,13 @@ def parts_of_first_law(dataset: xr.Dataset) -> Any:
             for i, part in enumerate(dataset["part"].values):
                 torque = at["part_torque"].sel(part=part).values
                 if np.isfinite(torque).all():
-                    colour = SERIES[i % len(SERIES)]
-                    marker = MARKERS[i % len(MARKERS)]
-                    ax.plot(x, _above_zero(torque), color=colour, marker=marker, label=str(part))
+                    ax.plot(x, _above_zero(torque), label=str(part), **_look(i))
             ax.set(title=place_words(place), yscale="log")
         _label_outer(panels, _AXES[along])
         _legend_below(figure, panels[0])
-        figure.suptitle(f"{dataset.attrs['name']}: parts, {LAW_NAMES[law]}", fontsize=11.5)
+        figure.suptitle(
+            f"{dataset.attrs['name']}: parts of the torque by {LAW_NAMES[law]}", fontsize=11.5
+        )
     return figure
 
 
@@ -91,6 +90,14 @@ def save_bearing_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
             draw(dataset).savefig(partial, format="png", dpi=150)
         files.append(path)
     return files
+
+
+def _look(row: int) -> dict[str, Any]:
+    """Return the look of line number `row`; more lines than colours are black and dashed."""
+    look: dict[str, Any] = {"marker": MARKERS[row % len(MARKERS)]}
+    if row < len(SERIES):
+        return look | {"color": SERIES[row]}
+    return look | {"color": "black", "ls": "--", "fillstyle": "none"}
 
 
 def _panel_grid(count: int) -> tuple[Any, list[Any]]:

@@ -85,6 +85,20 @@ def contact(
     quick: Annotated[
         bool, typer.Option("--quick", help="Few positions and torques, for a first look.")
     ] = False,
+    films_rpm: Annotated[
+        float | None,
+        typer.Option(
+            help="Also write flank_films.gif: pressure and oil film on the drive flank over a mesh "
+            "period, at the largest torque and this speed of the pinion [rpm].",
+            metavar="RPM",
+        ),
+    ] = None,
+    oil: Annotated[
+        str, typer.Option(help="Oil of --films-rpm: a shipped one or an oil file.", metavar="OIL")
+    ] = "mohammadpour_2015",
+    oil_temperature: Annotated[
+        float, typer.Option(help="Its temperature [degC].", metavar="DEGC")
+    ] = 90.0,
     sensitivity: Annotated[
         bool,
         typer.Option(
@@ -106,6 +120,7 @@ def contact(
         return
     from gearlube.report.stored import PAGE
     from gearlube.studies.contact import run
+    from gearlube.studies.contact.film_option import film_request, write_films
     from gearlube.studies.contact.findings import findings
     from gearlube.studies.contact.gear_solids import write_gears
     from gearlube.studies.contact.settings import (
@@ -127,6 +142,7 @@ def contact(
     with exit_on_error(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
         file = HypoidGearFile.given(gear)
         usual = QUICK if quick else ContactSettings()
+        films = None if films_rpm is None else film_request(films_rpm, oil, oil_temperature)
         cycle = replace(
             usual.cycle,
             positions=positions or usual.cycle.positions,
@@ -160,6 +176,9 @@ def contact(
             if export:
                 progress(1.0, "writing flanks and gears")
                 write_gears(file, out / "gears")
+            if films is not None:
+                progress(1.0, "films of the axle; the first time this compiles it, about 15 s")
+                animation = write_films(results, films, out)
         kept = None
         if gear.endswith(".toml") and replace(cycle, torques=CycleSettings().torques) == (
             CycleSettings()
@@ -173,6 +192,8 @@ def contact(
             logger.warning("%s", sentence)
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)
+        if films is not None:
+            logger.info("Animation: %s", animation)
         logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")
         tell_findings(findings(results.contact), out / PAGE)
         if kept is not None:

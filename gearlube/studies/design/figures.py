@@ -95,7 +95,9 @@ def tooth_widths(dataset: xr.Dataset) -> Any:
                     label=member,
                 )
             ax.set(
-                xlim=(0.0, 1.0), xlabel="toe  -  face width  -  heel", ylabel="normal width [mm]"
+                xlim=(0.0, 1.0),
+                xlabel="place along the face: 0 toe, 1 heel",
+                ylabel="normal width [mm]",
             )
             ax.set_ylim(bottom=0.0)
             ax.set_title("topland" if name == "topland" else "slot at the root")

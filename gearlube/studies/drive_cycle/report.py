@@ -98,10 +98,12 @@ def demand_chart(dataset: xr.Dataset) -> Any:
 def loss_chart(dataset: xr.Dataset) -> Any:
     """Return the power lost by source over time."""
     energy = dataset["energy_lost"].values
-    drawn = np.flatnonzero(energy > LEAST_SHARE * energy.sum())
-    names = [source_words(str(dataset["source"].values[i])) for i in drawn]
-    parts = dataset["loss"].values.T[drawn]
-    return stack_chart(names, dataset["step"].values, parts, TIME, Axis("power lost", "W"))
+    kept = energy > LEAST_SHARE * energy.sum()
+    names = [source_words(str(name)) for name in dataset["source"].values]
+    power = Axis("power lost", "W")
+    return stack_chart(
+        names, dataset["step"].values, dataset["loss"].values.T, TIME, power, kept=kept
+    )
 
 
 def temperature_chart(dataset: xr.Dataset) -> Any:

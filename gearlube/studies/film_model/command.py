@@ -83,6 +83,7 @@ def train(
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
     from gearlube.cli.results_folder import results_folder
+    from gearlube.studies.film_model.limiting import limits_of
     from gearlube.studies.film_model.plan import FilmPlan
     from gearlube.studies.film_model.train import failures_in_words, pool_of, train
 
@@ -107,7 +108,7 @@ def train(
             progress_on(console, "films") as progress,
         ):
             table = train(plan, out, pool=pool_of(jobs, scheduler), progress=progress)
-        for line in failures_in_words(table):
+        for line in (*failures_in_words(table), *limits_of(table)):
             logger.info("%s", line)
         logger.info("Films: %s. Now `gearlube film-model fit %s`.", out / "solves.csv", out)
 

@@ -21,6 +21,7 @@ from gearlube.studies.film_model.targets import (
     Targets,
     expected_friction,
     grid_corrections,
+    own_steps,
     solved_rows,
     targets_of,
 )
@@ -100,7 +101,9 @@ def fit_model(
     check_rows(rows, kind)
     progress(0.02, "processes")
     trained = targets_of(solved_rows(rows, *kind.training))
-    processes = [fit_process(trained.groups, trained.values[:, n]) for n in range(2)]
+    processes = [
+        fit_process(trained.groups, trained.values[:, n], smooth=kind.smooth) for n in range(2)
+    ]
     progress(0.3, "grid")
     pairs, steps = grid_corrections(rows, *kind.training)
     corrections = [fit_process(pairs.groups, steps[:, n], noise=_PAIR_NOISE) for n in range(2)]
@@ -131,7 +134,7 @@ def fit_model(
     )
     progress(0.95, "calibration")
     kept = {kind: targets_of(solved_rows(rows, kind)) for kind in ("calibration", "fresh")}
-    limits = {kind: at_limit(one, corrections) for kind, one in kept.items()}
+    limits = {kind: at_limit(one, corrections, own_steps(rows, kind)) for kind, one in kept.items()}
     found = {kind: evaluated(model, one.contacts) for kind, one in kept.items()}
     misses = {kind: Misses(found[kind] / limits[kind] - 1.0) for kind in kept}
     spread = conformal_bounds(misses["calibration"].values)
@@ -180,9 +183,12 @@ def evaluated(model: FilmModel, contacts: Sequence[Contact]) -> Array:
     return np.array([kind_of(one).predict(numbers, one)[:2] for one in contacts])
 
 
-def at_limit(targets: Targets, corrections: Sequence[FilmProcess]) -> Array:
-    """Return film and friction of solutions, led to the limit of fine grids, (n, 2)."""
-    step = _at(corrections, targets.groups)
+def at_limit(targets: Targets, corrections: Sequence[FilmProcess], own: Array) -> Array:
+    """Return film and friction of solutions, led to the limit of fine grids, (n, 2).
+
+    By their own second grid where there is one, see `own_steps`; else by the corrections.
+    """
+    step = np.where(np.isnan(own), _at(corrections, targets.groups), own)
     film = targets.film * np.exp(step[:, 0])
     # the correction of friction is that over its reference, which follows the film
     values = targets.values + step

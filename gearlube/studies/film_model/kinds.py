@@ -75,6 +75,8 @@ class ContactKind:
         What the model corrects: film [m] of a contact, and friction [-] of a contact with a film.
     predict
         Film and friction by the numbers of a model.
+    smooth
+        As of `fit_process`; lines in slow sliding hang on their pressure spikes.
     """
 
     name: str
@@ -95,6 +97,7 @@ class ContactKind:
     reference_film: Callable[[Contact], float]
     reference_friction: Callable[[Contact, float], float]
     predict: Callable[[Array, Contact], SolvedFilm]
+    smooth: bool = True
 
     @property
     def training(self) -> tuple[str, str, str]:
@@ -180,7 +183,7 @@ HELICAL_LINE = ContactKind(
     visited="pair",
     contact=LineContact,
     nodes=(513, 1),
-    second=(257, 1),
+    second=(1025, 1),
     domain=line_samples.LINE_DOMAIN,
     trained=line_samples.LINE_TRAINED,
     box=line_samples.LINE_BOX,
@@ -193,6 +196,7 @@ HELICAL_LINE = ContactKind(
     reference_film=_line_film,
     reference_friction=_line_friction,
     predict=solved_line,
+    smooth=False,
 )
 
 BEARING_ROLLER = ContactKind(

@@ -52,9 +52,9 @@ class FilmPlan:
         More contacts of the box for training, where films are thick.
     calibration, fresh
         Independent contacts of the box and of the machine that no fit sees.
-    fine_box, fine_visited, fine_edge, fine_fresh
+    fine_box, fine_visited, fine_edge, fine_fresh, fine_calibration
         How many of the first contacts of each set are solved on the second grid as well. It tells
-        the error of the first; it is finer for flanks and coarser for lines.
+        the error of the first.
     seed
         Of all draws.
 
@@ -78,6 +78,7 @@ class FilmPlan:
     fine_visited: int = 30
     fine_edge: int = 20
     fine_fresh: int = 20
+    fine_calibration: int = 0
     seed: int = 20
 
     def __post_init__(self) -> None:
@@ -89,6 +90,7 @@ class FilmPlan:
             ("fine_visited", self.visited),
             ("fine_edge", self.edge),
             ("fine_fresh", self.fresh),
+            ("fine_calibration", self.calibration),
         ):
             check_within(name, getattr(self, name), 0, most)
 
@@ -105,6 +107,7 @@ class FilmPlan:
             + self.fine_visited
             + self.fine_edge
             + self.fine_fresh
+            + self.fine_calibration
         )
 
     def described(self) -> dict[str, Any]:
@@ -164,6 +167,7 @@ class FilmPlan:
             *_tasks("edge", edge, nodes),
             *_tasks("edge", edge[: self.fine_edge], second),
             *_tasks("fresh", fresh[: self.fine_fresh], second),
+            *_tasks("calibration", kept[: self.fine_calibration], second),
         ]
 
 

@@ -13,9 +13,12 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import GearLubeError
 
 _LENGTHS = (0.3, 300.0)  # limits, in standard deviations of a feature
+_ROUGH_LENGTHS = (0.7, 100.0)
 _NOISE = (1e-9, 0.1)  # limits of its variance over that of the values
+_ROUGH_NOISE = 1e-3  # first guess
 
 _LEARNT = 500  # values, about, of which lengths and noise are learnt; all give the mean
+_ROUGHNESS = 2.5  # of Matern: twice differentiable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,7 +48,9 @@ class FilmProcess:
         return np.asarray(misses * self.spread)
 
 
-def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmProcess:
+def fit_process(
+    groups: Array, values: Array, *, noise: float = 1e-5, smooth: bool = True
+) -> FilmProcess:
     """Return the process through values (n,) at groups (n, N_GROUPS) [rasmussen_williams_2006].
 
     Parameters
@@ -54,6 +59,9 @@ def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmPro
         Of the fit.
     noise
         First guess of the noise's variance over that of the values.
+    smooth
+        Any derivative of the values is smooth; else, the second one. Of rough values a process that
+        takes them as smooth errs two or three times as much, with lengths that are too short.
 
     Raises
     ------
@@ -63,7 +71,7 @@ def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmPro
     try:
         from sklearn.exceptions import ConvergenceWarning
         from sklearn.gaussian_process import GaussianProcessRegressor
-        from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
+        from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Matern, WhiteKernel
     except ImportError as error:
         raise GearLubeError(
             "Fitting a film model needs scikit-learn, which is not installed. Install it with "
@@ -77,7 +85,12 @@ def fit_process(groups: Array, values: Array, *, noise: float = 1e-5) -> FilmPro
     straight = np.asarray(np.linalg.lstsq(_lines(x), values, rcond=None)[0], dtype=np.float64)
     rest = values - _lines(x) @ straight
     spread = float(rest.std())
-    kernel = ConstantKernel(4.0, (1e-2, 1e5)) * RBF(np.full(x.shape[1], 5.0), _LENGTHS)
+    lengths = np.full(x.shape[1], 5.0)
+    if smooth:
+        kernel = ConstantKernel(4.0, (1e-2, 1e5)) * RBF(lengths, _LENGTHS)
+    else:
+        kernel = ConstantKernel(4.0, (1e-2, 1e5)) * Matern(lengths, _ROUGH_LENGTHS, nu=_ROUGHNESS)
+        noise = max(noise, _ROUGH_NOISE)
     process = GaussianProcessRegressor(kernel + WhiteKernel(noise, _NOISE))
     some = slice(None, None, max(1, round(len(x) / _LEARNT)))
     with warnings.catch_warnings():

@@ -73,3 +73,15 @@ def grid_corrections(rows: Sequence[SolveRow], *kinds: str) -> tuple[Targets, Ar
     on_first, on_second = targets_of(first), targets_of(other)
     share = np.array([kind_of(one).to_limit for one in on_first.contacts])
     return on_first, share[:, None] * (on_second.values - on_first.values)
+
+
+def own_steps(rows: Sequence[SolveRow], kind: str) -> Array:
+    """Return what leads each solved contact of a kind to the limit, (n, 2), by its second grid.
+
+    NaN where it was not solved on the second grid; order and quantities as of `targets_of` and
+    `grid_corrections`.
+    """
+    both, steps = grid_corrections(rows, kind)
+    found = dict(zip(both.contacts, steps, strict=True))
+    none = np.full(2, np.nan)
+    return np.array([found.get(row.task.contact, none) for row in solved_rows(rows, kind)])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 from rich.table import Table
@@ -104,6 +104,14 @@ def helical(
     oil: Annotated[
         str, typer.Option(help="Shipped oil or an oil file (TOML).", metavar="OIL")
     ] = "mohammadpour_2015",
+    film_model: Annotated[
+        str | None,
+        typer.Option(
+            help="Film and friction of the oil. formula: Dowson and Toyoda, Evans and Johnson; "
+            "solved: a model of solved films. Default: film.model of the gear file.",
+            metavar="formula|solved",
+        ),
+    ] = None,
     oil_temperature: OilTemperatureOption = 80.0,
     oil_temperatures: Annotated[
         list[str] | None,
@@ -186,6 +194,7 @@ def helical(
             torques=tuple(sorted(set(torques or ()))),
             positions=positions,
             oil=lubricant,
+            film_model=cast(Any, film_model),  # checked by the settings
             oil_temperature=oil_kelvin(oil_temperature, lubricant),
             oil_temperatures=tuple(
                 oil_kelvin(one, lubricant, "--oil-temperatures") for one in temperatures

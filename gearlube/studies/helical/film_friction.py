@@ -116,6 +116,7 @@ def film_dataset(
     )
     dataset.attrs |= {
         "oil": settings.film().oil.name,
+        "film_model": settings.film().film,
         "oil_temperature": settings.oil_temperature,
         "oil_temperature_units": "K",
         "roughness_rms": settings.roughness_rms,
@@ -128,6 +129,11 @@ def film_dataset(
         "operating_mean_coefficient_units": "1",
         "operating_power_loss": cycle.mean_power_loss,
         "operating_power_loss_units": "W",
+        "operating_power_loss_bound": cycle.power_loss_bound,
+        "operating_power_loss_bound_units": "W",
+        "operating_efficiency_bound": cycle.power_loss_bound
+        / (settings.pinion_torque * settings.pinion_speed),
+        "operating_share_outside": cycle.share_outside,
         "loads": "static; dynamic loads of `response.nc` differ",
     }
     return dataset
@@ -137,6 +143,7 @@ def _cycle(
     settings: HelicalSettings, points: LinePoints, load: Array, speed: float
 ) -> LineFrictionCycle:
     film = settings.film()
+    constants = film.constants()
     return friction_along_lines(
         points,
         load,
@@ -144,6 +151,7 @@ def _cycle(
         pinion_torque=settings.pinion_torque,
         lubricant=film.oil,
         oil_temperature=film.oil_temperature,
-        surface=film.constants().surface,
-        solid=film.constants().solid,
+        surface=constants.surface,
+        solid=constants.solid,
+        film_model=constants.film_model,
     )

@@ -11,6 +11,7 @@ import xarray as xr
 from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.report.solved_films import solved_films
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 from gearlube_core.arrays import Array
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
@@ -238,6 +239,23 @@ def _stability(stability: xr.Dataset) -> list[Finding]:
     ]
 
 
+def _solved(film: xr.Dataset) -> list[Finding]:
+    of = film.attrs
+    if of.get("film_model") != "solved":
+        return []
+    share, loss = of["operating_share_outside"], of["operating_power_loss"]
+    return [
+        solved_films(
+            of["operating_power_loss_bound"] / loss if loss > 0.0 else 0.0,
+            share,
+            f"{100.0 * share:.0f} % of the load on the lines",
+            "That is "
+            f"{quantity_text(of['operating_power_loss_bound'], 'W', 2)} or "
+            f"{quantity_text(100.0 * of['operating_efficiency_bound'], '%', 2)} of efficiency.",
+        )
+    ]
+
+
 def _film(film: xr.Dataset) -> list[Finding]:
     ratio = float(np.nanmin(film["film_ratio"].where(film["line_load"] > 0.0).values))
     of = film.attrs
@@ -249,7 +267,8 @@ def _film(film: xr.Dataset) -> list[Finding]:
             f"{quantity_text(of['operating_power_loss'], 'W')}.",
             f"Film over a composite roughness of {1e6 * of['roughness_rms']:.3g} µm, at "
             f"{of['oil_temperature'] - 273.15:.0f} °C. {film_ratio_words(ratio)}",
-        )
+        ),
+        *_solved(film),
     ]
 
 

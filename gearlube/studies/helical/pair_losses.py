@@ -120,8 +120,8 @@ def losses_dataset(
 
     Notes
     -----
-    Sliding: `line_friction` at every point. Rolling: 2 F u per length by [biboulet_houpert_2010],
-    flooded, lowered by inlet heating [zhu_cheng_1989]. Loads are static.
+    Sliding: `line_friction` at every point, or the film model. Rolling: 2 F u per length by
+    [biboulet_houpert_2010], flooded, lowered by inlet heating [zhu_cheng_1989]. Loads are static.
     """
     torques = np.array(settings.load_steps)
     speeds = np.array(settings.speeds)
@@ -134,6 +134,7 @@ def losses_dataset(
     loss = np.empty((*shape, len(PARTS_OF_LOSS)))
     film, thinnest, heat = np.empty(shape), np.empty(shape), np.empty(shape)
     low, high = np.empty(shape), np.empty(shape)
+    doubt, outside = np.empty(shape), np.empty(shape)
     uncertain = uncertain_of(settings.film().oil)
     normals = np.random.default_rng(settings.seed).standard_normal((settings.draws, len(uncertain)))
     for j, torque in enumerate(torques):
@@ -145,6 +146,7 @@ def losses_dataset(
                 point = float(torque), float(speed)
                 cycle, loss[i, j, k] = _losses(fine, loads[0], *point, base)
                 film[i, j, k] = cycle.film_ratio[cycle.line_load > 0.0].min()
+                doubt[i, j, k], outside[i, j, k] = cycle.power_loss_bound, cycle.share_outside
                 thinnest[i, j, k] = cycle.smallest_film.thickness
                 heat[i, j, k] = cycle.temperature_rise[cycle.line_load > 0.0].max()
                 if settings.draws:
@@ -170,6 +172,17 @@ def losses_dataset(
         "film_min": (GRID, thinnest, "m", "smallest film thickness"),
         "temperature_rise": (GRID, heat, "K", "largest mean rise of the film over the oil"),
     }
+    if settings.film().film == "solved":
+        variables |= {
+            "loss_bound": (GRID, doubt, "W", "bound of the sliding loss by the film model, 95 %"),
+            "efficiency_bound": (
+                GRID,
+                doubt / (torques[:, None] * speeds),
+                "1",
+                "the same of the efficiency",
+            ),
+            "share_outside": (GRID, outside, "1", "load outside the domain of the film model"),
+        }
     if settings.draws:
         variables |= {
             "loss_torque_low": (GRID, low / speeds, "N.m", "2.5 % of draws are below"),
@@ -197,6 +210,7 @@ def losses_dataset(
         attrs={
             "not_modelled": NOT_MODELLED,
             "oil": settings.film().oil.name,
+            "film_model": settings.film().film,
             "draws": settings.draws,
             "seed": settings.seed,
             "uncertain": "; ".join(
@@ -221,6 +235,7 @@ def _losses(
         oil_temperature=film.oil_temperature,
         surface=constants.surface,
         solid=constants.solid,
+        film_model=constants.film_model,
     )
     powers = np.empty(load.size)
     _rolling_powers(
@@ -269,6 +284,9 @@ def losses_csv(dataset: xr.Dataset) -> str:
         "loss_torque_low": "loss_torque_low_n_m",
         "loss_torque_high": "loss_torque_high_n_m",
         "efficiency": "efficiency",
+        "efficiency_bound": "efficiency_bound",
+        "loss_bound": "loss_bound_w",
+        "share_outside": "share_outside",
         "film_ratio": "film_ratio",
         "temperature_rise": "temperature_rise_k",
     }

@@ -108,6 +108,7 @@ def _operation(results: HelicalResults) -> list[Input]:
         Input("coefficients of friction", f"{mu.min():g} to {mu.max():g}"),
         Input("stiffness of the mesh", settings.mesh),
         Input("oil", settings.oil if isinstance(settings.oil, str) else settings.oil.name),
+        Input("film of the oil", settings.film().film),
         Input("oil temperature", f"{settings.oil_temperature - 273.15:.4g}", "°C"),
         Input(
             "composite roughness",

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
+from gearlube.studies.helical.oil_domain import check_film_model
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
@@ -73,6 +75,8 @@ class HelicalSettings:
         Number of mesh phases of the loaded contact.
     oil : str or Lubricant
         Name of an oil of the library, or any other oil.
+    film_model : {"formula", "solved"}, optional
+        Film and friction of the oil, see `HelicalMarchParameters`; None: that of the gear file.
     oil_temperature, roughness_rms : float
         Oil temperature [K], composite roughness of both flanks [m].
     parts : {"all", "contact", "dynamics", "geometry", "losses"}
@@ -109,6 +113,7 @@ class HelicalSettings:
     torques: tuple[float, ...] = ()
     positions: int = 24
     oil: str | Lubricant = "mohammadpour_2015"
+    film_model: Literal["formula", "solved"] | None = None
     oil_temperature: float = 353.15
     roughness_rms: float = 0.5e-6
     parts: str = "all"
@@ -150,7 +155,7 @@ class HelicalSettings:
                 "torques around it, or take mesh density (ISO 6336-1)."
             )
             check_within("pinion_torque", self.pinion_torque, low, high, "N.m", cure)
-        self.film()
+        check_film_model(self)
         for temperature in self.oil_temperatures:
             self.film().oil.check_temperature(temperature, "oil_temperatures")
         if any(np.diff(self.oil_temperatures) <= 0.0):
@@ -211,6 +216,7 @@ class HelicalSettings:
             oil_temperature=self.oil_temperature,
             solid=STEEL_MOHAMMADPOUR_2015,
             roughness_rms=self.roughness_rms,
+            film=self.film_model or self.file.film.model,
         )
 
     def parameters(self, mesh: LineMesh | None = None) -> HelicalPairParameters:

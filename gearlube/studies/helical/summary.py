@@ -190,4 +190,16 @@ def _film(film: xr.Dataset) -> list[Row]:
         ),
         Row("oil film", "power loss, static loads", film.attrs["operating_power_loss"], "W"),
         Row("oil film", "loss factor H_V", film.attrs["loss_factor"], "1"),
+        *_solved(film),
+    ]
+
+
+def _solved(film: xr.Dataset) -> list[Row]:
+    of = film.attrs
+    if of.get("film_model") != "solved":
+        return []
+    return [
+        Row("oil film", "bound of the power loss", of["operating_power_loss_bound"], "W"),
+        Row("oil film", "bound of the efficiency", of["operating_efficiency_bound"], "1"),
+        Row("oil film", "load outside the film model", of["operating_share_outside"], "1"),
     ]

@@ -51,6 +51,16 @@ def loss_map_dataset(
         variables["bulk_temperature"] = (GRID, bulk, "degC", "bulk of the flanks")
     if settings.axle.film == "solved":
         variables |= _of_film_model(losses, turning * torques, total)
+    if settings.axle.bearing_torque_loss == "solved_films":
+        variables |= {
+            "drag_bound": (GRID, losses.drag_bound, "W", "bound of the bearings' drag loss"),
+            "rollers_outside": (
+                GRID,
+                losses.rollers_outside,
+                "1",
+                "share of the rollers' load outside the domain of their film model",
+            ),
+        }
     if spread is not None:
         names = [one.name for one in settings.uncertain]
         variables |= {

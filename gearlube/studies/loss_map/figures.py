@@ -10,10 +10,9 @@ import xarray as xr
 
 from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.plotting.loss_words import SOURCE_WORDS
-from gearlube.plotting.style import GREY, SERIES, YELLOW, house_style, new_figure
+from gearlube.plotting.style import PARTS, SERIES, house_style, new_figure
 from gearlube.studies.loss_map.findings import input_words, moving_inputs
 
-_COLOURS = (*SERIES, GREY, YELLOW)  # of the sources, in their order
 _BAND = "between these lines: 95 % of the draws of uncertain data"
 _MOST_PANELS = 6
 _LIGHT = 0.6  # of the largest level, from which the colours are too light for white lines
@@ -106,7 +105,7 @@ def _split(ax: Any, one: xr.Dataset) -> None:
         torque,
         np.nan_to_num(loss[drawn]),
         labels=[SOURCE_WORDS[names[i]] for i in drawn],
-        colors=[_COLOURS[i % len(_COLOURS)] for i in drawn],
+        colors=[PARTS[i % len(PARTS)] for i in drawn],
         alpha=0.85,
     )
     if "loss_torque_low" in one:

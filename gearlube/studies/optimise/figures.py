@@ -35,11 +35,12 @@ def errors_over_mesh(dataset: xr.Dataset) -> Any:
                         lw=1.8 if s == 0 else 0.6,
                         label=NAMES[str(design)] if s == 0 else None,
                     )
-            ax.set(xlim=(0.0, 2.0), xlabel="mesh periods", title=f"{torque:g} N·m")
+            ax.set(xlim=(0.0, 2.0), xlabel="time [mesh periods]", title=f"{torque:g} N·m")
         axes[0].set_ylabel("transmission error [µrad]")
         _legend_below(figure, axes[0])
         figure.suptitle(
-            "Loaded transmission error without its mean; thin: with errors", fontsize=11.5
+            "Loaded transmission error without its mean; thin: with errors of assembly",
+            fontsize=11.5,
         )
     return figure
 
@@ -75,7 +76,7 @@ def sensitivity_to_errors(dataset: xr.Dataset) -> Any:
     with house_style():
         torques, errors = dataset["torque"].values, dataset["error"].values
         figure = new_figure(max(5.0, 3.2 * torques.size + 1.2), 0.35 * errors.size + 2.0)
-        axes = np.atleast_1d(figure.subplots(1, torques.size, sharey=True))
+        axes = np.atleast_1d(figure.subplots(1, torques.size, sharex=True, sharey=True))
         for ax, torque in zip(axes, torques, strict=True):
             for design in dataset["design"].values:
                 part = dataset["whine"].sel(torque=torque, design=design)
@@ -89,10 +90,10 @@ def sensitivity_to_errors(dataset: xr.Dataset) -> Any:
                 )
             ax.set_yticks(np.arange(errors.size), [error_words(str(one)) for one in errors])
             ax.set(xlabel="root of the sum of squares [µrad]", title=f"{torque:g} N·m")
-            ax.set_xlim(left=0.0)
             ax.set_ylim(errors.size - 0.5, -0.5)
+        axes[0].set_xlim(left=0.0)
         _legend_below(figure, axes[0])
-        figure.suptitle("All mesh orders together, under each error", fontsize=11.5)
+        figure.suptitle("All mesh orders together, under each error of assembly", fontsize=11.5)
     return figure
 
 

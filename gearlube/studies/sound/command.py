@@ -69,7 +69,7 @@ def sound(
         str,
         typer.Option(
             help="all, none, or some of loudness, tonality, roughness, fluctuation_strength, with "
-            "commas.",
+            "commas. Tonality and fluctuation_strength need Python 3.13 or newer.",
             metavar="LIST",
         ),
     ] = "all",

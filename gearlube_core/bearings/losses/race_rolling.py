@@ -14,10 +14,9 @@ from gearlube_core.bearings.losses.laws import SOLVED_FILMS, heating_factor, rol
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
-from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.groups import FilmInlet, film_inlet
-from gearlube_core.film_model.line_contact import line_place
+from gearlube_core.film_model.line_contact import line_place, line_reference_film
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.rolling import solved_rolling_at
 from gearlube_core.kernels.jit import kernel
@@ -25,6 +24,10 @@ from gearlube_core.oil.lubricant_state import LubricantState
 
 ROLLER_MODEL = "roller_race"  # name of the film model in the package
 NO_ROLLER_MODEL = np.empty(0)  # in place of its numbers, for laws without one
+# How far off the formulas are where the model does not hold, relative to them, see
+# docs/film_model/outside_rollers.py
+FORMULA_FORCE_BOUND = 0.12
+FORMULA_RACE_FILM_BOUND = 0.26
 
 
 class RaceRolling(NamedTuple):
@@ -82,7 +85,8 @@ def solved_race(
     Notes
     -----
     Towards the outside of the model's domain both go over into formulas with the weight `outside`:
-    the force of Biboulet and Houpert with Aihara's heating, the film of Dowson and Toyoda.
+    the force of Biboulet and Houpert with Aihara's heating, the film of Moes, which unlike that of
+    Dowson and Toyoda holds for light contacts as well.
     """
     place = line_place(
         R, solid.contact_modulus, solid.conductivity, solid.density * solid.heat_capacity
@@ -94,7 +98,7 @@ def solved_race(
         number = inlet_heating_number(oil.eta0, oil.beta, speed, oil.conductivity)
         cold, _ = biboulet_houpert_force(R, line_load, E, oil.eta0, oil.alpha, speed)
         force += w * (cold * aihara_heating(number) - force)
-        film += w * (line_film_thickness(R, oil.eta0, oil.alpha, speed, line_load, E) - film)
+        film += w * (line_reference_film(line_load, speed, R, inlet) - film)
     return RaceRolling(force, film, w)
 
 

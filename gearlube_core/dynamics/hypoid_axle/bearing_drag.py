@@ -7,14 +7,20 @@ from typing import Literal, NamedTuple, get_args
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
+    NO_RACEWAYS,
+    RollerFilms,
     ShaftBearings,
     ShaftMotion,
+    SolvedRaceways,
+    beside_raceways,
     raceway_torque,
     shaft_drag,
     shaft_forces,
+    solved_raceways,
 )
 from gearlube_core.bearings.losses.laws import AIHARA, BIBOULET_HOUPERT, SKF, ZHOU_HOEPRICH
 from gearlube_core.bearings.losses.laws import PALMGREN as PALMGREN_LAW
+from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
 from gearlube_core.dynamics.hypoid_axle.state import W_G, W_P
@@ -29,6 +35,7 @@ TorqueLoss = Literal[
     "aihara_1987",
     "palmgren_loaded",
     "skf_2013",
+    "solved_films",
 ]
 TORQUE_LOSSES: tuple[str, ...] = get_args(TorqueLoss)
 # what `bearings.losses.laws` calls them
@@ -39,12 +46,14 @@ BEARING_LAWS = {
     "aihara_1987": "aihara",
     "palmgren_loaded": "palmgren",
     "skf_2013": "skf",
+    "solved_films": "solved_films",
 }
 PALMGREN = float(TORQUE_LOSSES.index("palmgren"))
 _ZHOU_HOEPRICH = float(TORQUE_LOSSES.index("zhou_hoeprich_1991"))
 _AIHARA = float(TORQUE_LOSSES.index("aihara_1987"))
 _PALMGREN_LOADED = float(TORQUE_LOSSES.index("palmgren_loaded"))
 _SKF = float(TORQUE_LOSSES.index("skf_2013"))
+SOLVED_FILMS = float(TORQUE_LOSSES.index("solved_films"))
 _NO_HYSTERESIS = 1e12  # Hz, reference frequency beyond which rollers lose nothing
 
 
@@ -53,6 +62,39 @@ class BearingDrag(NamedTuple):
 
     pinion: float  # of both bearings [N.m]
     gear: float
+    bound: float = 0.0  # of the power of all bearings by solved films [W]; 0 with other laws
+
+
+class AxleRaceways(NamedTuple):
+    """Raceways of both shafts by solved films."""
+
+    pinion: SolvedRaceways = NO_RACEWAYS
+    gear: SolvedRaceways = NO_RACEWAYS
+
+
+@kernel
+def axle_raceways(
+    s: Array, oil: LubricantState, p: AxleParameters, films: RollerFilms
+) -> AxleRaceways:
+    """Return torques and films of the raceways if p.drag is SOLVED_FILMS; else NO_RACEWAYS.
+
+    `films` has the nodes of both shafts, shape (N_ROLLERS,), read only if they are kept.
+    """
+    if p.drag != SOLVED_FILMS:
+        return AxleRaceways(NO_RACEWAYS, NO_RACEWAYS)
+    of_pinion = RollerFilms(films.model, films.nodes[:N_ROLLER_NODES], films.kept)
+    of_gear = RollerFilms(films.model, films.nodes[N_ROLLER_NODES:], films.kept)
+    return AxleRaceways(
+        solved_raceways(p.bearing_p, pinion_motion(s), oil, of_pinion),
+        solved_raceways(p.bearing_g, gear_motion(s), oil, of_gear),
+    )
+
+
+@kernel
+def drag_bound_of(s: Array, raceways: AxleRaceways) -> float:
+    """Return the bound of the power that the bearings of both shafts lose [W]."""
+    of_pinion = raceways.pinion.torque_bound * abs(s[W_P])
+    return of_pinion + raceways.gear.torque_bound * abs(s[W_G])
 
 
 @kernel
@@ -70,25 +112,39 @@ def loaded_drag(
 
 
 @kernel
-def bearing_drag(s: Array, oil: LubricantState, p: AxleParameters) -> BearingDrag:
+def bearing_drag(
+    s: Array, oil: LubricantState, p: AxleParameters, raceways: AxleRaceways
+) -> BearingDrag:
     """Return the drag of the bearings by the law p.drag.
 
     Palmgren's is that of the preload; the laws of the catalogues, "palmgren_loaded" and "skf_2013",
     take the present forces of either bearing; the others sum raceways and ribs under the present
-    load of each roller, see `raceway_drag` and `rib_drag`.
+    load of each roller, see `raceway_drag`, `solved_raceway_drag` and `rib_drag`. `raceways` are
+    those of `axle_raceways` at this state.
     """
     if p.drag == 0.0:
-        return BearingDrag(0.0, 0.0)
+        return BearingDrag(0.0, 0.0, 0.0)
     if p.drag == PALMGREN:
         return BearingDrag(
             2.0 * shaft_drag(p.bearing_p, s[W_P], p.preload_p, 0.0, PALMGREN_LAW, oil),
             2.0 * shaft_drag(p.bearing_g, s[W_G], p.preload_g, 0.0, PALMGREN_LAW, oil),
+            0.0,
         )
-    if p.drag >= _PALMGREN_LOADED:
+    pinion, gear = pinion_motion(s), gear_motion(s)
+    if p.drag == _PALMGREN_LOADED or p.drag == _SKF:
         catalogue = SKF if p.drag == _SKF else PALMGREN_LAW
         return BearingDrag(
-            loaded_drag(p.bearing_p, pinion_motion(s), catalogue, oil),
-            loaded_drag(p.bearing_g, gear_motion(s), catalogue, oil),
+            loaded_drag(p.bearing_p, pinion, catalogue, oil),
+            loaded_drag(p.bearing_g, gear, catalogue, oil),
+            0.0,
+        )
+    beside_p = beside_raceways(p.bearing_p, pinion, oil)
+    beside_g = beside_raceways(p.bearing_g, gear, oil)
+    if p.drag == SOLVED_FILMS:
+        return BearingDrag(
+            raceways.pinion.torque + beside_p,
+            raceways.gear.torque + beside_g,
+            drag_bound_of(s, raceways),
         )
     law = BIBOULET_HOUPERT
     if p.drag == _ZHOU_HOEPRICH:
@@ -96,6 +152,7 @@ def bearing_drag(s: Array, oil: LubricantState, p: AxleParameters) -> BearingDra
     elif p.drag == _AIHARA:
         law = AIHARA
     return BearingDrag(
-        raceway_torque(p.bearing_p, pinion_motion(s), law, oil),
-        raceway_torque(p.bearing_g, gear_motion(s), law, oil),
+        raceway_torque(p.bearing_p, pinion, law, oil) + beside_p,
+        raceway_torque(p.bearing_g, gear, law, oil) + beside_g,
+        0.0,
     )

@@ -9,6 +9,7 @@ from gearlube_core.bearings.bearing_type import (
     roller_load_range,
     shaft_forces,
 )
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import AxleRaceways
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -23,6 +24,31 @@ FORCE = BEARING_QUANTITIES.index("force.x")
 ROLLER_LOAD_MAX = BEARING_QUANTITIES.index("roller_load_max")
 ROLLER_LOAD_MIN = BEARING_QUANTITIES.index("roller_load_min")
 N_BEARING_QUANTITIES = len(BEARING_QUANTITIES)
+# by solved films, in a group of their own
+FILM_QUANTITIES = ("film_thickness", "film_bound")
+BEARING_FILMS = tuple(
+    f"bearing[{j}].{q}" for j in range(1, N_BEARINGS + 1) for q in FILM_QUANTITIES
+)
+
+
+@kernel
+def write_raceways(raceways: AxleRaceways, first: int, at_share: int, out: Array) -> None:
+    """Write the thinnest film of each bearing with its bound, from `first` on.
+
+    At `at_share` the share of the rollers' load outside the film model's domain. All zeros where
+    no model tells them.
+    """
+    one, two = raceways.pinion, raceways.gear
+    out[first] = one.first_film
+    out[first + 1] = one.first_bound
+    out[first + 2] = one.second_film
+    out[first + 3] = one.second_bound
+    out[first + 4] = two.first_film
+    out[first + 5] = two.first_bound
+    out[first + 6] = two.second_film
+    out[first + 7] = two.second_bound
+    load = one.load + two.load
+    out[at_share] = (one.load_outside + two.load_outside) / load if load > 0.0 else 0.0
 
 
 @kernel

@@ -6,9 +6,16 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import RollerFilms
 from gearlube_core.drag.churning import churning_torque
 from gearlube_core.drag.seals import seal_drag
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, BearingDrag, bearing_drag
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
+    PALMGREN,
+    AxleRaceways,
+    BearingDrag,
+    axle_raceways,
+    bearing_drag,
+)
 from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.flanks import (
     BOUND_POWER,
@@ -26,6 +33,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
+    DRAG_BOUND,
     FILM_NODES,
     FRICTION_BOUND,
     LOAD_TORQUE,
@@ -34,6 +42,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     N_ODE,
     N_STATE,
     PINION_WORK,
+    ROLLER_NODES,
     SIDE,
     TIME_IN_STEP,
     U_G,
@@ -191,9 +200,11 @@ def step_inputs(
     wheel_torque: float,
     oil: LubricantState,
     p: AxleParameters,
+    raceways: AxleRaceways,
 ) -> StepInputs:
-    """Return the torques on both shafts and what drags on each."""
-    return inputs_with_drag(s, pinion_torque, wheel_torque, bearing_drag(s, oil, p), oil, p)
+    """Return torques on both shafts and what drags on each; `raceways` as in `bearing_drag`."""
+    drag = bearing_drag(s, oil, p, raceways)
+    return inputs_with_drag(s, pinion_torque, wheel_torque, drag, oil, p)
 
 
 @kernel
@@ -273,13 +284,15 @@ def advance(
         s[WORK_MARK + i] = s[PINION_WORK + i]
     s[TIME_IN_STEP] = duration
     s[FRICTION_BOUND] = 0.0
+    s[DRAG_BOUND] = 0.0
     n_films = N_FILMS if mesh.film_model.size > 0 else 0
     for i in range(n_films):
         scratch[FILMS + i] = s[FILM_NODES + i]
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
     expanded_at = displacements(s, 0.0)
     age = 0
-    drag = bearing_drag(s, oil, p)
+    rollers = RollerFilms(table.roller_model, s[ROLLER_NODES:N_STATE], 1.0)
+    drag = bearing_drag(s, oil, p, axle_raceways(s, oil, p, rollers))
     for k in range(steps):
         expand = 0.0
         moved = largest_change(displacements(s, h), expanded_at)
@@ -289,7 +302,7 @@ def advance(
             age = 0
         # raceways are dear: anew where the bearing forces are
         if k > 0 and (expand != 0.0 or p.drag <= PALMGREN):
-            drag = bearing_drag(s, oil, p)
+            drag = bearing_drag(s, oil, p, axle_raceways(s, oil, p, rollers))
         inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
         age += 1
         rk4_step(
@@ -305,6 +318,7 @@ def advance(
             stages,
         )
         s[FRICTION_BOUND] += h * scratch[BOUND_POWER]
+        s[DRAG_BOUND] += h * drag.bound
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
         if table.levels[0] < 0.0:

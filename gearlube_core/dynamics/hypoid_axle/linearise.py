@@ -86,7 +86,7 @@ def linearise(axle: AxleInState, oil_temperature: float, torque: float) -> Linea
     p = axle.kernel_parameters._replace(friction=0.0)
     derivatives = axle_kernels(type(p.bearing_p), type(p.flank_law)).derivatives
     mesh = axle.packed
-    fields: MeshFields = (*mesh.fields, NO_FILM_MODEL)
+    fields: MeshFields = (*mesh.fields, NO_FILM_MODEL, NO_FILM_MODEL)
     state, work = np.array(axle.state_view), np.zeros(DERIVATIVES_WORK)
 
     def matrix(of_speeds: float, constants: AxleParameters) -> Array:

@@ -77,6 +77,8 @@ class AxleLosses:
         Bound of the power lost in flank friction [W], and share of the flanks' load outside the
         domain of the model of solved films [-], means over a mesh period; 0 with film formulas.
         Empty where extremes were not asked for.
+    drag_bound, rollers_outside : ndarray
+        The same of the drag of the bearings and of the load on their rollers, by solved films.
     bulk_temperature : ndarray
         Of the flanks' bulk [K]; that of the oil with `flank_bulk_resistance` 0.
     exceeded : ndarray
@@ -91,6 +93,8 @@ class AxleLosses:
     flank_temperature: Array
     friction_bound: Array
     share_outside: Array
+    drag_bound: Array
+    rollers_outside: Array
     bulk_temperature: Array
     exceeded: Array
     status: Array
@@ -183,7 +187,7 @@ def axle_losses(
     )
     kernel = cycle_kernels(type(p.bearing_p), type(p.flank_law)).losses_along_torque
     constants = flatten(p), flatten(without_losses(p))
-    fields = (*mesh.fields, parameters.film_model())
+    fields = (*mesh.fields, parameters.film_model(), parameters.roller_model())
     shape = temperatures.size, speeds.size, torques.size
     power, carried = np.full((*shape, N_LOSSES), np.nan), np.full(shape, np.nan)
     found, status = np.full((*shape, N_EXTREMES), np.nan), np.zeros(shape)
@@ -219,6 +223,8 @@ def axle_losses(
         exceeded=found[..., 2],
         friction_bound=found[..., 3],
         share_outside=found[..., 4],
+        drag_bound=found[..., 5],
+        rollers_outside=found[..., 6],
         bulk_temperature=bulk,
         status=status.astype(int),
     )

@@ -33,7 +33,7 @@ NO_FILM_MODEL = np.zeros(0)
 
 
 class MeshLevels(NamedTuple):
-    """The mesh table at all its loads, and the film model of its flanks.
+    """The mesh table at all its loads, and the film models of flanks and rollers.
 
     Shapes as in `packed_mesh.PackedMesh`.
     """
@@ -44,6 +44,7 @@ class MeshLevels(NamedTuple):
     windows: Array  # data of the tooth pairs
     n_nodes: int
     film_model: Array = NO_FILM_MODEL  # numbers of a film model, written into; else empty
+    roller_model: Array = NO_FILM_MODEL  # likewise of rollers
 
 
 @kernel
@@ -53,7 +54,7 @@ def series_size(table: MeshLevels) -> int:
 
 
 # the same as a plain tuple: Python hands that over 0.6 us faster a call
-MeshFields = tuple[Array, Array, int, Array, int, Array]
+MeshFields = tuple[Array, Array, int, Array, int, Array, Array]
 
 
 class MeshAtLoad(NamedTuple):
@@ -64,12 +65,15 @@ class MeshAtLoad(NamedTuple):
     window: Array  # shape ((n_nodes + 1) * N_CHANNELS,)
     n_nodes: int
     film_model: Array = NO_FILM_MODEL  # as in `MeshLevels`
+    roller_model: Array = NO_FILM_MODEL
 
 
 @kernel
 def place_at_load(table: MeshLevels, series: Array, window: Array) -> MeshAtLoad:
     """Return the place of a table at one load, for `blend_mesh`, with the given arrays."""
-    return MeshAtLoad(series, table.n_orders, window, table.n_nodes, table.film_model)
+    return MeshAtLoad(
+        series, table.n_orders, window, table.n_nodes, table.film_model, table.roller_model
+    )
 
 
 @kernel

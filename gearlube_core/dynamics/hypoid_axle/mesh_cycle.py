@@ -13,8 +13,8 @@ from functools import cache
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import ShaftBearings
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN
+from gearlube_core.bearings.bearing_type import RollerFilms, ShaftBearings
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, axle_raceways
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
     FILM_RATIO,
     LOAD,
@@ -31,6 +31,8 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     place_at_load,
 )
 from gearlube_core.dynamics.hypoid_axle.output_names import (
+    BEARING_SHARE_OUTSIDE,
+    DRAG_LOSS_BOUND,
     FLANKS,
     LOSS_BOUND,
     RANGES,
@@ -69,7 +71,7 @@ from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 NO_BALANCE = 6  # beside the statuses of `start.rest`
 FIRST_LOSS = 2  # of the energies; before it the work at pinion and wheel
 N_LOSSES = N_ENERGIES - FIRST_LOSS
-N_EXTREMES = 5
+N_EXTREMES = 7
 _EXTREME_ANGLES = 4  # of a mesh period, where outputs are looked at
 _MOST_BALANCES = 40
 _RESTS = 2  # of them that find the shafts' displacements anew; later ones change nothing
@@ -201,7 +203,8 @@ def mesh_cycle(
                 return status, worst
             s[LOAD_TORQUE] = abs(torque)
             blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
-            inputs = step_inputs(s, torque, 0.0, oil, p)
+            exact = RollerFilms(table.roller_model, work[0:0], 0.0)
+            inputs = step_inputs(s, torque, 0.0, oil, p, axle_raceways(s, oil, p, exact))
         mean_rates(s, carried, speed, angles, inputs, data, oil, p, work)
         missing = p.I_p * mean[W_P]
         if abs(missing) <= _BALANCED * max(abs(torque), abs(carried), _LEAST_TORQUE):
@@ -223,7 +226,8 @@ def flank_extremes(out: Array, found: Array) -> None:
     out : ndarray of shape (N_OUTPUTS,)
     found : ndarray of shape (N_EXTREMES,)
         Least film ratio [-], highest temperature [K], sum of `range.exceeded`; means of the bound
-        of the friction loss [W] and of the share of load outside the model's domain [-].
+        of the friction loss [W] and of the share of load outside the model's domain [-], and of
+        the same two of the bearings.
     """
     for pair in range(PAIRS):
         here = FLANKS + pair * N_FLANK_QUANTITIES
@@ -233,6 +237,8 @@ def flank_extremes(out: Array, found: Array) -> None:
     found[2] = float(int(found[2]) | int(out[RANGES]))
     found[3] += out[LOSS_BOUND] / _EXTREME_ANGLES
     found[4] += out[SHARE_OUTSIDE] / _EXTREME_ANGLES
+    found[5] += out[DRAG_LOSS_BOUND] / _EXTREME_ANGLES
+    found[6] += out[BEARING_SHARE_OUTSIDE] / _EXTREME_ANGLES
 
 
 class CycleKernels(NamedTuple):
@@ -301,8 +307,8 @@ def cycle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> CycleKer
                 found[k, 0] = math.inf
                 found[k, 1] = oil_temperature
                 found[k, 2] = 0.0
-                found[k, 3] = 0.0
-                found[k, 4] = 0.0
+                for i in range(3, N_EXTREMES):
+                    found[k, i] = 0.0
                 at_window = _AT_SERIES + N_SERIES * (2 * table.n_orders + 1)
                 data = place_at_load(table, work[_AT_SERIES:at_window], work[at_window:])
                 torque = (torques[k], 0.0)

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import RollerFilms
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import axle_raceways
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     MAX_STEPS,
@@ -120,7 +122,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             parameters.contact_pressure,
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
-        self._film_model = parameters.film_model()
+        self._film_models = parameters.film_model(), parameters.roller_model()
         super().__init__(
             states=N_STATE,
             output_names=OUTPUT_NAMES,
@@ -133,7 +135,7 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     def _with_data(self) -> Kernels:
         mesh = self.packed
-        fields: MeshFields = (*mesh.fields, self._film_model)
+        fields: MeshFields = (*mesh.fields, *self._film_models)
         data = fields, flatten(self.kernel_parameters)
         work, rollers = np.zeros(work_size(mesh.series_size, mesh.nodes)), np.zeros(ROLLERS_MAX)
         p = self.kernel_parameters
@@ -167,12 +169,14 @@ class HypoidAxle(SteppedModel[StepControl]):
         full[:N_ODE] = state
         torque_p, torque_g, oil_temperature = self._inputs.tolist()
         oil = lubricant_state(p.oil, oil_temperature)
-        table = MeshLevels(*mesh.fields, self._film_model)
+        table = MeshLevels(*mesh.fields, *self._film_models)
         at_load = place_at_load(table, np.zeros(mesh.series_size), np.zeros(mesh.window_size))
         blend_mesh(full[LOAD_TORQUE], full[SIDE], table, at_load)
         slope = np.zeros(N_ODE)
-        inputs = step_inputs(full, torque_p, torque_g, oil, p)
         scratch = np.zeros(SCRATCH)
+        exact = RollerFilms(table.roller_model, scratch[:0], 0.0)
+        raceways = axle_raceways(full, oil, p, exact)
+        inputs = step_inputs(full, torque_p, torque_g, oil, p, raceways)
         axle_rhs(full, inputs, at_load, oil, p, 1.0, 1.0, scratch, slope)
         return slope
 

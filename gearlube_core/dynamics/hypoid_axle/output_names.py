@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.dynamics.hypoid_axle.bearing_outputs import (
+    BEARING_FILMS,
     BEARING_OUTPUTS,
     N_BEARING_QUANTITIES,
 )
@@ -35,6 +36,8 @@ _OUTPUTS: tuple[str, ...] = (
     "axle.efficiency",
     "friction.power_loss_bound",
     "efficiency_bound",
+    "bearing.power_loss_bound",
+    "axle.efficiency_bound",
     *(f"{member}.displacement.{c}" for member in ("pinion", "wheel") for c in "xyz"),
     *BEARING_OUTPUTS,
     "bearing[1].roller[1].load",
@@ -54,6 +57,8 @@ _OUTPUTS: tuple[str, ...] = (
     *RANGE_OUTPUTS,
     "film.share_outside",
     *FLANK_BOUNDS,
+    "bearing.share_outside",
+    *BEARING_FILMS,
 )
 # for another integrator: the other states, the rates of all, and the event indicators
 _OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
@@ -84,15 +89,19 @@ EFFICIENCY = OUTPUT_INDEX["efficiency"]
 AXLE_EFFICIENCY = OUTPUT_INDEX["axle.efficiency"]
 LOSS_BOUND = OUTPUT_INDEX["friction.power_loss_bound"]
 EFFICIENCY_BOUND = OUTPUT_INDEX["efficiency_bound"]
+DRAG_LOSS_BOUND = OUTPUT_INDEX["bearing.power_loss_bound"]
+AXLE_EFFICIENCY_BOUND = OUTPUT_INDEX["axle.efficiency_bound"]
 FIRST_ROLLER = OUTPUT_INDEX["bearing[1].roller[1].load"]
 PINION_CAGE = OUTPUT_INDEX["bearing[1].cage.angle"]
 GEAR_CAGE = OUTPUT_INDEX["bearing[3].cage.angle"]
 STORED_ENERGY = OUTPUT_INDEX["energy.stored"]
 SHARE_OUTSIDE = OUTPUT_INDEX["film.share_outside"]
+BEARING_SHARE_OUTSIDE = OUTPUT_INDEX["bearing.share_outside"]
 
 # first place of a group of outputs of one kind
 FLANKS = OUTPUT_INDEX[FLANK_OUTPUTS[0]]
 FIRST_FLANK_BOUND = OUTPUT_INDEX[FLANK_BOUNDS[0]]
+FIRST_BEARING_FILM = OUTPUT_INDEX[BEARING_FILMS[0]]
 PINION_DISPLACEMENT = OUTPUT_INDEX["pinion.displacement.x"]
 WHEEL_DISPLACEMENT = OUTPUT_INDEX["wheel.displacement.x"]
 PINION_BEARINGS = OUTPUT_INDEX[BEARING_OUTPUTS[0]]
@@ -109,7 +118,7 @@ EVENTS = OUTPUT_INDEX[EVENT_INDICATORS[0]]
 MOTION_OUTPUTS: tuple[str, ...] = (
     *OUTPUT_NAMES[:PINION_ACCELERATION],
     *OUTPUT_NAMES[DTE:FLANKS],
-    *OUTPUT_NAMES[FRICTION_LOSS : EFFICIENCY_BOUND + 1],
+    *OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY_BOUND + 1],
     *OUTPUT_NAMES[PINION_DISPLACEMENT : WHEEL_DISPLACEMENT + 3],
     OUTPUT_NAMES[PINION_CAGE],
     OUTPUT_NAMES[GEAR_CAGE],
@@ -118,4 +127,4 @@ MOTION_OUTPUTS: tuple[str, ...] = (
 )
 
 # of these, what an input changes at once while no step has been taken
-POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : EFFICIENCY_BOUND + 1])
+POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY_BOUND + 1])

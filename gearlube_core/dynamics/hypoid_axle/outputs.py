@@ -5,8 +5,15 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import shaft_energy
+from gearlube_core.bearings.bearing_type import RollerFilms, shaft_energy
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
+    SOLVED_FILMS,
+    AxleRaceways,
+    axle_raceways,
+    drag_bound_of,
+)
 from gearlube_core.dynamics.hypoid_axle.bearing_outputs import (
+    write_raceways,
     write_shaft,
 )
 from gearlube_core.dynamics.hypoid_axle.continuous import (
@@ -38,15 +45,19 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import (
 )
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     AXLE_EFFICIENCY,
+    AXLE_EFFICIENCY_BOUND,
     BEARING_LOSS,
+    BEARING_SHARE_OUTSIDE,
     BOUNDARY_LOSS,
     CHURNING_LOSS,
     DAMPING_LOSS,
+    DRAG_LOSS_BOUND,
     DTE,
     EFFICIENCY,
     EFFICIENCY_BOUND,
     ENERGIES,
     EVENTS,
+    FIRST_BEARING_FILM,
     FIRST_FLANK_BOUND,
     FIRST_ROLLER,
     FLANKS,
@@ -80,6 +91,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
 )
 from gearlube_core.dynamics.hypoid_axle.rhs import (
     AT_EXPANSION,
+    AT_ROLLERS,
     SCRATCH,
     axle_rhs,
     gear_motion,
@@ -92,15 +104,18 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
     CAGE_P,
     CHURNING,
+    DRAG_BOUND,
     FILM_NODES,
     FRICTION_BOUND,
     LOAD_TORQUE,
     MESH_DAMPING,
     N_ENERGIES,
     N_ODE,
+    N_ROLLERS,
     PHI_G,
     PHI_P,
     PINION_WORK,
+    ROLLER_NODES,
     ROLLING,
     SEALS,
     SIDE,
@@ -149,10 +164,13 @@ def stored_energy(
 
 
 @kernel
-def write_losses(s: Array, rates: Array, bound: float, out: Array) -> None:
+def write_losses(
+    s: Array, rates: Array, friction_bound: float, drag_bound: float, out: Array
+) -> None:
     """Write powers lost and efficiencies, averaged over the last communication step.
 
-    `bound` is that of the power lost in flank friction [W], read before the first step only.
+    The bounds are those of the power lost in flank friction and in the bearings [W], read before
+    the first step only.
 
     Efficiency is 1 - loss/input with the work put in at the side that drives; 0 where no work is
     put in.
@@ -185,11 +203,15 @@ def write_losses(s: Array, rates: Array, bound: float, out: Array) -> None:
     idle_power = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
     put_in = pinion if pinion > 0.0 else -wheel
     if duration > 0.0:
-        bound = s[FRICTION_BOUND] * (1.0 / duration)
-    out[LOSS_BOUND] = bound
+        friction_bound = s[FRICTION_BOUND] * (1.0 / duration)
+        drag_bound = s[DRAG_BOUND] * (1.0 / duration)
+    out[LOSS_BOUND] = friction_bound
+    out[DRAG_LOSS_BOUND] = drag_bound
     out[EFFICIENCY_BOUND] = 0.0
+    out[AXLE_EFFICIENCY_BOUND] = 0.0
     if put_in > idle_power:
-        out[EFFICIENCY_BOUND] = bound / put_in
+        out[EFFICIENCY_BOUND] = friction_bound / put_in
+        out[AXLE_EFFICIENCY_BOUND] = (friction_bound + drag_bound) / put_in
         out[EFFICIENCY] = 1.0 - friction / put_in
         others = mesh + rollers + drag + churning + seals + rolling
         out[AXLE_EFFICIENCY] = 1.0 - (friction + others) / put_in
@@ -199,7 +221,8 @@ def write_losses(s: Array, rates: Array, bound: float, out: Array) -> None:
 def write_motion(
     s: Array,
     rates: Array,
-    bound: float,
+    friction_bound: float,
+    drag_bound: float,
     series: Array,
     n_orders: int,
     p: AxleParameters,
@@ -212,8 +235,8 @@ def write_motion(
     s : ndarray of shape (N_STATE,)
     rates : ndarray of shape (N_ODE,)
         Its rates; read before the first step only.
-    bound : float
-        Of the power lost in flank friction [W], likewise.
+    friction_bound, drag_bound : float
+        Of the power lost in flank friction and in the bearings [W], likewise.
     series : ndarray of shape (series_size(table),)
         Of the mesh table at the present load.
     """
@@ -228,7 +251,7 @@ def write_motion(
     out[SEPARATED] = 1.0 if -p.mesh.backlash < x < 0.0 else 0.0
     out[MESH_STIFFNESS] = mesh.stiffness
     out[MESH_FREQUENCY] = p.mesh.z_p * s[W_P] / (2.0 * math.pi)
-    write_losses(s, rates, bound, out)
+    write_losses(s, rates, friction_bound, drag_bound, out)
     for i in range(3):
         out[PINION_DISPLACEMENT + i] = s[U_P + i] * UM
         out[WHEEL_DISPLACEMENT + i] = s[U_G + i] * UM
@@ -251,7 +274,7 @@ def write_motion_after_step(
     series = work[N_ODE : N_ODE + size]
     bracket = load_bracket(s[LOAD_TORQUE], s[SIDE], table.levels, table.levels.size)
     blend_levels(table.series, size, bracket, series)
-    write_motion(s, work[0:N_ODE], 0.0, series, table.n_orders, p, out)
+    write_motion(s, work[0:N_ODE], 0.0, 0.0, series, table.n_orders, p, out)
 
 
 @kernel
@@ -282,21 +305,28 @@ def _write_rates(
     asked: float,
     work: Array,
     out: Array,
-) -> None:
+) -> AxleRaceways:
     at_series = N_ODE + SCRATCH
     at_window = at_series + series_size(table)
     rates = work[0:N_ODE]
     data = place_at_load(table, work[at_series:at_window], work[at_window:])
     oil = lubricant_state(p.oil, oil_temperature)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
-    inputs = step_inputs(s, torques[0], torques[1], oil, p)
     scratch = work[N_ODE:at_series]
+    rollers = scratch[AT_ROLLERS:SCRATCH]
+    if p.drag == SOLVED_FILMS:
+        for i in range(N_ROLLERS):
+            rollers[i] = s[ROLLER_NODES + i]
+    kept = 1.0 if asked == BETWEEN_NODES else 0.0
+    raceways = axle_raceways(s, oil, p, RollerFilms(data.roller_model, rollers, kept))
+    inputs = step_inputs(s, torques[0], torques[1], oil, p, raceways)
     if data.film_model.size > 0:
         for i in range(N_FILMS):
             scratch[FILMS + i] = s[FILM_NODES + i]
     axle_rhs(s, inputs, data, oil, p, asked, 1.0, scratch, rates)
     write_rates(s, rates, torques[0], out[RATES:EVENTS])
     write_event_indicators(s, table, data, p.mesh, out[EVENTS:])
+    return raceways
 
 
 @kernel
@@ -322,8 +352,18 @@ def write_outputs(
     oil = lubricant_state(p.oil, oil_temperature)
     # after a step a film model is taken as the step has taken it
     asked = BETWEEN_NODES if s[TIME_IN_STEP] > 0.0 else EXACT
-    _write_rates(s, torques, oil_temperature, table, p, asked, work, out)
-    mesh = write_motion(s, rates, scratch[BOUND_POWER], data.series, data.n_orders, p, out)
+    raceways = _write_rates(s, torques, oil_temperature, table, p, asked, work, out)
+    write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
+    mesh = write_motion(
+        s,
+        rates,
+        scratch[BOUND_POWER],
+        drag_bound_of(s, raceways),
+        data.series,
+        data.n_orders,
+        p,
+        out,
+    )
     out[PINION_ACCELERATION] = rates[W_P]
     out[WHEEL_ACCELERATION] = rates[W_G]
     channels = scratch[N_FRICTION:AT_EXPANSION]

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, get_args
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
+from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.checks import check_option
 from gearlube_core.contact.greenwood_tripp_1971 import (
     FLANK_SIGMA_OVER_BETA,
@@ -19,7 +20,11 @@ from gearlube_core.contact.solid import (
     solid_parameters,
 )
 from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES, TorqueLoss
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
+    BEARING_LAWS,
+    TORQUE_LOSSES,
+    TorqueLoss,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
@@ -129,10 +134,11 @@ class HypoidAxleParameters(AxleScalars):
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
-        "aihara_1987", "palmgren_loaded", "skf_2013"}
+        "aihara_1987", "palmgren_loaded", "skf_2013", "solved_films"}
         Drag torque of the bearings. "palmgren": under the preload. "palmgren_loaded", "skf_2013":
         laws of catalogues under the forces on each bearing. The others: a law of rolling for the
-        raceways, with ribs, hysteresis and oil drag, under the load of each roller.
+        raceways, with ribs, hysteresis and oil drag, under the load of each roller. "solved_films":
+        rolling and films of the raceways by a model of solved films, see `solved_race`.
     churning : {"none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
         Law of the gear's churning loss, see `churning_torque`.
     ring_diameter, ring_width : float
@@ -297,6 +303,10 @@ class HypoidAxleParameters(AxleScalars):
         if self.friction not in FRICTION_WITH_SOLVED_FILM:
             raise ParameterError(f"{PRINTED_WITH_SOLVED_FILM} Got {self.friction!r}.")
         return flank_film_model(FilmModel.named(FILM_MODEL))
+
+    def roller_model(self) -> Array:
+        """Return the numbers of the film model of rollers for one axle; empty with other laws."""
+        return roller_film_model(BEARING_LAWS.get(self.bearing_torque_loss, ""))
 
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""

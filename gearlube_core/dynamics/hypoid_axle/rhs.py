@@ -25,6 +25,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CHURNING,
     MESH_DAMPING,
     MICRO,
+    N_ROLLERS,
     PHI_G,
     PHI_P,
     PINION_WORK,
@@ -46,7 +47,8 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
 AT_EXPANSION = N_FRICTION + N_CHANNELS
-SCRATCH = AT_EXPANSION + 2 * N_EXPANSION
+AT_ROLLERS = AT_EXPANSION + 2 * N_EXPANSION  # `roller_nodes` of outputs
+SCRATCH = AT_ROLLERS + N_ROLLERS
 
 
 class StepInputs(NamedTuple):
@@ -156,7 +158,7 @@ def axle_rhs(
     f_ref = reference_frequency(p.mesh, w_p)
 
     expansion_p = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
-    expansion_g = scratch[AT_EXPANSION + N_EXPANSION : SCRATCH]
+    expansion_g = scratch[AT_EXPANSION + N_EXPANSION : AT_ROLLERS]
     pinion = pinion_motion(s)
     gear = gear_motion(s)
     if bearings != 0.0:

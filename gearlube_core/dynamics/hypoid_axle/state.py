@@ -6,6 +6,7 @@ size then stands beside the speeds, which relative tolerances of an adaptive int
 
 from __future__ import annotations
 
+from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 
 MICRO = 1.0e6  # um per m
@@ -29,6 +30,9 @@ TIME_IN_STEP = 30  # length of the last communication step [s]
 WORK_MARK = 31  # these energies at the start of the last communication step [J]
 SIDE = WORK_MARK + N_ENERGIES  # below 0: the mesh data are those of the coast flanks [-]
 FRICTION_BOUND = SIDE + 1  # of the flank friction losses of the last communication step [J]
-FILM_NODES = FRICTION_BOUND + 1  # `film_nodes`, with a film model
-N_STATE = FILM_NODES + N_FILMS
+DRAG_BOUND = FRICTION_BOUND + 1  # of the drag losses of the bearings, likewise [J]
+FILM_NODES = DRAG_BOUND + 1  # `film_nodes`, with a film model
+ROLLER_NODES = FILM_NODES + N_FILMS  # `roller_nodes` of both shafts, with a film model of rollers
+N_ROLLERS = 2 * N_ROLLER_NODES
+N_STATE = ROLLER_NODES + N_ROLLERS
 N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events

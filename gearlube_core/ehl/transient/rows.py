@@ -282,7 +282,8 @@ class RowCycle:
 
     def _cycle(self, k: int, residual: Array, load_residual: float) -> tuple[Array, float]:
         if k == 0:
-            return self._direct(residual, load_residual)
+            pressure, approach = self._direct(residual, load_residual)
+            return pressure.astype(np.float64), approach
         free, transfer = self._operators[k].free, self._transfers[k - 1]
         coarse, approach = self._cycle(k - 1, transfer.down(residual), load_residual)
         pressure = transfer.up(coarse)

@@ -27,8 +27,9 @@ def transmission_errors(dataset: xr.Dataset) -> Any:
             _loaded(axes[1, column], part)
             axes[1, column].set_title(f"{_SIDES[side]}: loaded, mean removed")
             axes[1, column].set_xlabel("pinion rotation [mesh periods]")
-        handles, labels = axes[1, 0].get_legend_handles_labels()
-        figure.legend(handles, labels, ncols=5, loc="outside lower center")
+        unloaded, loaded = (ax.get_legend_handles_labels() for ax in axes[:, 0])
+        handles, labels = (one + other for one, other in zip(unloaded, loaded, strict=True))
+        figure.legend(handles, labels, ncols=7, loc="outside lower center")
         figure.suptitle("Static transmission error along the line of action", fontsize=11.5)
     return figure
 
@@ -40,9 +41,10 @@ def _single_pairs(ax: Any, part: xr.Dataset) -> None:
         np.nanmin(part["error"].values) if _drive(part) else np.nanmax(part["error"].values)
     )
     for shift in (-1, 0, 1, 2):
-        ax.plot(phase + shift, error - zero * arm * 1e6, color=GREY, lw=1.2)
+        label = "one pair alone, unloaded" if shift == 0 else None
+        ax.plot(phase + shift, error - zero * arm * 1e6, color=GREY, lw=1.2, label=label)
     x, y = _two_periods(part["fine_phase"].values, arm * 1e6 * (part["error"].values - zero))
-    ax.plot(x, y, color=SERIES[0])
+    ax.plot(x, y, color="black", label="the pairs in turn, unloaded")
     span = max(float(np.ptp(y)), 0.1)
     ax.set(xlim=(0.0, 2.0), ylim=(y.min() - 0.4 * span, y.max() + 0.6 * span))
     ax.set_ylabel("gear lags [µm]")
@@ -116,6 +118,7 @@ def stiffness_against_torque(dataset: xr.Dataset) -> Any:
                     color=SERIES[column],
                     alpha=0.12,
                     lw=0,
+                    label="range over the mesh" if column == 1 and name == "k_t" else None,
                 )
             pairs = (part["share"].values > 1e-3).sum(axis=-1)
             right.plot(torque, pairs.mean(axis=0), color=SERIES[column], label=f"{side}, mean")

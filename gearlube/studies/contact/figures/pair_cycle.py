@@ -45,6 +45,8 @@ def _pair_figure(
     height: float,
     logarithmic: set[str] | None = None,
 ) -> Any:
+    from matplotlib.ticker import LogFormatter
+
     with house_style():
         figure = new_figure(9.6, height)
         axes = figure.subplots(len(rows), 2, sharex=True, sharey="row")
@@ -68,6 +70,7 @@ def _pair_figure(
                     mark_edge_pressure(ax)
                 if logarithmic and name in logarithmic:
                     ax.set_yscale("log")
+                    ax.yaxis.set_major_formatter(LogFormatter())
                 elif name != "R_y" and column == 1:  # both sides are drawn, so the top is known
                     ax.set_ylim(bottom=0.0)
                 if column == 0:

@@ -42,10 +42,12 @@ def _newton_steps(ax: Any, dataset: xr.Dataset) -> None:
     steps = np.arange(1, dataset.sizes["iteration"] + 1)
     residual = np.maximum(dataset["residual_history"].values, _FLOOR)
     ax.semilogy(steps, residual, "o-", color=BLUE, ms=3.5, lw=1.0, label="unbalanced flow")
+    words = "Newton step"
     if "load_error_history" in dataset:
         load = np.maximum(dataset["load_error_history"].values, _FLOOR)
         ax.semilogy(steps, load, "s", color=VERMILLION, ms=3.0, label="load error")
         nodes = dataset["nodes_history"].values
         for turn in np.flatnonzero(np.diff(nodes) != 0.0):
             ax.axvline(turn + 1.5, color=GREY, lw=0.8, ls=":")
-    ax.set(xlabel="Newton step", ylabel="relative error [-]")
+        words += "; dotted: next finer grid; a load error of 1e-17 stands for zero"
+    ax.set(xlabel=words, ylabel="relative error [-]")

@@ -9,6 +9,7 @@ import xarray as xr
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 from gearlube.studies.films.figures.parts import HEADROOM, shown_range, titled, two_scales
 
+_ALONG = "x [mm], oil enters on the left"
 _SIDE = 2.0  # half widths that are shown, at most
 
 
@@ -34,7 +35,7 @@ def line_shear(dataset: xr.Dataset) -> Any:
             ("stress_2", VERMILLION, "on body 2", 1.4),
         ):
             ax.plot(x, 1e-6 * dataset[name].values, color=colour, lw=width, label=label)
-        ax.set(xlim=_shown(dataset), xlabel="x [mm]", ylabel="shear stress [MPa]")
+        ax.set(xlim=_shown(dataset), xlabel=_ALONG, ylabel="shear stress [MPa]")
         figure.legend(ncols=3, loc="outside lower center")
         coefficient = dataset.attrs["friction_coefficient"]
         figure.suptitle(
@@ -57,7 +58,7 @@ def line_temperature(dataset: xr.Dataset) -> Any:
         ):
             ax.plot(_milli(dataset), values, color=colour, label=label)
         ax.plot(_milli(dataset), rise.max(axis=1), color=GREY, ls=":", label="highest")
-        ax.set(xlim=_shown(dataset), xlabel="x [mm]", ylabel="temperature above the inlet [K]")
+        ax.set(xlim=_shown(dataset), xlabel=_ALONG, ylabel="temperature above the inlet [K]")
         figure.legend(ncols=4, loc="outside lower center")
         figure.suptitle(titled(dataset, "temperature"), fontsize=11.5)
     return figure
@@ -87,7 +88,7 @@ def _profile(dataset: xr.Dataset, dry: bool) -> Any:
                 label="dry gap + central film",
             )  # fmt: skip
         top = 1e-9 * max(dataset.attrs["pressure_max"], dataset.attrs["hertz_pressure_max"])
-        left.set(xlim=low_high, ylim=(0.0, 1.12 * top), xlabel="x [mm]")
+        left.set(xlim=low_high, ylim=(0.0, 1.12 * top), xlabel=_ALONG)
         highest = 1e6 * HEADROOM * dataset.attrs["central_film"]
         right.set(ylim=(0.0, highest))
         two_scales(left, right)

@@ -58,7 +58,7 @@ def rough_history(runs: Runs, time_step: float | None = None) -> Any:
             (
                 "largest pressure\n[GPa]",
                 "smallest film\n[nm]",
-                f"zone with a film\nbelow {words} [%]",
+                f"Hertz zone with\na film below {words} [%]",
                 "load on solids\n[%]",
             ),
             strict=True,
@@ -70,7 +70,8 @@ def rough_history(runs: Runs, time_step: float | None = None) -> Any:
         axes[-1].set_xlabel("time [µs]" if time_step is None else "time step")
         if len(runs) > 1:
             axes[0].legend(ncols=min(len(runs), 4), loc="lower right")
-        axes[0].set_title("Rough film in motion")
+        axes[0].set_title("Rough film while the roughness comes into the contact")
+        _mark_rough(axes, next(iter(runs.values())), time_step or _MICROMETRE)
     return figure
 
 
@@ -96,12 +97,12 @@ def rough_distributions(runs: Runs) -> Any:
             right.semilogy(pressure, 100.0 * np.where(above > 0.0, above, np.nan), **line)
         left.set_xlim(0.0, _end(runs, "film", 0.999) / _MICROMETRE)
         right.set_xlim(0.0, _end(runs, "pressure", 1.0 - 1e-6) / _GIGAPASCAL)
-        left.set(xlabel="film [µm]", ylabel="zone with a film below [%]", ylim=(0.0, 100.0))
-        right.set(xlabel="pressure [GPa]", ylabel="zone with a pressure above [%]")
+        left.set(xlabel="film [µm]", ylabel="Hertz zone with a thinner film [%]", ylim=(0.0, 100.0))
+        right.set(xlabel="pressure [GPa]", ylabel="Hertz zone with a higher pressure [%]")
         right.set_ylim(1e-4, 100.0)
         if len(runs) > 1:
             left.legend()
-        figure.suptitle("Films and pressures of the Hertz zone, all times")
+        figure.suptitle("How films and pressures are distributed in the Hertz zone, over all times")
     return figure
 
 
@@ -124,8 +125,8 @@ def rough_thin_films(runs: Runs) -> Any:
             middle = 0.5 * (edges[thin] + edges[thin + 1]) + (k - 0.5 * (len(runs) - 1)) * width
             shares = 100.0 * run["film_histogram"].values[thin]
             ax.bar(middle, shares, width, color=SERIES[k % len(SERIES)], label=label)
-        ax.set(xlabel="film [nm]", ylabel="share of the zone [%]", xlim=(0.0, 25.0))
-        ax.set_title("Thin films of the Hertz zone, all times, in bins of 1 nm")
+        ax.set(xlabel="film [nm]", ylabel="share of the Hertz zone [%]", xlim=(0.0, 25.0))
+        ax.set_title("How thin the films of the Hertz zone are, over all times, in bins of 1 nm")
         if len(runs) > 1:
             ax.legend()
     return figure
@@ -167,12 +168,14 @@ def rough_frame(
             ax.set_ylabel("y [mm]")
             ax.grid(visible=False)
         j = y.size // 2
+        for ax, colour in ((axes[0], "white"), (axes[1], "black")):
+            ax.axhline(y[j], color=colour, lw=0.9, ls=":")
         row = loaded_film(film[j], pressure[j]) if thickest is None else thickest
         _section(axes[2], x, film[j], pressure[j], top, 2.0 * row / _MICROMETRE)
-        axes[2].set_title(f"row y = {y[j]:.3g} mm", loc="left", fontsize=9)
+        axes[2].set_title(f"dotted row, y = {y[j]:.3g} mm", loc="left", fontsize=9)
         axes[2].set_xlabel("x [mm], along the motion")
         if "time" in frame.coords:
-            axes[0].set_title(f"Rough film at {float(frame['time']) / _MICROMETRE:.2f} µs")
+            axes[0].set_title(f"Rough contact at {float(frame['time']) / _MICROMETRE:.4g} µs")
     return figure
 
 
@@ -213,15 +216,28 @@ def rough_difference(first: xr.Dataset, second: xr.Dataset, x: float = 0.0) -> A
             row = difference.sel(time=time) if "time" in difference.dims else difference
             line = {"color": SERIES[k % len(SERIES)], "ls": _DASHES[k // len(SERIES) % 4]}
             upper.plot(y, row["pressure"] / _GIGAPASCAL, **line)
-            lower.plot(y, row["film"] / _MICROMETRE, label=f"{time / _MICROMETRE:.2f} µs", **line)
+            lower.plot(y, row["film"] / _MICROMETRE, label=f"{time / _MICROMETRE:.4g} µs", **line)
         upper.set_ylabel("pressure, difference\n[GPa]")
         lower.set_ylabel("film, difference\n[µm]")
         lower.set_xlabel("y [mm]")
         lower.legend(ncols=4)
         place = 1e6 * float(difference["x"])
-        upper.set_title(f"Difference of two runs at x = {place:.0f} µm")
+        upper.set_title(f"First run less second run, along the line at x = {place:.0f} µm")
         upper.margins(x=0.0)
     return figure
+
+
+def _mark_rough(axes: Any, run: xr.Dataset, scale: float) -> None:
+    """Mark the time [s, over `scale`] from which the whole contact is rough."""
+    if "rough_time" not in run.attrs:
+        return
+    at = float(run.attrs["rough_time"]) / scale
+    for ax in axes:
+        ax.axvline(at, color="0.4", lw=0.8, ls="--")
+    axes[-1].annotate(
+        "rough everywhere", (at, 1.0), xytext=(-4, -2), textcoords="offset points",
+        xycoords=("data", "axes fraction"), ha="right", va="top", color="0.3", fontsize=8.5,
+    )  # fmt: skip
 
 
 def _section(ax: Any, x: Array, film: Array, pressure: Array, top: float, thickest: float) -> None:

@@ -25,9 +25,9 @@ def film_on_lines(film: xr.Dataset) -> Any:
     age = since.transpose(*film["z"].dims).values
     across, load = 1e3 * film["z"].values, film["line_load"].values
     panels: tuple[tuple[str, float, str, str], ...] = (
-        ("coefficient", 1.0, "coefficient of friction, size", "viridis"),
+        ("coefficient", 1.0, "size of the coefficient of friction [-]", "viridis"),
         ("central_film", 1e6, "central film [µm]", "viridis"),
-        ("temperature_rise", 1.0, "rise in the film [K]", "magma_r"),
+        ("temperature_rise", 1.0, "temperature rise in the film [K]", "magma_r"),
         ("mean_pressure", 1e-9, "mean Hertz pressure [GPa]", "magma_r"),
     )
     kept = np.isfinite(film["x"].values) & np.isfinite(across) & (load > 0.0)
@@ -58,9 +58,9 @@ def film_on_lines(film: xr.Dataset) -> Any:
         for ax in axes[1]:
             ax.set_xlabel("mesh periods since the pair enters")
         for ax in axes[:, 0]:
-            ax.set_ylabel("from mid-face [mm]")
+            ax.set_ylabel("distance from mid-face [mm]")
         mean = film.attrs["operating_mean_coefficient"]
-        axes[0, 0].set_title(f"µ = {mean:.4f} everywhere has the same loss", fontsize=9)
+        axes[0, 0].set_title(f"the same loss as µ = {mean:.4f} everywhere", fontsize=9)
         figure.suptitle(
             f"{_heading(film, 'Film on the contact lines')}; dashed: pitch line, where µ is zero",
             fontsize=10.5,
@@ -70,6 +70,8 @@ def film_on_lines(film: xr.Dataset) -> Any:
 
 def film_over_mesh(film: xr.Dataset) -> Any:
     """Return friction force and power of the film over the mesh, and means over speed."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
     phase, speed = film["friction_phase"].values, film["film_speed"].values / RPM
     with house_style():
         figure = new_figure(10.0, 6.6)
@@ -83,13 +85,17 @@ def film_over_mesh(film: xr.Dataset) -> Any:
         loss.plot(*closed(phase, film["power_loss"].values), color=GREEN, label="oil film")
         loss.set(xlim=(0.0, 2.0), xlabel=PERIODS, ylabel="friction power [W]", ylim=(0.0, None))
         mean.plot(speed, film["mean_coefficient"].values, color=GREEN, marker=".")
-        mean.set(xlabel="pinion speed [rpm]", ylabel="mean coefficient of friction")
+        mean.set(xlabel="pinion speed [rpm]", ylabel="mean coefficient of friction [-]")
         mean.set(ylim=(0.0, None), xscale="log")
         thin.plot(speed, 1e6 * film["smallest_film"].values, color=BLUE, marker=".")
         thin.axhline(1e6 * film.attrs["roughness_rms"], color=GREY, ls="--", lw=1.2)
         thin.set(xlabel="pinion speed [rpm]", xscale="log", yscale="log")
         thin.set_ylabel("smallest film [µm]")
-        thin.set_title("dashed: composite roughness", fontsize=9)
+        thin.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        thin.yaxis.set_major_formatter("{x:g}")
+        thin.yaxis.set_minor_formatter(NullFormatter())
+        thin.set_title("dashed: composite roughness; dotted: operating speed", fontsize=9)
+        mean.set_title("dotted: operating speed", fontsize=9)
         for ax in (mean, thin):
             ax.axvline(film.attrs["pinion_speed"] / RPM, color=GREY, ls=":", lw=1.0)
         figure.legend(*force.get_legend_handles_labels(), ncols=2, loc="outside lower center")

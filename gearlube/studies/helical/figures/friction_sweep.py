@@ -12,7 +12,7 @@ from gearlube.studies.helical.figures.layout import NOTHING, note_no_vibration, 
 from gearlube_core.arrays import Array
 
 _NAMED = 4  # orders with a colour of their own
-_LEAST = 1e-4  # of the largest amplitude, that the scale reaches
+_LEAST = 1e-4  # of the largest amplitude of all panels, that their scale reaches
 
 _ROWS = (
     (("u_xp", "$u_{xp}$"), ("u_yp", "$u_{yp}$"), ("u_zp", "$u_{zp}$")),
@@ -46,15 +46,19 @@ def _panels(
     order, mu = part["harmonic"].values, part["mu"].values
     with house_style():
         figure = new_figure(10.5, 2.7 * len(rows) + 1.0)
-        axes = figure.subplots(len(rows), len(rows[0]), sharex=True)
+        axes = figure.subplots(len(rows), len(rows[0]), sharex=True, sharey=True)
+        tops = []
         for line, names in zip(axes, rows, strict=True):
             for ax, (name, symbol) in zip(line, names, strict=True):
                 values = scale * part[f"{name}_harmonic"].transpose("mu", "harmonic").values
-                _orders(ax, mu, order, values)
+                tops.append(_orders(ax, mu, order, values))
                 ax.set_title(symbol)
             line[0].set_ylabel(f"amplitude [{unit}]")
+        if max(tops) > NOTHING:
+            axes[0, 0].set_yscale("log")
+            axes[0, 0].set_ylim(_LEAST * max(tops), 2.0 * max(tops))
         for ax in axes[-1]:
-            ax.set_xlabel("coefficient of friction µ")
+            ax.set_xlabel("coefficient of friction µ [-]")
             ax.set_xlim(mu[0], max(mu[-1], mu[0] + 1e-3))
         named = {
             label: handle
@@ -69,16 +73,15 @@ def _panels(
     return figure
 
 
-def _orders(ax: Any, mu: Array, order: Array, values: Array) -> None:
-    """Draw amplitudes over friction, shape (mu, orders), on a scale that those above µ = 0 set.
+def _orders(ax: Any, mu: Array, order: Array, values: Array) -> float:
+    """Draw amplitudes over friction, shape (mu, orders); return the largest.
 
     Without friction an amplitude may be zero, which a logarithmic scale cannot show.
     """
-    rubbing = values[mu > 0.0] if (mu > 0.0).any() else values
-    top = float(rubbing.max())
+    top = float(values.max())
     if not top > NOTHING:
         note_no_vibration(ax)
-        return
+        return top
     for column in reversed(range(order.size)):
         named = column < _NAMED
         shown = np.where(values[:, column] > NOTHING, values[:, column], np.nan)
@@ -90,6 +93,4 @@ def _orders(ax: Any, mu: Array, order: Array, values: Array) -> None:
             zorder=2.5 if named else 1.5,
             label=f"order {order[column]}" if named else f"orders {order[_NAMED]} to {order[-1]}",
         )
-    low = float(rubbing[:, :_NAMED][rubbing[:, :_NAMED] > NOTHING].min(initial=top))
-    ax.set_yscale("log")
-    ax.set_ylim(max(_LEAST * top, 0.1 * low), 2.0 * top)
+    return top

@@ -83,6 +83,7 @@ def sliding_on_line(datasets: Sequence[xr.Dataset]) -> Any:
 def lay_angles(datasets: Sequence[xr.Dataset]) -> Any:
     """Return the inclination of grinding marks to the contact line, and slide-roll: fig. 7.4."""
     members = (("pinion", "$\\theta_p$", BLUE, "-"), ("gear", "$\\theta_w$", VERMILLION, "--"))
+    most = 1.15 * max(float(np.abs(scaled(one, "slide_roll")).max()) for one in datasets)
     with house_style():
         figure, axes = columns(datasets, 1, 4.8)
         for ax, dataset in zip(axes[0], datasets, strict=True):
@@ -96,13 +97,12 @@ def lay_angles(datasets: Sequence[xr.Dataset]) -> Any:
             ax.set_xlabel("$s$: along the line of action, past the pitch line [mm]")
             pitch_line(ax)
             ratio = ax.twinx()
-            slide_roll = scaled(dataset, "slide_roll")
-            ratio.plot(s, slide_roll, color=GREEN, ls="-.")
+            ratio.plot(s, scaled(dataset, "slide_roll"), color=GREEN, ls="-.")
             ax.plot([], [], color=GREEN, ls="-.", label="$\\zeta$, slide-roll ratio (right)")
-            ratio.set_ylim(-1.15 * np.abs(slide_roll).max(), 1.15 * np.abs(slide_roll).max())
+            ratio.set_ylim(-most, most)
             ratio.spines["right"].set_visible(True)
             ratio.grid(visible=False)
-            ratio.set_ylabel("$\\zeta$ [-]", color=GREEN)
+            ratio.set_ylabel("slide-roll ratio $\\zeta$ [-]", color=GREEN)
         axes[0, 0].set_ylabel("angle of the marks to the contact line [°]")
         legend_below(figure, axes[0, :1], 3)
         chord = MILLI * float(datasets[0]["lay_chord"])

@@ -64,7 +64,7 @@ def _histories(
                 values = scale * response[name].sel(case=case).values
                 x, y = closed(phase, values - values.mean())
                 left.plot(x, y, color=colour, label=label, lw=1.3)
-                means.append(f"{values.mean():.4g}")
+                means.append(f"{values.mean():.3g}".replace("-", "−"))
                 sets.append((_amplitude(response, name, case, scale), colour, label))
             left.set_ylabel(f"{symbol} minus mean [{unit}]")
             if not name.endswith("_rate"):

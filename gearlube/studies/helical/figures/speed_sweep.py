@@ -169,7 +169,7 @@ def order_cuts(sweep: xr.Dataset) -> Any:
         figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=5, loc="outside lower center")
         figure.suptitle(
             _heading(sweep, "Order cuts, amplitudes")
-            + "; dotted: order times mesh frequency is natural",
+            + "; dotted: the order meets a natural frequency",
             fontsize=10.5,
         )
     return figure
@@ -199,16 +199,18 @@ def friction_speed_maps(sweep: xr.Dataset) -> Any:
                 vmin=top - _RANGE,
                 vmax=top,
             )
+            # without friction a force may be zero: no contours towards minus infinity
+            felt = np.nanmax(level, axis=1) > top - _RANGE
             lines = ax.contour(
-                speed, mu, level, levels=np.arange(top - _RANGE, top, 10.0), colors="white",
-                linewidths=0.7,
-            ) if min(level.shape) > 1 else None  # fmt: skip
+                speed, mu[felt], level[felt], levels=np.arange(top - _RANGE, top, 10.0),
+                colors="white", linewidths=0.7,
+            ) if min(level[felt].shape) > 1 else None  # fmt: skip
             if lines is not None:
                 for text in ax.clabel(lines, fmt="%.0f", fontsize=7.5):
                     outlined(text)
             bar = figure.colorbar(mesh, ax=ax, location="bottom", shrink=0.9)
             bar.set_label("rms level of orders 1 to 15 [dB re 1 N]")
-        axes[0].set_ylabel("coefficient of friction µ")
+        axes[0].set_ylabel("coefficient of friction µ [-]")
         axes[0].set_ylim(mu[0], max(mu[-1], mu[0] + 1e-3))
         figure.suptitle(_heading(sweep, "Vibrating bearing forces"), fontsize=10.5)
     return figure

@@ -14,6 +14,7 @@ from gearlube.plotting.style import (
     cell_edges,
     house_style,
     new_figure,
+    outlined,
 )
 from gearlube.studies.helical.figures.layout import RPM, distinct, mesh_description
 from gearlube.studies.helical.stability import LIGHT_DAMPING
@@ -33,7 +34,7 @@ def instability(stability: xr.Dataset) -> Any:
             f"damping ratio {at['mesh_damping_ratio']:g}",
         ),
         ("growth_variation_light", "variation", f"damping ratio {LIGHT_DAMPING:g}"),
-        ("growth_damping", "damping_ratio", "actual variation"),
+        ("growth_damping", "damping_ratio", "variation of the mesh as it is"),
     )
     modes = distinct(1e-3 * stability["natural_frequency"].values, 0.02)
     with house_style():
@@ -53,23 +54,25 @@ def instability(stability: xr.Dataset) -> Any:
             ax.set_title(f"{words}; {_verdict(growth)}")
             ax.grid(False)
             bar = figure.colorbar(mesh, ax=ax, pad=0.01)
-            bar.set_label("growth [1/s]")
+            bar.set_label("growth rate [1/s]")
         for ax in axes[:2]:
             ax.set_ylabel("factor on the\nmesh variation")
             ax.axhline(1.0, color="#404040", lw=0.9, ls="--")
+            on_line = ax.get_yaxis_transform()
+            text = ax.text(0.995, 1.0, "as it is", transform=on_line, ha="right", va="bottom")
+            outlined(text, "white")
         axes[2].set_ylabel("damping ratio of\nmesh and supports")
         axes[2].set_yscale("log")
         axes[2].set_yticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
         axes[2].minorticks_off()
         axes[2].set_ylim(*stability["damping_ratio"].values[[0, -1]])
         axes[2].set_xlim(frequency[0], frequency[-1])
-        axes[2].set_xlabel(
-            "mesh frequency [kHz]; dotted: twice a natural frequency; others: sums of two"
-        )
+        axes[2].set_xlabel("mesh frequency [kHz]")
         figure.suptitle(
-            f"Parametric instability, black line its limit: {at['name']}, "
-            f"{at['pinion_torque']:.4g} N·m, mesh {mesh_description(stability)}",
-            fontsize=11.0,
+            f"Parametric instability: {at['name']}, {at['pinion_torque']:.4g} N·m, mesh "
+            f"{mesh_description(stability)}\nred inside the black lines: motions grow; dotted: "
+            "twice a natural frequency; other tongues: sums of two natural frequencies",
+            fontsize=10.5,
         )
     return figure
 
@@ -108,7 +111,7 @@ def separation(dataset: xr.Dataset) -> Any:
             )
         top.set_yscale("log")
         top.set_ylabel(r"$\delta_z$ peak to peak [µm]")
-        bottom.set_ylabel("time [%]")
+        bottom.set_ylabel("share of time [%]")
         bottom.set_ylim(0.0, max(5.0, *bottom.get_ylim()))
         bottom.set_title("without any contact (wide), part of the lines off (thin)", fontsize=9)
         bottom.set_xlabel("pinion speed [rpm]; dashed: unstable")
@@ -118,8 +121,8 @@ def separation(dataset: xr.Dataset) -> Any:
         figure.legend(*top.get_legend_handles_labels(), ncols=2, loc="outside lower center")
         figure.suptitle(
             f"Tooth separation, µ = {at['mu']:g}, backlash {1e6 * at['backlash']:.3g} µm: "
-            f"{at['name']}, {at['pinion_torque']:.4g} N·m, mesh {mesh_description(dataset)}; "
-            "dash-dotted: mesh resonance",
+            f"{at['name']}, {at['pinion_torque']:.4g} N·m, mesh {mesh_description(dataset)}\n"
+            "dash-dotted: resonance of the mesh",
             fontsize=10.0,
         )
     return figure

@@ -71,7 +71,8 @@ def _waveforms(cycle: xr.Dataset, models: tuple[str, ...], title: str) -> Any:
         for ax, relative in zip(axes, frequencies, strict=True):
             for motion in _at(cycle, relative, models):
                 _draw(ax, motion)
-            ax.set(title=_TITLE.format(relative), ylabel="x [µm]", xlim=(0.0, 2.0))
+            ax.set(title=_TITLE.format(relative), xlim=(0.0, 2.0))
+            ax.set_ylabel("transmission\nerror x [µm]")
             _no_contact(ax)
         axes[-1].set_xlabel("pinion rotation [mesh periods]")
         _shared_legend(figure, axes)
@@ -220,7 +221,10 @@ def phase_portraits(cycle: xr.Dataset) -> Any:
             ax.set(title=_TITLE.format(relative), xlabel="x [µm]")
         axes[0].set_ylabel("dx/dt [mm/s]")
         _shared_legend(figure, axes)
-        figure.suptitle("Phase portraits, grey: teeth apart", fontsize=11.5)
+        figure.suptitle(
+            "Phase portraits of the transmission error x; dots: mesh phase 0; grey: teeth apart",
+            fontsize=11.5,
+        )
     return figure
 
 

@@ -36,7 +36,7 @@ MARKS = {
 }
 # wide lines show behind others that coincide
 WIDTHS = {"two_dof": 2.6, "one_dof": 1.4, "two_dof_lubricated": 0.9}
-FREQUENCY = "mesh frequency / natural frequency"
+FREQUENCY = "mesh frequency / natural frequency [-]"
 _SHOWN = ("two_dof", "one_dof", "two_dof_lubricated")
 
 

@@ -70,7 +70,7 @@ def traction_map(cycle: xr.Dataset) -> Any:
             ylabel=r"pressure number $\ln(\eta/\eta_0)$",
             title=f"lines: largest shear stress of a film [MPa]; Eyring stress {1e-6 * tau0:g} MPa",
         )
-        ax.legend(loc="lower right", markerscale=3.0)
+        ax.legend(loc="lower right", markerscale=3.0, frameon=True, framealpha=1.0)
         figure.suptitle("Contacts over the mesh cycle on the traction map", fontsize=11.5)
     return figure
 

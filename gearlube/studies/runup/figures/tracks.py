@@ -62,6 +62,7 @@ def bearing_tracks(dataset: xr.Dataset) -> Any:
     with house_style():
         figure = new_figure(11.0, 6.4)
         axes = figure.subplots(len(bearings), len(directions), sharex=True, sharey=True)
+        top = -np.inf
         for i, bearing in enumerate(bearings):
             for j, direction in enumerate(directions):
                 ax, where = axes[i, j], {"bearing": bearing, "direction": direction}
@@ -72,12 +73,12 @@ def bearing_tracks(dataset: xr.Dataset) -> Any:
                     dataset["bearing_force_overall"].sel(where).values,
                     levels.FORCE,
                 )
+                top = max(top, float(ax.get_ylim()[1]))  # of this panel; the next one sets its own
                 axis = str(dataset["axis"].sel(where).values)
                 ax.set_title(f"{bearing}, {direction} ({axis})", fontsize=9.5)
                 levels.speed_axis(ax, dataset, label=i == len(bearings) - 1, top=False)
         for ax in axes[:, 0]:
             ax.set_ylabel(f"force [{levels.FORCE_TEXT}]")
-        top = max(float(ax.get_ylim()[1]) for ax in axes.flat)
         axes[0, 0].set_ylim(top - _SHOWN, top)
         handles, labels = axes[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, ncols=5, loc="outside lower center", handlelength=3.0)

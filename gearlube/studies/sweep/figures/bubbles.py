@@ -14,6 +14,7 @@ from gearlube.plotting.style import (
     house_style,
     name_levels,
     new_figure,
+    outlined,
     preload_label,
     speed_limits,
 )
@@ -24,6 +25,7 @@ RANGE = 60.0  # dB from the smallest to the largest bubble
 _ROUNDING = 0.01  # of 5 dB, by which a level may exceed the largest bubble
 _LARGEST = 130.0  # its area [pt^2]
 _LOWEST = 0.012  # of the frequency axis; lines below do not set the scale
+_ONE_ROW = 8.0  # width of a figure from which its key has one row [in]
 _ENGINE = tuple(range(2, 25, 2))  # orders of a four-stroke engine with four cylinders
 KINDS = ("mesh orders", "engine orders", "others: sidebands, rollers, free vibration")
 COLOURS = (BLUE, ORANGE, "#8C8C8C")
@@ -171,15 +173,16 @@ def _guides(ax: Any, row: xr.Dataset, top: float) -> None:
         ax.plot(speed[known], values[known], color="#9DB9CC", lw=0.9, zorder=1)
         inside = np.flatnonzero(known & (values < 0.97 * top))
         if inside.size:
-            ax.annotate(
+            text = ax.annotate(
                 name,
                 (speed[inside[-1]], values[inside[-1]]),
-                xytext=(7, 0),
+                xytext=(-3, 8),
                 textcoords="offset points",
-                ha="left",
-                va="center",
+                ha="right",
+                va="bottom",
                 fontsize=8.5,
             )
+            outlined(text, "white")
 
 
 def modes_below(row: xr.Dataset, top: float) -> dict[str, float]:
@@ -211,15 +214,17 @@ def _key(figure: Any, channel: MapChannel, peak: float, used: set[int]) -> None:
     ]
     sizes = [
         Line2D(
-            [], [], ls="", marker="o", color="#404040", label=f"{level:.0f} dB",
+            [], [], ls="", marker="o", color="#404040",
+            label=f"{level:.0f} dB".replace("-", "−"),
             ms=float(np.sqrt(_area(np.array(level), peak))),
         )
         for level in (peak, peak - 20.0, peak - 40.0)
     ]  # fmt: skip
-    words = Line2D([], [], ls="", label=f"re {channel.reference_text}")
+    sizes[0].set_label(f"{sizes[0].get_label()} re {channel.reference_text}")
+    handles = [*sizes, *kinds]
     figure.legend(
-        handles=[*sizes, words, *kinds],
-        ncols=4,
+        handles=handles,
+        ncols=len(handles) if figure.get_figwidth() > _ONE_ROW else len(sizes),
         loc="outside lower center",
         columnspacing=1.2,
         handletextpad=0.4,

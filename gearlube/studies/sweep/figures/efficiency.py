@@ -34,6 +34,7 @@ SOURCES = {
     "bearing_damping": ("roller hysteresis", PURPLE),
     "mesh_damping": ("mesh damping", GREEN),
 }
+_LEAST_POWER = 1e-3  # W, that the axis reaches
 
 
 def efficiency(dataset: xr.Dataset) -> Any:
@@ -92,6 +93,7 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
     width = group / preloads.size
     ax.set_xlim(speed[0] - 0.8 * group, speed[-1] + 0.8 * group)
     ax.grid(visible=False, axis="x")
+    tallest = 0.0
     for row in range(preloads.size):
         shift = (row - 0.5 * (preloads.size - 1)) * width
         bottom = np.zeros(speed.size)
@@ -110,6 +112,7 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
                 lw=0.3,
             )
             bottom += loss
+        tallest = max(tallest, float(bottom.max()))
     handles = [
         Patch(color=colour, label=f"{name}, up to {_largest(dataset, source)} W")
         for source, (name, colour) in SOURCES.items()
@@ -125,6 +128,7 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
         for row, preload in enumerate(preloads)
     ]
     ax.legend(handles=handles, loc="upper left")
+    ax.set_ylim(0.0, 1.06 * max(tallest, _LEAST_POWER))
     ax.set_ylabel("power lost [W]")
 
 

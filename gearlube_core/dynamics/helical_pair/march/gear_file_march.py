@@ -73,7 +73,7 @@ def helical_march_parameters(
 ) -> HelicalMarchParameters:
     """Return the parameters of `HelicalPairModel` from a gear file.
 
-    Backlash is that of the file. Options of the model have the defaults of
+    Backlash and film model are those of the file. Other options of the model have the defaults of
     `HelicalMarchParameters`; change them with `replace`.
 
     Parameters
@@ -130,6 +130,7 @@ def helical_march_parameters(
         pinion=body("pinion"),
         gear=body("gear"),
         backlash=pair.backlash,
+        film=gear.film.model,
         oil=Lubricant.named(oil),
     )
 

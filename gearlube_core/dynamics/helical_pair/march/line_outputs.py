@@ -8,13 +8,21 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.contact.line_hertz import LARGEST_OVER_MEAN
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
-from gearlube_core.dynamics.helical_pair.march.film_refresh import line_point
+from gearlube_core.dynamics.helical_pair.march.film_bounds import (
+    N_BOUNDS,
+    BoundSums,
+    with_line,
+    with_point,
+    write_bounds,
+)
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView
+from gearlube_core.dynamics.helical_pair.march.line_points import line_point
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
-from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, POINTS_PER_LINE, W_P
+from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, MU, POINTS_PER_LINE, W_P
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import line_moes_groups
 from gearlube_core.friction.evans_johnson_1986 import traction_map_number
+from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
@@ -55,6 +63,8 @@ class LinesFound(NamedTuple):
     traction: float  # number of the traction map [-]
     temperature: float  # of the film [K]
     pressure: float  # largest Hertz pressure [Pa]
+    outside: float  # share of the load outside the domain of the film model; 0 with formulas [-]
+    loss_bound: float  # bound of the friction power at this instant over it; ditto [-]
 
 
 @kernel
@@ -67,13 +77,14 @@ def write_lines(
     lubricant: LubricantState,
     p: MarchConstants,
     first: int,
+    bounds: int,
     out: Array,
 ) -> LinesFound:
     """Write the quantities of every line of the flank in `view`; return what stands out of them.
 
-    Their outputs begin at `first`. Means are weighted with the load. A line without load has no
-    film: zeros, and the temperature of the oil. `mu_at` is the place of the flank's friction
-    coefficients in `s`.
+    Their outputs begin at `first`, those of `film_bounds.LINE_BOUNDS` at `bounds`. Means are
+    weighted with the load. A line without load has no film: zeros, and the temperature of the oil.
+    `mu_at` is the place of the flank's friction coefficients in `s`.
     """
     lines = int(p.motion.flanks.lines)
     for i in range(LINES_MAX):
@@ -81,8 +92,12 @@ def write_lines(
         for j in range(N_LINE_QUANTITIES):
             out[here + j] = 0.0
         out[here + TEMPERATURE] = oil_temperature
+        for j in range(N_BOUNDS):
+            out[bounds + i * N_BOUNDS + j] = 0.0
     thinnest = math.inf
-    found = LinesFound(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    found = LinesFound(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    nothing = BoundSums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    sums = nothing
     most = 0.0
     reduced_modulus = 2.0 * p.solid.contact_modulus
     for line in range(lines):
@@ -90,10 +105,12 @@ def write_lines(
         here = first + slot * N_LINE_QUANTITIES
         total = film_sum = mu_sum = slide_sum = rise_sum = length_sum = 0.0
         thin = math.inf
+        of_line = nothing
         for place in range(POINTS_PER_LINE):
-            load, length, motion, state = line_point(
-                view, line, place, abs(s[W_P]), data, lubricant, p
+            load, length, motion, film = line_point(
+                view, mu_at != MU, line, place, abs(s[W_P]), data, lubricant, p
             )
+            state = film.state
             length_sum += length
             if load > 0.0 and length > 0.0:
                 part = load * length
@@ -104,6 +121,8 @@ def write_lines(
                 if p.friction_form > 0.0:
                     rise_sum += part * state.temperature_rise
                 thin = min(thin, state.film_thickness)
+                if p.film == SOLVED:
+                    of_line = with_point(of_line, part, motion.sliding, film)
                 if load > most:
                     most = load
                     M, L = line_moes_groups(
@@ -132,6 +151,8 @@ def write_lines(
                         in_use * with_film * traction,
                         oil_temperature + with_film * state.temperature_rise,
                         LARGEST_OVER_MEAN * state.mean_pressure,
+                        0.0,
+                        0.0,
                     )
         out[here + LENGTH] = length_sum
         if total > 0.0:
@@ -143,6 +164,9 @@ def write_lines(
             out[here + SLIDING_SPEED] = slide_sum / total
             out[here + TEMPERATURE] = oil_temperature + rise_sum / total
             thinnest = min(thinnest, thin)
+        if p.film == SOLVED:
+            write_bounds(of_line, bounds + slot * N_BOUNDS, out)
+            sums = with_line(sums, of_line)
     return LinesFound(
         thinnest if thinnest < math.inf else 0.0,
         found.film_load,
@@ -150,4 +174,6 @@ def write_lines(
         found.traction,
         found.temperature,
         found.pressure,
+        sums.outside / sums.load if sums.load > 0.0 else 0.0,
+        sums.power_doubt / sums.power if sums.power > 0.0 else 0.0,
     )

@@ -3,9 +3,11 @@
 Kernels take constants and line mesh as one float64 array, the *pair data*: handing over more arrays
 and tuples costs a call more than its work. Layout:
 
-    MarchConstants | film model | least offset [m] | stations | density [N/m2] | offset [m]
+    MarchConstants | film model | kept films | least offset [m] | stations | density [N/m2] |
+    offset [m]
 
-density and offset have shape (phases, lines, stations), flattened.
+density and offset have shape (phases, lines, stations), flattened. The kept films are what
+`kept_films` remembers.
 """
 
 from __future__ import annotations
@@ -16,13 +18,15 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
+from gearlube_core.dynamics.helical_pair.march.kept_films import N_KEPT_FILMS
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
 FILM_AT = count_floats(MarchConstants)  # numbers of a film model of lines; zeros with formulas
-LEAST_OFFSET = FILM_AT + N_ARRAY
+KEPT_AT = FILM_AT + N_ARRAY  # `kept_films`; zeros: nothing is kept
+LEAST_OFFSET = KEPT_AT + N_KEPT_FILMS
 STATIONS_AT = LEAST_OFFSET + 1
 
 
@@ -65,7 +69,7 @@ def pair_data(constants: MarchConstants, mesh: LineMesh, film_model: Array) -> A
     station = all_stations(mesh)
     data = np.zeros(data_size(station.size, packed.density.shape[1]))
     data[:FILM_AT] = flatten(constants)
-    data[FILM_AT:LEAST_OFFSET] = film_model
+    data[FILM_AT:KEPT_AT] = film_model
     place_mesh(station, (packed.torque, packed.density, packed.offset), data)
     return data
 

@@ -13,7 +13,7 @@ from gearlube_core.dynamics.helical_pair.march.continuous import (
     write_event_indicators,
     write_rates,
 )
-from gearlube_core.dynamics.helical_pair.march.film_bounds import LINE_BOUNDS, write_film_bounds
+from gearlube_core.dynamics.helical_pair.march.film_bounds import LINE_BOUNDS
 from gearlube_core.dynamics.helical_pair.march.flank_views import (
     coast_view,
     drive_view,
@@ -298,10 +298,10 @@ def write_outputs(
     oil = lubricant_state(p.oil, oil_temperature)
     view = drive if on_drive.N >= on_coast.N else coast
     mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
-    found = write_lines(view, mu_at, s, oil_temperature, data, oil, p, LINES, out)
+    found = write_lines(view, mu_at, s, oil_temperature, data, oil, p, LINES, BOUNDS, out)
     out[THINNEST_FILM] = found.thinnest_film
-    outside, bound = write_film_bounds(view, s, data, oil, p, BOUNDS, out)
-    out[SHARE_OUTSIDE] = outside
+    bound = found.loss_bound
+    out[SHARE_OUTSIDE] = found.outside
     out[LOSS_BOUND] = bound * abs(out[FRICTION_LOSS])
     out[EFFICIENCY_BOUND] = bound * (1.0 - out[EFFICIENCY]) if out[EFFICIENCY] > 0.0 else 0.0
     torque = max(abs(s[LOAD_TORQUE]), max(on_drive.N, on_coast.N) * plane.r_bp * plane.cos_b)

@@ -34,6 +34,7 @@ from gearlube_core.film import dowson_toyoda_1979
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import FILM_MODELS
+from gearlube_core.friction.solved_line import LINE_FILM_MODEL
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -49,7 +50,6 @@ _DAMPING = Within(0.0, 1.0, cure="Five percent is usual.")
 # what the constants of the march call the options
 FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
 HELD = {"twelve_dof": 0.0, "six_dof": 1.0}
-FILM_MODEL = "helical_line"  # of the package, for flanks of steel
 LINE_WORK = {"consistent": 1.0, "he_2007": 0.0}
 
 
@@ -235,7 +235,7 @@ class HelicalMarchParameters(MarchScalars):
         """Return the numbers of the film model for one pair; zeros with the formulas."""
         if self.film == "formula":
             return np.zeros(N_ARRAY)
-        return FilmModel.named(FILM_MODEL).copied_numbers()
+        return FilmModel.named(LINE_FILM_MODEL).copied_numbers()
 
     def constants(self) -> MarchConstants:
         """Return the floats for the kernels."""

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cache
+from typing import Literal, NamedTuple
+
+import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_within
+from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters, gear_flanks
 from gearlube_core.contact.solid import Solid, SolidParameters, solid_parameters
 from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
@@ -19,7 +22,9 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import point_moments
-from gearlube_core.friction.line_friction import line_friction
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.friction.flank_laws import FILM_MODELS
+from gearlube_core.friction.solved_line import LINE_FILM_MODEL, bounded_line_friction
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.kernels.jit import kernel
@@ -33,6 +38,7 @@ class FilmConstants(NamedTuple):
     lubricant: LubricantState
     surface: SurfaceParameters
     solid: SolidParameters
+    film_model: Array  # numbers of a film model of lines, shape (N_ARRAY,); empty: formulas
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,14 +54,18 @@ class FilmFriction:
         Both flanks.
     roughness_rms : float
         Composite root-mean-square roughness of the flanks [m].
+    film : {"formula", "solved"}
+        As in `HelicalMarchParameters`.
     """
 
     oil: Lubricant
     oil_temperature: float
     solid: Solid
     roughness_rms: float
+    film: Literal["formula", "solved"] = "formula"
 
     def __post_init__(self) -> None:
+        check_option("film", self.film, FILM_MODELS)
         self.oil.check_temperature(self.oil_temperature, "oil_temperature")
         check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
 
@@ -65,7 +75,13 @@ class FilmFriction:
             lubricant_state(self.oil.parameters(), self.oil_temperature),
             gear_flanks(self.roughness_rms),
             solid_parameters(self.solid, self.solid),
+            _line_model().copied_numbers() if self.film == "solved" else np.empty(0),
         )
+
+
+@cache
+def _line_model() -> FilmModel:
+    return FilmModel.named(LINE_FILM_MODEL)
 
 
 class FilmField(NamedTuple):
@@ -87,7 +103,7 @@ def film_coefficients(
     points: Array,
     n: int,
 ) -> None:
-    """Give the first `n` points the coefficient of friction of `line_friction` at their loads.
+    """Give the first `n` points their coefficients of friction, of `bounded_line_friction`.
 
     Parameters
     ----------
@@ -100,10 +116,10 @@ def film_coefficients(
         p = points[i, X] * plane.sin_b + points[i, Z] * plane.cos_b
         load = points[i, DENSITY] * (y0 + p * y1 - points[i, OFFSET])
         motion = line_kinematics(points[i, X], pinion_speed, plane)
-        points[i, MU] = line_friction(
-            load, motion.R, motion.entrainment, motion.sliding, film.lubricant, film.surface,
-            film.solid,
-        ).friction_coefficient  # fmt: skip
+        R, u, slip = motion.R, motion.entrainment, motion.sliding
+        points[i, MU] = bounded_line_friction(
+            load, R, u, slip, film.lubricant, film.surface, film.solid, film.film_model
+        ).state.friction_coefficient
 
 
 @kernel

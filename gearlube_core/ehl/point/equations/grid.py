@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from gearlube_core.ehl.point.equations.mesh import (
     mesh_metric,
     x_nodes,
 )
+from gearlube_core.ehl.point.equations.short_deflection import ShortDeflection
 from gearlube_core.ehl.point.equations.stencil import MeshMetric
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
@@ -112,6 +114,7 @@ class PointGrid:
         self.cell = self.dx * self.dy
         self.cells = self.cell / self.metric.narrow
         self._dense: Array | None = None
+        self._short: dict[tuple[bool, bool], ShortDeflection] = {}
 
     def set_workers(self, workers: RowWorkers) -> None:
         """Set who share the work on rows."""
@@ -134,6 +137,17 @@ class PointGrid:
     def single_deflection(self) -> HalfSpaceConvolution | GradedConvolution | ClosedDeflection:
         """Return the deflection in float32, kept for preconditioners."""
         return self.convolution(single=True)
+
+    def short_deflection(self, pressure: Any, halved: tuple[bool, bool]) -> Any:
+        """Return the deflection under short waves of pressure, see `ShortDeflection`, float32.
+
+        A graded grid takes its whole deflection.
+        """
+        if self.graded:
+            return np.array(self.single_deflection(pressure))
+        if halved not in self._short:
+            self._short[halved] = ShortDeflection(self.coefficients, self.sides, halved)
+        return self._short[halved](pressure, self.workers)
 
     @property
     def own_deflection(self) -> Array:

@@ -8,7 +8,6 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from gearlube_core.arrays import Array, Flags
-from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.kernels.jit import kernel
@@ -96,10 +95,10 @@ class SparseOperator:
     free: Flags
     by_approach: Array
 
-    def apply(self, grid: PointGrid, pressure: Array, approach: float) -> Array:
+    def apply(self, pressure: Array, film: Array, approach: float) -> Array:
         """Return the change of the residual, shape (ny, nx)."""
-        film = np.ascontiguousarray(grid.deflection(pressure))
-        result = np.empty(grid.shape)
+        film = np.ascontiguousarray(film)
+        result = np.empty(film.shape)
         multiply_rows(
             self.matrix.indptr,
             self.matrix.indices,

@@ -10,20 +10,20 @@ import numpy as np
 
 from gearlube_core.kernels.jit import row_kernel
 
-BELOW = 6  # nodes to each side that a node of a row depends on
+BELOW = 4  # nodes to each side that a node of a row depends on
 LARGEST_SHARE = 10.0  # of an equation that is taken off another; 1 where none had to be exchanged
 _TOGETHER = 16  # rows of nodes: a line of the cache
 
 
 @row_kernel
 def fill_side_by_side(
-    start: np.ndarray,
-    column: np.ndarray,
-    entry: np.ndarray,
+    offsets: np.ndarray,
+    by_pressure: np.ndarray,
+    film_offsets: np.ndarray,
+    by_film: np.ndarray,
     free: np.ndarray,
     local: np.ndarray,
     across: np.ndarray,
-    period: int,
     rows: tuple[int, int],
     band: np.ndarray,
 ) -> None:
@@ -31,35 +31,37 @@ def fill_side_by_side(
 
     Parameters
     ----------
-    start, column, entry, free, local, across, period, rows
+    offsets, by_pressure, film_offsets, by_film
+        Of a `SingleStencil`.
+    free, local, across, rows
         As in `fill_rows`.
-    band : ndarray, shape (nx, 13, ny)
-        Result: by node, place of the other node from -6 to 6, and row; zero on entry.
+    band : ndarray, shape (nx, 9, ny)
+        Result: by node, place of the other node from -4 to 4, and row; zero on entry.
     """
     nx, reach = free.shape[1], BELOW - 2
     for begin in range(rows[0], rows[1], _TOGETHER):
+        end = min(begin + _TOGETHER, rows[1])
         for i in range(nx):
-            for j in range(begin, min(begin + _TOGETHER, rows[1])):
-                row = j * nx + i
-                if not free[j, i]:
-                    band[i, BELOW, j] = 1.0
+            for k in range(offsets.shape[0]):
+                ii = i + offsets[k, 1]
+                if offsets[k, 0] == 0 and 0 <= ii < nx:
+                    for j in range(begin, end):
+                        if free[j, ii]:
+                            band[i, BELOW + ii - i, j] += by_pressure[k, j, i]
+            for k in range(film_offsets.shape[0]):
+                ii = i + film_offsets[k, 1]
+                if not 0 <= ii < nx:
                     continue
-                for k in range(start[row], start[row + 1]):
-                    jj = column[k] // nx
-                    ii = column[k] - jj * nx
-                    if abs(ii - i) > 2:
-                        continue  # oil that came through broken film: beyond the band
-                    if jj == j and free[jj, ii]:
-                        band[i, BELOW + ii - i, j] += entry[k].real
-                    if entry[k].imag == 0.0:
-                        continue
-                    apart = abs(jj - j)
-                    if period > 0:
-                        apart = min(apart, period - apart)
-                    slope = entry[k].imag * across[min(apart, 4)]
-                    for m in range(max(ii - reach, 0), min(ii + reach + 1, nx)):
+                share = across[min(abs(film_offsets[k, 0]), 4)]
+                for m in range(max(ii - reach, 0), min(ii + reach + 1, nx)):
+                    deflection = share * local[ii, m]
+                    for j in range(begin, end):
                         if free[j, m]:
-                            band[i, BELOW + m - i, j] += slope * local[ii, m]
+                            band[i, BELOW + m - i, j] += by_film[k, j, i] * deflection
+            for j in range(begin, end):
+                if not free[j, i]:
+                    band[i, :, j] = 0.0
+                    band[i, BELOW, j] = 1.0
 
 
 @row_kernel
@@ -70,7 +72,7 @@ def factor_side_by_side(rows: tuple[int, int], band: np.ndarray, largest: np.nda
     ----------
     rows
         First row of nodes and the one behind the last.
-    band : ndarray, shape (nx, 13, ny)
+    band : ndarray, shape (nx, 9, ny)
         Of `fill_side_by_side`; L and U on return.
     largest : ndarray, shape (ny,)
         Result: largest share of an equation that was taken off another, for every row of nodes.

@@ -19,21 +19,26 @@ class SingleOperator:
     ----------
     grid, operator
         Grid and its derivatives.
+
+    Attributes
+    ----------
+    stencil : SingleStencil or None
+        None where one would reach too far.
     """
 
     def __init__(self, grid: PointGrid, operator: SparseOperator) -> None:
         self._grid, self._operator = grid, operator
-        self._stencil = SingleStencil.of(
-            operator.matrix, grid.shape, grid.sides.period(grid.shape[0])
+        ny, nx = grid.shape
+        self.stencil = SingleStencil.of(
+            operator.matrix, (ny, nx), grid.sides.period(ny), grid.own_deflection[0]
         )
         self._by_approach: Any = operator.by_approach.astype(Single)
 
-    def apply(self, pressure: Any, approach: float) -> Any:
-        """Return the change, shape (ny, nx)."""
-        if self._stencil is None:
-            return self._operator.apply(self._grid, pressure, approach).astype(Single)
-        film = self._grid.single_deflection(pressure)
-        result = self._stencil.multiply(pressure, film, self._grid.workers)
+    def rest(self, right: Any, pressure: Any, film: Any, approach: float) -> Any:
+        """Return what is left of a right-hand side, shape (ny, nx)."""
+        if self.stencil is None:
+            return (right - self._operator.apply(pressure, film, approach)).astype(Single)
+        rest = self.stencil.rest(right, pressure, film, self._grid.workers)
         if approach != 0.0:
-            result += Single(approach) * self._by_approach
-        return result
+            rest -= Single(approach) * self._by_approach
+        return rest

@@ -17,12 +17,14 @@ from gearlube_core.ehl.point.newton.row_factors import (
     fill_side_by_side,
     solve_side_by_side,
 )
-from gearlube_core.ehl.point.newton.single_stencil import Single
+from gearlube_core.ehl.point.newton.single_stencil import Single, SingleStencil
 from gearlube_core.ehl.point.newton.wave import TransposedGrid, wave_deflection
 from gearlube_core.kernels.jit import row_kernel
 from gearlube_core.kernels.row_workers import RowWorkers
 
-REACH = 4  # nodes over which the local deflection acts to each side
+# nodes over which the local deflection acts to each side; of the waves that rows solve it falls to
+# a tenth or less by then
+REACH = 2
 _BELOW = REACH + 2  # the far upstream neighbour
 _ABOVE = REACH + 2
 _DIAGONAL = _BELOW + _ABOVE  # its place in the band of factors
@@ -184,14 +186,16 @@ class _SideBySide:
         None would have had to be exchanged with one of a tenth of its weight.
     """
 
-    def __init__(self, equations: Equations, workers: RowWorkers) -> None:
+    def __init__(self, stencil: SingleStencil, equations: Equations, workers: RowWorkers) -> None:
         self._free, self._workers = equations.free, workers
         ny, nx = equations.free.shape
         self._band = band = np.zeros((nx, 2 * BELOW + 1, ny), dtype=np.float32)
         largest = np.empty(ny, dtype=np.float32)
+        slopes = stencil.offsets, stencil.by_pressure, stencil.film_offsets, stencil.by_film
+        local, across = (one.astype(np.float32) for one in (equations.local, equations.across))
 
         def factor(rows: tuple[int, int]) -> None:
-            fill_side_by_side(*equations, rows, band)
+            fill_side_by_side(*slopes, equations.free, local, across, rows, band)
             factor_side_by_side(rows, band, largest)
 
         workers.share(factor, ny, nx)
@@ -206,12 +210,25 @@ class _SideBySide:
 
 
 class RowSmoother:
-    """Factored rows of one linearisation; float32 is enough for a preconditioner."""
+    """Factored rows of one linearisation; float32 is enough for a preconditioner.
+
+    Parameters
+    ----------
+    grid, operator
+        Grid and its derivatives.
+    stencil
+        The same as stencils; None where one reaches too far.
+    halved
+        Whether the next coarser grid has fewer rows, and fewer columns.
+    damping
+        Factor of the solution.
+    """
 
     def __init__(
         self,
         grid: PointGrid | TransposedGrid,
         operator: SparseOperator,
+        stencil: SingleStencil | None,
         halved: tuple[bool, bool],
         damping: float,
     ) -> None:
@@ -232,8 +249,11 @@ class RowSmoother:
             grid.sides.period(grid.shape[0]),
         )
         self._damping = Single(damping)
-        self._rows: _SideBySide | _ExchangedRows = _SideBySide(equations, grid.workers)
-        if not self._rows.sound:
+        side_by_side = None if stencil is None else _SideBySide(stencil, equations, grid.workers)
+        self._rows: _SideBySide | _ExchangedRows
+        if side_by_side is not None and side_by_side.sound:
+            self._rows = side_by_side
+        else:
             self._rows = _ExchangedRows(equations, grid.workers)
 
     def __call__(self, residual: Array) -> Array:
@@ -254,7 +274,10 @@ class ColumnSmoother:
         transposed = SparseOperator(
             matrix, np.ascontiguousarray(operator.free.T), operator.by_approach.T
         )
-        self._rows = RowSmoother(TransposedGrid.of(grid), transposed, halved[::-1], damping)
+        stencil = SingleStencil.of(matrix, (nx, ny), 0, grid.own_deflection[:, 0])
+        self._rows = RowSmoother(
+            TransposedGrid.of(grid), transposed, stencil, halved[::-1], damping
+        )
 
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""

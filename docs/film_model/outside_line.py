@@ -1,0 +1,153 @@
+"""What the formulas of lines err outside the film model: python -m docs.film_model.outside_line.
+
+Contacts of the helical pairs outside the domain of the model are solved (tenths of a second each,
+resumable: docs/film_model/outside_line.csv) and compared with what the pair takes there. Then
+`python -m docs.film_model.lines` writes the page.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlube.studies.film_model.draws import ANYWHERE
+from gearlube.studies.film_model.kinds import HELICAL_LINE
+from gearlube.studies.film_model.plan import FilmPlan, FilmTask
+from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
+from gearlube.studies.film_model.train import failed_row, solve_task
+from gearlube_core.arrays import Array
+from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.errors import GearLubeError
+from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from gearlube_core.film_model.line_contact import LineContact
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.solved_line import solved_line
+from gearlube_core.friction.evans_johnson_1986 import (
+    solid_resistance,
+    surface_heating_number,
+    viscous_friction_coefficient,
+)
+from gearlube_core.friction.solved_line import LINE_FORMULA_FILM_BOUND, LINE_FORMULA_FRICTION_TOP
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
+from gearlube_core.oil.oil_file import read_oil
+
+TABLE = Path(__file__).with_name("outside_line.csv")
+SOLVES, SEED, DRAWS = 120, 220, 1500
+MODEL = "helical_line"
+PRESSURE = 0.1e9  # Pa, mean pressure down to which the bounds are set
+
+
+class Outside(NamedTuple):
+    """Contacts that the formulas take alone, solved; arrays (n,)."""
+
+    pressure: Array  # mean of Hertz [Pa]
+    film: Array  # solved over Dowson and Toyoda's [-]
+    friction: Array  # solved [-]
+    formula: Array  # Evans and Johnson's [-]
+    isothermal: Array  # of an isothermal Eyring film as thick as Dowson and Toyoda's [-]
+    loss: Array  # load times sliding times solved friction [W/m]
+
+
+def formula_friction(contact: LineContact, film: float) -> float:
+    """Return the friction coefficient of the film by Evans and Johnson [-]."""
+    c = contact
+    p = line_mean_pressure(c.line_load, c.R, c.contact_modulus)
+    effusivity_squared = c.solid_conductivity * c.solid_heat_capacity
+    modulus = 2.0 * c.contact_modulus
+    resistance = solid_resistance(c.R, p, c.entrainment_speed, modulus, effusivity_squared)
+    return viscous_friction_coefficient(
+        film,
+        p,
+        c.sliding_speed,
+        c.eta0,
+        c.alpha,
+        c.beta,
+        c.tau0,
+        c.conductivity,
+        surface_heating_number(film, c.conductivity, resistance),
+    )
+
+
+def formula_film(contact: LineContact) -> float:
+    """Return the film by Dowson and Toyoda [m]."""
+    c = contact
+    modulus = 2.0 * c.contact_modulus
+    return line_film_thickness(c.R, c.eta0, c.alpha, c.entrainment_speed, c.line_load, modulus)
+
+
+def contacts() -> list[LineContact]:
+    """Return contacts of the pairs well outside, in the order of their draw."""
+    plan = FilmPlan(contact=HELICAL_LINE.name)
+    oils = [read_oil(name).lubricant for name in plan.oils]
+    drawn = HELICAL_LINE.visits(DRAWS, SEED, plan.pairs, oils, ANYWHERE)
+    numbers = FilmModel.named(MODEL).copied_numbers()
+    return [one for one in drawn if solved_line(numbers, one).outside >= 1.0][:SOLVES]
+
+
+def solve_all() -> None:
+    """Solve what the table lacks."""
+    table = SolveTable(TABLE, HELICAL_LINE)
+    for n, one in enumerate(contacts()):
+        task = FilmTask("outside", n, HELICAL_LINE.nodes, one)
+        if table.read(row_key(task)) is None:
+            try:
+                table.keep(row_key(task), solve_task(task))
+            except GearLubeError as error:
+                table.keep(row_key(task), failed_row(task, error))
+
+
+def compared(rows: list[SolveRow]) -> Outside:
+    """Return solved films beside the formulas, as the pair takes them."""
+    cells = []
+    for row in rows:
+        if row.failure:
+            continue
+        c, mu = row.task.contact, row.solved.friction
+        p, film = line_mean_pressure(c.line_load, c.R, c.contact_modulus), formula_film(c)
+        rate = c.eta0 * c.sliding_speed / (film * c.tau0)
+        isothermal = c.tau0 / p * eyring_stress_ratio(rate, c.alpha * p)
+        ratio = row.solved.central_film / film
+        loss = c.line_load * c.sliding_speed * mu
+        cells.append((p, ratio, mu, formula_friction(c, film), isothermal, loss))
+    return Outside(*np.array(cells).T)
+
+
+def sentences() -> str:
+    """Return what the table says, with how many contacts exceed the bounds, as Markdown."""
+    rows = list(SolveTable(TABLE, HELICAL_LINE).rows.values())
+    found = compared(rows)
+    thick, top = np.abs(found.film - 1.0), found.friction / found.isothermal
+    none = int((found.formula == 0.0).sum())
+    held = found.pressure >= PRESSURE
+    little = 100.0 * float(found.loss[~held].sum() / found.loss.sum())
+
+    def over(values: Array, bound: float) -> str:
+        above, below = values[held] > bound, values[~held] > bound
+        return f"{above.sum()} of {above.size} | {below.sum()} of {below.size}"
+
+    gpa, ratio = 1e-9 * found.pressure, found.film
+    off = np.abs(found.friction - found.formula) / np.maximum(found.formula, 1e-30)
+    return (
+        f"{len(rows)} contacts of the pairs where the formulas stand in alone were solved, "
+        f"{len(rows) - gpa.size} of them not found ({gpa.min():.2f} to {gpa.max():.2f} GPa mean "
+        f"pressure). Solved films are {ratio.min():.2f} to {ratio.max():.2f} times as thick as the "
+        f"formula's. The formula's friction is zero at {none} of them, so that no bound relative "
+        "to it can hold; the bound of friction is between 0 and "
+        f"{LINE_FORMULA_FRICTION_TOP:g} times that of an isothermal Eyring film as thick "
+        "as the formula's. The bounds hold 95 % of the "
+        f"contacts above {1e-9 * PRESSURE:.1f} GPa; those below hold {little:.0f} % of the loss of "
+        "all solved ones.\n\n"
+        f"| bound | exceeded above {1e-9 * PRESSURE:.1f} GPa | below |\n|---|---|---|\n"
+        f"| film, before: 50 % of the formula's | {over(thick, 0.5)} |\n"
+        f"| film, now: {100.0 * LINE_FORMULA_FILM_BOUND:.0f} % of the formula's | "
+        f"{over(thick, LINE_FORMULA_FILM_BOUND)} |\n"
+        f"| friction, before: 100 % of the formula's | {over(off, 1.0)} |\n"
+        f"| friction, now: between 0 and {LINE_FORMULA_FRICTION_TOP:g} times the isothermal Eyring "
+        f"value | {over(top, LINE_FORMULA_FRICTION_TOP)} |\n"
+    )
+
+
+if __name__ == "__main__":
+    solve_all()

@@ -1,0 +1,29 @@
+"""The options of `gearlube contact` that write the animation of flank films."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gearlube.cli.oil_option import oil_kelvin
+from gearlube.plotting.drawn_tooth import DrawnTooth
+from gearlube.studies.contact.figures.flank_films import animate_films
+from gearlube.studies.contact.flank_films import SPEED_RANGE, FilmRequest, flank_films
+from gearlube.studies.contact.run import ContactResults
+from gearlube_core.checks import check_within
+from gearlube_core.oil.oil_file import read_oil
+from gearlube_core.units import rpm_to_rads
+
+
+def film_request(rpm: float, oil: str, degc: float) -> FilmRequest:
+    """Return what is asked for; errors name the options."""
+    check_within("--films-rpm", rpm, *SPEED_RANGE, "rpm")
+    lubricant = read_oil(oil).lubricant
+    return FilmRequest(
+        speed=rpm_to_rads(rpm), oil=lubricant, oil_temperature=oil_kelvin(degc, lubricant)
+    )
+
+
+def write_films(results: ContactResults, request: FilmRequest, folder: Path) -> Path:
+    """Write the animation of an analysis into its folder; return the file."""
+    films = flank_films(results.contact, results.mesh_table, request)
+    return animate_films(films, DrawnTooth.of_dataset(results.contact), folder)

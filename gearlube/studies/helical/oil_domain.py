@@ -1,0 +1,50 @@
+"""Whether the model of solved films of lines holds for an oil."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.friction.line_integrals import friction_along_lines
+from gearlube_core.friction.line_points import line_points, uniform_line_load
+
+if TYPE_CHECKING:
+    from gearlube.studies.helical.settings import HelicalSettings
+
+_PHASES, _NODES = 4, 2
+_NONE = 0.999  # of the load outside: the model says nothing
+
+
+def check_film_model(settings: HelicalSettings) -> None:
+    """Refuse solved films where all load lies outside the domain of the film model.
+
+    Raises
+    ------
+    ParameterError
+    """
+    film = settings.film()
+    if film.film != "solved":
+        return
+    points = line_points(settings.file.helical_pair(), _PHASES, _NODES)
+    constants = film.constants()
+    cycle = friction_along_lines(
+        points,
+        np.asarray(uniform_line_load(points, settings.pinion_torque)),
+        pinion_speed=settings.pinion_speed,
+        pinion_torque=settings.pinion_torque,
+        lubricant=film.oil,
+        oil_temperature=film.oil_temperature,
+        surface=constants.surface,
+        solid=constants.solid,
+        film_model=constants.film_model,
+    )
+    if cycle.share_outside > _NONE:
+        raise ParameterError(
+            "film.model solved must have an oil and an operating point within the domain of the "
+            f"film model, got {film.oil.name} at {film.oil_temperature - 273.15:.4g} degC, "
+            f"{settings.pinion_torque:g} N.m and {settings.pinion_speed:.4g} rad/s with all load "
+            "outside. See `gearlube film-model show helical_line`; make a model for this oil with "
+            "`gearlube film-model train --contact line --oil OIL`, or take film.model formula."
+        )
