@@ -27,6 +27,7 @@ def main() -> None:
     contact = analyse_contact(file, QUICK, store=work)
     results = ContactResults(contact=contact, mesh_table=contact_table(file, contact))
     request = film_request(2000.0, "mohammadpour_2015", 90.0)
+    assert request is not None
     write_films(results, request, ROOT / "docs" / "images")
 
 

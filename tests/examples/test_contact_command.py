@@ -238,6 +238,7 @@ def test_an_unknown_pair_or_file_ends_with_bad_argument(name, asked, caplog):
         ("--films-rpm", "1"),
         ("--films-rpm", "2000", "--oil-temperature", "900"),
         ("--films-rpm", "2000", "--oil", "no_such_oil"),
+        ("--oil", "mohammadpour_2015"),  # without --films-rpm
     ],
 )
 def test_options_out_of_range_end_with_bad_argument(options, asked):

@@ -94,11 +94,15 @@ def contact(
         ),
     ] = None,
     oil: Annotated[
-        str, typer.Option(help="Oil of --films-rpm: a shipped one or an oil file.", metavar="OIL")
-    ] = "mohammadpour_2015",
+        str | None,
+        typer.Option(
+            help="Oil of --films-rpm: a shipped one or an oil file; default mohammadpour_2015.",
+            metavar="OIL",
+        ),
+    ] = None,
     oil_temperature: Annotated[
-        float, typer.Option(help="Its temperature [degC].", metavar="DEGC")
-    ] = 90.0,
+        float | None, typer.Option(help="Its temperature [degC]; default 90.", metavar="DEGC")
+    ] = None,
     sensitivity: Annotated[
         bool,
         typer.Option(
@@ -142,7 +146,7 @@ def contact(
     with exit_on_error(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
         file = HypoidGearFile.given(gear)
         usual = QUICK if quick else ContactSettings()
-        films = None if films_rpm is None else film_request(films_rpm, oil, oil_temperature)
+        films = film_request(films_rpm, oil, oil_temperature)
         cycle = replace(
             usual.cycle,
             positions=positions or usual.cycle.positions,
@@ -157,7 +161,9 @@ def contact(
         for sentence in gear_file_warnings(file):
             logger.warning("%s", sentence)
         if sensitivity:
-            wanted = _sensitivity_settings(torques, positions, cycle.misalignment, export)
+            wanted = _sensitivity_settings(
+                torques, positions, cycle.misalignment, export, films is not None
+            )
             with results_folder(out, "contact", overwrite=overwrite):
                 _sensitivity(file, wanted, out, jobs)
             return
@@ -201,7 +207,11 @@ def contact(
 
 
 def _sensitivity_settings(
-    torques: list[float] | None, positions: int | None, misalignment: Misalignment, export: bool
+    torques: list[float] | None,
+    positions: int | None,
+    misalignment: Misalignment,
+    export: bool,
+    films: bool,
 ) -> SensitivitySettings:
     from gearlube_core.errors import ParameterError
     from gearlube_core.hypoid_contact.sensitivity.analysis import SensitivitySettings
@@ -211,10 +221,11 @@ def _sensitivity_settings(
             f"--sensitivity must have one torque, got {len(torques)}. Give one torque; run the "
             "command again with another --out for the next one."
         )
-    if export:
-        raise ParameterError(
-            "--export cannot be combined with --sensitivity. Run the command once with each."
-        )
+    for option, given in (("--export", export), ("--films-rpm", films)):
+        if given:
+            raise ParameterError(
+                f"{option} cannot be combined with --sensitivity. Run the command once with each."
+            )
     usual = SensitivitySettings()
     return SensitivitySettings(
         torque=torques[0] if torques else usual.torque,

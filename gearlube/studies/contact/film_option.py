@@ -10,14 +10,26 @@ from gearlube.studies.contact.figures.flank_films import animate_films
 from gearlube.studies.contact.flank_films import SPEED_RANGE, FilmRequest, flank_films
 from gearlube.studies.contact.run import ContactResults
 from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import rpm_to_rads
 
+_OIL, _DEGC = "mohammadpour_2015", 90.0
 
-def film_request(rpm: float, oil: str, degc: float) -> FilmRequest:
-    """Return what is asked for; errors name the options."""
+
+def film_request(rpm: float | None, oil: str | None, degc: float | None) -> FilmRequest | None:
+    """Return what is asked for, None without a speed; errors name the options."""
+    if rpm is None:
+        for option, value in (("--oil", oil), ("--oil-temperature", degc)):
+            if value is not None:
+                raise ParameterError(
+                    f"{option} {value} is only for --films-rpm, which is missing. Give both, or "
+                    "none: without films the contact is dry."
+                )
+        return None
     check_within("--films-rpm", rpm, *SPEED_RANGE, "rpm")
-    lubricant = read_oil(oil).lubricant
+    lubricant = read_oil(oil or _OIL).lubricant
+    degc = _DEGC if degc is None else degc
     return FilmRequest(
         speed=rpm_to_rads(rpm), oil=lubricant, oil_temperature=oil_kelvin(degc, lubricant)
     )

@@ -104,6 +104,7 @@ class PointContactProblem:
     --------
     `elliptical_contact` builds that of two smooth solids, `line_section` a part of a line's.
 
+    >>> from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
     >>> from gearlube_core.oil.film_oil_data import film_oil
     >>> oil = film_oil(eta0=0.04, alpha=2e-8)
     >>> ball = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0,
