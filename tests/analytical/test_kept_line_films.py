@@ -121,8 +121,8 @@ def test_films_and_frictions_are_the_models_at_any_load_speed_and_phase(coast):
                     )
     film, friction, whole = np.abs(np.transpose(misses))
     assert len(misses) > 60
-    # where a line begins its film grows by some 45 % in a mesh period, half of it by the place and not
-    # by the load, which is followed; a node lies up to a sixteenth of a period behind
+    # where a line begins its film grows by some 45 % in a mesh period, half of it by the place
+    # and not by the load, which is followed; a node lies up to a sixteenth of a period behind
     assert film.max() < 1.8e-2  # half of 0.45 / 16, and what bends within a bin
     assert np.sqrt((film**2).mean()) < 2e-3
     # of the largest: at the pitch line friction is next to nothing
