@@ -19,6 +19,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from fmpy import extract, fmi2, read_model_description
 
@@ -64,8 +65,8 @@ def cpu_time(axle: HypoidAxle, h: float) -> float:
     return taken
 
 
-def running_fmu(folder: Path, film: str) -> Callable[[float], float]:
-    """Return `cpu_time` of an instance of the FMU that has run in."""
+def begun_fmu(folder: Path, film: str, starts: dict[str, float]) -> tuple[Any, dict[str, int]]:
+    """Return an instance that is past its initialisation, and references by name of variable."""
     description = read_model_description(str(folder))
     place = {v.name: v.valueReference for v in description.modelVariables}
     fmu = fmi2.FMU2Slave(
@@ -75,17 +76,24 @@ def running_fmu(folder: Path, film: str) -> Callable[[float], float]:
         instanceName=film,
     )
     fmu.instantiate()
-    speed, *torques = _POINT
-    inputs = [place["pinion.torque"], place["wheel.torque"]]
-    outputs = [place[name] for name in ("mesh.dte", "pinion.speed", "wheel.speed", "pinion.angle")]
     (option,) = (v for v in description.modelVariables if v.name == "film.model")
     (value,) = (item.value for item in option.declaredType.items if item.name == film)
     fmu.setInteger([option.valueReference], [int(value)])
-    fmu.setReal([place["pinion.speed_start"], place["oil.temperature"]], [speed, _OIL])
-    fmu.setReal(inputs, torques)
+    fmu.setReal([place[name] for name in starts], list(starts.values()))
     fmu.setupExperiment()
     fmu.enterInitializationMode()
     fmu.exitInitializationMode()
+    return fmu, place
+
+
+def running_fmu(folder: Path, film: str) -> Callable[[float], float]:
+    """Return `cpu_time` of an instance of the FMU that has run in."""
+    speed, *torques = _POINT
+    starts = {"pinion.speed_start": speed, "oil.temperature": _OIL}
+    starts |= {"pinion.torque": torques[0], "wheel.torque": torques[1]}
+    fmu, place = begun_fmu(folder, film, starts)
+    inputs = [place["pinion.torque"], place["wheel.torque"]]
+    outputs = [place[name] for name in ("mesh.dte", "pinion.speed", "wheel.speed", "pinion.angle")]
     now = 0.0
 
     def taken(h: float) -> float:
@@ -160,25 +168,10 @@ def holding_load(speed: float, loss: float) -> float:
 
 def running_pair_fmu(folder: Path, film: str) -> Callable[[float], float]:
     """Return what steps of an instance of HelicalPair.fmu that has run in take [s]."""
-    description = read_model_description(str(folder))
-    place = {v.name: v.valueReference for v in description.modelVariables}
-    fmu = fmi2.FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName=film,
-    )
-    fmu.instantiate()
+    fmu, place = begun_fmu(folder, film, {"oil.temperature": _PAIR_OIL})
     inputs = [place["pinion.torque"], place["wheel.torque"]]
     outputs = [place[name] for name in ("pinion.speed", "friction.power_loss", "mesh.dte")]
     outputs.append(place["mesh.film_thickness_min"])
-    (option,) = (v for v in description.modelVariables if v.name == "film.model")
-    (value,) = (item.value for item in option.declaredType.items if item.name == film)
-    fmu.setInteger([option.valueReference], [int(value)])
-    fmu.setReal([place["oil.temperature"]], [_PAIR_OIL])
-    fmu.setupExperiment()
-    fmu.enterInitializationMode()
-    fmu.exitInitializationMode()
     now, found = 0.0, [_PAIR_POINT[0], 0.0]
 
     def run(h: float, steps: int) -> float:

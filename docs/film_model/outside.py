@@ -12,16 +12,15 @@ from typing import NamedTuple
 import numpy as np
 
 from docs.film_model.marked_page import put
+from docs.film_model.outside_solves import outside_solves
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import HYPOID_FLANK
-from gearlube.studies.film_model.plan import FilmPlan, FilmTask
+from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.samples import axle_contacts
-from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
-from gearlube.studies.film_model.train import failed_row, solve_task
+from gearlube.studies.film_model.solves import SolveRow
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.groups import FilmContact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film
@@ -60,19 +59,6 @@ def contacts() -> list[FilmContact]:
     numbers = MODEL.copied_numbers()
     found = [one for one in drawn if solved_film(numbers, one).outside > 0.0]
     return found[:SOLVES]
-
-
-def solved() -> list[SolveRow]:
-    """Return all contacts solved; those in the table are not solved again."""
-    table = SolveTable(TABLE)
-    for n, one in enumerate(contacts()):
-        task = FilmTask("outside", n, HYPOID_FLANK.nodes, one)
-        if table.read(row_key(task)) is None:
-            try:
-                table.keep(row_key(task), solve_task(task))
-            except GearLubeError as error:
-                table.keep(row_key(task), failed_row(task, error))
-    return list(table.rows.values())
 
 
 def compared(rows: list[SolveRow]) -> Outside:
@@ -146,7 +132,7 @@ def _highest(rows: list[SolveRow]) -> float:
 
 def main() -> None:
     """Solve what is missing and write the page."""
-    put("outside", "outside", sentences(solved()))
+    put("outside", "outside", sentences(outside_solves(TABLE, HYPOID_FLANK, contacts())))
 
 
 def state_of(c: FilmContact) -> LubricantState:

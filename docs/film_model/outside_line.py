@@ -12,14 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from docs.film_model.outside_solves import outside_solves
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import HELICAL_LINE
-from gearlube.studies.film_model.plan import FilmPlan, FilmTask
-from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
-from gearlube.studies.film_model.train import failed_row, solve_task
+from gearlube.studies.film_model.plan import FilmPlan
+from gearlube.studies.film_model.solves import SolveRow, SolveTable
 from gearlube_core.arrays import Array
 from gearlube_core.contact.line_hertz import line_mean_pressure
-from gearlube_core.errors import GearLubeError
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
 from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.film_model.model import FilmModel
@@ -86,18 +85,6 @@ def contacts() -> list[LineContact]:
     return [one for one in drawn if solved_line(numbers, one).outside >= 1.0][:SOLVES]
 
 
-def solve_all() -> None:
-    """Solve what the table lacks."""
-    table = SolveTable(TABLE, HELICAL_LINE)
-    for n, one in enumerate(contacts()):
-        task = FilmTask("outside", n, HELICAL_LINE.nodes, one)
-        if table.read(row_key(task)) is None:
-            try:
-                table.keep(row_key(task), solve_task(task))
-            except GearLubeError as error:
-                table.keep(row_key(task), failed_row(task, error))
-
-
 def compared(rows: list[SolveRow]) -> Outside:
     """Return solved films beside the formulas, as the pair takes them."""
     cells = []
@@ -150,4 +137,4 @@ def sentences() -> str:
 
 
 if __name__ == "__main__":
-    solve_all()
+    outside_solves(TABLE, HELICAL_LINE, contacts())

@@ -13,12 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from docs.film_model.marked_page import put
+from docs.film_model.outside_solves import outside_solves
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import BEARING_ROLLER
-from gearlube.studies.film_model.plan import FilmTask
 from gearlube.studies.film_model.roller_samples import AXLE_BEARING, roller_contacts
-from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
-from gearlube.studies.film_model.train import failed_row, solve_task
+from gearlube.studies.film_model.solves import SolveRow
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.aihara_1987 import aihara_heating
 from gearlube_core.bearings.losses.race_rolling import (
@@ -27,7 +26,6 @@ from gearlube_core.bearings.losses.race_rolling import (
     ROLLER_MODEL,
 )
 from gearlube_core.contact.line_hertz import line_mean_pressure
-from gearlube_core.errors import GearLubeError
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.line_contact import line_parts, line_reference_film
@@ -57,19 +55,6 @@ def contacts() -> list[RollerContact]:
     drawn = roller_contacts(DRAWS, SEED, [AXLE_BEARING], oils, ANYWHERE)
     numbers = MODEL.copied_numbers()
     return [one for one in drawn if solved_rolling(numbers, one).outside >= 1.0][:SOLVES]
-
-
-def solved() -> list[SolveRow]:
-    """Return all contacts solved; those in the table are not solved again."""
-    table = SolveTable(TABLE)
-    for n, one in enumerate(contacts()):
-        task = FilmTask("outside", n, BEARING_ROLLER.nodes, one)
-        if table.read(row_key(task)) is None:
-            try:
-                table.keep(row_key(task), solve_task(task))
-            except GearLubeError as error:
-                table.keep(row_key(task), failed_row(task, error))
-    return list(table.rows.values())
 
 
 def by_formula(c: RollerContact) -> tuple[float, float]:
@@ -125,7 +110,11 @@ def sentences(rows: list[SolveRow]) -> str:
 
 def main() -> None:
     """Solve what is missing and write the page."""
-    put("outside_rollers", "outside_rollers", sentences(solved()))
+    put(
+        "outside_rollers",
+        "outside_rollers",
+        sentences(outside_solves(TABLE, BEARING_ROLLER, contacts())),
+    )
 
 
 if __name__ == "__main__":

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 
 SOURCE_WORDS = {
-    "friction_viscous": "flank friction, fluid",
-    "friction_boundary": "flank friction, asperities",
+    "friction_viscous": "flank friction (fluid)",
+    "friction_boundary": "flank friction (asperities)",
     "mesh_damping": "mesh damping",
     "bearing_damping": "roller hysteresis",
     "bearing_torque": "bearing drag",

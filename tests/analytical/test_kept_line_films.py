@@ -17,7 +17,8 @@ from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.state import MU, POINTS_PER_LINE, W_P
-from gearlube_core.friction.solved_line import line_inlet, solved_line_friction
+from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from gearlube_core.friction.solved_line import line_film, line_inlet, solved_line_friction
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -54,6 +55,26 @@ def evaluated(model: HelicalPairModel, view: FlankView, line: int, place: int, o
         load, m.R, m.entrainment, m.sliding, oil, constants.surface, constants.solid, inlet, NUMBERS
     )
     return solved.state, m.sliding
+
+
+def carried_film(model: HelicalPairModel, view: FlankView, coast: bool, line: int, place: int,
+                 load: float, oil: Any) -> float:  # fmt: skip
+    """Film by the film model at the node, carried on by the formula of Dowson and Toyoda [m]."""
+    p, plane = model.constants, model.constants.motion.flanks.plane
+    modulus, speed = 2.0 * p.solid.contact_modulus, abs(model._state[W_P])
+    node, part = line_points.film_node(view.phase, coast, p)
+    then = line_points.line_place(part, line, place, plane)
+    now = line_points.line_place(view.phase - math.floor(view.phase), line, place, plane)
+    if node < 0 or then.length == 0.0:
+        then = now
+    m, m_now = (line_kinematics(one.x, speed, plane) for one in (then, now))
+    inlet = line_inlet(oil, p.solid, p.limiting_slope)
+    there = line_film(NUMBERS, load, m.R, m.entrainment, m.sliding, p.solid, inlet)
+    formula, formula_now = (
+        line_film_thickness(one.R, oil.eta0, oil.alpha, one.entrainment, load, modulus)
+        for one in (m, m_now)
+    )
+    return there.central_film / formula * formula_now
 
 
 def marched(speed: float, torque: float, temperature: float, *, kept: bool) -> tuple[Any, Any]:
@@ -112,18 +133,22 @@ def test_films_and_frictions_are_the_models_at_any_load_speed_and_phase(coast):
                 assert (length == 0.0) == (known is None)
                 if known is not None and load > 1e3:
                     state = found.state
+                    film_then = state.film_thickness
+                    if found.outside == 0.0:
+                        film_then = carried_film(model, view, coast, line, place, load, oil)
                     misses.append(
                         (
                             state.film_thickness / known[0].film_thickness - 1.0,
+                            state.film_thickness / film_then - 1.0,
                             state.friction_coefficient - known[0].friction_coefficient,
                             known[0].friction_coefficient,
                         )
                     )
-    film, friction, whole = np.abs(np.transpose(misses))
+    film, carried, friction, whole = np.abs(np.transpose(misses))
     assert len(misses) > 60
-    # where a line begins its film grows by some 45 % in a mesh period, half of it by the place
-    # and not by the load, which is followed; a node lies up to a sixteenth of a period behind
-    assert film.max() < 1.8e-2  # half of 0.45 / 16, and what bends within a bin
+    # bins are a tenth wide and the slopes are those in their middle: what is left is of second
+    # order, (0.05)^2 of a logarithm that bends by about one
+    assert carried.max() < 2.5e-3
     assert np.sqrt((film**2).mean()) < 2e-3
     # of the largest: at the pitch line friction is next to nothing
     assert friction.max() < 1e-2 * whole.max()

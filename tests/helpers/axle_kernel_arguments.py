@@ -6,7 +6,6 @@ import numpy as np
 
 from gearlube_core.bearings import bearing_type, cage_frame, shaft_expansion
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics import flank_force, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
@@ -18,6 +17,7 @@ from gearlube_core.dynamics.hypoid_axle import (
     flanks,
     force_derivatives,
     integrate,
+    loss_outputs,
     mesh_at_load,
     mesh_force,
     outputs,
@@ -26,7 +26,6 @@ from gearlube_core.dynamics.hypoid_axle import (
     step_control,
     tooth_pair,
 )
-from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
 from gearlube_core.dynamics.hypoid_axle.model import START_WORK
@@ -45,20 +44,16 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PINION_WORK,
     SIDE,
     TIME_IN_STEP,
-    W_G,
     WORK_MARK,
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
-from gearlube_core.friction.flank_laws import MixedFlankFriction
-from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table import kernels
 from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with, running_axle, with_coast_flanks
+from tests.helpers.axle_compiled_arguments import compiled_cases
 from tests.helpers.axle_film_arguments import AxleFlank, film_cases
 from tests.helpers.axle_raceway_arguments import raceway_cases
-
-COMPILED = axle_kernels(TaperedRollerParameters, MixedFlankFriction)
 
 
 def zeros(size):
@@ -337,7 +332,7 @@ def all_cases():
             for duration in (0.0, 1e-4)
         ),
         *(
-            (outputs.write_losses, (state, slope, 7.0, 3.0, zeros(N_OUTPUTS)))
+            (loss_outputs.write_losses, (state, slope, 7.0, 3.0, zeros(N_OUTPUTS)))
             for state in (state, at_start)
         ),
         *(
@@ -354,64 +349,9 @@ def all_cases():
             (state, torques, OIL, table, p, work, zeros(ROLLERS_MAX), zeros(N_OUTPUTS)),
         ),
     ]
-    inputs_now = np.array([*torques, OIL])
-    too_fast, broken = state.copy(), state.copy()
-    too_fast[W_G] = -5001.0
-    broken[X] = -2e5
-    found += [
-        (
-            COMPILED.static_state,
-            (zeros(N_STATE), 145.0, inputs_now, tuple(table), flatten(lossless), zeros(START_WORK)),
-        ),
-        (
-            COMPILED.step_control,
-            (
-                state, 64.0, 22.0, inputs_now, tuple(table), flatten(lossless), zeros(START_WORK),
-                zeros(5),
-            ),
-        ),
-        (
-            COMPILED.derivatives,
-            (state, 0.0, 60.0, OIL, tuple(table), flatten(p), zeros(START_WORK), zeros(64)),
-        ),
-        (
-            COMPILED.communication_step,
-            (
-                state, zeros(N_STATE), 1e-4, np.array([*torques, OIL]), tuple(table), flatten(p),
-                flatten(control), work, zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
-            ),
-        ),
-        (
-            COMPILED.step_without_outputs,
-            (
-                state, zeros(N_STATE), 1e-4, np.array([*torques, OIL]), tuple(table), flatten(p),
-                flatten(control), work,
-            ),
-        ),
-        *(
-            (
-                COMPILED.continuous_rates,
-                (
-                    one, np.array([*torques, OIL]), tuple(table), flatten(p), work,
-                    zeros(N_OUTPUTS),
-                ),
-            )
-            for one in (state, too_fast, broken)
-        ),
-        (COMPILED.event, (crossed, tuple(both_sides), flatten(p), work)),
-        (
-            COMPILED.motion_outputs,
-            (state, tuple(table), flatten(p), work, zeros(N_OUTPUTS)),
-        ),
-        (
-            COMPILED.outputs,
-            (
-                state, np.array([*torques, OIL]), tuple(table), flatten(p), work,
-                zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
-            ),
-        ),
-    ]  # fmt: skip
-    return found
+    return found + compiled_cases(
+        state, torques, table, both_sides, p, lossless, control, work, crossed
+    )
 
 
 # sums over 24 rollers that may be taken in any order: 1e-12 of the largest

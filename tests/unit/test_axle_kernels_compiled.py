@@ -17,7 +17,8 @@ from gearlube_core.dynamics.hypoid_axle import (
     rhs,
 )
 from gearlube_core.mesh_table import kernels
-from tests.helpers.axle_kernel_arguments import COMPILED, all_cases
+from tests.helpers.axle_compiled_arguments import COMPILED
+from tests.helpers.axle_kernel_arguments import all_cases
 from tests.helpers.kernel_results import everything, own_arrays
 
 

@@ -83,7 +83,7 @@ def test_loss_map_says_its_best_largest_drag_and_error_bar(a_map):
     assert "at 100 N·m, 2000 rpm and 80 °C oil" in best.headline
     largest = found(said, "largest loss")
     assert "is 429 W, at 100 N·m, 2000 rpm and 40 °C oil" in largest.headline  # 418.9 + 10
-    assert "flank friction, fluid 98 %, bearing drag 2 %" in largest.headline
+    assert "flank friction (fluid) 98 %, bearing drag 2 %" in largest.headline
     # 5 W at 209.4 rad/s to 10 W at 104.7 rad/s
     assert "0.0239 N·m to 0.0955 N·m" in found(said, "without load").headline
     assert "lowers the mean loss torque by 50 %" in found(said, "Warming").headline
@@ -196,7 +196,7 @@ def test_cycle_says_energy_lost_with_its_parts_oil_and_brakes(a_cycle):
     said = cycle.findings(a_cycle)
     lost = found(said, "axle loses")
     assert "4.00 kJ (1.11 Wh) in the cycle, 5.0 % of the energy put in" in lost.headline
-    assert "flank friction, fluid 75 %, bearing drag 25 %" in lost.headline
+    assert "flank friction (fluid) 75 %, bearing drag 25 %" in lost.headline
     assert "3.50 to 4.50 kJ" in lost.detail
     oil = found(said, "The oil goes from 20 to 25 °C")
     assert "between 23 and 29 °C; air is at 19 °C" in oil.detail

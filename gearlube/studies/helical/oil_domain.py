@@ -45,6 +45,6 @@ def check_film_model(settings: HelicalSettings) -> None:
             "film.model solved must have an oil and an operating point within the domain of the "
             f"film model, got {film.oil.name} at {film.oil_temperature - 273.15:.4g} degC, "
             f"{settings.pinion_torque:g} N.m and {settings.pinion_speed:.4g} rad/s with all load "
-            "outside. See `gearlube film-model show helical_line`; make a model for this oil with "
-            "`gearlube film-model train --contact line --oil OIL`, or take film.model formula."
+            "outside. `gearlube film-model show helical_line` tells the domain. Take an oil and an "
+            "operating point inside it, or film.model formula."
         )

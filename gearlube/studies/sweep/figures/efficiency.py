@@ -25,8 +25,8 @@ from gearlube.plotting.style import (
 from gearlube_core.arrays import Array
 
 SOURCES = {
-    "friction_viscous": ("flank friction, fluid", BLUE),
-    "friction_boundary": ("flank friction, asperities", SKY),
+    "friction_viscous": ("flank friction (fluid)", BLUE),
+    "friction_boundary": ("flank friction (asperities)", SKY),
     "bearing_torque": ("bearing drag torque", ORANGE),
     "churning": ("churning of the gear", VERMILLION),
     "seals": ("shaft seals", GREY),
