@@ -98,7 +98,7 @@ def efficiency_chart(dataset: xr.Dataset) -> Any:
         )
         names, colours = list(SOURCE_WORDS.values()), list(SOURCE_COLOURS.values())
         speed = one["speed_kmh"].values
-        looks: dict[str, Any] = {"kept": kept, "colours": colours, "bars": True}
-        add_stack(chart, names, speed, parts, SPEED, power, **looks, **place)
+        looks: dict[str, Any] = {"kept": kept, "colours": colours, "bars": True, **place}
+        add_stack(chart, names, speed, parts, SPEED, power, **looks)
         chart.update_yaxes(range=[0.0, top], **place)
     return chart
