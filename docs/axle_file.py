@@ -134,6 +134,11 @@ for note in paper.assumed:
   outside, and bounds of losses and efficiency. [film_model_axle.md](film_model_axle.md) compares
   both. `gearlube axle show` tells which of the oil's data are assumed: they matter more than the
   model's own error.
+- `film.flank_model` and `film.roller_model` name
+  [film models of your own oil](film_model.md#a-model-of-your-own-oil) in place of those in the
+  package: for the flanks, and for the rollers with `solved_films`. A model of another kind, a
+  damaged file, and a model that says nothing of the oil at any temperature are refused. Maps,
+  cycles, sweeps and variations, and the FMUs that are built with the file, then compute with them.
 - `film.limiting_slope` is the limiting shear stress of the film divided by pressure. The film model
   knows no such limit: contacts that come near it count as outside. It does not change the junctions
   of `limiting_shear_stress_mpa` and `boundary_friction`.
@@ -193,6 +198,8 @@ FMU that computes in this Python package. The FMU contains these files:
   file itself is not in the FMU
 - the asperity table, if any, as `resources/asperity_table.nc`
 - the oil file, if any, as `resources/oil.toml`
+- film models of your own, if any, as `resources/flank_film_model.json` and
+  `resources/roller_film_model.json`
 
 The GUID of the FMU depends on every byte of these files. The start values of its parameters are
 those of the axle file. If the axle file describes its own oil, `oil.name` has the value `custom`.

@@ -171,6 +171,7 @@ GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gea
 GROUPS |= {f"{role}.frusta_{one}_mm" for role in ("pinion", "gear")
            for one in ("lengths", "first_diameters", "last_diameters", "bores")}  # fmt: skip
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
+WORDS |= {"film.flank_model", "film.roller_model"}
 WORDS |= {"seals.material", "tolerances", "gear_set.gear_file", "gear_set.contact_torques_n_m"}
 
 
@@ -225,6 +226,8 @@ def every_field(text):
     data["oil"] = {"name": "mohammadpour_2015"}  # its data there are another oil's, to copy
     for name in ("asperity_table", "gear_file", "contact_torques_n_m"):
         del data["gear_set"][name]  # files that do not ship
+    for name in ("flank_model", "roller_model"):
+        del data["film"][name]  # refused beside the formulas that are the default
     del data["pinion"]["bearing"]["rib_height_mm"]  # 0.15 of 12.7 mm, a rounding apart
     return data
 

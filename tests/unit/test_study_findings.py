@@ -111,6 +111,9 @@ def test_loss_map_says_how_far_solved_films_are_to_be_trusted(a_map):
     said = found(loss_map.findings(solved), "solved films")
     assert "at most 0.040 % of efficiency" in said.detail
     assert "2.0 % of the flanks' friction loss" in said.headline
+    assert "Model:" not in said.detail
+    named = loss_map.findings(solved.assign_attrs(film_model_flank="mine (checksum 12)"))
+    assert "Model: mine (checksum 12)." in found(named, "solved films").detail
     assert said.level == WARNING
     torque, speed = (float(a_map[name][k]) for name, k in (("torque", 2), ("speed", 0)))
     assert f"at most 30 % of the flanks' load, at {torque:.4g} N·m, {speed:.4g} rpm" in said.detail

@@ -9,8 +9,14 @@ from gearlube.plotting.loss_words import source_words
 from gearlube.report.film_ratio import MIXED, film_ratio_level
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.report.solved_films import efficiency_doubt, flank_friction, solved_films
+from gearlube.report.solved_films import (
+    efficiency_doubt,
+    flank_friction,
+    model_of,
+    solved_films,
+)
 from gearlube_core.arrays import Array
+from gearlube_core.film_model.model import FLANK
 
 _INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
 _LEAST_SWING = 5e-4  # mean share of the loss that an input moves, below which it has no effect
@@ -259,7 +265,8 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     worst = _at(dataset, outside)
     most = float(worst["share_outside"])
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
-    return [solved_films(bound, most, words, efficiency_doubt(dataset))]
+    doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
+    return [solved_films(bound, most, words, doubt, model)]
 
 
 def _bulk(dataset: xr.Dataset) -> list[Finding]:

@@ -234,6 +234,7 @@ def _car_axle(axle: str, oil: str | None, preload: float | None) -> CarAxle:
         car = replace(car, axle=axle_parameters({"bearing_preload": preload}, car.axle))
     if oil is not None:
         car = replace(car, axle=replace(car.axle, oil=read_oil(oil).lubricant))
+        car.axle.check_oil_of_models()
     return car
 
 

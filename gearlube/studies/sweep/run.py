@@ -15,8 +15,10 @@ from pathlib import Path
 import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
+from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
+    car_axle_at,
     check_operation,
     chosen_axle,
     settings_of,
@@ -177,6 +179,7 @@ def run_sweep(
             "inputs_assumed": notes_as_text(assumed_inputs(car_axle, settings)),
             "mesh_table": car_axle.axle.mesh.name,
             "mesh_table_source": car_axle.axle.mesh.source,
+            **film_model_attributes(car_axle_at(car_axle, settings, loads[0]).axle.film_models),
             "command_line": command_line,
             "scheduler": scheduler or "local processes",
             "computed_points": computed,
