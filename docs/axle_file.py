@@ -100,6 +100,12 @@ for note in paper.assumed:
   follows from the roller length: d = 3.84e-5 Q^0.9/l^0.8 [mm, N] for each of the two contacts of a
   roller (Palmgren; Harris and Kotzalas 2007). Without a roller length the stiffness is that of the
   paper. For the paper's rollers this is 2.5 times softer.
+- A catalogue prints bore, outside diameter, load rating C and a factor e, but no rollers. Give the
+  first two, `dynamic_load_rating_kn`, and as contact angle the one whose tangent is e/1.5.
+  Rollers that are left out are then inferred: 0.57 of the section for their diameter, as many as
+  fill 0.8 of the pitch circle, and the length that gives C by ISO 281 (factors from memory). For
+  32216 this gives 16 rollers of 17.1 x 23.8 mm; measured ones are 16 of 17 x 22.7 mm. Without C a
+  roller is 1.5 times as long as thick.
 - `frusta_lengths_mm` and the lists beside it describe the pinion or the gear as a row of steel cone
   frusta on its axis, taken from the drawing: blank and shaft, and for the gear also the ring, the
   bolted flange and the differential case. If the file gives no mass or inertia, these are computed
