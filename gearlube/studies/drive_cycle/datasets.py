@@ -7,6 +7,7 @@ import xarray as xr
 
 from drivetrain.sump_heat import Warming
 from gearlube.plotting.loss_words import not_modelled
+from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.drive_cycle.demand import Demand
 from gearlube.studies.drive_cycle.loss_field import LossesAlong, at_temperatures
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
@@ -169,6 +170,7 @@ def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> di
         "cycle": cycle.name,
         "axle": settings.car.name,
         "oil": settings.car.axle.oil.name,
+        **film_model_attributes(settings.car.axle.film_models),
         "not_modelled": ", ".join((*not_modelled(losing), _NOT_HEATED)),
         "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in ranges),
         "start_temperature_degc": settings.start_temperature - ZERO_CELSIUS,

@@ -8,8 +8,9 @@ import xarray as xr
 from gearlube.plotting.loss_words import source_words
 from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.report.solved_films import flank_friction, solved_films
+from gearlube.report.solved_films import flank_friction, model_of, solved_films
 from gearlube.studies.drive_cycle.tables import range_sentence
+from gearlube_core.film_model.model import FLANK
 
 _NAMED, _LEAST_SHARE = 3, 0.005  # sources of loss that are told, if they are not smaller
 _DRAWN = "efficiency_low"  # a variable of cycles with draws of all uncertain data
@@ -121,7 +122,8 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     if np.isfinite(doubt):
         effect += f" and {quantity_text(100.0 * doubt, '%', 2)} of efficiency over the cycle"
     words = f"with {100.0 * outside:.1f} % of the flanks' friction loss"
-    return [solved_films(lost / float(energy), outside, words, f"{effect}.")]
+    model = model_of(dataset, FLANK)
+    return [solved_films(lost / float(energy), outside, words, f"{effect}.", model)]
 
 
 def _ranges(dataset: xr.Dataset) -> Finding:

@@ -9,12 +9,18 @@ from gearlube.plotting.loss_words import not_modelled, source_words
 from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
-from gearlube.report.solved_films import efficiency_doubt, flank_friction, solved_films
+from gearlube.report.solved_films import (
+    efficiency_doubt,
+    flank_friction,
+    model_of,
+    solved_films,
+)
 from gearlube.studies.sweep.crossings import ORDERS, Crossing, crossings
 from gearlube.studies.sweep.peaks import Peak, peak_orders
 from gearlube.studies.sweep.point import FINISHED
 from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE
 from gearlube_core.arrays import Array
+from gearlube_core.film_model.model import FLANK
 
 NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
 _CLOSED = 1e-3  # of the input, below which the energy balance is called closed
@@ -247,7 +253,8 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
         f"at most {100.0 * most:.0f} % of the flanks' load, at {float(point['speed_kmh']):g} km/h "
         f"and preload {float(point['preload']):g} N"
     )
-    return [solved_films(bound, most, words, efficiency_doubt(dataset))]
+    doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
+    return [solved_films(bound, most, words, doubt, model)]
 
 
 def _rollers(dataset: xr.Dataset) -> list[Finding]:
