@@ -113,9 +113,7 @@ def keep_flank(
 
 
 @kernel
-def tells_slopes(
-    films: Array, node: int, force: float, speed: float, temperature: float
-) -> bool:
+def tells_slopes(films: Array, node: int, force: float, speed: float, temperature: float) -> bool:
     """Return whether slopes at a node follow from those that are kept and from what has changed.
 
     Arguments as in `still_holds`.
