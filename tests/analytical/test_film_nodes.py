@@ -171,7 +171,7 @@ def test_values_follow_a_force_that_goes_on_changing(axle):
         np.array([one.losses(x, tooth_pair.BETWEEN_NODES, force=1.085 * FORCE)[:2] for x in phases])
         for one in (axle, Flanks())
     )
-    # slopes over the last 6 %: 0.023 (0.023 + 0.06)/2 = 1e-3 is left, times a curvature of about one
+    # slopes over the last 6 %: 0.023 (0.023 + 0.06)/2 = 1e-3 is left, times a curvature of one
     assert abs(kept / exact - 1.0).max() < 1e-3
 
 
