@@ -39,6 +39,36 @@ def solved_films(
     model
         The model in words, of `film_model_attributes`.
     """
+    headline = (
+        "Films and friction of the flanks are those of solved films (film.model = solved). "
+        f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss."
+    )
+    return _finding(headline, share_outside, outside_words, effect, model)
+
+
+def solved_rollers(
+    bound: float, share_outside: float, outside_words: str, effect: str = "", model: str = ""
+) -> Finding:
+    """Return the finding of a run whose bearings have the law solved_films.
+
+    Parameters
+    ----------
+    bound
+        The model's 95 % bound of the bearings' drag loss over that loss [-].
+    share_outside, outside_words, effect, model
+        As in `solved_films`, of the rollers.
+    """
+    headline = (
+        "Films and rolling friction of the rollers are those of solved films (bearing_torque_loss "
+        f"= solved_films). The model's 95 % bound is {100.0 * bound:.1f} % of the bearings' drag "
+        "loss."
+    )
+    return _finding(headline, share_outside, outside_words, effect, model)
+
+
+def _finding(
+    headline: str, share_outside: float, outside_words: str, effect: str, model: str
+) -> Finding:
     detail = [
         effect,
         f"Outside the model's domain formulas take over: {outside_words}.",
@@ -47,8 +77,7 @@ def solved_films(
     ]
     return Finding(
         NOTE if share_outside <= _LITTLE_OUTSIDE else WARNING,
-        "Films and friction of the flanks are those of solved films (film.model = solved). "
-        f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss.",
+        headline,
         " ".join(one for one in detail if one),
     )
 
@@ -56,6 +85,11 @@ def solved_films(
 def model_of(dataset: xr.Dataset, kind: str) -> str:
     """Return the words on the film model of a kind of contact; empty where none was taken."""
     return str(dataset.attrs.get(f"{_ATTRIBUTE}{kind}", ""))
+
+
+def bearing_drag(loss: xr.DataArray) -> xr.DataArray:
+    """Return the drag loss of the bearings, of losses by `source`."""
+    return loss.sel(source="bearing_torque")
 
 
 def flank_friction(loss: xr.DataArray) -> xr.DataArray:

@@ -121,8 +121,9 @@ class AxleVariants:
     @property
     def identity(self) -> str:
         """Content of the file and of all that it names, as text."""
-        named = {**self.meshes, **self.asperities, **self.oils, **self.films}
+        named = {**self.meshes, **self.asperities, **self.oils}
         hashes = {text: content_hash(self.folder / text) for text in named}
+        hashes |= {text: model.checksum for text, model in self.films.items()}
         return json.dumps([self.file.model_dump(mode="json"), hashes], sort_keys=True)
 
     def varied(self, point: Point) -> AxleFile:

@@ -182,8 +182,7 @@ class FilmModel:
                     f"{name} of a film model must be of shape {shape}, got {block.shape}. {_CURE}"
                 )
             parts.append(block.ravel())
-        scratch = np.zeros(net.N_ARRAY - net.N_NUMBERS)
-        return cls(np.concatenate([*parts, scratch]), provenance)
+        return cls(np.concatenate([*parts, net.new_scratch()]), provenance)
 
     @classmethod
     def read(cls, path: Path | str) -> FilmModel:

@@ -36,7 +36,11 @@ class InputFile(Section):
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
         """Read a file; raise ParameterError that names every field that is wrong."""
-        return cls.from_data(read_toml(path), str(path))
+        return cls.from_data(read_toml(path), str(path)).placed(Path(path).parent)
+
+    def placed(self, folder: Path) -> Self:
+        """Return the file with paths that hold from here on; `folder` is where the file lies."""
+        return self
 
     @classmethod
     def shipped(cls) -> tuple[str, ...]:

@@ -13,6 +13,10 @@ from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.hypoid_axle import DEFINITION, HypoidAxle, car_axle_in, definition_with_axle
 from fmu_src.identity import guid_of
 from fmu_src.native.hypoid_axle import native_model
+from gearlube.studies.drive_cycle.findings import findings as cycle_findings
+from gearlube.studies.drive_cycle.run import run_cycle
+from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube.studies.loss_map.findings import findings
 from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings
@@ -114,8 +118,27 @@ def test_a_map_names_its_models_with_their_bounds(copies):
     )
     assert found.attrs["film_model_flank"] == words
     assert found.attrs["film_model_roller"].startswith("roller_race (checksum")
-    (said,) = [one.detail for one in findings(found) if "solved films" in one.headline]
-    assert f"Model: {words}." in said
+    said = [one.detail for one in findings(found) if "solved films" in one.headline]
+    assert f"Model: {words}." in said[0]
+    assert f"Model: {found.attrs['film_model_roller']}." in said[1]
+
+
+def test_a_cycle_has_the_bounds_of_flanks_and_rollers(copies):
+    car = read_axle(axle_file(copies))
+    time, speed = np.array([0.0, 5.0, 10.0]), np.full(3, 10.0)  # s, m/s
+    trace = DriveCycle(name="even", time=time, speed=speed)
+    warm = {"start_temperature": 353.15, "air_temperature": 343.15}  # K, within the domains
+    found = run_cycle(DriveCycleSettings(car=car, cycle=trace, draws=0, **warm))
+    seconds = found["duration"].values
+    for name, source in (("drag", "bearing_torque"), ("friction", "friction_viscous")):
+        bound, loss = found[f"{name}_bound"].values, found["loss"].sel(source=source).values
+        assert np.all((bound > 0.0) & (bound < 0.2 * loss))
+    assert float(found["energy_drag_bound"]) == pytest.approx(
+        1e-3 * float(found["drag_bound"].values @ seconds)
+    )
+    assert np.all(found["rollers_outside"].values < 0.5)
+    said = [one.headline for one in cycle_findings(found) if "solved films" in one.headline]
+    assert ["of the flanks" in said[0], "of the rollers" in said[1]] == [True, True]
 
 
 def test_a_file_says_which_models_its_axle_takes(copies):

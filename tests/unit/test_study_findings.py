@@ -121,6 +121,20 @@ def test_loss_map_says_how_far_solved_films_are_to_be_trusted(a_map):
     assert found(little, "solved films").level == NOTE
 
 
+def test_loss_map_says_how_far_solved_films_of_rollers_are_to_be_trusted(a_map):
+    drag = a_map["loss"].sel(source="bearing_torque", drop=True)
+    outside = xr.zeros_like(drag)
+    outside[1, 0, 2] = 0.2
+    solved = a_map.assign(drag_bound=0.03 * drag, rollers_outside=outside)
+    solved = solved.assign_attrs(film_model_roller="mine (checksum 13)")
+    said = found(loss_map.findings(solved), "solved films")
+    assert "rolling friction of the rollers" in said.headline
+    assert "3.0 % of the bearings' drag loss" in said.headline
+    assert "at most 20 % of the rollers' load, at 100 N·m, 1000 rpm" in said.detail
+    assert "Model: mine (checksum 13)." in said.detail
+    assert said.level == WARNING
+
+
 def test_loss_map_says_how_warm_the_flanks_get_by_their_own_friction(a_map):
     assert not [one for one in loss_map.findings(a_map) if "warms their bulk" in one.headline]
     rise = xr.zeros_like(a_map["film_ratio"])
@@ -229,6 +243,18 @@ def test_cycle_says_how_far_solved_films_are_to_be_trusted(a_cycle):
     assert "with 3.0 % of the flanks' friction loss" in said.detail
     more = solved.assign(share_outside=("step", [0.3, 0.0, 0.0]))
     assert found(cycle.findings(more), "solved films").level == WARNING
+
+
+def test_cycle_says_how_far_solved_films_of_rollers_are_to_be_trusted(a_cycle):
+    # of the 1 kJ of drag in all; the whole of the second step lies outside
+    drag = a_cycle["loss"].sel(source="bearing_torque") * a_cycle["duration"]
+    share = float(drag[1] / drag.sum())
+    solved = a_cycle.assign(rollers_outside=("step", [0.0, 1.0, 0.0]), energy_drag_bound=0.04)
+    solved["drag_bound"] = 0.04 * a_cycle["loss"].sel(source="bearing_torque", drop=True)
+    said = found(cycle.findings(solved), "solved films")
+    assert "4.0 % of the bearings' drag loss" in said.headline
+    assert "0.040 kJ of energy lost" in said.detail
+    assert f"with {100.0 * share:.1f} % of the bearings' drag loss" in said.detail
 
 
 @pytest.fixture

@@ -103,8 +103,14 @@ def cycle_dataset(
             "efficiency of the axle over the cycle",
         ),
     }
+    bound, share, drag, rollers = at_temperatures(losses.film, losses.temperatures, warming.mean).T
+    if settings.car.axle.bearing_torque_loss == "solved_films":
+        variables |= {
+            "drag_bound": (step, drag, "W", "bound of the bearings' drag loss"),
+            "rollers_outside": (step, rollers, "1", "share of the rollers' load outside it"),
+            "energy_drag_bound": ((), _energy(drag, demand), "kJ", "bound of the bearings' drag"),
+        }
     if settings.car.axle.film == "solved":
-        bound, share = at_temperatures(losses.film, losses.temperatures, warming.mean).T
         energy_bound = _energy(bound, demand)
         variables |= {
             "friction_bound": (step, bound, "W", "bound of the flanks' friction loss"),

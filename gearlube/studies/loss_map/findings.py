@@ -11,13 +11,15 @@ from gearlube.report.film_ratio import MIXED, film_ratio_level
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.report.solved_films import (
+    bearing_drag,
     efficiency_doubt,
     flank_friction,
     model_of,
     solved_films,
+    solved_rollers,
 )
 from gearlube_core.arrays import Array
-from gearlube_core.film_model.model import FLANK
+from gearlube_core.film_model.model import FLANK, ROLLER
 
 _INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
 _LEAST_SWING = 5e-4  # mean share of the loss that an input moves, below which it has no effect
@@ -49,6 +51,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_uncertainty(dataset),
             *_film(dataset),
             *_solved(dataset),
+            *_rollers(dataset),
             *_bulk(dataset),
             *_steady(dataset),
             *_ranges(dataset),
@@ -258,6 +261,17 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
     doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
     return [solved_films(bound, most, words, doubt, model)]
+
+
+def _rollers(dataset: xr.Dataset) -> list[Finding]:
+    """Say the same of the model of rollers."""
+    if "drag_bound" not in dataset:
+        return []
+    bound = float(dataset["drag_bound"].sum() / bearing_drag(dataset["loss"]).sum())
+    worst = _at(dataset, dataset["rollers_outside"])
+    most = float(worst["rollers_outside"])
+    words = f"at most {100.0 * most:.0f} % of the rollers' load, at {words_of(worst)}"
+    return [solved_rollers(bound, most, words, model=model_of(dataset, ROLLER))]
 
 
 def _bulk(dataset: xr.Dataset) -> list[Finding]:

@@ -121,7 +121,7 @@ class Oil(Section):
             for name in _OWN_DATA[:2]:
                 if getattr(self, name) is None:
                     raise ValueError(
-                        f"{name} is missing; give it, or library = the name of an oil or an oil file"
+                        f"{name} is missing; give it, or library = an oil or an oil file"
                     )
         if self.limiting_stress_mpa is None and self.limiting_stress_slope > 0.0:
             raise ValueError("limiting_stress_slope needs limiting_stress_mpa")
