@@ -100,6 +100,12 @@ for note in paper.assumed:
   follows from the roller length: d = 3.84e-5 Q^0.9/l^0.8 [mm, N] for each of the two contacts of a
   roller (Palmgren; Harris and Kotzalas 2007). Without a roller length the stiffness is that of the
   paper. For the paper's rollers this is 2.5 times softer.
+- A catalogue prints bore, outside diameter, load rating C and a factor e, but no rollers. Give the
+  first two, `dynamic_load_rating_kn`, and as contact angle the one whose tangent is e/1.5.
+  Rollers that are left out are then inferred: 0.57 of the section for their diameter, as many as
+  fill 0.8 of the pitch circle, and the length that gives C by ISO 281 (factors from memory). For
+  32216 this gives 16 rollers of 17.1 x 23.8 mm; measured ones are 16 of 17 x 22.7 mm. Without C a
+  roller is 1.5 times as long as thick.
 - `frusta_lengths_mm` and the lists beside it describe the pinion or the gear as a row of steel cone
   frusta on its axis, taken from the drawing: blank and shaft, and for the gear also the ring, the
   bolted flange and the differential case. If the file gives no mass or inertia, these are computed
@@ -128,6 +134,11 @@ for note in paper.assumed:
   outside, and bounds of losses and efficiency. [film_model_axle.md](film_model_axle.md) compares
   both. `gearlube axle show` tells which of the oil's data are assumed: they matter more than the
   model's own error.
+- `film.flank_model` and `film.roller_model` name
+  [film models of your own oil](film_model.md#a-model-of-your-own-oil) in place of those in the
+  package: for the flanks, and for the rollers with `solved_films`. A model of another kind, a
+  damaged file, and a model that says nothing of the oil at any temperature are refused. Maps,
+  cycles, sweeps and variations, and the FMUs that are built with the file, then compute with them.
 - `film.limiting_slope` is the limiting shear stress of the film divided by pressure. The film model
   knows no such limit: contacts that come near it count as outside. It does not change the junctions
   of `limiting_shear_stress_mpa` and `boundary_friction`.
@@ -187,6 +198,8 @@ FMU that computes in this Python package. The FMU contains these files:
   file itself is not in the FMU
 - the asperity table, if any, as `resources/asperity_table.nc`
 - the oil file, if any, as `resources/oil.toml`
+- film models of your own, if any, as `resources/flank_film_model.json` and
+  `resources/roller_film_model.json`
 
 The GUID of the FMU depends on every byte of these files. The start values of its parameters are
 those of the axle file. If the axle file describes its own oil, `oil.name` has the value `custom`.

@@ -62,6 +62,9 @@ Use the file in these commands:
 
 - `gearlube helical my_pair.toml` analyses the pair.
 - `gearlube build-fmu --model helical-pair --gear my_pair.toml` builds an FMU of it.
+- `[film]` is on friction and losses in both. `oil_file` names your [oil](oil_file.md), `model` the
+  formulas or solved films, and `line_model` a
+  [film model of your own oil](film_model.md#a-model-of-your-own-oil). The FMU carries these files.
 - `gearlube ehl helical my_pair.toml` solves the film on its contact lines. `[oil]` or `--oil` names
   the oil. `[film_mesh]` or `--nodes-across`, `--nodes-along` and `--spacing` set the mesh. A
   transient film on 129 x 257 nodes with `spacing = "exit"` is as accurate as on 182 x 857 uniform

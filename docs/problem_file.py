@@ -106,12 +106,15 @@ and the blade angle that cuts them can be parameters too.
    milliseconds.
 2. The derivatives of rotation, pressure, sliding loss and edge share follow from the equilibrium of
    the loaded cells. The mesh orders are linear in the rotation. SLSQP (scipy) changes the values
-   within a trust region under the limits.
-3. The cells are made again at the new values. If the pair is better, the next trust region is
-   larger, otherwise smaller. Limits that were exceeded in a round are tightened.
+   within a trust region under the limits. A limit that is exceeded has a price, so that the search
+   finds its way back.
+3. The cells are made again at the new values. If the pair is better, it is the next start. If it is
+   not, what the new cells added to each limit is added in the next rounds too. If they added
+   nothing, the trust region becomes smaller.
 4. The standard loaded analysis, with its own cells and twice the number of phases, evaluates the
    original pair and the better pair. All numbers of the report come from it. If it finds a limit
-   exceeded, the search continues with a tighter limit, at most twice.
+   exceeded, the search continues with a tighter limit, at most twice. A pair that keeps all limits
+   is chosen before a quieter one that does not.
 
 The search finds the best pair near its start, not the best of all. Try other starts. The compliance
 of the teeth stays that of the original pair. The report says which values are on a bound, which
@@ -129,9 +132,9 @@ limits are exceeded, and whether the search had no success.
 
 `--front N` computes a Pareto front: the smallest loss under N limits of the mesh orders. The limits
 go from the smallest mesh orders found to those of the original pair. The front is computed on cells
-held at the better pair, and values move at most 0.35 of their bounds from it. Of all pairs that
-these searches meet and that keep the limits, those are shown that no other one beats in both
-measures.
+held at the better pair. Where a search wants to move values by more than 0.35 of their bounds, the
+cells are made again there. Of all pairs that these searches meet and that keep the limits, those
+are shown that no other one beats in both measures. They can be fewer than N.
 
 In Python:
 

@@ -12,6 +12,9 @@ from typing import Any
 from fmu_src.definition import Definition, Value
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
+from fmu_src.variable import Variable
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     ReplacedBearings,
     helical_march_parameters,
@@ -19,20 +22,28 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.errors import GearLubeError, ParameterError, TableError
+from gearlube_core.errors import FileError, GearLubeError, ParameterError, TableError
+from gearlube_core.film_model.chosen_model import check_oil, file_of_model, model_in
+from gearlube_core.film_model.model import LINE, FilmModel, read_model_content, shipped_model
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes, named_line_mesh
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
+from gearlube_core.oil.oil_file import described_oil_of, read_oil_content
 
 GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU's resources
+LINE_MODEL_FILE = "line_film_model.json"  # likewise
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EmbeddedPair:
-    """The gear pair whose files are inside an FMU."""
+    """The gear pair whose files are inside an FMU, with its film model and its oil."""
 
     gear: HelicalGearFile
     line_mesh: LineMesh | None = None
+    line_model: FilmModel | None = None
+    oil: Lubricant | None = None
 
 
 def chosen_pair(
@@ -70,6 +81,12 @@ def chosen_pair(
     return gear, line_mesh
 
 
+def line_model_of(name: str, embedded: EmbeddedPair | None) -> FilmModel:
+    """Return the film model of lines that a gear.name takes; its own only for custom."""
+    own = embedded.line_model if embedded is not None and name == CUSTOM else None
+    return own or shipped_model(LINE)
+
+
 def pair_parameters(
     arguments: Mapping[str, Value], embedded: EmbeddedPair | None = None
 ) -> HelicalMarchParameters:
@@ -86,12 +103,14 @@ def pair_parameters(
     given: dict[str, Any] = dict(arguments)
     name = str(given.pop("gear_name"))
     gear, line_mesh = chosen_pair(name, str(given.pop("stiffness_model")), embedded)
+    oil = given.pop("oil")
     parameters = helical_march_parameters(
         gear,
         line_mesh=line_mesh,
         stiffness_density=given.pop("stiffness_density"),
-        oil=given.pop("oil"),
+        oil=oil if oil != CUSTOM or embedded is None else embedded.oil,
         bearings=ReplacedBearings(**{f.name: given.pop(f.name) for f in fields(ReplacedBearings)}),
+        line_film_model=line_model_of(name, embedded),
     )
     return replace(parameters, **given)
 
@@ -142,8 +161,13 @@ DEFINITION = Definition(
 )
 
 
-def definition_with(gear: str | Path | None, line_mesh: str | Path | None = None) -> Definition:
+def definition_with(
+    gear: str | Path | None, line_mesh: str | Path | None = None, named: Path | None = None
+) -> Definition:
     """Return the definition of the FMU with this gear file and, if given, its line mesh.
+
+    `named` is the folder of an FMU's resources, where what the gear file names has names of its
+    own; by default these files are where it says.
 
     Raises
     ------
@@ -151,6 +175,8 @@ def definition_with(gear: str | Path | None, line_mesh: str | Path | None = None
         The gear file is missing or wrong, or a line mesh comes without one.
     TableError
         The line mesh is missing, wrong or of another pair.
+    FileError
+        The film model that the gear file names is missing or damaged.
     """
     if gear is None:
         if line_mesh is not None:
@@ -161,11 +187,29 @@ def definition_with(gear: str | Path | None, line_mesh: str | Path | None = None
     content = _read(gear, "gear file")
     mesh = b"" if line_mesh is None else _read(line_mesh, "line mesh")
     try:
-        return _definition_with(content, mesh)
+        return _definition_with(content, mesh, _named_files(content, Path(gear).parent, named))
     except TableError as error:
         raise TableError(f"{line_mesh}: {error}") from None
+    except FileError as error:
+        raise FileError(f"{gear}: {error}") from None
     except GearLubeError as error:
         raise ParameterError(f"{gear}: {error}") from None
+
+
+def _named_files(
+    content: bytes, folder: Path, resources: Path | None
+) -> tuple[tuple[str, bytes], ...]:
+    """Return the oil file and the film model that a gear file names, by their names in FMUs."""
+    film = _gear_file(content).film
+    model = film.line_model if film.line_model and file_of_model(film.line_model) else None
+    return tuple(
+        (name, read(folder / text if resources is None else resources / name))
+        for name, read, text in (
+            (OIL_IN_FMU, read_oil_content, film.oil_file),
+            (LINE_MODEL_FILE, read_model_content, model),
+        )
+        if text is not None
+    )
 
 
 def _read(path: str | Path, what: str) -> bytes:
@@ -186,34 +230,57 @@ def embedded_pair(resources: Mapping[str, bytes]) -> EmbeddedPair | None:
     """
     if GEAR_FILE not in resources:
         return None
-    return _pair_in(resources[GEAR_FILE], resources.get(LINE_MESH_FILE, b""))
+    return _pair_in(resources[GEAR_FILE], resources.get(LINE_MESH_FILE, b""), resources)
 
 
-def _pair_in(content: bytes, mesh: bytes) -> EmbeddedPair:
-    """Return the gear pair in the content of a gear file and, unless empty, of a line mesh."""
+def _gear_file(content: bytes) -> HelicalGearFile:
+    """Return the gear file in the content of a file."""
     try:
         data = tomllib.loads(content.decode())
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
         raise ParameterError(f"It is not a readable TOML file: {reason}.") from None
+    return HelicalGearFile.from_data(data, "The gear file")
+
+
+def _pair_in(content: bytes, mesh: bytes, others: Mapping[str, bytes]) -> EmbeddedPair:
+    """Return the gear pair in the contents of a gear file, a line mesh (or b"") and others."""
+    gear = _gear_file(content)
+    oil, text = others.get(OIL_IN_FMU), gear.film.line_model
+    model, own = others.get(LINE_MODEL_FILE), None
+    if text is not None:
+        own = model_in(text, model, LINE, "film.line_model", LINE_MODEL_FILE)
+    lubricant = described_oil_of(oil, OIL_IN_FMU).lubricant if oil else None
+    if own is not None:
+        solid = STEEL_MOHAMMADPOUR_2015
+        check_oil(own, lubricant or Lubricant.named(USUAL_OIL), solid, "film.line_model")
     return EmbeddedPair(
-        gear=HelicalGearFile.from_data(data, "The gear file"),
+        gear=gear,
         line_mesh=line_mesh_from_bytes(mesh, "the line mesh") if mesh else None,
+        line_model=own,
+        oil=lubricant,
     )
 
 
 @cache
-def _definition_with(content: bytes, mesh: bytes) -> Definition:
+def _definition_with(
+    content: bytes, mesh: bytes, others: tuple[tuple[str, bytes], ...] = ()
+) -> Definition:
     """Return the definition with these files; one object per content, for caches keyed by it."""
-    embedded = _pair_in(content, mesh)
+    embedded = _pair_in(content, mesh, dict(others))
     gear, line_mesh = embedded.gear, embedded.line_mesh
     pair = gear.helical_pair()
+    model, oil = line_model_of(CUSTOM, embedded), embedded.oil or USUAL_OIL
     try:
-        helical_march_parameters(gear, line_mesh=line_mesh)
+        helical_march_parameters(gear, line_mesh=line_mesh, line_film_model=model, oil=oil)
     except ParameterError as error:
         if line_mesh is None:
             raise
         raise TableError(str(error)) from None
-    starts = {"gear.name": _number_of("gear.name", CUSTOM), "mesh.backlash": pair.backlash}
+    starts = {
+        "gear.name": _number_of("gear.name", CUSTOM),
+        "mesh.backlash": pair.backlash,
+        "film.model": _number_of("film.model", gear.film.model),
+    }
     if line_mesh:
         starts["mesh.stiffness_model"] = _number_of("mesh.stiffness_model", LINE_MESH)
     of_mesh = f", line mesh {line_mesh.name}" if line_mesh else ""
@@ -221,10 +288,20 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
         DEFINITION,
         description=f"{DEFINITION.description}; gear file {gear.name} "
         f"({pair.pinion_teeth}/{pair.gear_teeth} teeth){of_mesh}",
-        variables=tuple(replace(v, start=starts.get(v.name, v.start)) for v in HELICAL_PAIR),
+        variables=tuple(_starting(v, starts, own_oil=bool(embedded.oil)) for v in HELICAL_PAIR),
         start=partial(start_pair, embedded=embedded),
-        resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}),
+        resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}) | dict(others),
     )
+
+
+def _starting(variable: Variable, starts: Mapping[str, float], *, own_oil: bool) -> Variable:
+    """Return a variable with the start value of a pair; an oil of its own is a new literal."""
+    if own_oil and variable.argument == "oil":
+        literals = (*variable.literals, CUSTOM)
+        return replace(variable, literals=literals, start=float(len(literals)))
+    if own_oil and variable.option_of == "oil.name":
+        return replace(variable, maximum=(variable.maximum or 0.0) + 1.0)
+    return replace(variable, start=starts.get(variable.name, variable.start))
 
 
 def _number_of(option: str, literal: str) -> float:
@@ -240,4 +317,4 @@ class HelicalPair(CoSimulationSlave):
         gear, mesh = resources / GEAR_FILE, resources / LINE_MESH_FILE
         if not gear.is_file():
             return DEFINITION
-        return definition_with(gear, mesh if mesh.is_file() else None)
+        return definition_with(gear, mesh if mesh.is_file() else None, resources)

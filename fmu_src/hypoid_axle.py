@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle, parsed_axle_file
+from drivetrain.axle_file.axle_sections import OwnFilmModels
 from fmu_src.axle_arguments import CUSTOM_OIL, axle_parameters, start_arguments
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
@@ -15,6 +16,8 @@ from fmu_src.variable import Variable
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.dynamics import hypoid_axle
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
+from gearlube_core.film_model.chosen_model import file_of_model, model_in
+from gearlube_core.film_model.model import FLANK, ROLLER, read_model_content
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_content
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
@@ -24,6 +27,8 @@ from gearlube_core.rough_patch.asperity_file import FILE_IN_FMU as ASPERITIES_IN
 from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
 
 AXLE_FILE = "axle.toml"  # among the FMU's resources
+FILMS_IN_FMU = ("flank_film_model.json", "roller_film_model.json")  # likewise
+NAMED_FILES = (ASPERITIES_IN_FMU, OIL_IN_FMU, *FILMS_IN_FMU)  # that an axle file names, likewise
 PAPER = "mohammadpour_2015"  # the axle of an FMU without a file of its own
 
 
@@ -87,8 +92,7 @@ def definition_with_table(path: str | Path) -> Definition:
 def definition_with_axle(
     path: str | Path,
     mesh_table: str | Path | None = None,
-    asperity_table: str | Path | None = None,
-    oil_file: str | Path | None = None,
+    named: Path | None = None,
 ) -> Definition:
     """Return the definition of the FMU with an axle file.
 
@@ -99,10 +103,9 @@ def definition_with_axle(
     mesh_table : path, optional
         Where the table of the gears is that the file names as a file; by default where the file
         says. It must be given where the file names a gear file.
-    asperity_table : path, optional
-        The same of its asperity table.
-    oil_file : path, optional
-        The same of its oil file.
+    named : path, optional
+        Folder of an FMU's resources, where the other files that it names are called as in
+        NAMED_FILES; by default they are where the file says.
 
     Raises
     ------
@@ -110,27 +113,37 @@ def definition_with_axle(
         The file is missing or wrong, or the table of its gear file is not given.
     TableError
         Its mesh table or its asperity table is missing or wrong.
+    FileError
+        A film model is missing or damaged.
     """
     content = _axle_content(path)
     try:
         file = parsed_axle_file(content)
-        asperities = file.gear_set.asperity_table
         table = None
         if file.has_own_table:
             table = mesh_table or file.own_table(Path(path).parent)
-        of_patches = None
-        if asperities is not None:
-            there = Path(path).parent / asperities if asperity_table is None else asperity_table
-            of_patches = read_asperity_content(there)
-        oil = None
-        if file.oil.file is not None:
-            oil = read_oil_content(
-                Path(path).parent / file.oil.file if oil_file is None else oil_file
-            )
+        others = tuple(
+            (name, read(Path(path).parent / text if named is None else named / name))
+            for name, read, text in _named_files(file)
+        )
         of_gears = None if table is None else read_content(table)
-        return _definition_with(content, of_gears, of_patches, oil)
+        return _definition_with(content, of_gears, others)
     except GearLubeError as error:
         raise type(error)(f"{path}: {error}") from None
+
+
+def _named_files(file: AxleFile) -> list[tuple[str, Callable[[Path], bytes], str]]:
+    """Return the files that an axle file names beside its table: name in FMUs, reader, path."""
+    film = file.film
+    found = (
+        (ASPERITIES_IN_FMU, read_asperity_content, file.gear_set.asperity_table),
+        (OIL_IN_FMU, read_oil_content, file.oil.file),
+        *(
+            (name, read_model_content, text if text and file_of_model(text) else None)
+            for name, text in zip(FILMS_IN_FMU, (film.flank_model, film.roller_model), strict=True)
+        ),
+    )
+    return [(name, read, text) for name, read, text in found if text is not None]
 
 
 def check_one_table(mesh_table: str | Path | None) -> None:
@@ -165,22 +178,28 @@ def car_axle_in(resources: Mapping[str, bytes]) -> CarAxle:
     file = AxleFile.named(PAPER) if content is None else parsed_axle_file(content)
     own = FILE_IN_FMU in resources
     patches, oil = resources.get(ASPERITIES_IN_FMU), resources.get(OIL_IN_FMU)
+    film = file.film
+    films = [
+        None if text is None else model_in(text, resources.get(name), kind, what, name)
+        for name, text, kind, what in (
+            (FILMS_IN_FMU[0], film.flank_model, FLANK, "film.flank_model"),
+            (FILMS_IN_FMU[1], film.roller_model, ROLLER, "film.roller_model"),
+        )
+    ]
     return file.car_axle(
         mesh_table_in(resources) if own else None,
         asperities_from_bytes(patches, ASPERITIES_IN_FMU) if patches else None,
         described_oil_of(oil, OIL_IN_FMU) if oil else None,
+        OwnFilmModels(*films),
     )
 
 
 @cache
 def _definition_with(
-    axle: bytes | None,
-    table: bytes | None,
-    asperities: bytes | None = None,
-    oil: bytes | None = None,
+    axle: bytes | None, table: bytes | None, others: tuple[tuple[str, bytes], ...] = ()
 ) -> Definition:
     """Return the definition with these files; one object per content, for caches keyed by it."""
-    files = {AXLE_FILE: axle, FILE_IN_FMU: table, ASPERITIES_IN_FMU: asperities, OIL_IN_FMU: oil}
+    files = {AXLE_FILE: axle, FILE_IN_FMU: table, **dict(others)}
     resources = {name: content for name, content in files.items() if content is not None}
     described = car_axle_in(resources)
     base, mesh = described.axle, described.axle.mesh
@@ -220,7 +239,5 @@ class HypoidAxle(CoSimulationSlave):
         """Return the definition with the files in `resources`, else with those that ship."""
         axle, table = resources / AXLE_FILE, resources / FILE_IN_FMU
         if axle.is_file():
-            return definition_with_axle(
-                axle, table, resources / ASPERITIES_IN_FMU, resources / OIL_IN_FMU
-            )
+            return definition_with_axle(axle, table, resources)
         return definition_with_table(table) if table.is_file() else DEFINITION

@@ -129,24 +129,26 @@ def parabolas(store: Store) -> Any:
         figure = new_figure(8.2, 4.0)
         left, right = figure.subplots(1, 2)
         rest = [store.steady(parabola_case("a", k), 500) for k in PARABOLAS]
-        left.plot(PARABOLAS, [GPA * f.max_pressure for f in rest], "o-", label="A, at rest")
+        whole = {"clip_on": False, "zorder": 3}  # markers on the axis of k = 0
+        a = {"color": BLUE, "label": "A, at rest", **whole}
+        left.plot(PARABOLAS, [GPA * f.max_pressure for f in rest], "o-", **a)
         left.plot(
-            PARABOLAS, [GPA * f.dry_pressure for f in rest], "x--", color=GREY, label="A, dry"
-        )
-        right.plot(PARABOLAS, [UM * f.min_film for f in rest], "o-", label="A, at rest")
+            PARABOLAS, [GPA * f.dry_pressure for f in rest], "x--", color=GREY, label="A, dry",
+            **whole,
+        )  # fmt: skip
+        right.plot(PARABOLAS, [UM * f.min_film for f in rest], "o-", **a)
         shares = (1.0, *MARCHED_PARABOLAS)
         marches = [store.march(parabola_case("a", k), 500 - APPROACH, 500) for k in shares]
         done = [(k, m) for k, m in zip(shares, marches, strict=True) if m.complete]
         for ax, name, unit in ((left, "max_pressure", GPA), (right, "min_film", UM)):
             ax.plot(
                 [k for k, _ in done], [unit * m.at(name, 500) for _, m in done], "s",
-                color=VERMILLION, label="A, in motion",
+                color=VERMILLION, label="A, in motion", **whole,
             )  # fmt: skip
-        b = [store.steady(parabola_case("b", k), 500) for k in shares]
-        left.plot(
-            shares, [GPA * f.max_pressure for f in b], "^:", color=SERIES[2], label="B, at rest"
-        )
-        right.plot(shares, [UM * f.min_film for f in b], "^:", color=SERIES[2], label="B, at rest")
+        films = [store.steady(parabola_case("b", k), 500) for k in shares]
+        b = {"color": SERIES[2], "label": "B, at rest", **whole}
+        left.plot(shares, [GPA * f.max_pressure for f in films], "^:", **b)
+        right.plot(shares, [UM * f.min_film for f in films], "^:", **b)
         left.set(ylabel="largest pressure [GPa]")
         right.set(ylabel="smallest film [µm]")
         for ax in (left, right):

@@ -65,7 +65,7 @@ def film_map_section(store: Store) -> str:
             text.format(coarse=COARSE, fine=FINE, points=len(map_contacts())),
             _state(films),
             "\n![Solved films over formulas](images/ehl_film_map.png)\n",
-            "\nBands of 10 % and 20 %; open markers: rigid contacts, see below.\n",
+            "\nEach marker is a contact; rigid contacts are explained below.\n",
             "\nSolved film divided by the formula. *Rigid*: in Nijenbanning's chart the film of "
             "rigid solids and constant viscosity is the thickest; the formulas of Hamrock and "
             "Dowson and of Chittenden et al. do not cover this case. *Fitted*: W from 1e-7 to "

@@ -26,16 +26,15 @@ _PANELS = (
     ("minimum film", HAMROCK_DOWSON),
     ("minimum film", CHITTENDEN),
 )
-_BANDS = ((0.2, 0.10), (0.1, 0.15))  # half width and strength
+_BANDS = {0.2: "#E9E9E9", 0.1: "#CFCFCF"}  # shade by half width, the narrow one on top
 _TICKS = (0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0)
 _SPREAD = 0.035  # of markers of one load, in decades
 
 
 def draw(films: Films) -> Any:
-    """Return ratios over load, colours for ellipticities and markers for materials.
+    """Return ratios over load, colours for ellipticities and markers for materials."""
+    from matplotlib.patches import Patch
 
-    Open markers: rigid contacts.
-    """
     with house_style():
         figure = new_figure(11.0, 6.8)
         axes = figure.subplots(2, 3, sharey=True)
@@ -43,13 +42,13 @@ def draw(films: Films) -> Any:
             _ratios(ax, films, quantity, source)
         _angles(axes[1, 2], films)
         for ax in axes.flat:
-            for half, strength in _BANDS:
-                ax.axhspan(1.0 - half, 1.0 + half, color="grey", alpha=strength, zorder=0)
+            for half, shade in _BANDS.items():
+                ax.axhspan(1.0 - half, 1.0 + half, color=shade, lw=0.0, zorder=0)
             ax.set_yscale("log")
             ax.set_yticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
             ax.minorticks_off()
         for ax in axes[:, 0]:
-            ax.set_ylabel("film over formula")
+            ax.set_ylabel("solved film over formula [-]")
         handles = [
             axes[0, 0].plot([], [], "o", color=colour, label=f"$a_y/a_x$ = {k:g}")[0]
             for k, colour in zip(ELLIPTICITIES, SERIES, strict=False)
@@ -57,7 +56,14 @@ def draw(films: Films) -> Any:
             axes[0, 0].plot([], [], marker, color="black", label=f"L = {L:g}")[0]
             for L, marker in zip(MATERIALS, MARKERS, strict=False)
         ]
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+        handles += axes[0, 0].plot(
+            [], [], "o", color="black", markerfacecolor="none", label="open: rigid contact"
+        )
+        handles += [
+            Patch(color=shade, label=f"within {100.0 * half:.0f} % of the formula")
+            for half, shade in _BANDS.items()
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=6)
         return figure
 
 
@@ -79,7 +85,7 @@ def _ratios(ax: Any, films: Films, quantity: str, source: str) -> None:
             markerfacecolor="none" if contact.rigid else SERIES[place],
         )
     ax.set_xscale("log")
-    ax.set_xlabel("load M")
+    ax.set_xlabel("load M [-]")
     ax.set_title(f"{quantity}, {source}")
 
 
@@ -96,5 +102,5 @@ def _angles(ax: Any, films: Films) -> None:
                 color=SERIES[ELLIPTICITIES.index(k)],
             )
     ax.set_xticks(ANGLES)
-    ax.set_xlabel("entrainment to the short axis [degree]")
-    ax.set_title("Chittenden; dashed: minimum film")
+    ax.set_xlabel("angle of entrainment to the short axis [°]")
+    ax.set_title("Chittenden et al. 1985; dashed: minimum")

@@ -29,7 +29,7 @@ def make(name: str, folder: Path) -> None:
     """Optimise a shipped problem and keep its tables and figures."""
     given = OptimisationFile.named(name)
     hypoid = name == "hypoid"
-    settings = OptimiseSettings(nominal=not hypoid, front=4 if hypoid else 5, checks=2)
+    settings = OptimiseSettings(nominal=not hypoid, front=4 if hypoid else 5)
     results = run_optimise(given, settings, folder=folder / name)
     found = results.optimised
     write_text(_measures(found), HERE / f"{name}.csv")
@@ -37,6 +37,7 @@ def make(name: str, folder: Path) -> None:
     if found.front:
         rows = [(f"{one.whine:.4f}", f"{one.loss:.4f}") for one in found.front]
         write_text(csv_text(("whine", "loss"), rows), HERE / f"{name}_front.csv")
+    (IMAGES / f"optimise_{name}_front.png").unlink(missing_ok=True)
     for path in save_optimise_figures(results.dataset, folder / name / "figures"):
         if path.stem in SHOWN and (path.stem != "front" or len(found.front) > 2):
             shutil.copy(path, IMAGES / f"optimise_{name}_{path.name}")

@@ -36,7 +36,7 @@ def _tables(name: str) -> str:
     ]
     for row in _rows(name):
         lines.append("| " + " | ".join(one or "-" for one in row.values()) + " |")
-    if (HERE / f"{name}_front.csv").is_file() and len(_rows(f"{name}_front")) > 2:
+    if (HERE / f"{name}_front.csv").is_file() and len(_rows(f"{name}_front")) > 1:
         lines += ["", "Least loss under limits of the mesh orders, both over those before:", ""]
         lines += ["| Mesh orders | Loss |", "|---|---|"]
         lines += [f"| {row['whine']} | {row['loss']} |" for row in _rows(f"{name}_front")]

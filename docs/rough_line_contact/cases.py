@@ -1,8 +1,9 @@
 """March cases A, B and C of the thesis with five seeds each, on one coarse grid; compare them.
 
 python -m docs.rough_line_contact.cases [FOLDER [NAME ...]]: ten minutes of one processor. Marches
-are kept as those of `variants`. Writes cases.csv and prints a table. Those on the finer grid, whose
-names end in ", fine", take three to five minutes each and are marched only if named.
+are kept as those of `variants`. Writes cases.csv and prints a table for each grid; numbers of
+marches that are not in the folder stay as they are. Those on the finer grid, whose names end in
+", fine", take one to eight minutes each and are marched only if named.
 """
 
 from __future__ import annotations
@@ -81,18 +82,23 @@ def case_of(name: str) -> RoughCase:
     return named.varied(GRIDS[grid] | LAYS[lay] | seeded(seed))
 
 
+def written() -> dict[str, list[tuple[str, str, float, str]]]:
+    """Return what cases.csv holds: march, and its rows."""
+    rows: dict[str, list[tuple[str, str, float, str]]] = {}
+    with NUMBERS.open(newline="") as file:
+        for name, quantity, value, unit in list(csv.reader(file))[1:]:
+            rows.setdefault(name, []).append((name, quantity, float(value), unit))
+    return rows
+
+
 def numbers() -> Found:
     """Return what was written: march, quantity, value."""
-    found: Found = {}
-    with NUMBERS.open(newline="") as file:
-        for row in csv.DictReader(file):
-            found.setdefault(row["variant"], {})[row["quantity"]] = float(row["value"])
-    return found
+    return {name: {row[1]: row[2] for row in rows} for name, rows in written().items()}
 
 
-def of_seeds(found: Found, case: str, lay: str, shown: str) -> np.ndarray:
+def of_seeds(found: Found, case: str, lay: str, grid: str, shown: str) -> np.ndarray:
     """Return a number of the seeds that were marched with both lays."""
-    names = ([f"case {case}, {one}, seed {seed}" for one in (lay, *LAYS)] for seed in SEEDS)
+    names = ([f"case {case}, {one}, seed {seed}{grid}" for one in (lay, *LAYS)] for seed in SEEDS)
     kept = [own for own, *both in names if set(both) <= set(found)]
     if shown == THIN_SHOWN:
         return np.array([100.0 * found[name][THIN_SHARE] for name in kept])
@@ -108,11 +114,11 @@ def ratio(crossed: np.ndarray, straight: np.ndarray) -> str:
     return f"{each.mean():.2f} +- {each.std(ddof=1):.2f} ({each.min():.2f} to {each.max():.2f})"
 
 
-def table(found: Found) -> Iterable[Sequence[str]]:
+def table(found: Found, grid: str) -> Iterable[Sequence[str]]:
     """Crossed and straight, and one over the other: mean, and least to largest, of the seeds."""
     yield ("", *(f"case {case}, {angle} deg" for case, angle in ANGLES.items()))
     for shown in TABLE:
-        both = [[of_seeds(found, case, lay, shown) for lay in LAYS] for case in ANGLES]
+        both = [[of_seeds(found, case, lay, grid, shown) for lay in LAYS] for case in ANGLES]
         for k, lay in enumerate(LAYS):
             values = (pair[k] for pair in both)
             yield (
@@ -124,7 +130,7 @@ def table(found: Found) -> Iterable[Sequence[str]]:
 
 def main(work: Path, names: list[str]) -> None:
     """March what is asked for, write the numbers of all that is finished, print the table."""
-    rows = []
+    rows, before = [], written()
     for name in MARCHES:
         done = work / name.replace(", ", "_").replace(" ", "_") / "rough.nc"
         if name in names and not done.exists():
@@ -134,10 +140,15 @@ def main(work: Path, names: list[str]) -> None:
             run = xr.load_dataset(done, engine="scipy")
             below = np.interp(THIN, run["film_edge"].values, run["film_function"].values)
             rows += [*rows_of(name, run), (name, THIN_SHARE, float(below), "1")]
+        else:
+            rows += before.get(name, [])
     lines = ((n, q, f"{v:.4g}", u) for n, q, v, u in rows)
     write_text(csv_text(("variant", "quantity", "value", "unit"), lines), NUMBERS)
-    for row in table(numbers()):
-        sys.stdout.write("| " + " | ".join(row) + " |\n")
+    found = numbers()
+    for grid in GRIDS:
+        sys.stdout.write("\n")
+        for row in table(found, grid):
+            sys.stdout.write("| " + " | ".join(row) + " |\n")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,13 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.axle_sections import FilmSection, GearSet, ModelOptions, Steel
+from drivetrain.axle_file.axle_sections import (
+    FilmSection,
+    GearSet,
+    ModelOptions,
+    OwnFilmModels,
+    Steel,
+)
 from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.car_sections import DrivelineSection, TyreSection, VehicleSection
 from drivetrain.axle_file.drag_sections import Housing, Seals
@@ -124,6 +130,17 @@ class AxleFile(InputFile):
             check_tolerances(self.tolerances, field_notes(type(self)))
         return self
 
+    @model_validator(mode="after")
+    def _check_roller_model(self) -> AxleFile:
+        law = self.model.bearing_torque_loss
+        if self.film.roller_model is not None and law != "solved_films":
+            raise ValueError(
+                "film.roller_model is only for model.bearing_torque_loss = solved_films, got "
+                f"{self.film.roller_model!r} with {law or 'that left out'}; give that law, or "
+                "leave film.roller_model out"
+            )
+        return self
+
     @property
     def has_own_table(self) -> bool:
         """Whether the mesh table is a file, not a shipped one."""
@@ -171,6 +188,7 @@ class AxleFile(InputFile):
         mesh: MeshTable | None = None,
         asperities: GreenwoodTrippFit | None = None,
         oil: DescribedOil | None = None,
+        films: OwnFilmModels | None = None,
         *,
         notes: bool = True,
     ) -> CarAxle:
@@ -184,19 +202,24 @@ class AxleFile(InputFile):
             Fit to the file's `asperity_table`; by default read where it names one.
         oil : DescribedOil, optional
             Of the file's `oil.file`; by default read where it names one.
+        films : OwnFilmModels, optional
+            Those that the file names; by default read where it names any.
         notes : bool
             Whether the result has the notes on its inputs, a third of the work.
 
         Raises
         ------
         ParameterError, TableError
-            The fields contradict each other, the mesh table has no teeth of an axle, or the
-            asperity table is wrong.
+            The fields contradict each other, the mesh table has no teeth of an axle, the asperity
+            table is wrong, or a film model says nothing of the oil.
+        FileError
+            A film model is missing or damaged.
         """
         mesh = mesh or self.mesh()
         asperities = asperities or self.asperities()
         oil = oil or self.described_oil()
-        axle = self._axle(mesh, asperities, self.oil.oil() if oil is None else oil.lubricant)
+        lubricant = self.oil.oil() if oil is None else oil.lubricant
+        axle = self._axle(mesh, asperities, lubricant, films or self.film.own_models())
         driveline = self._driveline(mesh)
         return CarAxle(
             name=self.name,
@@ -220,7 +243,11 @@ class AxleFile(InputFile):
         )
 
     def _axle(
-        self, mesh: MeshTable, fit: GreenwoodTrippFit | None, oil: Lubricant
+        self,
+        mesh: MeshTable,
+        fit: GreenwoodTrippFit | None,
+        oil: Lubricant,
+        films: OwnFilmModels,
     ) -> HypoidAxleParameters:
         base = mohammadpour_2015_axle(mesh=mesh)
         if fit is not None:
@@ -236,14 +263,18 @@ class AxleFile(InputFile):
         given |= self.pinion.member_changes("pinion", density)
         given |= self.gear.member_changes("gear", density)
         given |= self.housing.housing_changes(base) | self.seals.seal_changes()
-        return replace(
+        axle = replace(
             base,
             **given,
             bearing=bearing,
             gear_bearing=gear_bearing,
             solid=bearing.solid,
             oil=oil,
+            flank_film_model=films.flank,
+            roller_film_model=films.roller,
         )
+        axle.check_oil_of_models()
+        return axle
 
     def _driveline(self, mesh: MeshTable) -> DrivelineParameters:
         road = RoadLoad(
@@ -296,7 +327,7 @@ class AxleFile(InputFile):
         notes += self.housing.housing_notes("housing.", axle)
         notes += self.seals.seal_notes("seals.", axle)
         notes += self.model.notes("model.", axle, _MODEL)
-        notes += self.film.notes("film.", axle, _MODEL)
+        notes += self.film.notes("film.", axle, _MODEL) + self.film.model_notes(axle)
         if axle.film == "solved":
             notes += self.oil.rheology_notes("oil.", axle.oil)
         if self.model.bearing_approach is None:

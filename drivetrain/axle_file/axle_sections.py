@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, ClassVar, Literal
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
-from gearlube_core.dynamics.hypoid_axle.parameters import Film, Friction
+from gearlube_core.dynamics.hypoid_axle.parameters import Film, Friction, HypoidAxleParameters
+from gearlube_core.film_model.chosen_model import chosen_model
+from gearlube_core.film_model.model import FLANK, ROLLER, SHIPPED, FilmModel
+from gearlube_core.input_file.input_note import InputNote
 
 Text = Annotated[str, Field(min_length=1)]
 Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False)]
@@ -145,6 +149,13 @@ class Steel(ModelSection):
     )
 
 
+class OwnFilmModels(NamedTuple):
+    """The film models that an axle file names; None: those in the package."""
+
+    flank: FilmModel | None = None
+    roller: FilmModel | None = None
+
+
 class FilmSection(ModelSection):
     """Film and friction of the oil on the flanks."""
 
@@ -152,12 +163,26 @@ class FilmSection(ModelSection):
         "model": "film",
         "limiting_slope": "film_limiting_slope",
         "bulk_resistance_k_w": "flank_bulk_resistance",
+        # no attributes, but models that are read, see `own_models`
+        "flank_model": "file_of_flank_model",
+        "roller_model": "file_of_roller_model",
     }
 
     model: Film | None = Field(
         default=None,
         description="formula: Chittenden 1985 with Evans and Johnson 1986; solved: a model of "
         "solved thermal Eyring films, and the formulas outside its domain",
+    )
+    flank_model: Text | None = Field(
+        default=None,
+        description="Film model of flanks for model = solved: file (.json) of `gearlube film-model "
+        "fit`, its path relative to the axle file, or the name of a shipped one; left out: "
+        "hypoid_flank",
+    )
+    roller_model: Text | None = Field(
+        default=None,
+        description="Film model of rollers, likewise, for model.bearing_torque_loss = "
+        "solved_films; left out: roller_race",
     )
     limiting_slope: LimitingSlope | None = Field(
         default=None,
@@ -168,6 +193,41 @@ class FilmSection(ModelSection):
         description="Temperature of the flanks' bulk over the oil's, for each watt of their mean "
         "friction; for maps and cycles. 0: at the oil's temperature",
     )
+
+    @model_validator(mode="after")
+    def _check_flank_model(self) -> FilmSection:
+        if self.flank_model is not None and self.model != "solved":
+            raise ValueError(
+                f"flank_model is only for model = solved, got {self.flank_model!r} with model "
+                f'{self.model or "left out"}; write model = "solved", or leave flank_model out'
+            )
+        return self
+
+    def model_notes(self, axle: HypoidAxleParameters) -> list[InputNote]:
+        """Return notes on the shipped film models that an axle takes; those given have theirs."""
+        taken = {
+            "flank_model": (axle.film == "solved", FLANK),
+            "roller_model": (axle.bearing_torque_loss == "solved_films", ROLLER),
+        }
+        return [
+            InputNote(f"film.{key}", SHIPPED[kind], "", "assumed", "model in the package")
+            for key, (takes, kind) in taken.items()
+            if takes and not self.has(key)
+        ]
+
+    def own_models(self, folder: Path = Path()) -> OwnFilmModels:
+        """Return the film models that are named; `folder` is that of the file.
+
+        Raises
+        ------
+        FileError, ParameterError
+            A model is missing, damaged or of another kind.
+        """
+        flank, roller = self.flank_model, self.roller_model
+        return OwnFilmModels(
+            None if flank is None else chosen_model(flank, FLANK, "film.flank_model", folder),
+            None if roller is None else chosen_model(roller, ROLLER, "film.roller_model", folder),
+        )
 
 
 class ModelOptions(ModelSection):

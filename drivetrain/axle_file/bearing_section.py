@@ -11,6 +11,12 @@ from pydantic import Field, model_validator
 
 from drivetrain.axle_file.field_units import field_value
 from drivetrain.axle_file.model_section import ModelSection
+from gearlube_core.bearings.catalogue_rollers import (
+    roller_length_of_rating,
+    usual_roller_count,
+    usual_roller_diameter,
+    usual_roller_length,
+)
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
@@ -24,6 +30,7 @@ RollerSize = Annotated[float, Field(ge=2.0, le=200.0, allow_inf_nan=False)]
 Rollers = Annotated[int, Field(ge=3, le=40)]
 Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False)]
 Exponent = Annotated[float, Field(ge=1.0, le=2.0, allow_inf_nan=False)]
+Rating = Annotated[float, Field(ge=1.0, le=20000.0, allow_inf_nan=False)]
 Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Preload = Annotated[float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False)]
@@ -75,12 +82,24 @@ class BearingSection(ModelSection):
         description="Diameter of the outer race at the middle of the rollers; left out: pitch "
         "diameter plus roller diameter times the cosine of the contact angle",
     )
-    rollers: Rollers | None = Field(default=None, description="Number of rollers")
+    dynamic_load_rating_kn: Rating | None = Field(
+        default=None,
+        description="Basic dynamic load rating C of the catalogue, only to find the roller length",
+    )
+    rollers: Rollers | None = Field(
+        default=None,
+        description="Number of rollers; left out beside bore and outside diameter: as many as "
+        "fill 0.8 of the pitch circle",
+    )
     roller_diameter_mm: RollerSize | None = Field(
-        default=None, description="Mean roller diameter, at mid-length"
+        default=None,
+        description="Mean roller diameter, at mid-length; left out beside bore and outside "
+        "diameter: 0.57 of half their difference",
     )
     roller_length_mm: RollerSize | None = Field(
-        default=None, description="Effective roller length: without chamfers and undercuts"
+        default=None,
+        description="Effective roller length: without chamfers and undercuts; left out: from the "
+        "load rating, or 1.5 roller diameters beside bore and outside diameter",
     )
     contact_angle_deg: Angle | None = Field(
         default=None,
@@ -209,13 +228,16 @@ class BearingSection(ModelSection):
     def _changes(self) -> tuple[dict[str, Any], dict[str, str]]:
         """Return the attributes of the bearing that follow from the file, and the inferred."""
         base = TaperedRollerBearing.mohammadpour_2015()
-        changes, inferred = self.changes(base), {}
+        changes = self.changes(base)
+        inferred: dict[str, str] = {}
         interference = changes.pop("interference", None)
         changes.setdefault("preload", PRELOAD)
-        if self.has("roller_length_mm") and not self.has("stiffness_constant"):
-            changes["stiffness_constant"] = palmgren_roller_stiffness(self.si("roller_length_mm"))
-            inferred["stiffness_constant"] = "Palmgren's, from the roller length"
         pitch = self._pitch
+        if pitch is not None or self.has("dynamic_load_rating_kn"):
+            inferred |= self._rollers_by_catalogue(changes, base, pitch)
+        if "roller_length" in changes and not self.has("stiffness_constant"):
+            changes["stiffness_constant"] = palmgren_roller_stiffness(changes["roller_length"])
+            inferred["stiffness_constant"] = "Palmgren's, from the roller length"
         if not self.has(_RACES[0]) and pitch is not None:
             diameter = changes.get("roller_diameter", base.roller_diameter)
             across = diameter * math.cos(changes.get("contact_angle", base.contact_angle))
@@ -227,6 +249,38 @@ class BearingSection(ModelSection):
             changes["preload"] = fitted.preload_force()
             inferred["preload_n"] = "interference"
         return changes, inferred
+
+    def _rollers_by_catalogue(
+        self,
+        changes: dict[str, Any],
+        base: TaperedRollerBearing,
+        pitch: tuple[float, str] | None,
+    ) -> dict[str, str]:
+        """Add the rollers that the file leaves out to `changes`; return how they follow."""
+        how = {}
+        between = pitch[0] if pitch else 0.5 * (base.inner_race_diameter + base.outer_race_diameter)
+        if all(self.has(key) for key in _BOUNDARY):
+            if not self.has("roller_diameter_mm"):
+                bore, outside = (self.si(key) for key in _BOUNDARY)
+                changes["roller_diameter"] = usual_roller_diameter(bore, outside)
+                how["roller_diameter_mm"] = "usual in this section: 0.57 of its height"
+            diameter = changes["roller_diameter"]
+            if not self.has("rollers"):
+                changes["n_rollers"] = usual_roller_count(between, diameter)
+                how["rollers"] = "usual: they fill 0.8 of the pitch circle"
+            if not self.has("roller_length_mm"):
+                changes["roller_length"] = usual_roller_length(diameter)
+                how["roller_length_mm"] = "1.5 roller diameters; give dynamic_load_rating_kn"
+        if self.has("dynamic_load_rating_kn") and not self.has("roller_length_mm"):
+            changes["roller_length"] = roller_length_of_rating(
+                self.si("dynamic_load_rating_kn"),
+                rollers=changes.get("n_rollers", base.n_rollers),
+                diameter=changes.get("roller_diameter", base.roller_diameter),
+                contact_angle=changes.get("contact_angle", base.contact_angle),
+                pitch=between,
+            )
+            how["roller_length_mm"] = "load rating, ISO 281"
+        return how
 
     def bearing(self, preload: float | None = None) -> TaperedRollerBearing:
         """Return the bearing with its preload.

@@ -82,6 +82,8 @@ def read_axle(
         The file or its gear file is missing or wrong; the message names all wrong fields.
     TableError
         Its mesh table or its asperity table is missing or wrong.
+    FileError
+        A film model is missing or damaged.
     ConvergenceError
         The analysis of its gear file finds no equilibrium.
 
@@ -96,4 +98,5 @@ def read_axle(
     file = AxleFile.given(str(path))
     folder = Path(path).parent
     mesh = mesh_of(file, folder, jobs=jobs, progress=progress)
-    return file.car_axle(mesh, file.asperities(folder), file.described_oil(folder))
+    films = file.film.own_models(folder)
+    return file.car_axle(mesh, file.asperities(folder), file.described_oil(folder), films)

@@ -1,6 +1,6 @@
 """What only gear files, line meshes and oils decide of HelicalPair.fmu, as one array of constants.
 
-    places of the cases | oils | film model | case | case | ...
+    places of the cases | film model of shipped pairs | of the custom one | oils | case | case | ...
 
 A case is one gear.name with one mesh.stiffness_model, in the order of the literals:
 
@@ -17,8 +17,10 @@ from typing import NamedTuple
 import numpy as np
 
 from fmu_src.definition import Definition
-from fmu_src.helical_pair import chosen_pair, embedded_pair
+from fmu_src.helical_pair import EmbeddedPair, chosen_pair, embedded_pair, line_model_of
+from fmu_src.helical_variables import CUSTOM
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.given_pair import GivenOil, GivenPair
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
@@ -30,8 +32,7 @@ from gearlube_core.dynamics.helical_pair.march.model import torque_limits
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.errors import GearLubeError
-from gearlube_core.film_model.model import FilmModel
-from gearlube_core.friction.solved_line import LINE_FILM_MODEL
+from gearlube_core.film_model.model import LINE, shipped_model
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -85,7 +86,7 @@ def helical_cases(definition: Definition) -> HelicalCases:
         for model in literals["mesh.stiffness_model"]
     ]
     embedded = embedded_pair(definition.resources)
-    film_model = FilmModel.named(LINE_FILM_MODEL).copied_numbers()
+    models = [line_model_of(name, embedded).copied_numbers() for name in ("", CUSTOM)]
     blocks: list[Array] = []
     places = np.zeros(len(names))
     missing: dict[int, str] = {}
@@ -95,31 +96,35 @@ def helical_cases(definition: Definition) -> HelicalCases:
     for number, (name, model) in enumerate(names):
         try:
             gear, line_mesh = chosen_pair(name, model, embedded)
-            parameters = helical_march_parameters(gear, line_mesh=line_mesh)
+            # any oil and film model: the FMU's parameters choose among those before the cases
+            parameters = helical_march_parameters(
+                gear, line_mesh=line_mesh, oil=USUAL_OIL, line_film_model=shipped_model(LINE)
+            )
         except GearLubeError as error:
             missing[number] = str(error).removesuffix(".")
             continue
         if not oils.size:
-            oils = _oils(parameters, literals["oil.name"])
+            oils = _oils(parameters, literals["oil.name"], embedded)
             ranges = _words(parameters)
-        places[number] = (
-            places.size + oils.size + film_model.size + sum(block.size for block in blocks)
-        )
+        places[number] = sum(one.size for one in (places, *models, oils, *blocks))
         block, length = _case(parameters)
         blocks.append(block)
         longest = max(longest, length)
     return HelicalCases(
-        data=np.concatenate([places, oils, film_model, *blocks]),
+        data=np.concatenate([places, *models, oils, *blocks]),
         missing=missing,
         ranges=ranges,
         longest_data=longest,
     )
 
 
-def _oils(parameters: HelicalMarchParameters, names: tuple[str, ...]) -> Array:
+def _oils(
+    parameters: HelicalMarchParameters, names: tuple[str, ...], embedded: EmbeddedPair | None
+) -> Array:
     """Return GivenOil of every oil."""
-    oils = [replace(parameters, oil=Lubricant.named(name)).given_oil() for name in names]
-    return np.concatenate([flatten(oil) for oil in oils])
+    own = None if embedded is None else embedded.oil
+    oils = [own if name == CUSTOM and own else Lubricant.named(name) for name in names]
+    return np.concatenate([flatten(replace(parameters, oil=one).given_oil()) for one in oils])
 
 
 def _words(parameters: HelicalMarchParameters) -> tuple[Range, ...]:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from fmu_src.definition import Definition
-from fmu_src.helical_variables import HELICAL_PAIR
+from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
 from fmu_src.native.helical_cases import (
     GIVEN_FLOATS,
     HEAD_FLOATS,
@@ -115,9 +115,9 @@ LIMITING_SLOPE = _PLACE["film_limiting_slope"]
 
 # numbers of the options, by their literals
 _GEARS = len(_PARAMETERS["gear_name"].literals)
-_OILS_AT = _GEARS * STIFFNESS_MODELS
-_FILM_MODEL_AT = _OILS_AT + OIL_FLOATS * len(_PARAMETERS["oil"].literals)
-_CASES_END = _FILM_MODEL_AT + N_ARRAY
+_CUSTOM_GEAR = _PARAMETERS["gear_name"].literals.index(CUSTOM) + 1.0
+_FILM_MODELS_AT = _GEARS * STIFFNESS_MODELS  # of shipped pairs, then of the custom one
+_OILS_AT = _FILM_MODELS_AT + 2 * N_ARRAY
 _FRICTIONS = np.array([FRICTION_FORMS[literal] for literal in _PARAMETERS["friction"].literals])
 _HELD = np.array([HELD[literal] for literal in _PARAMETERS["form"].literals])
 _LINE_WORK = np.array([LINE_WORK[literal] for literal in _PARAMETERS["equations"].literals])
@@ -160,14 +160,18 @@ def case_number(parameters: Array) -> int:
 
 
 @kernel
-def take_parameters(parameters: Array, oils: Array, case: Array, work: Array) -> int:
+def take_parameters(
+    parameters: Array, oil: Array, film_model: Array, case: Array, work: Array
+) -> int:
     """Write what follows from the FMI parameters, but for the pair data's mesh; return a status.
 
     Parameters
     ----------
     parameters : ndarray of shape (N_PARAMETERS,)
-    oils : ndarray
-        GivenOil of all oils, and the numbers of the film model.
+    oil : ndarray
+        GivenOil of the chosen one.
+    film_model : ndarray
+        Numbers of the film model of the chosen pair.
     case : ndarray
         CaseHead and GivenPair of the chosen case.
     work : ndarray
@@ -197,12 +201,11 @@ def take_parameters(parameters: Array, oils: Array, case: Array, work: Array) ->
         ),
         choices,
     )
-    oil = oils[OIL_FLOATS * (int(parameters[OIL]) - 1) :]
     constants = work[DATA_AT:]
     write_constants(given, oil, choices, constants)
     solved = parameters[FILM] - 1.0 == SOLVED
     for i in range(N_ARRAY):
-        constants[FILM_AT + i] = oils[_FILM_MODEL_AT - _OILS_AT + i] if solved else 0.0
+        constants[FILM_AT + i] = film_model[i] if solved else 0.0
     forget(constants[KEPT_AT:])
     write_bearing_shares(given, constants, work[BEARINGS_AT:GIVEN_AT])
     head: CaseHead = tuple_from_array(case, CaseHead)
@@ -272,13 +275,16 @@ def entry(
     fixed = array_at(work, DATA_AT)
     if operation in (_START, _RESUME):
         number = case_number(given)
-        place = int(array_at(data, _OILS_AT)[number])
+        place = int(array_at(data, _FILM_MODELS_AT)[number])
         if place == 0:
             return MISSING_CASE + number
         fixed[CASE_AT] = place
+        own_model = N_ARRAY if given[GEAR] == _CUSTOM_GEAR else 0
+        oil_at = _OILS_AT + OIL_FLOATS * (int(given[OIL]) - 1)
         status = take_parameters(
             given,
-            array_at(data, _CASES_END)[_OILS_AT:],
+            array_at(pointer_at(data, oil_at), OIL_FLOATS),
+            array_at(pointer_at(data, _FILM_MODELS_AT + own_model), N_ARRAY),
             array_at(pointer_at(data, place), HEAD_FLOATS + GIVEN_FLOATS),
             array_at(work, DATA_AT + LEAST_OFFSET),
         )

@@ -41,7 +41,6 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     POWERS,
 )
 from gearlube_core.dynamics.hypoid_axle.parameters import (
-    FILM_MODEL,
     NO_MODAL_LOSS,
     PRINTED_WITH_SOLVED_FILM,
     HypoidAxleParameters,
@@ -56,7 +55,7 @@ from gearlube_core.dynamics.hypoid_axle.start import (
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.hypoid_axle.step_control import NO_MODES, NO_MODES_WORDS
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
-from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_data import CONSISTENT, ZHOU_HOEPRICH_SHARE
 from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model
@@ -367,8 +366,8 @@ def native_model(definition: Definition) -> NativeModel:
             packed_mesh.levels,
             *series,
             *windows,
-            flank_film_model(FilmModel.named(FILM_MODEL)),
-            roller_film_model("solved_films"),
+            flank_film_model(by_default.flank_film_model or shipped_model(FLANK)),
+            roller_film_model("solved_films", by_default.roller_film_model),
         ]
     )
     unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))

@@ -77,6 +77,12 @@ def build_fmu(
             )
         native = None
         if not python:
+            if not platform:
+                _LOGGER.info(
+                    "For all %d platforms this takes some minutes. --platform x86_64-linux or "
+                    "x86_64-windows builds for one of them.",
+                    len(PLATFORM_NAMES),
+                )
             native = NativeOptions(
                 fmi=fmi or FMI_VERSIONS,
                 platforms=platform or PLATFORM_NAMES,

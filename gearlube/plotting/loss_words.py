@@ -1,8 +1,10 @@
-"""What figures call the losses of an axle."""
+"""What figures call the losses of an axle, and the colour of each source."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
+
+from gearlube.plotting.style import GREY, PARTS
 
 SOURCE_WORDS = {
     "friction_viscous": "flank friction (fluid)",
@@ -14,6 +16,7 @@ SOURCE_WORDS = {
     "seals": "seals",
     "friction_rolling": "rolling of the flanks",
 }
+SOURCE_COLOURS = dict(zip(SOURCE_WORDS, PARTS, strict=True))  # the same in every figure
 _NEVER = ("windage",)
 _SAID = (
     "bearing_torque",
@@ -30,6 +33,15 @@ def source_words(source: str) -> str:
     'bearing drag'
     """
     return SOURCE_WORDS.get(source, source.replace("_", " "))
+
+
+def source_colour(source: str) -> str:
+    """Return the colour of a source of loss.
+
+    >>> source_colour("bearing_torque") == source_colour("churning")
+    False
+    """
+    return SOURCE_COLOURS.get(source, GREY)
 
 
 def not_modelled(losing: Collection[str]) -> tuple[str, ...]:

@@ -136,15 +136,16 @@ def stack_chart(
     y_axis: Axis,
     *,
     kept: Sequence[bool] | Array | None = None,
+    colours: Sequence[str] = COLOURS,
     bars: bool = False,
     height: int = 440,
 ) -> Any:
     """Return parts that add up, of shape (parts, len(x)): as areas, or as bars.
 
-    `kept` says which parts are drawn.
+    `kept` says which parts are drawn, `colours` the colour of each.
     """
     figure = empty_chart(x_axis, y_axis, height)
-    add_stack(figure, names, x, parts, x_axis, y_axis, kept=kept, bars=bars)
+    add_stack(figure, names, x, parts, x_axis, y_axis, kept=kept, colours=colours, bars=bars)
     return figure
 
 
@@ -157,13 +158,14 @@ def add_stack(
     y_axis: Axis,
     *,
     kept: Sequence[bool] | Array | None = None,
+    colours: Sequence[str] = COLOURS,
     bars: bool = False,
     **place: Any,
 ) -> None:
     """Add parts that add up to a chart, or to its panel row=, col=.
 
     A part has the same colour in every panel, and stands in the legend once; `kept` says which
-    parts are drawn.
+    parts are drawn, `colours` the colour of each.
     """
     already = {one.legendgroup for one in figure.data}
     where = list(x) if isinstance(x[0], str) else _small(x)
@@ -180,7 +182,7 @@ def add_stack(
             f"<extra>{name}</extra>",
             **place,
         }
-        colour = COLOURS[number % len(COLOURS)]
+        colour = colours[number % len(colours)]
         if bars:
             figure.add_bar(marker_color=colour, **shared)
         else:

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
 
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import NOTE, WARNING, Finding
+from gearlube_core.film_model.model import FilmModel
 
 _RUBBING = ("friction_viscous", "friction_boundary")  # losses that the model bounds
+_ATTRIBUTE = "film_model_"  # of a dataset, with the kind of contact
 _LITTLE_OUTSIDE = 0.05  # share of load outside the model's domain that needs no warning
 
 
+def film_model_attributes(models: Mapping[str, FilmModel]) -> dict[str, str]:
+    """Return what a dataset says of the film models that were taken, by kind of contact."""
+    return {f"{_ATTRIBUTE}{kind}": model.words for kind, model in models.items()}
+
+
 def solved_films(
-    bound: float, share_outside: float, outside_words: str, effect: str = ""
+    bound: float, share_outside: float, outside_words: str, effect: str = "", model: str = ""
 ) -> Finding:
     """Return the finding of a run with `film.model = solved`.
 
@@ -27,18 +36,60 @@ def solved_films(
         What `share_outside` is, "at most 3 % of the flanks' load, at 40 km/h".
     effect
         A sentence on what the bound does to another result.
+    model
+        The model in words, of `film_model_attributes`.
     """
+    headline = (
+        "Films and friction of the flanks are those of solved films (film.model = solved). "
+        f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss."
+    )
+    return _finding(headline, share_outside, outside_words, effect, model)
+
+
+def solved_rollers(
+    bound: float, share_outside: float, outside_words: str, effect: str = "", model: str = ""
+) -> Finding:
+    """Return the finding of a run whose bearings have the law solved_films.
+
+    Parameters
+    ----------
+    bound
+        The model's 95 % bound of the bearings' drag loss over that loss [-].
+    share_outside, outside_words, effect, model
+        As in `solved_films`, of the rollers.
+    """
+    headline = (
+        "Films and rolling friction of the rollers are those of solved films (bearing_torque_loss "
+        f"= solved_films). The model's 95 % bound is {100.0 * bound:.1f} % of the bearings' drag "
+        "loss."
+    )
+    return _finding(headline, share_outside, outside_words, effect, model)
+
+
+def _finding(
+    headline: str, share_outside: float, outside_words: str, effect: str, model: str
+) -> Finding:
     detail = [
         effect,
         f"Outside the model's domain formulas take over: {outside_words}.",
         "The bound leaves out how uncertain the oil's data are.",
+        f"Model: {model}." if model else "",
     ]
     return Finding(
         NOTE if share_outside <= _LITTLE_OUTSIDE else WARNING,
-        "Films and friction of the flanks are those of solved films (film.model = solved). "
-        f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss.",
+        headline,
         " ".join(one for one in detail if one),
     )
+
+
+def model_of(dataset: xr.Dataset, kind: str) -> str:
+    """Return the words on the film model of a kind of contact; empty where none was taken."""
+    return str(dataset.attrs.get(f"{_ATTRIBUTE}{kind}", ""))
+
+
+def bearing_drag(loss: xr.DataArray) -> xr.DataArray:
+    """Return the drag loss of the bearings, of losses by `source`."""
+    return loss.sel(source="bearing_torque")
 
 
 def flank_friction(loss: xr.DataArray) -> xr.DataArray:

@@ -11,18 +11,27 @@ from pathlib import Path
 from typing import Any
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
+from drivetrain.axle_file.axle_sections import OwnFilmModels
 from drivetrain.axle_file.read_axle import mesh_of
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.variables import HYPOID_AXLE
 from gearlube.variation.design import Point
 from gearlube.variation.keys import Key, Keys, file_keys
+from gearlube_core.film_model.model import FilmModel
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.rough_patch.table import GreenwoodTrippFit
 
 GEAR_FILE = "gear_set.gear_file"
-_NAMES_OF_FILES = ("gear_set.mesh_table", GEAR_FILE, "gear_set.asperity_table", "oil.file")
+_NAMES_OF_FILES = (
+    "gear_set.mesh_table",
+    GEAR_FILE,
+    "gear_set.asperity_table",
+    "oil.file",
+    "film.flank_model",
+    "film.roller_model",
+)
 _START_SPEED = "pinion.speed_start"  # the operating point has it
 
 
@@ -58,7 +67,7 @@ class AxleVariants:
     file : AxleFile
     folder : Path
         Of the file.
-    meshes, asperities, oils : mapping
+    meshes, asperities, oils, films : mapping
         What was read, by the text that names it in the file.
     """
 
@@ -67,6 +76,7 @@ class AxleVariants:
     meshes: Mapping[str, MeshTable] = field(default_factory=dict)
     asperities: Mapping[str, GreenwoodTrippFit] = field(default_factory=dict)
     oils: Mapping[str, DescribedOil] = field(default_factory=dict)
+    films: Mapping[str, FilmModel] = field(default_factory=dict)
 
     @classmethod
     def read(cls, name: str) -> AxleVariants:
@@ -89,6 +99,7 @@ class AxleVariants:
         """
         folder = self.folder
         meshes, asperities, oils = dict(self.meshes), dict(self.asperities), dict(self.oils)
+        films = dict(self.films)
         for one in [self.file, *(self.file.varied({key: text}) for key, text in changes)]:
             table, roughness, oil = (
                 one.gear_set.named,
@@ -101,13 +112,18 @@ class AxleVariants:
                 asperities[roughness] = fit
             if oil is not None and (described := one.described_oil(folder)) is not None:
                 oils[oil] = described
-        return replace(self, meshes=meshes, asperities=asperities, oils=oils)
+            of_film = one.film.own_models(folder)
+            for text, model in zip(_film_texts(one), of_film, strict=True):
+                if text is not None and model is not None:
+                    films[text] = model
+        return replace(self, meshes=meshes, asperities=asperities, oils=oils, films=films)
 
     @property
     def identity(self) -> str:
         """Content of the file and of all that it names, as text."""
         named = {**self.meshes, **self.asperities, **self.oils}
         hashes = {text: content_hash(self.folder / text) for text in named}
+        hashes |= {text: model.checksum for text, model in self.films.items()}
         return json.dumps([self.file.model_dump(mode="json"), hashes], sort_keys=True)
 
     def varied(self, point: Point) -> AxleFile:
@@ -128,6 +144,7 @@ class AxleVariants:
             self.meshes.get(file.gear_set.named) or mesh_of(file, folder),
             self.asperities.get(asperities or "") or file.asperities(folder),
             self.oils.get(oil or "") or file.described_oil(folder),
+            self._films(file),
             notes=notes,
         )
         arguments = _fmu_arguments()
@@ -137,6 +154,16 @@ class AxleVariants:
             if _origin(axle_keys(), name) == "fmu"
         }
         return replace(car, axle=axle_parameters(given, car.axle)) if given else car
+
+    def _films(self, file: AxleFile) -> OwnFilmModels:
+        texts = _film_texts(file)
+        if all(text is None or text in self.films for text in texts):
+            return OwnFilmModels(*(None if text is None else self.films[text] for text in texts))
+        return file.film.own_models(self.folder)
+
+
+def _film_texts(file: AxleFile) -> tuple[str | None, str | None]:
+    return file.film.flank_model, file.film.roller_model
 
 
 def _origin(keys: Keys, name: str) -> str:

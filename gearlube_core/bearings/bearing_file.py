@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -14,6 +15,8 @@ from gearlube_core.bearings.losses.geometry import (
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.chosen_model import chosen_model, file_of_model
+from gearlube_core.film_model.model import ROLLER, FilmModel
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
@@ -148,6 +151,12 @@ class BearingFile(InputFile):
     oil: Text = Field(
         default="fva_3", description="Name of a shipped oil; the command can take another one"
     )
+    film_model: Text | None = Field(
+        default=None,
+        description="Film model of rollers for the law solved_films: file (.json) of `gearlube "
+        "film-model fit`, its path relative to the bearing file, or the name of a shipped one; "
+        "left out: roller_race",
+    )
     bearing: LossBearingSection
     rib: RibSection = Field(default_factory=RibSection)
     operation: OperationSection = Field(default_factory=OperationSection)
@@ -168,6 +177,22 @@ class BearingFile(InputFile):
         except ParameterError as reason:
             raise ValueError(str(reason).removesuffix(".")) from None
         return self
+
+    def placed(self, folder: Path) -> BearingFile:
+        """Return the file with the path of its film model as it holds from here on."""
+        path = None if self.film_model is None else file_of_model(self.film_model, folder)
+        return self if path is None else self.model_copy(update={"film_model": str(path)})
+
+    def own_film_model(self) -> FilmModel | None:
+        """Return the film model that the file names; None: the one in the package.
+
+        Raises
+        ------
+        FileError, ParameterError
+            It is missing, damaged or of another kind.
+        """
+        named = self.film_model
+        return None if named is None else chosen_model(named, ROLLER, "film_model")
 
     def geometry(self) -> BearingGeometry:
         """Return the bearing in SI units."""

@@ -6,6 +6,7 @@ import hashlib
 import json
 import re
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from gearlube_core.storage.atomic_file import write_text
 FORMAT = "gearlube film model"
 VERSION = 1
 FLANK, LINE, ROLLER = "flank", "line", "roller"  # kinds of contact
+SHIPPED = {FLANK: "hypoid_flank", LINE: "helical_line", ROLLER: "roller_race"}  # of each kind
 _SHIPPED = Path(__file__).parent / "data"
 _CURE = "Make one with `gearlube film-model fit`, or name a model of the package."
 
@@ -42,7 +44,7 @@ _BLOCKS: dict[str, tuple[int, ...]] = {
 }
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class FilmModel:
     """A surrogate of solved thermal Eyring films with its domain, bounds and provenance.
 
@@ -106,6 +108,33 @@ class FilmModel:
         return str(self.provenance.get("kind", FLANK))
 
     @property
+    def name(self) -> str:
+        """Return the name that the model was fitted under."""
+        return str(self.provenance.get("name") or "without a name")
+
+    @property
+    def oils(self) -> tuple[str, ...]:
+        """Return the oils that the model was trained for; files as they were named."""
+        return tuple(
+            str(oil)
+            for key, oils in self.provenance.items()
+            if key.startswith("oils_of_")
+            for oil in oils
+        )
+
+    @property
+    def words(self) -> str:
+        """Return name, checksum and bounds for reports."""
+        friction = "rolling friction" if self.kind == ROLLER else "friction"
+        return (
+            f"{self.name} (checksum {self.checksum}), bounds {100.0 * self.film_bound:.2g} % of "
+            f"the central film and {100.0 * self.friction_bound:.2g} % of {friction}"
+        )
+
+    def __repr__(self) -> str:
+        return f"FilmModel({self.name}, {self.kind}, {self.checksum})"
+
+    @property
     def domain(self) -> dict[str, tuple[float, float]]:
         """Return the lowest and highest value of each group [-]."""
         low, high = self.numbers[net.LOW : net.HIGH], self.numbers[net.HIGH : net.SHIFT]
@@ -153,8 +182,7 @@ class FilmModel:
                     f"{name} of a film model must be of shape {shape}, got {block.shape}. {_CURE}"
                 )
             parts.append(block.ravel())
-        scratch = np.zeros(net.N_ARRAY - net.N_NUMBERS)
-        return cls(np.concatenate([*parts, scratch]), provenance)
+        return cls(np.concatenate([*parts, net.new_scratch()]), provenance)
 
     @classmethod
     def read(cls, path: Path | str) -> FilmModel:
@@ -165,31 +193,33 @@ class FilmModel:
         FileError
             The file is missing, is no film model, is of another version or is damaged.
         """
-        path = Path(path)
+        return cls.of_content(read_model_content(path), str(path))
+
+    @classmethod
+    def of_content(cls, data: bytes, where: str) -> FilmModel:
+        """Return the model in the bytes of a file; `where` names it in errors, as of `read`."""
         try:
-            content = json.loads(path.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise FileError(f"Film model {path} cannot be read: {why(error)}. {_CURE}") from error
+            content = json.loads(data.decode("utf-8"))
         except ValueError as error:
             raise FileError(
-                f"{path} must be a film model in JSON, got a file that is not JSON ({error}). "
-                f"{_CURE}"
+                f"{where} must be a film model in JSON, got a file that is not JSON or is cut off "
+                f"({error}). {_CURE}"
             ) from error
         if not isinstance(content, dict) or content.get("format") != FORMAT:
-            raise FileError(f"{path} must have the format '{FORMAT}', got another file. {_CURE}")
+            raise FileError(f"{where} must have the format '{FORMAT}', got another file. {_CURE}")
         if content.get("version") != VERSION:
             raise FileError(
-                f"{path} must be of version {VERSION}, got {content.get('version')}. {_CURE}"
+                f"{where} must be of version {VERSION}, got {content.get('version')}. {_CURE}"
             )
         try:
             blocks = {name: np.array(values) for name, values in content["numbers"].items()}
             provenance, checksum = dict(content["provenance"]), content["checksum"]
             model = cls.of_blocks(blocks, provenance)
         except (KeyError, TypeError, AttributeError, ValueError) as error:
-            raise FileError(f"Film model {path} is damaged: {error}. {_CURE}") from error
+            raise FileError(f"Film model {where} is damaged: {error}. {_CURE}") from error
         if checksum != model.checksum:
             raise FileError(
-                f"Film model {path} is damaged: its numbers do not belong to its checksum "
+                f"Film model {where} is damaged: its numbers do not belong to its checksum "
                 f"{checksum}. Do not edit it. {_CURE}"
             )
         return model
@@ -230,6 +260,26 @@ class FilmModel:
         # rows of numbers on one line each
         rows = re.sub(r"\[[-+\s\d.,e]*\]", lambda row: re.sub(r"\s+", " ", row.group()), text)
         write_text(rows + "\n", Path(path))
+
+
+def read_model_content(path: Path | str) -> bytes:
+    """Return the bytes of a model's file, with the ends of lines of all platforms alike.
+
+    Raises
+    ------
+    FileError
+        There is no file that can be read.
+    """
+    try:
+        return Path(path).read_bytes().replace(b"\r\n", b"\n")
+    except OSError as error:
+        raise FileError(f"Film model {path} cannot be read: {why(error)}. {_CURE}") from error
+
+
+@cache
+def shipped_model(kind: str) -> FilmModel:
+    """Return the model in the package for a kind of contact."""
+    return FilmModel.named(SHIPPED[kind])
 
 
 def model_names() -> tuple[str, ...]:

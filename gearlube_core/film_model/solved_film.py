@@ -28,7 +28,7 @@ from gearlube_core.film_model.net import (
 from gearlube_core.film_model.reference_friction import reference_friction
 from gearlube_core.kernels.jit import kernel
 
-_MODULUS_MARGIN = 0.02  # of E*, to the full share outside
+MODULUS_MARGIN = 0.02  # of E*, to the full share outside
 # share of the limiting stress that the mean stress may reach: where it begins to matter and where
 # the model, which has none, says nothing
 _LIMIT_BEGINS, _LIMIT_ENDS = 0.5, 0.8
@@ -63,7 +63,7 @@ def with_bounds(
     inlet
         From `film_inlet`.
     """
-    other = abs(inlet.contact_modulus / numbers[MODULUS] - 1.0) / _MODULUS_MARGIN
+    other = abs(inlet.contact_modulus / numbers[MODULUS] - 1.0) / MODULUS_MARGIN
     inside = (1.0 - outside) * (1.0 - smooth_step(other))
     limit = inlet.limiting_stress + inlet.limiting_slope * p
     if limit > 0.0:

@@ -30,6 +30,7 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 EVALUATIONS, POSITIONS = "evaluations", "positions"  # folders of what is kept
+_FRONT_STEPS = 3  # of one point of the front, each as long as the region of a round
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -183,17 +184,17 @@ def optimise(
         part = _part(progress, begin, begin + 0.1)
         return _search(problem, stiffness, settings.search, evaluations, part, start, limits)
 
-    found = searched(problem.start, 0.1)
+    found = last_found = searched(problem.start, 0.1)
     best = last = better(found, 0.2)
     for attempt in range(1, settings.checks):
         tighter = _tightened(problem, before, last, limits)
         if tighter is None:
             break
         limits = tighter
-        found = searched(found.values, 0.1 + 0.1 * attempt)
-        last = better(found, 0.2 + 0.1 * attempt)
+        last_found = searched(last_found.values, 0.1 + 0.1 * attempt)
+        last = better(last_found, 0.2 + 0.1 * attempt)
         if _rank(problem, before, last) < _rank(problem, before, best):
-            best = last
+            best, found = last, last_found
     nominal = None
     if settings.nominal and len(problem.scenarios) > 1:
         alone = replace(problem, scenarios=problem.scenarios[:1])
@@ -229,12 +230,15 @@ def _tightened(
     return limits.model_copy(update=changed) if changed else None
 
 
-def _rank(problem: Problem, before: Evaluation, one: Better) -> float:
-    """Return the mean square of the mesh orders with a price for broken limits, plain analysis."""
+def _rank(problem: Problem, before: Evaluation, one: Better) -> tuple[bool, float]:
+    """Return by what pairs are chosen, least is best, by the plain analysis.
+
+    Whether a limit is broken, then the mean square of the mesh orders with a price for that.
+    """
     given = problem.given
     goal = _goal(problem, before, given.limits)
-    over = np.maximum(goal.used(one.checked)[0] - KEPT, 0.0)
-    return goal.highest(one.checked) + 5.0 * float(over.max(initial=0.0))
+    over = float(np.maximum(goal.used(one.checked)[0] - KEPT, 0.0).max(initial=0.0))
+    return over > 0.0, goal.highest(one.checked) + 5.0 * over
 
 
 def _stiffness(
@@ -286,8 +290,9 @@ def _front(
 ) -> tuple[FrontPoint, ...]:
     """Return the least loss under limits of whine between that before and the least.
 
-    Of all that the searches met on cells held at the best pair: losses differ by per cents, and a
-    pair of less loss needs no cells of its own to be one of the front.
+    Of all that the searches met on cells held at the best pair: losses often differ by per cents,
+    and a pair of less loss needs no cells of its own to be one of the front. Where the way to it
+    ends at the region of a round, cells are cut anew there and the search goes on.
     """
     if settings.front < 2:
         return ()
@@ -297,15 +302,23 @@ def _front(
     most = np.geomspace(max(least, 1e-4), 1.0, settings.front)
     low, high = problem.low, problem.high
     reach = settings.search.region * (high - low)
-    box = np.maximum(low, best.values - reach), np.minimum(high, best.values + reach)
-    model = _Recorded(HeldModel(problem, stiffness, best.values, folder), [])
+    at, seen = best.values, list[tuple[Array, Evaluation]]()
+    model = _Recorded(HeldModel(problem, stiffness, at, folder), seen)
     for k, square in enumerate(most[1:].tolist()):
         progress(k / most.size, f"front of whine against loss, {k + 1} of {most.size - 1}")
         asked = replace(goal, loss=True, most_square=square)
-        best_in_box(model, asked, best.values, box, low, high, settings.search, 0.0)
+        for _ in range(_FRONT_STEPS):
+            box = np.maximum(low, at - reach), np.minimum(high, at + reach)
+            tried = best_in_box(model, asked, at, box, low, high, settings.search)
+            at_low = (box[0] > low) & (tried - box[0] < 1e-3 * reach)
+            at_high = (box[1] < high) & (box[1] - tried < 1e-3 * reach)
+            if not np.any(at_low | at_high):
+                break
+            at = tried
+            model = _Recorded(HeldModel(problem, stiffness, at, folder), seen)
     kept = [
         _point(goal, at, found)
-        for at, found in model.seen
+        for at, found in seen
         if float(goal.used(found)[0].max(initial=0.0)) <= KEPT
     ]
     points = [_point(goal, best.values, best.evaluation)]

@@ -19,7 +19,6 @@ from gearlube_core.flank_optimisation.held_model import HeldModel
 KEPT = 1.005  # a limit counts as kept up to here: what cells and positions change
 _BREACH = 20.0  # price of a limit that is broken by its own size, in parts of the aim before
 _LEAST_GAIN = 0.02  # of the aim: a round that gains less is the last
-_MOST_MARGIN = 0.05
 _TOO_FAR = 0.25  # factor on the region where flanks do not meet or are twice as bad
 _SMALLEST = 0.01  # region of a round, in parts of the bounds
 
@@ -93,9 +92,10 @@ def search(
     Notes
     -----
     A round holds the cells, moves within a region, and is kept when the pair with cells cut anew
-    is better: aim plus a price for broken limits. The region doubles when it is, and halves or
-    quarters when it is not; limits that a round broke are tightened in the next. Within a round the
-    contact is solved anew at every step; what is linear there are machine settings alone.
+    is better: aim plus a price for broken limits. What cutting anew adds to each limit is added in
+    the next rounds too, until one is kept. A round that is not kept and adds nothing to a limit
+    halves or quarters the region; a kept one that gains much doubles it. Within a round the contact
+    is solved anew at every step; what is linear there are machine settings alone.
 
     References
     ----------
@@ -103,20 +103,22 @@ def search(
     """
     settings = settings or SearchSettings()
     low, high = bounds
-    values, region, margin = np.array(start, float), settings.region, 0.0
+    values, region = np.array(start, float), settings.region
     here = model(values)
     found = here.evaluate(values)
     merit = _merit(goal, found)
+    added = np.zeros_like(goal.used(found)[0])
     rounds = [_round(goal, values, found, True)]
     for number in range(1, settings.rounds + 1):
         observe(number, f"aim {rounds[-1].aim:.3f}")
         reach = region * (high - low)
         box = np.maximum(low, values - reach), np.minimum(high, values + reach)
-        tried = best_in_box(here, goal, values, box, low, high, settings, margin)
+        tried = best_in_box(here, goal, values, box, low, high, settings, added)
         if np.all(np.abs(tried - values) < 1e-6 * (high - low)):
-            if margin == 0.0:
+            if not added.any() and _round(goal, values, found, True).limits <= KEPT:
                 break
-            margin = 0.0
+            added = np.zeros_like(added)
+            region *= 0.5
             continue
         try:
             there = model(tried)
@@ -128,23 +130,26 @@ def search(
         better = reached < merit
         rounds.append(_round(goal, tried, moved, better))
         gain = (merit - reached) / merit
-        over = max(rounds[-1].limits - 1.0, 0.0)
-        if not better and over < _MOST_MARGIN:  # held cells are off by so much of a limit
-            margin = min(margin + over, _MOST_MARGIN)
         if better:
             here, values, found, merit = there, tried, moved, reached
-        if gain > 0.1:
-            region = min(1.0, 2.0 * region)
+            added = np.zeros_like(added)
+            if gain > 0.1:
+                region = min(1.0, 2.0 * region)
+            else:
+                region *= 0.5
         else:
-            region *= 0.5 if gain > -1.0 else _TOO_FAR
+            off = goal.used(moved)[0] - goal.used(here.evaluate(tried))[0]
+            more = np.where(goal.used(moved)[0] > KEPT, np.maximum(off, added), added)
+            if np.all(more - added < KEPT - 1.0):
+                region *= 0.5 if gain > -1.0 else _TOO_FAR
+            added = more
         if region < _SMALLEST or (better and gain < _LEAST_GAIN and rounds[-1].limits <= KEPT):
             break
     return Found(values, found, tuple(rounds))
 
 
-def _merit(goal: Goal, found: Evaluation, margin: float = 0.0) -> float:
-    used = goal.used(found)[0]
-    over = np.maximum(used + margin - KEPT, 0.0)
+def _merit(goal: Goal, found: Evaluation, added: Array | float = 0.0) -> float:
+    over = np.maximum(goal.used(found)[0] + added - KEPT, 0.0)
     return goal.highest(found) + _BREACH * float(over.max(initial=0.0))
 
 
@@ -168,23 +173,25 @@ def best_in_box(
     low: Array,
     high: Array,
     settings: SearchSettings,
-    margin: float,
+    added: Array | float = 0.0,
 ) -> Array:
     """Return the best values in a box on held cells; unknowns are parts of the bounds low and high.
 
-    Limits are tightened by `margin`, in parts of themselves.
+    `added` (C,) is added to what is used of each limit. Unknowns beyond the values are the highest
+    of all torques and errors, where that is the aim, and the largest breach of a limit. It has its
+    price, so that there is a way from values that break limits.
     """
-    span = high - low
+    span, count = high - low, low.size
     seen: dict[bytes, Evaluation] = {}
-    best = (_merit(goal, model.evaluate(values), margin), values)
+    best = (_merit(goal, model.evaluate(values), added), values)
 
     def at(x: Array) -> Evaluation:
         nonlocal best
-        place = np.clip(low + span * x[: low.size], *box)
+        place = np.clip(low + span * x[:count], *box)
         key = place.tobytes()
         if key not in seen:
             seen[key] = model.evaluate(place)
-            merit = _merit(goal, seen[key], margin)
+            merit = _merit(goal, seen[key], added)
             if merit < best[0]:
                 best = (merit, place)
         return seen[key]
@@ -192,34 +199,44 @@ def best_in_box(
     worst = goal.worst and not goal.loss
     x = (values - low) / span
     limits = list(zip((box[0] - low) / span, (box[1] - low) / span, strict=True))
+    start = at(x)
+    if worst:
+        x = np.append(x, goal.highest(start))
+        limits.append((0.0, 10.0 * max(1.0, float(x[-1]))))
+    over = goal.used(start)[0] + added - 1.0
+    limited = over.size > 0
+    if limited:
+        x = np.append(x, max(float(over.max()), 0.0))
+        limits.append((0.0, 2.0 * float(x[-1]) + 1.0))
 
     def slack(x: Array) -> Array:
-        parts = [1.0 - margin - goal.used(at(x))[0]]
+        parts = []
+        if limited:
+            parts.append(1.0 + x[-1] - added - goal.used(at(x))[0])
         if worst:
-            parts.append(x[-1] - goal.squares(at(x))[0].ravel())
+            parts.append(x[count] - goal.squares(at(x))[0].ravel())
         return np.concatenate(parts)
 
     def slack_rate(x: Array) -> Array:
-        parts = [-goal.used(at(x))[1] * span]
+        parts = []
+        if limited:
+            parts.append(_moved(-goal.used(at(x))[1] * span, x.size, -1))
         if worst:
-            rate = goal.squares(at(x))[1]
-            parts = [np.hstack([parts[0], np.zeros((parts[0].shape[0], 1))])]
-            moved = -rate.reshape(-1, span.size) * span
-            parts.append(np.hstack([moved, np.ones((moved.shape[0], 1))]))
+            rate = goal.squares(at(x))[1].reshape(-1, count)
+            parts.append(_moved(-rate * span, x.size, count))
         return np.concatenate(parts)
 
     def aim(x: Array) -> tuple[float, Array]:
+        rates = np.zeros(x.size)
         if worst:
-            rate = np.zeros(x.size)
-            rate[-1] = 1.0
-            return float(x[-1]), rate
-        value, rate = goal.aim(at(x))
-        return value, rate * span
+            value, rates[count] = float(x[count]), 1.0
+        else:
+            value, rate = goal.aim(at(x))
+            rates[:count] = rate * span
+        if limited:
+            value, rates[-1] = value + _BREACH * float(x[-1]), _BREACH
+        return value, rates
 
-    if worst:
-        x = np.append(x, goal.highest(at(x)))
-        limits.append((0.0, 10.0 * max(1.0, float(x[-1]))))
-    limited = slack(x).size > 0
     with suppress(ConvergenceError):  # without equilibrium: what was found till then counts
         minimize(
             aim,
@@ -227,7 +244,17 @@ def best_in_box(
             jac=True,
             method="SLSQP",
             bounds=limits,
-            constraints=[{"type": "ineq", "fun": slack, "jac": slack_rate}] if limited else (),
+            constraints=[{"type": "ineq", "fun": slack, "jac": slack_rate}]
+            if limited or worst
+            else (),
             options={"maxiter": settings.steps, "ftol": settings.tolerance},
         )
     return best[1]
+
+
+def _moved(rates: Array, size: int, place: int) -> Array:
+    """Return rates (C, P) by all unknowns (C, size): 1 by that at a place beyond the values."""
+    found = np.zeros((rates.shape[0], size))
+    found[:, : rates.shape[1]] = rates
+    found[:, place] = 1.0
+    return found

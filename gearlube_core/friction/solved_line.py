@@ -30,8 +30,6 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 from gearlube_core.oil.lubricant_state import LubricantState
 
-LINE_FILM_MODEL = "helical_line"  # of the package, for flanks of steel
-
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
 # with at least 0.1 GPa, see docs/film_model/outside_line.py. Of the film, over that of the formula;
 # and the most friction of the film, over that of an isothermal Eyring film of the formula's film.

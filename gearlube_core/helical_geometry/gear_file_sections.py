@@ -36,6 +36,7 @@ Torque = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Speed = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
 Viscosity = Annotated[float, Field(ge=1e-4, le=10.0, allow_inf_nan=False)]
 PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
+Text = Annotated[str, Field(min_length=1)]
 Modulus = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
 Stress = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
 
@@ -289,6 +290,26 @@ class Film(Section):
         description="formula: Dowson and Toyoda 1979 with Evans and Johnson 1986; solved: a model "
         "of solved thermal Eyring films, and the formulas outside its domain",
     )
+    oil_file: Text | None = Field(
+        default=None,
+        description="Oil file (.toml) of friction, losses and HelicalPair.fmu, its path relative "
+        "to the gear file; left out: mohammadpour_2015, or the oil that the command names",
+    )
+    line_model: Text | None = Field(
+        default=None,
+        description="Film model of lines for model = solved: file (.json) of `gearlube film-model "
+        "fit`, its path relative to the gear file, or the name of a shipped one; left out: "
+        "helical_line",
+    )
+
+    @model_validator(mode="after")
+    def _check_line_model(self) -> Film:
+        if self.line_model is not None and self.model != "solved":
+            raise ValueError(
+                f"line_model is only for model = solved, got {self.line_model!r} with model "
+                f'{self.model}; write model = "solved", or leave line_model out'
+            )
+        return self
 
 
 class Oil(Section):

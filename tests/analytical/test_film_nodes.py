@@ -116,3 +116,76 @@ def test_what_is_kept_follows_force_and_speed(axle, now):
     # that 0.025 (0.025 + 0.02)/2 = 6e-4 is left, times a curvature of about one
     assert abs(kept / exact - 1.0).max() < 1e-3
     assert abs(then / exact - 1.0).max() > 1e-2
+
+
+def power_law(force, speed):
+    # slopes over relative changes are the exponents times the value
+    return film_nodes.NodeFlank(
+        -15.0 - 0.07 * np.log(force) + 0.7 * np.log(speed),
+        -3.0 + 0.3 * np.log(force) - 0.2 * np.log(speed),
+        1e-3 * force**0.3 * speed**-0.2,
+        1e-4 * force**-0.5 * speed**-1.5,
+        0.0,
+        0.01,
+    )
+
+
+def kept_after(*states):
+    """Films of node 3 under forces and speeds that follow one another."""
+    films = np.zeros(film_nodes.N_FILMS)
+    more = 1.0 + film_nodes.NUDGE
+    for k, (F, w) in enumerate(states):
+        if k == 0:
+            nudged = power_law(more * F, w), power_law(F, more * w)
+            film_nodes.keep_flank(films, 3, F, w, OIL, power_law(F, w), *nudged)
+        else:
+            assert film_nodes.tells_slopes(films, 3, F, w, OIL)
+            film_nodes.follow_flank(films, 3, F, w, power_law(F, w))
+    return films
+
+
+@pytest.mark.parametrize("then", [(2000.0, 150.0), (2500.0, 130.0), (1800.0, 160.0)])
+def test_renewed_slopes_give_back_the_values_before(then):
+    films = kept_after(then, (FORCE, SPEED))
+    before = film_nodes.flank_between(films, 3, 3, 0.0, *then)
+    assert before[:4] == pytest.approx(power_law(*then)[:4], rel=1e-13)
+
+
+def test_renewed_slopes_stay_across_the_change():
+    films = kept_after((FORCE, SPEED), (1.1 * FORCE, SPEED))
+    # only the force has changed: the slope over speed is the first one, a secant over NUDGE of
+    # the values at the first force
+    faster = film_nodes.flank_between(films, 3, 3, 0.0, 1.1 * FORCE, 1.02 * SPEED)
+    now = power_law(1.1 * FORCE, SPEED)
+    first, nudged = power_law(FORCE, SPEED), power_law(FORCE, 1.02 * SPEED)
+    for k in range(4):
+        assert faster[k] - now[k] == pytest.approx(nudged[k] - first[k], rel=1e-9)
+
+
+def test_values_follow_a_force_that_goes_on_changing(axle):
+    phases = np.arange(0.0, 1.0, 0.05)
+    for force in (FORCE, 1.06 * FORCE):
+        for phase in phases:
+            axle.losses(phase, tooth_pair.BETWEEN_NODES, force=force)
+    kept, exact = (
+        np.array([one.losses(x, tooth_pair.BETWEEN_NODES, force=1.085 * FORCE)[:2] for x in phases])
+        for one in (axle, Flanks())
+    )
+    # slopes over the last 6 %: 0.023 (0.023 + 0.06)/2 = 1e-3 is left, times a curvature of one
+    assert abs(kept / exact - 1.0).max() < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("now", "tells"),
+    [
+        ({"force": 2.4}, True),
+        ({"force": 2.6}, False),
+        ({"force": -1.0}, False),
+        ({"speed": 0.5}, False),
+        ({"oil": 0.2}, False),
+    ],
+)
+def test_slopes_are_taken_from_nothing_after_large_changes(now, tells):
+    films = kept_after((FORCE, SPEED))
+    force, speed = (given * now.get(n, 1.0) for n, given in (("force", FORCE), ("speed", SPEED)))
+    assert film_nodes.tells_slopes(films, 3, force, speed, OIL + now.get("oil", 0.0)) == tells

@@ -45,6 +45,7 @@ from tests.helpers.object_code import (
     symbols,
     undefined_in_object,
 )
+from tests.helpers.own_film_models import altered
 
 KINDS = (TaperedRollerParameters, MixedFlankFriction)
 N = count_floats(AxleParameters, *KINDS)
@@ -249,6 +250,35 @@ def test_an_axle_file_changes_constants_alone_and_is_the_axle_of_python_over_20_
         assert run.step(1e-3) == OK
         axle.step(1e-3, *CURRENT)
     assert_outputs_agree(run, axle, 1e-9)
+
+
+def test_film_models_of_ones_own_are_constants_and_change_the_films_as_in_python(native, tmp_path):
+    altered("hypoid_flank", film=1.1, friction=0.9).write(tmp_path / "flank.json")
+    altered("roller_race", film=1.3, friction=1.2).write(tmp_path / "roller.json")
+    path = tmp_path / "axle.toml"
+    path.write_text(
+        '[gear_set]\nmesh_table = "mohammadpour_2015"\n'
+        '[film]\nmodel = "solved"\nflank_model = "flank.json"\nroller_model = "roller.json"\n'
+        '[model]\nbearing_torque_loss = "solved_films"\n'
+    )
+    loaded = copy.copy(native)
+    loaded.model = native_model(definition_with_axle(path))
+    axle = start_axle({"pinion_speed": 150.0}, CURRENT, read_axle(path).axle)
+    shipped = start_axle(
+        {"pinion_speed": 150.0, "film": "solved", "bearing_torque_loss": "solved_films"}, CURRENT
+    )
+    run = loaded.instance({"pinion_speed": 150.0}, CURRENT)
+    assert run(Operation.START) == OK
+    # at the start, before friction has moved anything
+    for name, factor in (
+        ("flank[2].film_thickness", 1.1),
+        ("bearing[1].film_thickness", 1.3),
+    ):
+        assert axle.output(name) == pytest.approx(factor * shipped.output(name), rel=1e-9)
+    for _ in range(5):
+        assert run.step(1e-3) == OK
+        axle.step(1e-3, *CURRENT)
+    assert_outputs_agree(run, axle, 1e-9)  # as above
 
 
 def test_outputs_of_the_motion_are_those_among_all_outputs(native):

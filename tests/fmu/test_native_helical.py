@@ -31,7 +31,7 @@ from gearlube_core.dynamics.helical_pair.march.integrate import (
     TOO_FAST,
     TOO_MANY_STEPS,
 )
-from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
+from gearlube_core.dynamics.helical_pair.march.mesh_data import FILM_AT, pair_data
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.state import (
     LOAD_TORQUE,
@@ -45,6 +45,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
 )
 from gearlube_core.dynamics.ranges import range_limits
 from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.film_model.net import N_NUMBERS
 from tests.helpers.object_code import (
     FREESTANDING,
     LIBM,
@@ -52,6 +53,7 @@ from tests.helpers.object_code import (
     NativeRun,
     undefined_in_object,
 )
+from tests.helpers.own_film_models import altered
 
 PARAMETERS = tuple(v for v in HELICAL_PAIR if v.is_model_parameter)
 OUTPUTS = {v.name: v for v in HELICAL_PAIR if v.is_computed}
@@ -64,6 +66,9 @@ NOT_GIVEN_IF_0 = {
 }
 INPUTS = [v.start or 0.0 for v in HELICAL_PAIR if v.causality == "input"]
 STEP = 1e-4  # s
+OWN_OIL = """name = "own"\nbase_oil = "mineral"\ndensity_kg_m3 = 880.0
+viscosity_40_degc_mm2_s = 120.0\nviscosity_100_degc_mm2_s = 12.0\n"""
+OWN_FILM = '[film]\nmodel = "solved"\nline_model = "line.json"\noil_file = "oil.toml"\n'
 # The same kernels, but for a processor without fused products: roundings, of the value or of the
 # nominal value of its output, where the value is the small difference of large ones
 CLOSE = 1e-11
@@ -297,6 +302,33 @@ def test_every_status_has_words(shipped: LoadedModel, tmp_path: Path) -> None:
     assert set(shipped.model.refusals) == told | {MISSING_CASE + i for i in (3, 5, 6, 7)}
     carried = own_gear(tmp_path, str)
     assert set(carried.refusals) == told | {MISSING_CASE + i for i in (3, 5, 7)}
+
+
+def test_film_model_and_oil_of_a_gear_file_are_those_of_python(
+    shipped: LoadedModel, tmp_path: Path
+) -> None:
+    altered("helical_line", film=1.2, friction=0.9).write(tmp_path / "line.json")
+    (tmp_path / "oil.toml").write_text(OWN_OIL)
+    own = own_gear(tmp_path, lambda text: text + OWN_FILM)
+    parameters = [v for v in own.definition.variables if v.is_model_parameter]
+    values = [float(v.start or 0.0) for v in parameters]
+    for gear, name in ((values[0], "altered"), (1.0, "helical_line")):  # custom, he_2007
+        values[0] = gear
+        native = instance(shipped, values, INPUTS, own)
+        assert native(Operation.START) == OK
+        given = {v.name: v.decoded(x) for v, x in zip(parameters, values, strict=True)}
+        pair = own.definition.start_model(given, INPUTS)
+        assert isinstance(pair, HelicalPairModel)
+        found = pair.parameters
+        assert found.line_film_model is not None
+        assert (found.line_film_model.name, found.oil.name) == (name, "own")
+        data = pair_data(pair.constants, found.mesh, found.film_model())
+        end = FILM_AT + N_NUMBERS
+        np.testing.assert_array_equal(native.work[DATA_AT : DATA_AT + end], data[:end])
+        for _ in range(20):
+            pair.step(STEP, *INPUTS)
+            assert native.step(STEP) == OK
+        assert_close(native, pair)
 
 
 def test_a_bearing_made_too_soft_for_its_coupling_is_refused(

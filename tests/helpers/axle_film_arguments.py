@@ -82,7 +82,8 @@ def film_cases(axle):
         (film_nodes._value, (kept, film_nodes.place_of_node(7), 2, 0.01, -0.02)),
         (film_nodes.film_of, (before,)),
         *(
-            (film_nodes.still_holds, (kept, *now))
+            (kernel, (kept, *now))
+            for kernel in (film_nodes.still_holds, film_nodes.tells_slopes)
             for now in (
                 (7, force, SPEED, oil.temperature),
                 (6, force, SPEED, oil.temperature),
@@ -95,6 +96,8 @@ def film_cases(axle):
             film_nodes.keep_flank,
             (kept.copy(), 3, force, SPEED, oil.temperature, before, after, after),
         ),
+        (film_nodes._keep_state, (kept.copy(), 3, force, SPEED, oil.temperature, before)),
+        (film_nodes.follow_flank, (kept.copy(), 7, 1.1 * force, 0.9 * SPEED, after)),
         (film_nodes.flank_between, (kept, 7, 8, 0.4, 1.01 * force, 0.98 * SPEED)),
         *(
             (

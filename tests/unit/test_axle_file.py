@@ -128,6 +128,20 @@ BEARING = {
         "stiffness_constant",
         (0.5 * 1e3 / 3.84e-5) ** (10 / 9) * 18.0 ** (8 / 9),
     ),
+    # C = 1.1 f_c (l cos a)^(7/9) Z^(3/4) D^(29/27), ISO 281; f_c 88.7 at D cos a / 62.7 mm = 0.196
+    "dynamic_load_rating_kn": (
+        80.0,
+        "stiffness_constant",
+        pytest.approx(
+            (0.5 * 1e3 / 3.84e-5) ** (10 / 9)
+            * (
+                (80e3 / (1.1 * 88.7 * 12**0.75 * 12.7 ** (29 / 27))) ** (9 / 7)
+                / math.cos(math.pi / 12)
+            )
+            ** (8 / 9),
+            rel=1e-3,
+        ),
+    ),
     "contact_angle_deg": (20.0, "contact_angle", math.pi / 9),
     "stiffness_constant": (7e8, "stiffness_constant", 7e8),
     "exponent": (1.1, "exponent", 1.1),
@@ -157,6 +171,7 @@ GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gea
 GROUPS |= {f"{role}.frusta_{one}_mm" for role in ("pinion", "gear")
            for one in ("lengths", "first_diameters", "last_diameters", "bores")}  # fmt: skip
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
+WORDS |= {"film.flank_model", "film.roller_model"}
 WORDS |= {"seals.material", "tolerances", "gear_set.gear_file", "gear_set.contact_torques_n_m"}
 
 
@@ -211,6 +226,8 @@ def every_field(text):
     data["oil"] = {"name": "mohammadpour_2015"}  # its data there are another oil's, to copy
     for name in ("asperity_table", "gear_file", "contact_torques_n_m"):
         del data["gear_set"][name]  # files that do not ship
+    for name in ("flank_model", "roller_model"):
+        del data["film"][name]  # refused beside the formulas that are the default
     del data["pinion"]["bearing"]["rib_height_mm"]  # 0.15 of 12.7 mm, a rounding apart
     return data
 
@@ -246,6 +263,31 @@ def test_what_the_file_leaves_out_is_told_with_value_unit_and_reason():
     assert stiffness.value_text == "1.15246e+09"
     assert "pinion.bearing.roller_length_mm" not in notes
     assert all(note.why for note in made.assumed)
+
+
+def test_a_bearing_by_its_catalogue_gets_rollers_of_its_section_not_those_of_the_paper():
+    # 32216, whose rollers are printed: 16 of 17 x 22.7 mm, Wingertszahn et al. 2023
+    catalogue = {
+        "bore_diameter_mm": 80.0,
+        "outside_diameter_mm": 140.0,
+        "contact_angle_deg": 15.64,
+        "dynamic_load_rating_kn": 187.0,
+    }
+    made = car_axle({f"pinion.bearing.{key}": value for key, value in catalogue.items()})
+    bearing = made.axle.bearing
+    assert abs(bearing.n_rollers - 16) <= 1
+    assert bearing.roller_diameter == pytest.approx(17e-3, rel=0.05)
+    # Palmgren's two contacts, d = 2 * 3.84e-5 Q^0.9 / l^0.8 [mm, N], at an approach of 1 m
+    length = (2 * 3.84e-5 * bearing.stiffness_constant**0.9 / 1e3) ** (1 / 0.8)
+    assert length == pytest.approx(22.7, rel=0.1)
+    notes = {note.field: note for note in made.assumed}
+    assert notes["pinion.bearing.roller_length_mm"].why == "load rating, ISO 281"
+    # half the section, half the rollers: they fit without a word on rollers
+    small = car_axle(
+        {"pinion.bearing.bore_diameter_mm": 41.275, "pinion.bearing.outside_diameter_mm": 73.431}
+    ).axle.bearing
+    assert small.roller_diameter < 0.6 * 0.5 * (73.431 - 41.275) * 1e-3
+    assert small.n_rollers * small.roller_diameter < math.pi * 57.4e-3
 
 
 @pytest.mark.parametrize("start", [BARE, tomllib.loads(EXAMPLE.read_text())])

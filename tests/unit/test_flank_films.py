@@ -8,10 +8,12 @@ from PIL import Image
 import gearlube as gl
 from gearlube.plotting.drawn_tooth import DrawnTooth
 from gearlube.studies.contact.figures.flank_films import animate_films
-from gearlube.studies.contact.flank_films import FilmRequest, _places, flank_films
+from gearlube.studies.contact.film_option import film_request
+from gearlube.studies.contact.flank_films import FilmRequest, _places, axle_around, flank_films
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.oil.walther_1931 import walther_kinematic_viscosity
 from tests.helpers.contact_cases import ON_TEETH, shipped_file, shipped_pair
 
 PAIRS = np.array([-1, 0, 1])
@@ -106,3 +108,60 @@ def test_data_of_an_earlier_version_and_speeds_out_of_range_are_refused(films, c
         flank_films(contact.drop_vars("minor_axis"), mesh, films.request)
     with pytest.raises(ParameterError, match="rpm"):
         FilmRequest(speed=0.1, oil=films.request.oil, oil_temperature=363.15)
+
+
+@pytest.fixture
+def own_axle(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(
+        """
+        [gear_set]
+        gear_file = "not_analysed.toml"
+
+        [pinion]
+        mass_kg = 3.0
+
+        [pinion.bearing]
+        preload_n = 500.0
+
+        [oil]
+        viscosity_40_degc_mm2_s = 320.0
+        viscosity_100_degc_mm2_s = 32.0
+        """
+    )
+    return str(path)
+
+
+def test_an_axle_file_gives_masses_bearings_and_oil_but_not_its_gears(own_axle):
+    mesh = gl.mohammadpour_2015_axle().mesh
+    axle = axle_around(own_axle, mesh)
+    assert axle.pinion_mass == 3.0
+    assert axle.mesh is mesh
+    request = film_request(2000.0, None, None, own_axle)
+    assert walther_kinematic_viscosity(
+        request.oil.walther_a, request.oil.walther_b, 313.15
+    ) == pytest.approx(320e-6, rel=1e-6)
+    paper = gl.Lubricant.named("mohammadpour_2015")
+    assert film_request(2000.0, "mohammadpour_2015", None, own_axle).oil == paper
+
+
+def test_films_are_those_of_the_named_axle(films, contact, own_axle):
+    mesh = gl.mohammadpour_2015_axle().mesh
+    thick = flank_films(contact, mesh, film_request(2000.0, None, 90.0, own_axle), pictures=8)
+    loaded = (films.load > 0.0) & (thick.load > 0.0)
+    # 320 in place of 109 mm2/s at 40 degC: 2.4 times as viscous at 90 degC; films rise by the
+    # power 0.67 of it, less what heat takes
+    ratio = thick.film[loaded] / films.film[loaded]
+    assert ratio.mean() == pytest.approx(2.4**0.67, rel=0.15)
+    soft = film_request(2000.0, "mohammadpour_2015", 90.0, own_axle)
+    other = flank_films(contact, mesh, soft, pictures=8)
+    assert np.abs(other.load[loaded] - films.load[loaded]).max() > 1.0  # N, from the masses
+
+
+def test_an_axle_without_films_or_a_wrong_one_is_refused(tmp_path):
+    with pytest.raises(ParameterError, match=r"--axle my\.toml is only for --films-rpm"):
+        film_request(None, None, None, "my.toml")
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text('[gear_set]\nmesh_table = "mohammadpour_2015"\n[pinion]\nmas_kg = 3.0\n')
+    with pytest.raises(ParameterError, match="mas_kg"):
+        film_request(2000.0, None, None, str(wrong))

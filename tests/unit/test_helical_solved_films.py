@@ -99,7 +99,7 @@ def test_an_oil_without_a_model_and_an_unknown_film_are_refused_with_the_cure():
     thick = Lubricant.named("mohammadpour_2015").with_two_viscosities(
         2e-3, 313.15, 4e-4, 373.15, name="grease"
     )
-    with pytest.raises(ParameterError, match=r"got grease at 80 degC.*or film.model formula"):
+    with pytest.raises(ParameterError, match=r"got grease at 80 degC.*or take film.model formula"):
         settings(film_model="solved", oil=thick)
     with pytest.raises(ParameterError, match="film must be one of formula, solved; got 'thick'"):
         settings(film_model="thick")

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from drivetrain.axle_file.read_axle import read_axle
+from drivetrain.speed_ramp import SpeedRamp
+from gearlube.studies.runup.car_torque import fitting_duration
 from gearlube.studies.runup.record import record_ramp
 from gearlube.studies.runup.run import load_runup, run_runup
 from gearlube.studies.runup.settings import RunupSettings
@@ -51,6 +53,26 @@ def test_the_cars_torque_is_road_load_and_its_mass_times_acceleration() -> None:
     down = dataclasses.replace(settings, start_speed=200.0, end_speed=100.0, duration=25.0)
     assert down.name == "coast-down"
     assert down.torques()[0][0] < 0.0  # the engine brakes
+
+
+def test_a_ramp_lasts_as_long_as_the_torque_of_the_mesh_table_asks() -> None:
+    car = SHORT.car_axle
+    high = car.axle.torque_range[1]
+    fast = SpeedRamp(start=100.0, end=500.0, duration=3.0)
+    duration = fitting_duration(car, fast)
+    fitting = dataclasses.replace(
+        SHORT, pinion_torque=None, start_speed=100.0, end_speed=500.0, duration=duration
+    )
+    torque, _ = fitting.torques()
+    assert 0.94 * high < torque.max() < high
+    slow = dataclasses.replace(fast, duration=100.0)
+    assert fitting_duration(car, slow) == 100.0
+    heavy = dataclasses.replace(car.driveline.road_load.vehicle, mass=1e5)
+    road = dataclasses.replace(car.driveline.road_load, vehicle=heavy)
+    too_heavy = dataclasses.replace(
+        car, driveline=dataclasses.replace(car.driveline, road_load=road)
+    )
+    assert fitting_duration(too_heavy, fast) == 3.0  # no ramp fits
 
 
 def test_a_run_up_keeps_forces_and_speeds_with_units_at_a_constant_rate(tmp_path) -> None:

@@ -218,3 +218,16 @@ def test_a_wav_that_would_clip_is_refused_and_not_written(tmp_path):
 def test_orders_above_the_band_are_refused():
     with pytest.raises(ParameterError, match="The order 300 must lie in the band"):
         run_sound(made_run({13.0: 20.0}), SoundSettings(metrics=(), orders=(300.0,)))
+
+
+def test_without_a_package_of_loudness_all_metrics_are_left_out_and_a_named_one_refused(
+    monkeypatch,
+):
+    monkeypatch.setattr("gearlube.studies.sound.metrics.find_spec", lambda name: None)
+    sound = run_sound(made_run({13.0: 2.0}))
+    assert len(sound.missing) == 1
+    assert "pip install 'gearlube[sound]'" in sound.missing[0]
+    assert "level" in sound.runs[0].dataset
+    assert "loudness" not in sound.runs[0].dataset
+    with pytest.raises(ParameterError, match="neither is installed"):
+        run_sound(made_run({13.0: 2.0}), SoundSettings(metrics=("loudness",)))

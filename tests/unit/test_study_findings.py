@@ -111,11 +111,28 @@ def test_loss_map_says_how_far_solved_films_are_to_be_trusted(a_map):
     said = found(loss_map.findings(solved), "solved films")
     assert "at most 0.040 % of efficiency" in said.detail
     assert "2.0 % of the flanks' friction loss" in said.headline
+    assert "Model:" not in said.detail
+    named = loss_map.findings(solved.assign_attrs(film_model_flank="mine (checksum 12)"))
+    assert "Model: mine (checksum 12)." in found(named, "solved films").detail
     assert said.level == WARNING
     torque, speed = (float(a_map[name][k]) for name, k in (("torque", 2), ("speed", 0)))
     assert f"at most 30 % of the flanks' load, at {torque:.4g} N·m, {speed:.4g} rpm" in said.detail
     little = loss_map.findings(solved.assign(share_outside=0.1 * outside))
     assert found(little, "solved films").level == NOTE
+
+
+def test_loss_map_says_how_far_solved_films_of_rollers_are_to_be_trusted(a_map):
+    drag = a_map["loss"].sel(source="bearing_torque", drop=True)
+    outside = xr.zeros_like(drag)
+    outside[1, 0, 2] = 0.2
+    solved = a_map.assign(drag_bound=0.03 * drag, rollers_outside=outside)
+    solved = solved.assign_attrs(film_model_roller="mine (checksum 13)")
+    said = found(loss_map.findings(solved), "solved films")
+    assert "rolling friction of the rollers" in said.headline
+    assert "3.0 % of the bearings' drag loss" in said.headline
+    assert "at most 20 % of the rollers' load, at 100 N·m, 1000 rpm" in said.detail
+    assert "Model: mine (checksum 13)." in said.detail
+    assert said.level == WARNING
 
 
 def test_loss_map_says_how_warm_the_flanks_get_by_their_own_friction(a_map):
@@ -133,11 +150,15 @@ def test_loss_map_says_how_warm_the_flanks_get_by_their_own_friction(a_map):
 def test_loss_map_warns_of_failures_and_ranges_and_steady_points_without_rest(a_map):
     a_map["status"][0, 0, 0] = 4
     a_map["range_exceeded"][0] = 1.0
+    a_map["range_exceeded"][0, 0, 1] = 1.0 + 16.0  # torque and film temperature
     a_map.attrs |= {"ranges_left": "film load (range.film_load)", "air_temperature_degc": 20.0}
     a_map["steady_temperature"] = (GRID[1:], np.array([[30.0, 25.0, 60.0], [40.0, np.nan, 90.0]]))
     said = loss_map.findings(a_map)
     assert found(said, "1 of 12 points failed").level == WARNING
-    assert "50 % of the points left the range" in found(said, "left the range").headline
+    left = found(said, "left the range")
+    assert "50 % of the points left the range" in left.headline
+    assert "torque (the mesh table ends) at 50 %; film temperature (the oil" in left.detail
+    assert "data end) at 8 % of the points" in left.detail
     assert "between 25 and 90 °C" in found(said, "steady oil temperature is between").headline
     assert found(said, "1 of 6 torques").level == WARNING
     html = report_html(loss_map_report(a_map))
@@ -222,6 +243,18 @@ def test_cycle_says_how_far_solved_films_are_to_be_trusted(a_cycle):
     assert "with 3.0 % of the flanks' friction loss" in said.detail
     more = solved.assign(share_outside=("step", [0.3, 0.0, 0.0]))
     assert found(cycle.findings(more), "solved films").level == WARNING
+
+
+def test_cycle_says_how_far_solved_films_of_rollers_are_to_be_trusted(a_cycle):
+    # of the 1 kJ of drag in all; the whole of the second step lies outside
+    drag = a_cycle["loss"].sel(source="bearing_torque") * a_cycle["duration"]
+    share = float(drag[1] / drag.sum())
+    solved = a_cycle.assign(rollers_outside=("step", [0.0, 1.0, 0.0]), energy_drag_bound=0.04)
+    solved["drag_bound"] = 0.04 * a_cycle["loss"].sel(source="bearing_torque", drop=True)
+    said = found(cycle.findings(solved), "solved films")
+    assert "4.0 % of the bearings' drag loss" in said.headline
+    assert "0.040 kJ of energy lost" in said.detail
+    assert f"with {100.0 * share:.1f} % of the bearings' drag loss" in said.detail
 
 
 @pytest.fixture

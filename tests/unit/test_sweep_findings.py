@@ -126,7 +126,7 @@ def test_ranges_balance_and_failed_points(sweep):
 
 def test_key_numbers_are_those_of_the_signal(sweep):
     known = {one.name: (one.value, one.unit) for one in numbers(sweep)}
-    value, unit = known["largest mesh order of the DTE, amplitude"]
+    value, unit = known["largest mesh order of the transmission error, amplitude"]
     assert (value, unit) == (pytest.approx(1.0, rel=1e-3), "µm")
     assert known["largest loss"] == (pytest.approx(42.0), "W")
     assert known["least efficiency of the axle"] == (pytest.approx(97.9), "%")
@@ -150,3 +150,14 @@ def test_a_sweep_says_how_far_solved_films_are_to_be_trusted(sweep):
     assert "at most 3 % of the flanks' load, at 100 km/h and preload 2500 N" in one.detail
     assert one.level == NOTE
     assert found(solved.assign(share_outside=10.0 * outside), "solved films").level == WARNING
+
+
+def test_a_sweep_says_how_far_solved_films_of_rollers_are_to_be_trusted(sweep):
+    drag = sweep["loss"].sel(source="bearing_torque", drop=True)
+    outside = 0.0 * drag
+    outside[0, 2] = 0.2
+    solved = sweep.assign(drag_bound=0.03 * drag, rollers_outside=outside)
+    one = found(solved, "solved films")
+    assert "3.0 % of the bearings' drag loss" in one.headline
+    assert "at most 20 % of the rollers' load, at 100 km/h and preload 2500 N" in one.detail
+    assert one.level == WARNING

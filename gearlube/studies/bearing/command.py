@@ -58,6 +58,14 @@ def bearing(
             metavar="LAW",
         ),
     ] = None,
+    film_model: Annotated[
+        str | None,
+        typer.Option(
+            help="Film model of rollers for the law solved_films: file (.json) or the name of a "
+            "shipped one. Default: that of the bearing file.",
+            metavar="MODEL",
+        ),
+    ] = None,
     speed_rpm: Annotated[
         list[str] | None,
         typer.Option(help="Shaft speeds [rpm]: first:last:step, values.", metavar="RANGE..."),
@@ -105,6 +113,9 @@ def bearing(
     from gearlube_core.bearings.bearing_file import BearingFile
     from gearlube_core.bearings.losses.laws import CATALOGUE_LAWS, LAWS
     from gearlube_core.bearings.losses.loss import LARGEST_SPEED_FACTOR, LossModel
+    from gearlube_core.errors import ParameterError
+    from gearlube_core.film_model.chosen_model import chosen_model
+    from gearlube_core.film_model.model import ROLLER
     from gearlube_core.oil.oil_file import read_oil
 
     began = time.monotonic()
@@ -130,6 +141,16 @@ def bearing(
             without = () if given.bearing.timken_g1 else ("timken",)
             laws = [DEFAULT_LAWS[0], *(one for one in LAWS if one != DEFAULT_LAWS[0])]
             laws = [one for one in laws if one not in without]
+        if film_model is not None and "solved_films" not in laws:
+            raise ParameterError(
+                f"--film-model needs --law solved_films, got {film_model} with {', '.join(laws)}. "
+                "Add that law, or leave the option out."
+            )
+        films = (
+            given.own_film_model()
+            if film_model is None
+            else chosen_model(film_model, ROLLER, "--film-model")
+        )
         physical = any(one not in CATALOGUE_LAWS for one in laws)
         settings = BearingSettings(
             speeds=tuple(
@@ -147,6 +168,7 @@ def bearing(
                         0.0 if physical and one in CATALOGUE_LAWS else _MICRO * inlet_layer_um
                     ),
                     temperature_rise=temperature_rise,
+                    film_model=films if one == "solved_films" else None,
                 )
                 for one in laws
             ),

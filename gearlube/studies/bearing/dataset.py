@@ -8,10 +8,12 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.bearing.settings import BearingSettings
 from gearlube_core import __version__
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import PARTS
+from gearlube_core.film_model.model import ROLLER, FilmModel, shipped_model
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
@@ -75,8 +77,17 @@ def bearing_dataset(
         "inlet_layer_m": max(model.inlet_layer for model in settings.models),
         "temperature_rise_k": max(model.temperature_rise for model in settings.models),
         "gearlube_version": __version__,
+        **film_model_attributes(_film_models(settings)),
     }
     return xr.Dataset(variables, coordinates, attributes)
+
+
+def _film_models(settings: BearingSettings) -> dict[str, FilmModel]:
+    """Return the film model of the rollers, where a law takes one."""
+    for one in settings.models:
+        if one.law == "solved_films":
+            return {ROLLER: one.film_model or shipped_model(ROLLER)}
+    return {}
 
 
 def bearing_rows(dataset: xr.Dataset) -> str:

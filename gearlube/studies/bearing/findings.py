@@ -7,8 +7,10 @@ import xarray as xr
 
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.report.solved_films import model_of
 from gearlube.studies.bearing.figures import LAW_NAMES
 from gearlube.studies.bearing.summary import bearing_warnings, error_sentences
+from gearlube_core.film_model.model import ROLLER
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
 _NAMED, _LEAST_SHARE = 3, 0.005  # parts that are told, if they are not smaller
@@ -19,6 +21,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     return [
         _largest(dataset),
         *_laws(dataset),
+        *_films(dataset),
         *(Finding(NOTE, *_split(sentence)) for sentence in error_sentences(dataset)),
         *_warmth(dataset),
         *_warned(dataset),
@@ -83,6 +86,22 @@ def _laws(dataset: xr.Dataset) -> list[Finding]:
             f"mean torque, {quantity_text(float(low), 'N·m')}, {_name(high)} the largest, "
             f"{quantity_text(float(high), 'N·m')}.",
             "A measured torque in the bearing file removes this uncertainty.",
+        )
+    ]
+
+
+def _films(dataset: xr.Dataset) -> list[Finding]:
+    model = model_of(dataset, ROLLER)
+    if not model:
+        return []
+    out = dataset["out_of_range"].sel(law="solved_films")
+    return [
+        Finding(
+            NOTE,
+            "Rolling force and films of the raceways by solved_films come from a model of solved "
+            "films.",
+            f"Model: {model}. Up to {100.0 * float(out.max()):.2g} % of the loaded contacts lie "
+            "outside its domain, where formulas stand in.",
         )
     ]
 

@@ -10,6 +10,7 @@ from gearlube_core.bearings.losses.geometry import BearingGeometry
 from gearlube_core.bearings.losses.loss import DEFAULT_LAW, LossModel, check_condition
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.chosen_model import check_oil
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
@@ -79,6 +80,8 @@ class BearingSettings:
     def check(self, geometry: BearingGeometry, oil: Lubricant) -> None:
         """Raise ParameterError where a condition is out of range, before anything is computed."""
         for model in self.models:
+            if model.film_model is not None:
+                check_oil(model.film_model, oil, geometry.solid, "film_model")
             for T in self.temperatures:
                 check_condition(
                     geometry, oil, model, max(self.speeds), max(self.axial_loads), 0.0, T

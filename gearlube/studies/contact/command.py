@@ -96,8 +96,16 @@ def contact(
     oil: Annotated[
         str | None,
         typer.Option(
-            help="Oil of --films-rpm: a shipped one or an oil file; default mohammadpour_2015.",
+            help="Oil of --films-rpm: a shipped one or an oil file; default that of its axle.",
             metavar="OIL",
+        ),
+    ] = None,
+    axle: Annotated[
+        str | None,
+        typer.Option(
+            help="Axle of --films-rpm: an axle file, of which masses, bearings, laws and oil are "
+            "taken; default mohammadpour_2015.",
+            metavar="AXLE",
         ),
     ] = None,
     oil_temperature: Annotated[
@@ -146,7 +154,7 @@ def contact(
     with exit_on_error(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
         file = HypoidGearFile.given(gear)
         usual = QUICK if quick else ContactSettings()
-        films = film_request(films_rpm, oil, oil_temperature)
+        films = film_request(films_rpm, oil, oil_temperature, axle)
         cycle = replace(
             usual.cycle,
             positions=positions or usual.cycle.positions,
@@ -183,7 +191,7 @@ def contact(
                 progress(1.0, "writing flanks and gears")
                 write_gears(file, out / "gears")
             if films is not None:
-                progress(1.0, "films of the axle; the first time this compiles it, about 15 s")
+                progress(1.0, "films in the running axle (compiled the first time)")
                 animation = write_films(results, films, out)
         kept = None
         if gear.endswith(".toml") and replace(cycle, torques=CycleSettings().torques) == (

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
+from drivetrain.axle_file.axle_file import AxleFile
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -23,6 +25,7 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import rads_to_rpm
 
 SPEED_RANGE = (10.0, 20000.0)  # rpm
+PAPERS_AXLE = "mohammadpour_2015"
 LEAST_PICTURES = 8
 _STEP = 1e-3  # of the flank's parameters, for its tangents
 _SETTLING = 10  # mesh periods
@@ -40,6 +43,9 @@ class FilmRequest:
     oil : Lubricant
     oil_temperature : float
         [K], in the range of the oil's data.
+    axle : str
+        Axle file, or the name of a shipped one: masses, bearings and laws of the axle around the
+        pair. Its own gears are not used.
 
     Raises
     ------
@@ -50,6 +56,7 @@ class FilmRequest:
     speed: float
     oil: Lubricant
     oil_temperature: float
+    axle: str = PAPERS_AXLE
 
     def __post_init__(self) -> None:
         check_within("speed of the pinion", rads_to_rpm(self.speed), *SPEED_RANGE, "rpm")
@@ -98,8 +105,8 @@ def flank_films(
 ) -> FlankFilms:
     """Return the films of a pair's drive flanks over a mesh period at its largest torque.
 
-    The axle of Mohammadpour et al. 2015 with this pair and this oil runs at the torque; load, film
-    and temperature are its outputs. Place and direction of the ellipses are those of the loaded
+    The axle of the request with this pair and this oil runs at the torque; load, film and
+    temperature are its outputs. Place and direction of the ellipses are those of the loaded
     contact.
 
     Parameters
@@ -135,7 +142,7 @@ def flank_films(
     part = dataset.sel(side="drive").isel(torque=-1)
     torque = float(part["torque"])
     speed, oil_temperature = request.speed, request.oil_temperature
-    parameters = replace(mohammadpour_2015_axle(mesh=mesh), oil=request.oil)
+    parameters = replace(axle_around(request.axle, mesh), oil=request.oil)
     axle = HypoidAxle(parameters)
     load_torque = torque * mesh.gear_teeth / mesh.pinion_teeth
     axle.initialise(
@@ -185,6 +192,18 @@ def flank_films(
         torque=torque,
         request=request,
     )
+
+
+def axle_around(path: str, mesh: MeshTable) -> HypoidAxleParameters:
+    """Return the axle of an axle file, or of a shipped one, with other gears.
+
+    Raises
+    ------
+    ParameterError
+        The file is missing or wrong.
+    """
+    file, folder = AxleFile.given(path), Path(path).parent
+    return file.car_axle(mesh, file.asperities(folder), file.described_oil(folder)).axle
 
 
 def _as_analysed(phase: Array, known: Array) -> Array:

@@ -26,7 +26,7 @@ def drive_cycle(
         str,
         typer.Option(
             help="nedc, wltc, ftp75, or a CSV file with time_s and speed_kmh, or with time_s, "
-            "pinion_speed_rpm and pinion_torque_n_m.",
+            "pinion_speed_rpm and pinion_torque_n_m; a row at least every 5 s.",
             metavar="NAME|FILE",
         ),
     ] = "nedc",
@@ -104,10 +104,11 @@ def drive_cycle(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        trace = DriveCycle.given(cycle)
         bring_gears_up_to_date(axle)
         settings = DriveCycleSettings(
             car=read_axle(axle),
-            cycle=DriveCycle.given(cycle),
+            cycle=trace,
             start_temperature=celsius_to_kelvin(start_temperature),
             air_temperature=celsius_to_kelvin(air_temperature),
             regeneration=regeneration,

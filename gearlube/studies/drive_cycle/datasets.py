@@ -7,6 +7,7 @@ import xarray as xr
 
 from drivetrain.sump_heat import Warming
 from gearlube.plotting.loss_words import not_modelled
+from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.drive_cycle.demand import Demand
 from gearlube.studies.drive_cycle.loss_field import LossesAlong, at_temperatures
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
@@ -102,8 +103,14 @@ def cycle_dataset(
             "efficiency of the axle over the cycle",
         ),
     }
+    bound, share, drag, rollers = at_temperatures(losses.film, losses.temperatures, warming.mean).T
+    if settings.car.axle.bearing_torque_loss == "solved_films":
+        variables |= {
+            "drag_bound": (step, drag, "W", "bound of the bearings' drag loss"),
+            "rollers_outside": (step, rollers, "1", "share of the rollers' load outside it"),
+            "energy_drag_bound": ((), _energy(drag, demand), "kJ", "bound of the bearings' drag"),
+        }
     if settings.car.axle.film == "solved":
-        bound, share = at_temperatures(losses.film, losses.temperatures, warming.mean).T
         energy_bound = _energy(bound, demand)
         variables |= {
             "friction_bound": (step, bound, "W", "bound of the flanks' friction loss"),
@@ -169,6 +176,7 @@ def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> di
         "cycle": cycle.name,
         "axle": settings.car.name,
         "oil": settings.car.axle.oil.name,
+        **film_model_attributes(settings.car.axle.film_models),
         "not_modelled": ", ".join((*not_modelled(losing), _NOT_HEATED)),
         "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in ranges),
         "start_temperature_degc": settings.start_temperature - ZERO_CELSIUS,

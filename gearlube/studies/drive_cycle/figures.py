@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_words
-from gearlube.plotting.style import BLUE, PARTS, house_style, new_figure
+from gearlube.plotting.loss_words import source_colour, source_words
+from gearlube.plotting.style import BLUE, house_style, new_figure
 
 LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn
 
@@ -67,7 +67,7 @@ def _losses(ax: Any, dataset: xr.Dataset) -> None:
         dataset["step"].values,
         dataset["loss"].values.T[drawn],
         labels=[f"{source_words(names[i])}, {energy[i]:.0f} kJ" for i in drawn],
-        colors=[PARTS[i % len(PARTS)] for i in drawn],
+        colors=[source_colour(names[i]) for i in drawn],
         alpha=0.85,
         lw=0.0,
     )

@@ -8,8 +8,15 @@ import xarray as xr
 from gearlube.plotting.loss_words import source_words
 from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.report.solved_films import flank_friction, solved_films
+from gearlube.report.solved_films import (
+    bearing_drag,
+    flank_friction,
+    model_of,
+    solved_films,
+    solved_rollers,
+)
 from gearlube.studies.drive_cycle.tables import range_sentence
+from gearlube_core.film_model.model import FLANK, ROLLER
 
 _NAMED, _LEAST_SHARE = 3, 0.005  # sources of loss that are told, if they are not smaller
 _DRAWN = "efficiency_low"  # a variable of cycles with draws of all uncertain data
@@ -23,6 +30,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         _temperature(dataset),
         *_brakes(dataset),
         *_solved(dataset),
+        *_rollers(dataset),
         _ranges(dataset),
         Finding(NOTE, f"Not modelled: {dataset.attrs['not_modelled']}."),
     ]
@@ -121,7 +129,22 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     if np.isfinite(doubt):
         effect += f" and {quantity_text(100.0 * doubt, '%', 2)} of efficiency over the cycle"
     words = f"with {100.0 * outside:.1f} % of the flanks' friction loss"
-    return [solved_films(lost / float(energy), outside, words, f"{effect}.")]
+    model = model_of(dataset, FLANK)
+    return [solved_films(lost / float(energy), outside, words, f"{effect}.", model)]
+
+
+def _rollers(dataset: xr.Dataset) -> list[Finding]:
+    """Say the same of the model of rollers."""
+    if "drag_bound" not in dataset:
+        return []
+    lost, energy = float(dataset["energy_drag_bound"]), float(bearing_drag(dataset["energy_lost"]))
+    if not energy > 0.0:
+        return []
+    drag = bearing_drag(dataset["loss"]) * dataset["duration"]
+    outside = float((drag * dataset["rollers_outside"]).sum() / drag.sum())
+    effect = f"That is {quantity_text(lost, 'kJ', 2)} of energy lost."
+    words = f"with {100.0 * outside:.1f} % of the bearings' drag loss"
+    return [solved_rollers(lost / energy, outside, words, effect, model_of(dataset, ROLLER))]
 
 
 def _ranges(dataset: xr.Dataset) -> Finding:

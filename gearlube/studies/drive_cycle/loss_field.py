@@ -36,9 +36,9 @@ class LossesAlong:
     outside : ndarray of shape (n, k, ranges)
         Share of the points of the map around it that are outside each range of the axle [-];
         ranges as in `HypoidAxleParameters.ranges`.
-    film : ndarray of shape (n, k, 2)
+    film : ndarray of shape (n, k, 4)
         Bound of the flanks' friction loss by a film model [W], and share of their load outside its
-        domain [-]; 0 with film formulas.
+        domain [-]; the same of the bearings' drag and of the rollers; 0 with film formulas.
     """
 
     temperatures: Array
@@ -66,7 +66,7 @@ def losses_along(
     power = np.zeros((count, temperatures.size, len(LOSS_SOURCES)))
     torque = np.repeat(demand.torque[:, None], temperatures.size, axis=1)
     outside = np.zeros((count, temperatures.size, len(axle.ranges)))
-    film = np.zeros((count, temperatures.size, 2))
+    film = np.zeros((count, temperatures.size, 4))
     along = LossesAlong(
         temperatures=temperatures, power=power, torque=torque, outside=outside, film=film
     )
@@ -83,6 +83,7 @@ def losses_along(
         progress=progress,
     )
     _check_map(found.status, temperatures, speeds, torques)
+    bounds = found.friction_bound, found.share_outside, found.drag_bound, found.rollers_outside
     left = found.exceeded.astype(int)[..., None] >> np.arange(len(axle.ranges)) & 1
     asked, speed = demand.torque[turning], demand.pinion_speed[turning]
     at_speed = np.clip(speed, speeds[0], speeds[-1])
@@ -97,7 +98,7 @@ def losses_along(
         power[turning, k] = loss_torque(points) * speed[:, None]
         torque[turning, k] = carried
         outside[turning, k] = RegularGridInterpolator((speeds, torques), left[k])(points)
-        of_film = np.stack([found.friction_bound[k], found.share_outside[k]], axis=-1)
+        of_film = np.stack([one[k] for one in bounds], axis=-1)
         film[turning, k] = RegularGridInterpolator((speeds, torques), of_film)(points)
     return along
 

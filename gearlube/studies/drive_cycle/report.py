@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_words
+from gearlube.plotting.loss_words import source_colour, source_words
+from gearlube.plotting.range_words import range_words
 from gearlube.report.charts import Axis, Line, add_line, line_chart, mark_level, panels, stack_chart
 from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Report, Table
 from gearlube.studies.drive_cycle.figures import LEAST_SHARE
@@ -99,10 +100,12 @@ def loss_chart(dataset: xr.Dataset) -> Any:
     """Return the power lost by source over time."""
     energy = dataset["energy_lost"].values
     kept = energy > LEAST_SHARE * energy.sum()
-    names = [source_words(str(name)) for name in dataset["source"].values]
+    sources = [str(name) for name in dataset["source"].values]
+    names, colours = [source_words(s) for s in sources], [source_colour(s) for s in sources]
     power = Axis("power lost", "W")
+    powers = dataset["loss"].values.T
     return stack_chart(
-        names, dataset["step"].values, dataset["loss"].values.T, TIME, power, kept=kept
+        names, dataset["step"].values, powers, TIME, power, kept=kept, colours=colours
     )
 
 
@@ -156,7 +159,11 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
                 Column("energy lost outside", "%", 2),
             ],
             rows=[
-                [str(one["range"].values), 100.0 * float(one), 100.0 * float(energy_share)]
+                [
+                    range_words(str(one["range"].values)),
+                    100.0 * float(one),
+                    100.0 * float(energy_share),
+                ]
                 for one, energy_share in zip(
                     dataset["time_outside_range"], dataset["energy_outside_range"], strict=True
                 )

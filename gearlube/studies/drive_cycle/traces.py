@@ -120,7 +120,8 @@ class DriveCycle:
             row = int(np.argmax(steps > limit)) + 1
             raise ParameterError(
                 f"A step of {self.name} must be at most {limit:g} s, got {steps[row - 1]:g} s "
-                f"before row {row + 1}. Fill the gap, or cut the file there; times are in seconds."
+                f"before row {row + 1}. Fill the gap, or cut the file there; a cycle given by its "
+                "corners needs rows between them, such as one a second. Times are in seconds."
             )
 
     def _check_values(self) -> None:

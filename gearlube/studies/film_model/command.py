@@ -189,8 +189,12 @@ def audit(
         ),
     ],
     model: Annotated[
-        str, typer.Option(help="Film model (.json) or the name of a shipped one.", metavar="MODEL")
-    ] = "hypoid_flank",
+        str | None,
+        typer.Option(
+            help="Film model (.json) or the name of a shipped one. Default: that of the axle.",
+            metavar="MODEL",
+        ),
+    ] = None,
     axle: Annotated[
         str,
         typer.Option(help="Axle of the run: file (TOML) or the name of a shipped one."),
@@ -217,19 +221,22 @@ def audit(
     from gearlube.studies.film_model import audit as audits
     from gearlube.studies.film_model.visited import visited_contacts, visited_points
     from gearlube_core.checks import check_within
-    from gearlube_core.film_model.model import FilmModel
+    from gearlube_core.film_model.chosen_model import chosen_model
+    from gearlube_core.film_model.model import FLANK, shipped_model
     from gearlube_core.storage.atomic_file import write_text
 
     with exit_on_error("Stopped; nothing was written."):
         check_within("--count", count, 20, 10_000)
         if eyring_stress is not None:
             check_within("--eyring-stress", eyring_stress, 0.01, 1000.0, "MPa")
-        judged = FilmModel.named(model)
+        given = None if model is None else chosen_model(model, FLANK, "--model")
         points = visited_points(run)
         bring_gears_up_to_date(axle)
+        of_run = read_axle(axle).axle
+        judged = given or of_run.flank_film_model or shipped_model(FLANK)
         contacts = visited_contacts(
             points,
-            read_axle(axle).axle,
+            of_run,
             count,
             seed,
             None if eyring_stress is None else 1e6 * eyring_stress,

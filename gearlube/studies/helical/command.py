@@ -102,14 +102,20 @@ def helical(
         int, typer.Option(help="Mesh phases of the loaded contact.", metavar="N")
     ] = 24,
     oil: Annotated[
-        str, typer.Option(help="Shipped oil or an oil file (TOML).", metavar="OIL")
-    ] = "mohammadpour_2015",
+        str | None,
+        typer.Option(
+            help="Shipped oil or an oil file (TOML). Default: film.oil_file of the gear file, else "
+            "mohammadpour_2015.",
+            metavar="OIL",
+        ),
+    ] = None,
     film_model: Annotated[
         str | None,
         typer.Option(
             help="Film and friction of the oil. formula: Dowson and Toyoda, Evans and Johnson; "
-            "solved: a model of solved films. Default: film.model of the gear file.",
-            metavar="formula|solved",
+            "solved: a model of solved films; a file (.json): such a model of your own. Default: "
+            "film.model of the gear file.",
+            metavar="formula|solved|MODEL",
         ),
     ] = None,
     oil_temperature: OilTemperatureOption = 80.0,
@@ -155,6 +161,9 @@ def helical(
     from gearlube.studies.helical.findings import findings
     from gearlube.studies.helical.settings import HelicalSettings, quick_settings
     from gearlube.studies.helical.summary import remarks, summary_rows
+    from gearlube_core.dynamics.helical_pair.gear_file_pair import gear_file_oil
+    from gearlube_core.film_model.chosen_model import chosen_model
+    from gearlube_core.film_model.model import LINE
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
     from gearlube_core.oil.oil_file import read_oil
 
@@ -178,10 +187,11 @@ def helical(
         speeds = numbers_from(
             "--speeds-rpm", speeds_rpm or (), "rpm", 0.1, 1e6, example="100:3000:100"
         )
-        lubricant = read_oil(oil).lubricant
+        lubricant = gear_file_oil(file) if oil is None else read_oil(oil).lubricant
         temperatures = numbers_from(
             "--oil-temperatures", oil_temperatures or (), "degC", -60.0, 250.0, example="40:100:20"
         )
+        own_model = film_model is not None and film_model.endswith(".json")
         settings = HelicalSettings(
             file=file,
             pinion_torque=torque,
@@ -194,7 +204,11 @@ def helical(
             torques=tuple(sorted(set(torques or ()))),
             positions=positions,
             oil=lubricant,
-            film_model=cast(Any, film_model),  # checked by the settings
+            # checked by the settings
+            film_model="solved" if own_model else cast(Any, film_model),
+            line_film_model=(
+                chosen_model(film_model or "", LINE, "--film-model") if own_model else None
+            ),
             oil_temperature=oil_kelvin(oil_temperature, lubricant),
             oil_temperatures=tuple(
                 oil_kelvin(one, lubricant, "--oil-temperatures") for one in temperatures
@@ -231,10 +245,16 @@ def helical(
         raise typer.Exit(FAILED)
 
 
+_SYMBOLS = (
+    "delta_z: dynamic transmission error; u, F: displacement and bearing force of the pinion along "
+    "x (line of action), y (across it) and z (axis); mu: a constant coefficient of friction"
+)
+
+
 def _table(name: str, rows: list[Row]) -> Table:
     from gearlube.report.numbers import number_text
 
-    table = Table(title=f"{name}: helical pair")
+    table = Table(title=f"{name}: helical pair", caption=_SYMBOLS)
     for heading in ("", "quantity", "value", "unit"):
         table.add_column(heading, justify="right" if heading == "value" else "left")
     topic = ""

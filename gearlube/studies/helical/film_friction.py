@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
+from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.helical.labels import Variables
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
@@ -117,6 +118,7 @@ def film_dataset(
     dataset.attrs |= {
         "oil": settings.film().oil.name,
         "film_model": settings.film().film,
+        **film_model_attributes(settings.film().film_models),
         "oil_temperature": settings.oil_temperature,
         "oil_temperature_units": "K",
         "roughness_rms": settings.roughness_rms,

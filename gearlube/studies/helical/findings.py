@@ -11,9 +11,10 @@ import xarray as xr
 from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.report.solved_films import solved_films
+from gearlube.report.solved_films import model_of, solved_films
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 from gearlube_core.arrays import Array
+from gearlube_core.film_model.model import LINE
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
 Datasets = Mapping[str, xr.Dataset]
@@ -252,6 +253,7 @@ def _solved(film: xr.Dataset) -> list[Finding]:
             "That is "
             f"{quantity_text(of['operating_power_loss_bound'], 'W', 2)} or "
             f"{quantity_text(100.0 * of['operating_efficiency_bound'], '%', 2)} of efficiency.",
+            model_of(film, LINE),
         )
     ]
 

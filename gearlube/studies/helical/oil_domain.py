@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.chosen_model import check_oil
+from gearlube_core.film_model.model import LINE
 from gearlube_core.friction.line_integrals import friction_along_lines
 from gearlube_core.friction.line_points import line_points, uniform_line_load
 
@@ -27,6 +29,8 @@ def check_film_model(settings: HelicalSettings) -> None:
     film = settings.film()
     if film.film != "solved":
         return
+    if film.line_film_model is not None:
+        check_oil(film.line_film_model, film.oil, film.solid, "The film model")
     points = line_points(settings.file.helical_pair(), _PHASES, _NODES)
     constants = film.constants()
     cycle = friction_along_lines(
@@ -43,8 +47,10 @@ def check_film_model(settings: HelicalSettings) -> None:
     if cycle.share_outside > _NONE:
         raise ParameterError(
             "film.model solved must have an oil and an operating point within the domain of the "
-            f"film model, got {film.oil.name} at {film.oil_temperature - 273.15:.4g} degC, "
-            f"{settings.pinion_torque:g} N.m and {settings.pinion_speed:.4g} rad/s with all load "
-            "outside. `gearlube film-model show helical_line` tells the domain. Take an oil and an "
-            "operating point inside it, or film.model formula."
+            f"film model {film.film_models[LINE].name}, got {film.oil.name} at "
+            f"{film.oil_temperature - 273.15:.4g} degC, {settings.pinion_torque:g} N.m and "
+            f"{settings.pinion_speed:.4g} rad/s with all load outside. `gearlube film-model show` "
+            "tells the domain. Take an oil and an operating point inside it; or train a model for "
+            "this oil, `gearlube film-model train --contact line --oil OIL`, and give it with "
+            "--film-model or as film.line_model; or take film.model formula."
         )

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
 from gearlube_core.contact.line_hertz import line_mean_pressure
@@ -211,6 +212,7 @@ def losses_dataset(
             "not_modelled": NOT_MODELLED,
             "oil": settings.film().oil.name,
             "film_model": settings.film().film,
+            **film_model_attributes(settings.film().film_models),
             "draws": settings.draws,
             "seed": settings.seed,
             "uncertain": "; ".join(

@@ -107,8 +107,9 @@ def _operation(results: HelicalResults) -> list[Input]:
         Input("pinion speed", f"{settings.pinion_speed / RPM:.5g}", "rpm"),
         Input("coefficients of friction", f"{mu.min():g} to {mu.max():g}"),
         Input("stiffness of the mesh", settings.mesh),
-        Input("oil", settings.oil if isinstance(settings.oil, str) else settings.oil.name),
+        Input("oil", settings.film().oil.name),
         Input("film of the oil", settings.film().film),
+        *(Input("film model", one.words) for one in settings.film().film_models.values()),
         Input("oil temperature", f"{settings.oil_temperature - 273.15:.4g}", "°C"),
         Input(
             "composite roughness",

@@ -14,13 +14,17 @@ from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
+    gear_file_film_model,
+    gear_file_oil,
     helical_pair_parameters,
     iso_mesh,
+    named_oil,
 )
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.model import FilmModel
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -73,10 +77,12 @@ class HelicalSettings:
         Pinion torques of the loaded contact [N.m]; empty: `LOAD_STEPS`.
     positions : int
         Number of mesh phases of the loaded contact.
-    oil : str or Lubricant
-        Name of an oil of the library, or any other oil.
+    oil : str or Lubricant, optional
+        Name of an oil of the library, or any other oil; None: that of the gear file.
     film_model : {"formula", "solved"}, optional
         Film and friction of the oil, see `HelicalMarchParameters`; None: that of the gear file.
+    line_film_model : FilmModel, optional
+        Model of solved films; None: that of the gear file, else the one in the package.
     oil_temperature, roughness_rms : float
         Oil temperature [K], composite roughness of both flanks [m].
     parts : {"all", "contact", "dynamics", "geometry", "losses"}
@@ -112,8 +118,9 @@ class HelicalSettings:
     friction: str = "film"
     torques: tuple[float, ...] = ()
     positions: int = 24
-    oil: str | Lubricant = "mohammadpour_2015"
+    oil: str | Lubricant | None = None
     film_model: Literal["formula", "solved"] | None = None
+    line_film_model: FilmModel | None = None
     oil_temperature: float = 353.15
     roughness_rms: float = 0.5e-6
     parts: str = "all"
@@ -212,11 +219,12 @@ class HelicalSettings:
     def film(self) -> FilmFriction:
         """Return the oil and the flank data for film friction."""
         return FilmFriction(
-            oil=Lubricant.named(self.oil) if isinstance(self.oil, str) else self.oil,
+            oil=gear_file_oil(self.file) if self.oil is None else named_oil(self.oil),
             oil_temperature=self.oil_temperature,
             solid=STEEL_MOHAMMADPOUR_2015,
             roughness_rms=self.roughness_rms,
             film=self.film_model or self.file.film.model,
+            line_film_model=self.line_film_model or gear_file_film_model(self.file),
         )
 
     def parameters(self, mesh: LineMesh | None = None) -> HelicalPairParameters:

@@ -149,6 +149,7 @@ def loss_map(
         described_axle = described.axle
         if oil is not None:
             described_axle = replace(described_axle, oil=read_oil(oil).lubricant)
+            described_axle.check_oil_of_models()
         grid = _grid(described.axle.torque_range, torques, speeds, temperatures)
         settings = LossMapSettings(
             axle=described_axle,

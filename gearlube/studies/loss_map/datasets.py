@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.steady_temperature import Cooling
+from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.loss_map.sampling import Spread
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
@@ -178,6 +179,7 @@ def _attributes(settings: LossMapSettings, losses: AxleLosses) -> dict[str, obje
         "ratio": axle.mesh.ratio,
         "mesh": axle.mesh.name,
         "oil": axle.oil.name,
+        **film_model_attributes(axle.film_models),
         "not_modelled": ", ".join(not_modelled(axle)),
         "reasons": "; ".join(f"{key}: {words}" for key, words in FAILURES.items() if key),
         "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in left),

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.figure_folder import save_figure_folder
-from gearlube.plotting.loss_words import SOURCE_WORDS
-from gearlube.plotting.style import PARTS, SERIES, house_style, new_figure
+from gearlube.plotting.loss_words import source_colour, source_words
+from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube.studies.loss_map.findings import input_words, moving_inputs
 
 _BAND = "between these lines: 95 % of the draws of uncertain data"
@@ -104,8 +104,8 @@ def _split(ax: Any, one: xr.Dataset) -> None:
     ax.stackplot(
         torque,
         np.nan_to_num(loss[drawn]),
-        labels=[SOURCE_WORDS[names[i]] for i in drawn],
-        colors=[PARTS[i % len(PARTS)] for i in drawn],
+        labels=[source_words(names[i]) for i in drawn],
+        colors=[source_colour(names[i]) for i in drawn],
         alpha=0.85,
     )
     if "loss_torque_low" in one:

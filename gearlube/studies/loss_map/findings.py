@@ -6,11 +6,20 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
+from gearlube.plotting.range_words import RANGE_WORDS
 from gearlube.report.film_ratio import MIXED, film_ratio_level
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.report.solved_films import efficiency_doubt, flank_friction, solved_films
+from gearlube.report.solved_films import (
+    bearing_drag,
+    efficiency_doubt,
+    flank_friction,
+    model_of,
+    solved_films,
+    solved_rollers,
+)
 from gearlube_core.arrays import Array
+from gearlube_core.film_model.model import FLANK, ROLLER
 
 _INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
 _LEAST_SWING = 5e-4  # mean share of the loss that an input moves, below which it has no effect
@@ -42,6 +51,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_uncertainty(dataset),
             *_film(dataset),
             *_solved(dataset),
+            *_rollers(dataset),
             *_bulk(dataset),
             *_steady(dataset),
             *_ranges(dataset),
@@ -249,7 +259,19 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     worst = _at(dataset, outside)
     most = float(worst["share_outside"])
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
-    return [solved_films(bound, most, words, efficiency_doubt(dataset))]
+    doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
+    return [solved_films(bound, most, words, doubt, model)]
+
+
+def _rollers(dataset: xr.Dataset) -> list[Finding]:
+    """Say the same of the model of rollers."""
+    if "drag_bound" not in dataset:
+        return []
+    bound = float(dataset["drag_bound"].sum() / bearing_drag(dataset["loss"]).sum())
+    worst = _at(dataset, dataset["rollers_outside"])
+    most = float(worst["rollers_outside"])
+    words = f"at most {100.0 * most:.0f} % of the rollers' load, at {words_of(worst)}"
+    return [solved_rollers(bound, most, words, model=model_of(dataset, ROLLER))]
 
 
 def _bulk(dataset: xr.Dataset) -> list[Finding]:
@@ -301,13 +323,22 @@ def _steady(dataset: xr.Dataset) -> list[Finding]:
 def _ranges(dataset: xr.Dataset) -> list[Finding]:
     if not dataset.attrs["ranges_left"]:
         return [Finding(GOOD, "No point left the range of a formula or table.")]
-    share = 100.0 * float((dataset["range_exceeded"] > 0).mean())
+    exceeded = np.nan_to_num(dataset["range_exceeded"].values).astype(int)
+    shares = [100.0 * float((exceeded >> bit & 1).mean()) for bit in range(len(RANGE_WORDS))]
+    by_kind = sorted(zip(shares, RANGE_WORDS.values(), strict=True), reverse=True)
+    parts = [
+        f"{words} at {'below 1' if share < 1.0 else f'{share:.0f}'} %"
+        for share, words in by_kind
+        if share > 0.0
+    ]
     return [
         Finding(
             WARNING,
-            f"{share:.0f} % of the points left the range of a formula or table.",
-            f"What is computed there is extrapolated: {dataset.attrs['ranges_left']}. The column "
-            "range_exceeded of map.csv says which.",
+            f"{100.0 * float((exceeded > 0).mean()):.0f} % of the points left the range of a "
+            "formula or table.",
+            f"What left it: {'; '.join(parts)} of the points. What is computed there is "
+            "extrapolated, and its error is not in the error bars. The column range_exceeded of "
+            "map.csv says where.",
         )
     ]
 

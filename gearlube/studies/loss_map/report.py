@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_words
+from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, add_map, add_stack, bar_chart, panels
 from gearlube.report.parts import ASSUMED, Column, Figure, Input, Report, Table
 from gearlube.studies.loss_map.figures import LEAST_SHARE, shown_speeds, some_temperatures
@@ -144,10 +144,10 @@ def split_chart(dataset: xr.Dataset) -> Any:
         one = dataset.sel(temperature=degree).isel(speed=place)
         loss = one["loss"].transpose("source", "torque").values
         kept = np.nanmax(loss, axis=1) > LEAST_SHARE * largest
-        names = [source_words(str(name)) for name in one["source"].values]
-        add_stack(
-            chart, names, one["torque"].values, loss, TORQUE, _POWER, kept=kept, row=row, col=1
-        )
+        sources = [str(name) for name in one["source"].values]
+        names, colours = [source_words(s) for s in sources], [source_colour(s) for s in sources]
+        looks: dict[str, Any] = {"kept": kept, "colours": colours, "row": row, "col": 1}
+        add_stack(chart, names, one["torque"].values, loss, TORQUE, _POWER, **looks)
         for end in ("low", "high") if "loss_torque_low" in one else ():
             _add_end(chart, one, end, row)
     return chart

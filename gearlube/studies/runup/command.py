@@ -49,7 +49,12 @@ def runup(
         typer.Option("--rpm", help="--from, --to and --rate are of the pinion in rpm, not km/h."),
     ] = False,
     duration: Annotated[
-        float | None, typer.Option(help="Duration of the ramp [s]. Default: 30.", metavar="S")
+        float | None,
+        typer.Option(
+            help="Duration of the ramp [s]. Default: 30; longer if the car needs more torque "
+            "than the mesh table has.",
+            metavar="S",
+        ),
     ] = None,
     rate: Annotated[
         float | None,
@@ -137,12 +142,17 @@ def runup(
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
         _check_together(rpm, start, end, duration, rate, torque, coast_down, coast_torque)
         bring_gears_up_to_date(axle)
+        car_axle = _car_axle(axle, oil, preload)
+        ends = (_FROM if start is None else start, _TO if end is None else end)
+        usual = _QUICK_DURATION if quick else _DURATION
+        if duration is None and rate is None and torque is None:
+            duration = _long_enough(car_axle, ends, rpm, usual)
         first = _settings(
-            _car_axle(axle, oil, preload),
-            (_FROM if start is None else start, _TO if end is None else end),
+            car_axle,
+            ends,
             rpm=rpm,
             rate=rate,
-            duration=duration or (_QUICK_DURATION if quick else _DURATION),
+            duration=duration or usual,
             torque=torque,
             driver=VEHICLE if engine_orders else BENCH,
             oil_temperature=oil_temperature,
@@ -158,7 +168,7 @@ def runup(
                     pinion_torque=coast_torque,
                 )
             )
-        logger.info("Preparing the axle; the first time this compiles it, about 15 s.")
+        logger.info("Preparing the axle. The first time it is compiled, half a minute.")
         with (
             results_folder(out, "runup", overwrite=overwrite),
             progress_on(console, "runup") as progress,
@@ -224,7 +234,40 @@ def _car_axle(axle: str, oil: str | None, preload: float | None) -> CarAxle:
         car = replace(car, axle=axle_parameters({"bearing_preload": preload}, car.axle))
     if oil is not None:
         car = replace(car, axle=replace(car.axle, oil=read_oil(oil).lubricant))
+        car.axle.check_oil_of_models()
     return car
+
+
+def _pinion_speeds(car: CarAxle, ends: tuple[float, float], rpm: bool) -> tuple[float, float]:
+    """Return the speeds of the pinion [rad/s] at the ends, given in rpm or km/h."""
+    from gearlube_core.checks import check_within
+    from gearlube_core.units import kmh_to_ms, rpm_to_rads
+
+    unit, most = ("rpm", 20_000.0) if rpm else ("km/h", 400.0)
+    road = car.driveline.road_load
+    for name, speed in zip(("--from", "--to"), ends, strict=True):
+        check_within(name, speed, 1.0, most, unit)
+    first, last = (rpm_to_rads(v) if rpm else road.pinion_speed(kmh_to_ms(v)) for v in ends)
+    return first, last
+
+
+def _long_enough(car: CarAxle, ends: tuple[float, float], rpm: bool, usual: float) -> float:
+    """Return the usual duration [s], or a longer one that the mesh table allows, and say so."""
+    from drivetrain.speed_ramp import SpeedRamp
+    from gearlube.studies.runup.car_torque import fitting_duration
+
+    start, end = _pinion_speeds(car, ends, rpm)
+    fitting = fitting_duration(car, SpeedRamp(start=start, end=end, duration=usual))
+    if fitting <= usual:
+        return usual
+    logger.info(
+        "The ramp takes %.1f s in place of %g s: a shorter one asks for more torque than the mesh "
+        "table has, %g to %g N·m on the pinion. --duration sets another.",
+        fitting,
+        usual,
+        *car.axle.torque_range,
+    )
+    return fitting
 
 
 def _settings(
@@ -242,15 +285,8 @@ def _settings(
     """Return the settings of a ramp between speeds in rpm or km/h."""
     from gearlube.cli.oil_option import oil_kelvin
     from gearlube.studies.runup.settings import RunupSettings
-    from gearlube_core.checks import check_within
-    from gearlube_core.units import kmh_to_ms, rpm_to_rads
 
-    unit, most = ("rpm", 20_000.0) if rpm else ("km/h", 400.0)
-    speeds = []
-    for name, speed in zip(("--from", "--to"), ends, strict=True):
-        check_within(name, speed, 1.0, most, unit)
-        road = car.driveline.road_load
-        speeds.append(rpm_to_rads(speed) if rpm else road.pinion_speed(kmh_to_ms(speed)))
+    speeds = _pinion_speeds(car, ends, rpm)
     if rate is not None:
         duration = abs(ends[1] - ends[0]) / rate
     return RunupSettings(

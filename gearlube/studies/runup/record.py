@@ -120,6 +120,7 @@ def record_ramp(
     GearLubeError
         The axle refused.
     """
+    progress(0.0, f"{settings.name}: torques and losses; compiled the first time")
     axle = HypoidAxle(settings.car_axle.axle)
     torques = settings.torques()
     driver = _driver(settings, torques)
@@ -144,6 +145,7 @@ def record_ramp(
             part = store.read(key)
             if part is None:
                 if not settled and not found:
+                    progress(0.0, f"{settings.name}: settling at the first speed")
                     _settle(axle, driver, settings)
                 elif not settled and found:
                     axle.set_state(found[-1]["axle_state"])

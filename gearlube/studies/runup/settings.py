@@ -14,6 +14,7 @@ import numpy as np
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.ramp_vehicle import gear_for_ramp
 from drivetrain.speed_ramp import SpeedRamp
+from gearlube.studies.runup.car_torque import NODES, car_torques
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_option, check_within
@@ -29,7 +30,6 @@ LONGEST = 600.0  # s
 LARGEST_CHANGE = 0.25  # of the speed within a block of revolutions
 LEAST_BLOCKS = 8  # that do not overlap
 SAMPLE_RATE = 32768.0  # Hz
-_NODES = 9  # of torque and loss along the ramp
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,15 +184,9 @@ class RunupSettings:
 
     def _asked_torques(self) -> Array:
         """Return the torque on the pinion without the axle's loss [N m] at equal times."""
-        speeds = np.linspace(self.start_speed, self.end_speed, _NODES)
         if self.pinion_torque is not None:
-            return np.full(_NODES, float(self.pinion_torque))
-        car = self.car_axle.driveline
-        road, radius = car.road_load, car.rolling_radius
-        mass = car.translating_mass + 2.0 * car.wheel_inertia / radius**2
-        inertial = mass * self.ramp.acceleration / car.axle_ratio * radius
-        forces = [road.resistance(float(v)) + inertial for v in self.vehicle_speed(speeds)]
-        return np.array(forces) * radius / car.axle_ratio
+            return np.full(NODES, float(self.pinion_torque))
+        return car_torques(self.car_axle.driveline, self.ramp)
 
     def torques(self) -> tuple[Array, Array]:
         """Return torque on the pinion and expected loss torque [N m] at equal times of the ramp.
@@ -203,8 +197,8 @@ class RunupSettings:
             The axle finds no balance at a speed of the ramp.
         """
         asked = self._asked_torques()
-        speeds = np.linspace(self.start_speed, self.end_speed, _NODES)
-        loss = np.empty(_NODES)
+        speeds = np.linspace(self.start_speed, self.end_speed, NODES)
+        loss = np.empty(NODES)
         for i, (torque, speed) in enumerate(zip(asked, speeds, strict=True)):
             found = axle_losses(
                 self.car_axle.axle,

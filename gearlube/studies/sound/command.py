@@ -69,7 +69,8 @@ def sound(
         str,
         typer.Option(
             help="all, none, or some of loudness, tonality, roughness, fluctuation_strength, with "
-            "commas. Tonality and fluctuation_strength need Python 3.13 or newer.",
+            "commas. all: those that this Python can compute; tonality and fluctuation_strength "
+            "need Python 3.13 or newer, and all need the extra gearlube[sound].",
             metavar="LIST",
         ),
     ] = "all",

@@ -62,24 +62,28 @@ METRICS = {
 }
 ENGINES = ("phonometry", "mosqito")
 INSTALL = "pip install 'gearlube[sound]'"
+NEITHER = (
+    "Loudness and the other metrics need the package phonometry (Python 3.13 or newer) or mosqito, "
+    f"but neither is installed. Install one: {INSTALL}"
+)
+
+
+def installed() -> str | None:
+    """Return the package that computes loudness: phonometry, else mosqito, None without both."""
+    return next((name for name in ENGINES if find_spec(name) is not None), None)
 
 
 def engine() -> str:
-    """Return the package that computes loudness: phonometry, else mosqito.
+    """Return the package that computes loudness.
 
     Raises
     ------
     ParameterError
         Neither is installed.
     """
-    for name in ENGINES:
-        if find_spec(name) is not None:
-            return name
-    raise ParameterError(
-        "Loudness and the other metrics need the package phonometry (Python 3.13 or newer) or "
-        f"mosqito, but neither is installed. Install one: {INSTALL}. Or leave the metrics out: "
-        "--metrics none."
-    )
+    if (name := installed()) is not None:
+        return name
+    raise ParameterError(f"{NEITHER}. Or leave the metrics out: --metrics none.")
 
 
 def missing(name: str) -> str:

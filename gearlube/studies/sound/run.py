@@ -13,12 +13,19 @@ from gearlube.studies.sound.compare import common_speeds, difference_sentences
 from gearlube.studies.sound.dataset import sound_dataset
 from gearlube.studies.sound.force_record import ForceRecord, read_forces
 from gearlube.studies.sound.heard import HeardRun, Sound
-from gearlube.studies.sound.metrics import Curve, engine, metric_curve, missing
+from gearlube.studies.sound.metrics import (
+    NEITHER,
+    Curve,
+    engine,
+    installed,
+    metric_curve,
+    missing,
+)
 from gearlube.studies.sound.order_tracks import track_orders
 from gearlube.studies.sound.pressure import sound_pressure
 from gearlube.studies.sound.read_path import read_transfer
 from gearlube.studies.sound.results import write_sound
-from gearlube.studies.sound.settings import SoundSettings
+from gearlube.studies.sound.settings import METRICS, SoundSettings
 from gearlube.studies.sound.wav import full_scale_for, played, wav_name
 from gearlube.studies.sound.words import limit_sentences, sound_sentences
 from gearlube_core.errors import ParameterError
@@ -122,6 +129,8 @@ def _metrics(settings: SoundSettings) -> tuple[list[str], list[str]]:
     """Return the metrics that are computed, and why others are not."""
     if not settings.metrics:
         return [], []
+    if settings.metrics == METRICS and installed() is None:
+        return [], [NEITHER]  # who asks for all takes what there is; a metric by its name is due
     engine()
     reasons = {name: missing(name) for name in settings.metrics}
     return [name for name, why in reasons.items() if not why], [w for w in reasons.values() if w]

@@ -12,7 +12,13 @@ from drivetrain.axle_file.axle_file import AxleFile, CarAxle
 from drivetrain.axle_file.field_units import attribute_of
 from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import axle_parameters, start_arguments
-from fmu_src.hypoid_axle import AXLE_FILE, PAPER, car_axle_in, check_one_table
+from fmu_src.hypoid_axle import (
+    AXLE_FILE,
+    NAMED_FILES,
+    PAPER,
+    car_axle_in,
+    check_one_table,
+)
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
@@ -20,13 +26,11 @@ from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.input_note import InputNote
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, read_mesh_table
-from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
-from gearlube_core.rough_patch.asperity_file import FILE_IN_FMU as ASPERITIES_IN_FMU
 from gearlube_core.units import kmh_to_ms
 
 logger = logging.getLogger(__name__)
 
-_FILES = (AXLE_FILE, FILE_IN_FMU, ASPERITIES_IN_FMU, OIL_IN_FMU)
+_FILES = (AXLE_FILE, FILE_IN_FMU, *NAMED_FILES)
 _SWEPT = "pinion.bearing.preload_n"  # the sweep sets it
 
 

@@ -39,4 +39,6 @@ CHANNELS = (
     "energy.stored",
     "film.share_outside",
     "friction.power_loss_bound",
+    "bearing.share_outside",
+    "bearing.power_loss_bound",
 )

@@ -226,7 +226,10 @@ def sweep(
         )
         preloads = [check_within("--preload", p, *PRELOAD_RANGE, "N") for p in preload or ()]
         of_file = given_preload(car_axle) if own_axle else ()
-        logger.info("Preparing the axle; the first time this compiles it, about 15 s.")
+        logger.info(
+            "Preparing the axle. For new gears or a new axle file its FMU is built first, half a "
+            "minute; the very first time kernels are compiled, one to two minutes more."
+        )
         with (
             results_folder(out, "sweep", overwrite=overwrite),
             progress_on(console, "sweep") as progress,

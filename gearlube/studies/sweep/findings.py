@@ -9,12 +9,20 @@ from gearlube.plotting.loss_words import not_modelled, source_words
 from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
-from gearlube.report.solved_films import efficiency_doubt, flank_friction, solved_films
+from gearlube.report.solved_films import (
+    bearing_drag,
+    efficiency_doubt,
+    flank_friction,
+    model_of,
+    solved_films,
+    solved_rollers,
+)
 from gearlube.studies.sweep.crossings import ORDERS, Crossing, crossings
 from gearlube.studies.sweep.peaks import Peak, peak_orders
 from gearlube.studies.sweep.point import FINISHED
 from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE
 from gearlube_core.arrays import Array
+from gearlube_core.film_model.model import FLANK, ROLLER
 
 NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
 _CLOSED = 1e-3  # of the input, below which the energy balance is called closed
@@ -50,6 +58,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_loss(dataset),
             *_film(dataset),
             *_solved(dataset),
+            *_solved_rollers(dataset),
             *_rollers(dataset),
             *_ranges(dataset),
             *_balance(dataset),
@@ -247,7 +256,23 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
         f"at most {100.0 * most:.0f} % of the flanks' load, at {float(point['speed_kmh']):g} km/h "
         f"and preload {float(point['preload']):g} N"
     )
-    return [solved_films(bound, most, words, efficiency_doubt(dataset))]
+    doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
+    return [solved_films(bound, most, words, doubt, model)]
+
+
+def _solved_rollers(dataset: xr.Dataset) -> list[Finding]:
+    """Say the same of the model of rollers."""
+    if "drag_bound" not in dataset or not _most(dataset["drag_bound"]) > 0.0:
+        return []
+    bound = float(dataset["drag_bound"].sum() / bearing_drag(dataset["loss"]).sum())
+    outside = dataset["rollers_outside"].values
+    row, column = _place(outside)
+    most, point = float(outside[row, column]), dataset.isel(preload=row, speed=column)
+    words = (
+        f"at most {100.0 * most:.0f} % of the rollers' load, at {float(point['speed_kmh']):g} km/h "
+        f"and preload {float(point['preload']):g} N"
+    )
+    return [solved_rollers(bound, most, words, model=model_of(dataset, ROLLER))]
 
 
 def _rollers(dataset: xr.Dataset) -> list[Finding]:

@@ -13,7 +13,8 @@ from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.oil.oil_file import read_oil_file
 from gearlube_core.storage.atomic_file import write_text
 
-_TABLES = ("mesh_table", "asperity_table")
+_TABLES = (("gear_set", "mesh_table"), ("gear_set", "asperity_table"))
+_MODELS = (("film", "flank_model"), ("film", "roller_model"))
 
 
 def axle_with_oil(
@@ -52,11 +53,12 @@ def axle_with_oil(
     if mesh_table is not None:
         read_mesh_table(mesh_table)
         gears["mesh_table"] = str(mesh_table.resolve())
-    for key in _TABLES:
-        named = gears.get(key, "")
-        if named.endswith(".nc"):
-            shutil.copyfile(Path(axle or "").parent / named, folder / f"{key}.nc")
-            gears[key] = f"{key}.nc"
+    for section, key in (*_TABLES, *_MODELS):
+        fields = data.get(section, {})
+        suffix = Path(fields.get(key, "")).suffix
+        if suffix in (".nc", ".json"):
+            shutil.copyfile(Path(axle or "").parent / fields[key], folder / f"{key}{suffix}")
+            fields[key] = f"{key}{suffix}"
     path = folder / "axle.toml"
     write_text(toml_text(data), path)
     return path

@@ -63,6 +63,8 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "friction_loss_bound": ("W", "bound of the flank friction loss by the film model; 0: formulas"),
     "efficiency_bound": ("1", "the same of both efficiencies"),
     "share_outside": ("1", "mean share of the flanks' load outside the film model's domain"),
+    "drag_bound": ("W", "bound of the bearings' drag loss by the film model; 0: other laws"),
+    "rollers_outside": ("1", "mean share of the rollers' load outside their film model's domain"),
     "loss_low": ("W", "2.5 % of the draws of the uncertain data lose less in all"),
     "loss_high": ("W", "97.5 % of the draws lose less in all"),
     "efficiency_axle_low": ("1", "efficiency with the loss of loss_high"),

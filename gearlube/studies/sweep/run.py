@@ -15,8 +15,10 @@ from pathlib import Path
 import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
+from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
+    car_axle_at,
     check_operation,
     chosen_axle,
     settings_of,
@@ -150,7 +152,9 @@ def run_sweep(
     folder = None if out is None else Path(out)
     with ExitStack() as stack:
         modes = _modes_aside(stack, model, loads, speeds[len(speeds) // 2], settings, car_axle)
+        progress(0.0, "FMU of the axle; built if it is new")
         archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
+        progress(0.0, "starting the first points")
         directory = stack.enter_context(unpacked(archive))
         guid, kind = fmu_guid(directory), fmu_kind(directory)
         keys = {
@@ -175,6 +179,7 @@ def run_sweep(
             "inputs_assumed": notes_as_text(assumed_inputs(car_axle, settings)),
             "mesh_table": car_axle.axle.mesh.name,
             "mesh_table_source": car_axle.axle.mesh.source,
+            **film_model_attributes(car_axle_at(car_axle, settings, loads[0]).axle.film_models),
             "command_line": command_line,
             "scheduler": scheduler or "local processes",
             "computed_points": computed,

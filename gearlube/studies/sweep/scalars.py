@@ -136,6 +136,8 @@ def _power(recording: Recording) -> Variables:
         "friction_loss_bound": bound,
         "efficiency_bound": bound / power_in if power_in > 0.0 else math.nan,
         "share_outside": float(np.mean(recording["film.share_outside"])),
+        "drag_bound": float(np.mean(recording["bearing.power_loss_bound"])),
+        "rollers_outside": float(np.mean(recording["bearing.share_outside"])),
         "power_in": power_in,
         "loss": ("source", list(loss.values())),
         "efficiency_mesh": 1.0 - friction / power_in if power_in > 0.0 else math.nan,

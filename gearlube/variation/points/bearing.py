@@ -19,6 +19,7 @@ from gearlube_core.bearings.losses.loss import (
     bearing_loss,
     check_condition,
 )
+from gearlube_core.film_model.model import ROLLER
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 SPEED = operand("shaft.speed_rpm", "rpm", "Of the shaft", 2000.0, 0.0, 1e6)
@@ -57,6 +58,8 @@ class BearingPoint(FilePoint[BearingFile]):
     shown: ClassVar[tuple[str, ...]] = ("torque", "film_ratio")
     operands: ClassVar[Keys] = _OPERANDS
     quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
+    film_field: ClassVar[str] = "film_model"
+    film_kind: ClassVar[str] = ROLLER
     unused: ClassVar[tuple[str, ...]] = ("operation.",)  # the operands stand for them
 
     def varied(self, point: Point) -> BearingFile:
@@ -75,7 +78,13 @@ class BearingPoint(FilePoint[BearingFile]):
         file = self.varied(point)
         speed, axial, radial, temperature = _condition(point)
         check_condition(
-            file.geometry(), self.oil(file.oil), _model(point), speed, axial, radial, temperature
+            file.geometry(),
+            self.oil(file.oil),
+            self._model(point),
+            speed,
+            axial,
+            radial,
+            temperature,
         )
 
     def compute(self, point: Point) -> Sequence[float]:
@@ -85,7 +94,7 @@ class BearingPoint(FilePoint[BearingFile]):
         found = bearing_loss(
             file.geometry(),
             self.oil(file.oil),
-            _model(point),
+            self._model(point),
             speed=speed,
             axial_load=axial,
             radial_load=radial,
@@ -95,6 +104,15 @@ class BearingPoint(FilePoint[BearingFile]):
         ratios = found.film_ratio, found.rib_film_ratio
         return (found.torque, found.power, *parts, found.factor, *ratios)
 
+    def _model(self, point: Point) -> LossModel:
+        law = value(point, LAW)
+        return LossModel(
+            law=law,
+            inlet_layer=1e-6 * value(point, LAYER),
+            temperature_rise=value(point, RISE),
+            film_model=self.film_model(self.varied(point)) if law == "solved_films" else None,
+        )
+
 
 def _condition(point: Point) -> tuple[float, float, float, float]:
     return (
@@ -102,12 +120,4 @@ def _condition(point: Point) -> tuple[float, float, float, float]:
         value(point, AXIAL),
         value(point, RADIAL),
         celsius_to_kelvin(value(point, TEMPERATURE)),
-    )
-
-
-def _model(point: Point) -> LossModel:
-    return LossModel(
-        law=value(point, LAW),
-        inlet_layer=1e-6 * value(point, LAYER),
-        temperature_rise=value(point, RISE),
     )

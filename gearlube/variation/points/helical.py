@@ -20,6 +20,7 @@ from gearlube.variation.points.of_file import FilePoint
 from gearlube.variation.points.operands import operand, value
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.model import LINE
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
 from gearlube_core.helical_contact.line_mesh import line_mesh
 from gearlube_core.helical_contact.mesh_cycle import run_cycle
@@ -77,6 +78,8 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
         for key in (OIL, TEMPERATURE, ROUGHNESS, FRICTION, COEFFICIENT, MESH, POSITIONS)
     }
     quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
+    film_field: ClassVar[str] = "film.line_model"
+    film_kind: ClassVar[str] = LINE
     unused: ClassVar[tuple[str, ...]] = ("oil.", "film_mesh.", "meshing_steps.", "compared_with")
 
     def check(self, point: Point) -> None:
@@ -136,6 +139,7 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
             oil_temperature=celsius_to_kelvin(value(point, TEMPERATURE)),
             roughness_rms=1e-6 * value(point, ROUGHNESS),
             draws=0,
+            line_film_model=self.film_model(file),
             parts="dynamics",
         )
         return quick_settings(settings) if self.quick else settings

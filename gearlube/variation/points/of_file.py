@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, Generic, Self, TypeVar
+from typing import Any, ClassVar, Generic, Self, TypeVar
 
 from gearlube.variation.design import Point, Spread, Value
 from gearlube.variation.file_variants import content_hash
@@ -13,6 +13,8 @@ from gearlube.variation.keys import Keys, file_keys
 from gearlube.variation.point_study import Quantity
 from gearlube.variation.scatter import scatter_of, values_of
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.chosen_model import chosen_model
+from gearlube_core.film_model.model import FilmModel
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.oil.lubricant import Lubricant
@@ -30,6 +32,8 @@ class FilePoint(Generic[File]):
     file : InputFile
     oils : mapping of str to Lubricant
         By the name or file in the parameter `oil`.
+    films : mapping of str to FilmModel
+        By the name or file in the field `film_field`.
     quick : bool
         Coarse, for a first look; for the studies that have it.
     """
@@ -37,10 +41,13 @@ class FilePoint(Generic[File]):
     name: ClassVar[str]
     operands: ClassVar[Keys]
     quantities: ClassVar[tuple[Quantity, ...]]
+    film_field: ClassVar[str]  # of the file, which names a film model
+    film_kind: ClassVar[str]  # of its contact
     unused: ClassVar[tuple[str, ...]] = ()  # beginnings of fields that the study does not read
 
     file: File
     oils: Mapping[str, Lubricant] = field(default_factory=dict)
+    films: Mapping[str, FilmModel] = field(default_factory=dict)
     quick: bool = False
 
     @property
@@ -57,9 +64,10 @@ class FilePoint(Generic[File]):
 
     @property
     def identity(self) -> str:
-        """The file, the content of oil files, and whether it is quick."""
-        oils = {name: content_hash(name) for name in self.oils}
-        return json.dumps([self.file.model_dump(mode="json"), oils, self.quick], sort_keys=True)
+        """The file, the content of oil files and film models, and whether it is quick."""
+        read = {name: content_hash(name) for name in self.oils}
+        read |= {name: model.checksum for name, model in self.films.items()}
+        return json.dumps([self.file.model_dump(mode="json"), read, self.quick], sort_keys=True)
 
     @property
     def usual_oils(self) -> tuple[str, ...]:
@@ -68,8 +76,26 @@ class FilePoint(Generic[File]):
         return (usual,) if isinstance(usual, str) else ()
 
     def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> Self:
-        """Return the study with all oils read that the values of the axes name, or the usual."""
-        return self.with_oils(str(one) for one in texts.get("oil", self.usual_oils))
+        """Return the study with all files read that the values of the axes name, or the usual."""
+        read = self.with_oils(str(one) for one in texts.get("oil", self.usual_oils))
+        named = [str(one) for one in texts.get(self.film_field, ())]
+        if (text := self._film_text(self.file)) is not None:
+            named.append(text)
+        films = {one: chosen_model(one, self.film_kind, self.film_field) for one in named}
+        return replace(read, films={**self.films, **films})
+
+    def _film_text(self, file: File) -> str | None:
+        named: Any = file
+        for part in self.film_field.split("."):
+            named = getattr(named, part)
+        return None if named is None else str(named)
+
+    def film_model(self, file: File) -> FilmModel | None:
+        """Return the film model that a variant of the file names; None: the one in the package."""
+        text = self._film_text(file)
+        if text is None:
+            return None
+        return self.films.get(text) or chosen_model(text, self.film_kind, self.film_field)
 
     def with_oils(self, names: Iterable[str]) -> Self:
         """Return the study with these oils read as well, by name or file."""

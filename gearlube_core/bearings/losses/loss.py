@@ -24,6 +24,8 @@ from gearlube_core.bearings.losses.timken import timken_torque
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.chosen_model import of_kind
+from gearlube_core.film_model.model import ROLLER, FilmModel
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
 
@@ -57,6 +59,8 @@ class LossModel:
         flooded.
     temperature_rise : float
         Temperature of the oil at the contacts above the given temperature [K].
+    film_model : FilmModel, optional
+        Of rollers, for the law "solved_films"; default: the one in the package.
 
     Examples
     --------
@@ -68,6 +72,7 @@ class LossModel:
     heating: str | None = None
     inlet_layer: float = 0.0
     temperature_rise: float = 0.0
+    film_model: FilmModel | None = None
 
     def __post_init__(self) -> None:
         check_option("law", self.law, LAWS)
@@ -80,6 +85,13 @@ class LossModel:
                 "heating must be none with the law solved_films, whose films are heated by "
                 f"themselves, got {self.heating}. Leave it out."
             )
+        if self.film_model is not None:
+            if self.law != "solved_films":
+                raise ParameterError(
+                    "A film model must come with the law solved_films, got "
+                    f"{self.film_model.name} with {self.law}. Leave it out, or take that law."
+                )
+            of_kind(self.film_model, ROLLER, "film_model")
         if self.law in CATALOGUE_LAWS and (self.heating or self.inlet_layer):
             raise ParameterError(
                 f"The law {self.law} takes no heating and no inlet layer, got "
@@ -172,7 +184,7 @@ def bearing_loss(
         HEATINGS[model.heating or USUAL_HEATING[model.law]],
         float(model.inlet_layer),
     )
-    numbers = roller_film_model(model.law)
+    numbers = roller_film_model(model.law, model.film_model)
     found = physical_loss(geometry.parameters(), settings, loads, float(speed), state, numbers)
     per = rows / speed if speed > 0.0 else 0.0
     parts = {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -17,12 +16,12 @@ from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.groups import FilmInlet, film_inlet
 from gearlube_core.film_model.line_contact import line_place, line_reference_film
-from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.model import ROLLER, SHIPPED, FilmModel, shipped_model
 from gearlube_core.film_model.rolling import solved_rolling_at
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
-ROLLER_MODEL = "roller_race"  # name of the film model in the package
+ROLLER_MODEL = SHIPPED[ROLLER]  # name of the film model in the package
 NO_ROLLER_MODEL = np.empty(0)  # in place of its numbers, for laws without one
 # How far off the formulas are where the model does not hold, relative to them, see
 # docs/film_model/outside_rollers.py
@@ -38,17 +37,21 @@ class RaceRolling(NamedTuple):
     outside: float  # of the range of the law: 0 or 1; of the film model's domain: 0 to 1 [-]
 
 
-@cache
-def _shipped() -> FilmModel:
-    return FilmModel.named(ROLLER_MODEL)
-
-
-def roller_film_model(law: str) -> Array:
+def roller_film_model(law: str, own: FilmModel | None = None) -> Array:
     """Return the numbers of the film model that a law takes, a copy of its own; empty: none.
 
     Kernels write into them: two threads must not share them.
+
+    Parameters
+    ----------
+    law
+        One of `laws.LAWS`.
+    own
+        A model of rollers in place of the one in the package.
     """
-    return _shipped().copied_numbers() if law == "solved_films" else NO_ROLLER_MODEL
+    if law != "solved_films":
+        return NO_ROLLER_MODEL
+    return (own or shipped_model(ROLLER)).copied_numbers()
 
 
 @kernel

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.chosen_model import chosen_model
+from gearlube_core.film_model.model import LINE, FilmModel
 from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
@@ -13,6 +17,10 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import (
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.oil_file import read_oil_file
+
+USUAL_OIL = "mohammadpour_2015"  # of the library, where a gear file names none
 
 
 def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
@@ -26,11 +34,41 @@ def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
     springs = file.body(role).supports
     if len(springs) != 2:
         raise ParameterError(
-            f"{role} must have two bearings, but the gear file has {len(springs)}. Add "
-            f"[{role}.bearing_1] and [{role}.bearing_2]."
+            f"{role} must have two bearings, but the gear file has {len(springs)}. Both members "
+            f"need them to vibrate: add [{role}.bearing_1] and [{role}.bearing_2], each with "
+            "distance_mm, stiffness_x_n_per_um, stiffness_y_n_per_um and stiffness_z_n_per_um."
         )
     first, second = (Bearing(**spring._asdict()) for spring in springs)
     return ShaftSupport(first=first, second=second)
+
+
+def gear_file_oil(file: HelicalGearFile) -> Lubricant:
+    """Return the oil of a gear file's friction: that of its oil file, or by default `USUAL_OIL`.
+
+    Raises
+    ------
+    ParameterError
+        The oil file is missing or wrong.
+    """
+    named = file.film.oil_file
+    return Lubricant.named(USUAL_OIL) if named is None else read_oil_file(Path(named)).lubricant
+
+
+def named_oil(oil: str | Lubricant) -> Lubricant:
+    """Return an oil of the library by its name, or the oil itself."""
+    return Lubricant.named(oil) if isinstance(oil, str) else oil
+
+
+def gear_file_film_model(file: HelicalGearFile) -> FilmModel | None:
+    """Return the film model of lines that a gear file names; None: the one in the package.
+
+    Raises
+    ------
+    FileError, ParameterError
+        It is missing, damaged or of another kind.
+    """
+    named = file.film.line_model
+    return None if named is None else chosen_model(named, LINE, "film.line_model")
 
 
 def helical_pair_parameters(

@@ -3,7 +3,8 @@
 It is part of the state of an axle. Evaluating the model takes longer than all else of a flank, and
 in steady running each tooth pair meets a node under the load and speed of the pair before it. So
 each node is evaluated once, with its slopes over force and speed, and kept until force, speed or
-oil have changed.
+oil have changed. Unless they have changed by much, what the change has done to the values renews
+the slopes: that takes one evaluation, where slopes from nothing take three.
 """
 
 from __future__ import annotations
@@ -43,6 +44,8 @@ N_FILMS = NODES_KEPT * N_NODE_FILM
 NUDGE = 0.02
 _REACH = 0.03
 _OIL_REACH = 0.1  # K
+# changes of force and speed, relative to now, up to which slopes follow from what they have done
+_SECANT_REACH = 0.6
 
 
 @kernel
@@ -72,6 +75,19 @@ def still_holds(films: Array, node: int, force: float, speed: float, temperature
 
 
 @kernel
+def _keep_state(
+    films: Array, node: int, force: float, speed: float, temperature: float, flank: NodeFlank
+) -> None:
+    at = place_of_node(node)
+    films[at + _NODE] = node + 1.0
+    films[at + _FORCE] = force
+    films[at + _SPEED] = speed
+    films[at + _OIL] = temperature
+    for i in range(len(flank)):
+        films[at + _VALUES + i] = flank[i]
+
+
+@kernel
 def keep_flank(
     films: Array,
     node: int,
@@ -89,21 +105,64 @@ def keep_flank(
     flank, under_force, at_speed : NodeFlank
         As it is, under a force and at speeds greater by NUDGE; others as in `still_holds`.
     """
+    _keep_state(films, node, force, speed, temperature, flank)
     at = place_of_node(node)
-    films[at + _NODE] = node + 1.0
-    films[at + _FORCE] = force
-    films[at + _SPEED] = speed
-    films[at + _OIL] = temperature
-    for i in range(len(flank)):
-        films[at + _VALUES + i] = flank[i]
     for i in range(_SLOPED):
         films[at + _OVER_FORCE + i] = (under_force[i] - flank[i]) / NUDGE
         films[at + _OVER_SPEED + i] = (at_speed[i] - flank[i]) / NUDGE
 
 
 @kernel
+def tells_slopes(films: Array, node: int, force: float, speed: float, temperature: float) -> bool:
+    """Return whether slopes at a node follow from those that are kept and from what has changed.
+
+    Arguments as in `still_holds`.
+    """
+    at = place_of_node(node)
+    return (
+        films[at + _NODE] == node + 1.0
+        and abs(force - films[at + _FORCE]) <= _SECANT_REACH * abs(force)
+        and abs(speed - films[at + _SPEED]) <= _SECANT_REACH * abs(speed)
+        and abs(temperature - films[at + _OIL]) <= _OIL_REACH
+    )
+
+
+@kernel
 def _relative(now: float, then: float) -> float:
     return now / then - 1.0 if then != 0.0 else 0.0
+
+
+@kernel
+def follow_flank(films: Array, node: int, force: float, speed: float, flank: NodeFlank) -> None:
+    """Keep a flank at a node that force and speed have changed at, with slopes by the change.
+
+    S + (y - S d) d^T/(d^T d), with slopes S over force and speed relative to now, their step d and
+    the change y of the values
+
+    Parameters
+    ----------
+    force, speed, flank
+        As they are now; others as in `still_holds`. `tells_slopes` must hold.
+
+    Notes
+    -----
+    Along the step slopes are those between both states; across it they stay. Source:
+    [broyden_1965], method 1.
+    """
+    at = place_of_node(node)
+    more_force = -_relative(films[at + _FORCE], force)
+    more_speed = -_relative(films[at + _SPEED], speed)
+    # slopes over relative changes: what they are relative to has changed
+    scale_force, scale_speed = 1.0 / (1.0 - more_force), 1.0 / (1.0 - more_speed)
+    square = more_force * more_force + more_speed * more_speed
+    for i in range(_SLOPED):
+        over_force = films[at + _OVER_FORCE + i] * scale_force
+        over_speed = films[at + _OVER_SPEED + i] * scale_speed
+        done = flank[i] - films[at + _VALUES + i]
+        missed = (done - over_force * more_force - over_speed * more_speed) / square
+        films[at + _OVER_FORCE + i] = over_force + missed * more_force
+        films[at + _OVER_SPEED + i] = over_speed + missed * more_speed
+    _keep_state(films, node, force, speed, films[at + _OIL], flank)
 
 
 @kernel

@@ -38,7 +38,8 @@ from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import chittenden_1985
-from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.chosen_model import check_oil, of_kind
+from gearlube_core.film_model.model import FLANK, ROLLER, FilmModel, shipped_model
 from gearlube_core.friction.flank_film import flank_film_model
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
 from gearlube_core.friction.flank_laws import (
@@ -71,7 +72,6 @@ PRINTED_WITH_SOLVED_FILM = (
     "a solved film must come with the friction law consistent, zhou_hoeprich_1991 or off: the "
     "others have films of their own. Change one of the two."
 )
-FILM_MODEL = "hypoid_flank"  # of the package, for flanks of steel
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 
 
@@ -125,6 +125,10 @@ class HypoidAxleParameters(AxleScalars):
         Central film and friction of the oil on the flanks: "formula", Chittenden 1985 with Evans
         and Johnson 1986, or "solved", by a model of solved thermal Eyring films, see `solved_film`;
         outside its domain the formulas come in. Friction of asperities is as `friction` says.
+    flank_film_model, roller_film_model : FilmModel, optional
+        Models of solved films, of flanks for `film` and of rollers for `bearing_torque_loss`;
+        default: those in the package. `FilmModel.named` reads a file. Where a model says nothing
+        of the oil, the formulas come in; `check_oil_of_models` tells.
     film_limiting_slope : float
         Limiting shear stress of the film over pressure [-], 0 for none: the film model knows none,
         so contacts whose mean stress comes near it count as outside.
@@ -179,6 +183,8 @@ class HypoidAxleParameters(AxleScalars):
     modal_loss_factor: Annotated[float, Within(0.0, 1.0)] = 0.06
     friction: Friction | FlankLawMaker = "consistent"
     film: Film = "formula"
+    flank_film_model: FilmModel | None = None
+    roller_film_model: FilmModel | None = None
     film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
     flank_bulk_resistance: Annotated[float, Within(0.0, 10.0, "K/W", "Try 0.03 K/W.")] = 0.0
     rolling: FlankRolling = "none"
@@ -200,6 +206,10 @@ class HypoidAxleParameters(AxleScalars):
             check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, TORQUE_LOSSES)
         check_option("film", self.film, FILM_MODELS)
+        if self.flank_film_model is not None:
+            of_kind(self.flank_film_model, FLANK, "flank_film_model")
+        if self.roller_film_model is not None:
+            of_kind(self.roller_film_model, ROLLER, "roller_film_model")
         check_option("rolling", self.rolling, FLANK_ROLLING_LAWS)
         check_option("churning", self.churning, CHURNING_LAWS)
         check_scalars(self)
@@ -290,6 +300,25 @@ class HypoidAxleParameters(AxleScalars):
             )
         return law
 
+    @property
+    def film_models(self) -> dict[str, FilmModel]:
+        """The models of solved films that the axle takes, by kind: "flank", "roller"."""
+        found = {}
+        if self.film == "solved":
+            found[FLANK] = self.flank_film_model or shipped_model(FLANK)
+        if self.bearing_torque_loss == "solved_films":
+            found[ROLLER] = self.roller_film_model or shipped_model(ROLLER)
+        return found
+
+    def check_oil_of_models(self) -> None:
+        """Raise ParameterError where a model of one's own says nothing of the oil."""
+        for model, what in (
+            (self.flank_film_model, "film.flank_model"),
+            (self.roller_film_model, "film.roller_model"),
+        ):
+            if model is not None:
+                check_oil(model, self.oil, self.solid, what)
+
     def film_model(self) -> Array:
         """Return the numbers of the film model for one axle; empty with the formulas.
 
@@ -302,11 +331,12 @@ class HypoidAxleParameters(AxleScalars):
             return NO_FILM_MODEL
         if self.friction not in FRICTION_WITH_SOLVED_FILM:
             raise ParameterError(f"{PRINTED_WITH_SOLVED_FILM} Got {self.friction!r}.")
-        return flank_film_model(FilmModel.named(FILM_MODEL))
+        return flank_film_model(self.film_models[FLANK])
 
     def roller_model(self) -> Array:
         """Return the numbers of the film model of rollers for one axle; empty with other laws."""
-        return roller_film_model(BEARING_LAWS.get(self.bearing_torque_loss, ""))
+        law = BEARING_LAWS.get(self.bearing_torque_loss, "")
+        return roller_film_model(law, self.roller_film_model)
 
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""

@@ -8,8 +8,10 @@ from gearlube_core.dynamics.hypoid_axle.film_nodes import (
     NodeFlank,
     film_of,
     flank_between,
+    follow_flank,
     keep_flank,
     still_holds,
+    tells_slopes,
 )
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import (
@@ -178,15 +180,19 @@ def _renew_node(
     channels = window[place * N_CHANNELS : (place + 1) * N_CHANNELS]
     entrainment = channels[ENTRAIN] * s[W_P]
     sliding = sliding_speed(s, channels)
-    more = 1.0 + NUDGE
     F = abs(force)
+    flank = _flank_under(F, entrainment, sliding, channels, oil, law, film_model)
+    if tells_slopes(films, place, force, s[W_P], oil.temperature):
+        follow_flank(films, place, force, s[W_P], flank)
+        return
+    more = 1.0 + NUDGE
     keep_flank(
         films,
         place,
         force,
         s[W_P],
         oil.temperature,
-        _flank_under(F, entrainment, sliding, channels, oil, law, film_model),
+        flank,
         _flank_under(more * F, entrainment, sliding, channels, oil, law, film_model),
         _flank_under(F, more * entrainment, more * sliding, channels, oil, law, film_model),
     )

@@ -52,7 +52,8 @@ def film_picture(films: FlankFilms, tooth: DrawnTooth, frame: int = 0) -> Any:
         _course(axes[2], films, frame)
         figure.suptitle(
             f"Flank films, drive side: {films.torque:g} N·m, {rads_to_rpm(asked.speed):.0f} rpm, "
-            f"{asked.oil.name} at {kelvin_to_celsius(asked.oil_temperature):.0f} °C",
+            f"{asked.oil.name} at {kelvin_to_celsius(asked.oil_temperature):.0f} °C, "
+            f"axle {Path(asked.axle).stem}",
             fontsize=10.5,
         )
     return figure

@@ -7,23 +7,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_words
-from gearlube.plotting.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    SKY,
-    VERMILLION,
-    YELLOW,
-    house_style,
-    new_figure,
-)
+from gearlube.plotting.loss_words import source_colour, source_words
+from gearlube.plotting.style import BLUE, house_style, new_figure
 from gearlube.report.numbers import quantity_text
 from gearlube.studies.runup import levels
-
-_COLOURS = (BLUE, SKY, GREEN, PURPLE, ORANGE, VERMILLION, GREY, YELLOW)
 
 
 def overview(dataset: xr.Dataset) -> Any:
@@ -47,7 +34,7 @@ def overview(dataset: xr.Dataset) -> Any:
                 f"{source_words(names[i])}, up to {quantity_text(float(powers[i].max()), 'W')}"
                 for i in losing
             ],
-            colors=[_COLOURS[i] for i in losing],
+            colors=[source_colour(names[i]) for i in losing],
             lw=0.0,
         )
         loss.set_ylabel("power lost [W]")

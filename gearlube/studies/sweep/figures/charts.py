@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.loss_words import SOURCE_COLOURS, SOURCE_WORDS
 from gearlube.plotting.style import preload_label
 from gearlube.report.charts import (
     Axis,
@@ -18,7 +19,7 @@ from gearlube.report.charts import (
     panels,
 )
 from gearlube.studies.sweep.crossings import ORDERS
-from gearlube.studies.sweep.figures.efficiency import SOURCES, modelled
+from gearlube.studies.sweep.figures.efficiency import modelled
 from gearlube.studies.sweep.figures.extremes import ExtremesChannel
 from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
 
@@ -46,7 +47,7 @@ def order_chart(dataset: xr.Dataset) -> Any:
         for row, label, one in _preloads(dataset)
         for order in ORDERS
     ]
-    return line_chart(lines, SPEED, Axis("amplitude of the DTE", "nm", log=True))
+    return line_chart(lines, SPEED, Axis("amplitude of the transmission error", "nm", log=True))
 
 
 def extremes_chart(dataset: xr.Dataset, channel: ExtremesChannel) -> Any:
@@ -88,15 +89,16 @@ def efficiency_chart(dataset: xr.Dataset) -> Any:
     top = 1.05 * float(dataset["loss"].sum("source").max())
     for row, _, one in rows:
         place = {"row": row + 2, "col": 1}
-        kept = [modelled(dataset, source) for source in SOURCES]
+        kept = [modelled(dataset, source) for source in SOURCE_WORDS]
         parts = np.array(
             [
                 one["loss"].sel(source=source).values if has else np.zeros(one.sizes["speed"])
-                for source, has in zip(SOURCES, kept, strict=True)
+                for source, has in zip(SOURCE_WORDS, kept, strict=True)
             ]
         )
-        names = [words for words, _ in SOURCES.values()]
+        names, colours = list(SOURCE_WORDS.values()), list(SOURCE_COLOURS.values())
         speed = one["speed_kmh"].values
-        add_stack(chart, names, speed, parts, SPEED, power, kept=kept, bars=True, **place)
+        looks: dict[str, Any] = {"kept": kept, "colours": colours, "bars": True, **place}
+        add_stack(chart, names, speed, parts, SPEED, power, **looks)
         chart.update_yaxes(range=[0.0, top], **place)
     return chart

@@ -7,33 +7,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    HATCHES,
-    ORANGE,
-    PURPLE,
-    SKY,
-    VERMILLION,
-    YELLOW,
-    house_style,
-    new_figure,
-    preload_label,
-    series,
-)
+from gearlube.plotting.loss_words import SOURCE_WORDS, source_colour
+from gearlube.plotting.style import HATCHES, house_style, new_figure, preload_label, series
 from gearlube_core.arrays import Array
 
-SOURCES = {
-    "friction_viscous": ("flank friction (fluid)", BLUE),
-    "friction_boundary": ("flank friction (asperities)", SKY),
-    "bearing_torque": ("bearing drag torque", ORANGE),
-    "churning": ("churning of the gear", VERMILLION),
-    "seals": ("shaft seals", GREY),
-    "friction_rolling": ("rolling of the flanks", YELLOW),
-    "bearing_damping": ("roller hysteresis", PURPLE),
-    "mesh_damping": ("mesh damping", GREEN),
-}
 _LEAST_POWER = 1e-3  # W, that the axis reaches
 
 
@@ -46,7 +23,7 @@ def efficiency(dataset: xr.Dataset) -> Any:
         _losses(below, dataset, _bar_group(dataset["speed_kmh"].values))
         below.set_xlabel("vehicle speed [km/h]")
         figure.suptitle("Transmission efficiency and losses", fontsize=11.5)
-        missing = [words for source, (words, _) in SOURCES.items() if not modelled(dataset, source)]
+        missing = [words for source, words in SOURCE_WORDS.items() if not modelled(dataset, source)]
         if missing:
             figure.supxlabel(f"Not modelled: {', '.join(missing)}.", fontsize=8.5, color="#555555")
     return figure
@@ -97,7 +74,7 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
     for row in range(preloads.size):
         shift = (row - 0.5 * (preloads.size - 1)) * width
         bottom = np.zeros(speed.size)
-        for source, (_, colour) in SOURCES.items():
+        for source in SOURCE_WORDS:
             if not modelled(dataset, source):
                 continue
             loss = np.nan_to_num(dataset["loss"].sel(source=source).values[row])
@@ -106,7 +83,7 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
                 loss,
                 0.94 * width,
                 bottom=bottom,
-                color=colour,
+                color=source_colour(source),
                 hatch=HATCHES[row % len(HATCHES)],
                 edgecolor="white",
                 lw=0.3,
@@ -114,8 +91,8 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
             bottom += loss
         tallest = max(tallest, float(bottom.max()))
     handles = [
-        Patch(color=colour, label=f"{name}, up to {_largest(dataset, source)} W")
-        for source, (name, colour) in SOURCES.items()
+        Patch(color=source_colour(source), label=f"{words}, up to {_largest(dataset, source)} W")
+        for source, words in SOURCE_WORDS.items()
         if modelled(dataset, source)
     ]
     handles += [

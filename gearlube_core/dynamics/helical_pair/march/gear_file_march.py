@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
+    gear_file_film_model,
+    gear_file_oil,
     iso_mesh,
+    named_oil,
 )
 from gearlube_core.dynamics.helical_pair.march.parameters import (
     Body,
@@ -16,6 +19,7 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
 from gearlube_core.dynamics.helical_pair.supports.support_kernels import replaced_bearing
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.model import FilmModel
 from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -68,8 +72,9 @@ def helical_march_parameters(
     *,
     line_mesh: LineMesh | None = None,
     stiffness_density: float = 0.0,
-    oil: str = "mohammadpour_2015",
+    oil: str | Lubricant | None = None,
     bearings: ReplacedBearings | None = None,
+    line_film_model: FilmModel | None = None,
 ) -> HelicalMarchParameters:
     """Return the parameters of `HelicalPairModel` from a gear file.
 
@@ -84,13 +89,18 @@ def helical_march_parameters(
         Stiffness along its contact lines; by default one constant stiffness density.
     stiffness_density : float
         This density [N/m2], 0 to 1e12; 0: that of ISO 6336-1. With a line mesh it must be 0.
-    oil : str
-        Name in the lubricant library.
+    oil : str or Lubricant, optional
+        Oil, or its name in the lubricant library; by default that of the file, see
+        `gear_file_oil`.
     bearings : ReplacedBearings, optional
         Bearings used instead of those of the file.
+    line_film_model : FilmModel, optional
+        Of solved films of lines; by default the one that the file names.
 
     Raises
     ------
+    FileError
+        The file's film model is missing or damaged.
     ParameterError
         A value is out of range, the mesh is of another pair, or there are no bearings at all.
 
@@ -131,7 +141,8 @@ def helical_march_parameters(
         gear=body("gear"),
         backlash=pair.backlash,
         film=gear.film.model,
-        oil=Lubricant.named(oil),
+        line_film_model=line_film_model or gear_file_film_model(gear),
+        oil=gear_file_oil(gear) if oil is None else named_oil(oil),
     )
 
 

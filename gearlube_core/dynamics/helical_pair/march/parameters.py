@@ -31,10 +31,10 @@ from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.film import dowson_toyoda_1979
-from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.chosen_model import of_kind
+from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import FILM_MODELS
-from gearlube_core.friction.solved_line import LINE_FILM_MODEL
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -110,6 +110,9 @@ class HelicalMarchParameters(MarchScalars):
         Central film and friction of the oil: "formula", Dowson and Toyoda 1979 with Evans and
         Johnson 1986, or "solved", by a model of solved thermal Eyring films, see
         `solved_line.solved_line_at`; outside its domain the formulas come in.
+    line_film_model : FilmModel, optional
+        Model of solved films of lines; default: the one in the package. `FilmModel.named` reads a
+        file. Where it says nothing of the oil, the formulas come in; `check_oil` tells.
     oil : Lubricant
     solid : Solid
         Both flanks.
@@ -141,6 +144,7 @@ class HelicalMarchParameters(MarchScalars):
     friction: Friction = "film"
     friction_coefficient: Annotated[float, Within(0.0, 1.0)] = 0.05
     film: Film = "formula"
+    line_film_model: FilmModel | None = None
     roughness_rms: Annotated[float, Within(1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")] = 0.5e-6
     solid: Solid = STEEL_MOHAMMADPOUR_2015
     mesh_damping_ratio: Annotated[float, _DAMPING] = 0.05
@@ -153,6 +157,8 @@ class HelicalMarchParameters(MarchScalars):
     def __post_init__(self) -> None:
         check_option("friction", self.friction, get_args(Friction))
         check_option("film", self.film, FILM_MODELS)
+        if self.line_film_model is not None:
+            of_kind(self.line_film_model, LINE, "line_film_model")
         check_option("form", self.form, get_args(Form))
         check_option("equations", self.equations, get_args(Equations))
         check_scalars(self)
@@ -235,7 +241,7 @@ class HelicalMarchParameters(MarchScalars):
         """Return the numbers of the film model for one pair; zeros with the formulas."""
         if self.film == "formula":
             return np.zeros(N_ARRAY)
-        return FilmModel.named(LINE_FILM_MODEL).copied_numbers()
+        return (self.line_film_model or shipped_model(LINE)).copied_numbers()
 
     def constants(self) -> MarchConstants:
         """Return the floats for the kernels."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -22,9 +21,10 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import point_moments
-from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.chosen_model import of_kind
+from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
 from gearlube_core.friction.flank_laws import FILM_MODELS
-from gearlube_core.friction.solved_line import LINE_FILM_MODEL, bounded_line_friction
+from gearlube_core.friction.solved_line import bounded_line_friction
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.kernels.jit import kernel
@@ -56,6 +56,8 @@ class FilmFriction:
         Composite root-mean-square roughness of the flanks [m].
     film : {"formula", "solved"}
         As in `HelicalMarchParameters`.
+    line_film_model : FilmModel, optional
+        Likewise.
     """
 
     oil: Lubricant
@@ -63,9 +65,12 @@ class FilmFriction:
     solid: Solid
     roughness_rms: float
     film: Literal["formula", "solved"] = "formula"
+    line_film_model: FilmModel | None = None
 
     def __post_init__(self) -> None:
         check_option("film", self.film, FILM_MODELS)
+        if self.line_film_model is not None:
+            of_kind(self.line_film_model, LINE, "line_film_model")
         self.oil.check_temperature(self.oil_temperature, "oil_temperature")
         check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
 
@@ -75,13 +80,13 @@ class FilmFriction:
             lubricant_state(self.oil.parameters(), self.oil_temperature),
             gear_flanks(self.roughness_rms),
             solid_parameters(self.solid, self.solid),
-            _line_model().copied_numbers() if self.film == "solved" else np.empty(0),
+            self.film_models[LINE].copied_numbers() if self.film == "solved" else np.empty(0),
         )
 
-
-@cache
-def _line_model() -> FilmModel:
-    return FilmModel.named(LINE_FILM_MODEL)
+    @property
+    def film_models(self) -> dict[str, FilmModel]:
+        """The model of solved films that is taken, by kind: "line"; empty with the formulas."""
+        return {LINE: self.line_film_model or shipped_model(LINE)} if self.film == "solved" else {}
 
 
 class FilmField(NamedTuple):

@@ -1,0 +1,249 @@
+"""Film models of one's own in the axle: given by file, they are what the axle computes with."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drivetrain.axle_file.axle_file import AxleFile
+from drivetrain.axle_file.read_axle import read_axle
+from fmu_src.hypoid_axle import DEFINITION, HypoidAxle, car_axle_in, definition_with_axle
+from fmu_src.identity import guid_of
+from fmu_src.native.hypoid_axle import native_model
+from gearlube.studies.drive_cycle.findings import findings as cycle_findings
+from gearlube.studies.drive_cycle.run import run_cycle
+from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+from gearlube.studies.drive_cycle.traces import DriveCycle
+from gearlube.studies.loss_map.findings import findings
+from gearlube.studies.loss_map.run import run_loss_map
+from gearlube.studies.loss_map.settings import LossMapSettings
+from gearlube.studies.sweep.oil_in_axle import axle_with_oil
+from gearlube.variation.file_variants import AxleVariants
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
+from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.friction.flank_film import flank_film_model
+from tests.helpers.own_film_models import altered, copy_of
+
+OIL_FILE = """
+name = "own"
+base_oil = "mineral"
+density_kg_m3 = 880.0
+viscosity_40_degc_mm2_s = 120.0
+viscosity_100_degc_mm2_s = 12.0
+"""
+VISCOUS = LOSS_SOURCES.index("friction_viscous")
+BOTH = (
+    '[film]\nmodel = "solved"\nflank_model = "models/flank.json"\nroller_model = "roller.json"\n'
+    '[model]\nbearing_torque_loss = "solved_films"\n'
+)
+
+
+def axle_file(folder: Path, more: str = BOTH, name: str = "axle.toml") -> Path:
+    path = folder / name
+    path.write_text(f'[gear_set]\nmesh_table = "mohammadpour_2015"\n{more}')
+    return path
+
+
+@pytest.fixture
+def copies(tmp_path):
+    (tmp_path / "models").mkdir()
+    copy_of("hypoid_flank", tmp_path / "models" / "flank.json")
+    copy_of("roller_race", tmp_path / "roller.json")
+    return tmp_path
+
+
+def losses(axle):
+    points = {"torques": np.array([200.0, 300.0]), "speeds": np.array([200.0])}
+    return axle_losses(axle, **points, temperatures=np.array([353.15]))
+
+
+def test_a_copy_by_path_gives_the_shipped_losses_bit_for_bit(copies):
+    plain = BOTH.replace('flank_model = "models/flank.json"\n', "").replace(
+        'roller_model = "roller.json"\n', ""
+    )
+    shipped = read_axle(axle_file(copies, plain, "shipped.toml")).axle
+    by_name = plain.replace("[film]", '[film]\nflank_model = "hypoid_flank"')
+    own = read_axle(axle_file(copies)).axle
+    named = read_axle(axle_file(copies, by_name, "named.toml")).axle
+    first = losses(shipped)
+    for other in (own, named):
+        found = losses(other)
+        for one in fields(first):
+            np.testing.assert_array_equal(getattr(first, one.name), getattr(found, one.name))
+    assert shipped.flank_film_model is None
+    assert own.flank_film_model.checksum == FilmModel.named("hypoid_flank").checksum
+
+
+def test_other_weights_change_film_and_losses_by_what_they_say(copies):
+    shipped = losses(read_axle(axle_file(copies)).axle)
+    np.testing.assert_array_equal(shipped.share_outside, 0.0)
+    # a fifth more friction of the same film: a fifth more of its loss, where no formula is mixed
+    # in; friction takes part in the pinion's balance of torque, so the load falls by half a percent
+    altered("hypoid_flank", friction=1.2).write(copies / "models" / "flank.json")
+    more = losses(read_axle(axle_file(copies)).axle)
+    np.testing.assert_allclose(
+        more.power[..., VISCOUS], 1.2 * shipped.power[..., VISCOUS], rtol=0.01
+    )
+    np.testing.assert_allclose(more.film_ratio, shipped.film_ratio, rtol=1e-3)
+    # a film 1.1 times as thick
+    altered("hypoid_flank", film=1.1).write(copies / "models" / "flank.json")
+    thicker = losses(read_axle(axle_file(copies)).axle)
+    np.testing.assert_allclose(thicker.film_ratio, 1.1 * shipped.film_ratio, rtol=1e-3)
+    # rollers: a third more rolling force
+    altered("roller_race", friction=4.0 / 3.0).write(copies / "roller.json")
+    rolling = losses(read_axle(axle_file(copies)).axle)
+    drag = [LOSS_SOURCES.index(one) for one in LOSS_SOURCES if "bearing" in one]
+    assert np.all(rolling.power[..., drag].sum(-1) > 1.05 * thicker.power[..., drag].sum(-1))
+
+
+def test_a_map_names_its_models_with_their_bounds(copies):
+    altered("hypoid_flank", film=1.1).write(copies / "models" / "flank.json")
+    settings = LossMapSettings(
+        axle=read_axle(axle_file(copies)).axle,
+        torques=np.array([100.0]),
+        speeds=np.array([200.0]),
+        temperatures=np.array([353.15]),
+        draws=0,
+    )
+    found = run_loss_map(settings)
+    bounds = FilmModel.named("hypoid_flank")
+    words = (
+        f"altered (checksum {altered('hypoid_flank', film=1.1).checksum}), bounds "
+        f"{100.0 * bounds.film_bound:.2g} % of the central film and "
+        f"{100.0 * bounds.friction_bound:.2g} % of friction"
+    )
+    assert found.attrs["film_model_flank"] == words
+    assert found.attrs["film_model_roller"].startswith("roller_race (checksum")
+    said = [one.detail for one in findings(found) if "solved films" in one.headline]
+    assert f"Model: {words}." in said[0]
+    assert f"Model: {found.attrs['film_model_roller']}." in said[1]
+
+
+def test_a_cycle_has_the_bounds_of_flanks_and_rollers(copies):
+    car = read_axle(axle_file(copies))
+    time, speed = np.array([0.0, 5.0, 10.0]), np.full(3, 10.0)  # s, m/s
+    trace = DriveCycle(name="even", time=time, speed=speed)
+    warm = {"start_temperature": 353.15, "air_temperature": 343.15}  # K, within the domains
+    found = run_cycle(DriveCycleSettings(car=car, cycle=trace, draws=0, **warm))
+    seconds = found["duration"].values
+    for name, source in (("drag", "bearing_torque"), ("friction", "friction_viscous")):
+        bound, loss = found[f"{name}_bound"].values, found["loss"].sel(source=source).values
+        assert np.all((bound > 0.0) & (bound < 0.2 * loss))
+    assert float(found["energy_drag_bound"]) == pytest.approx(
+        1e-3 * float(found["drag_bound"].values @ seconds)
+    )
+    assert np.all(found["rollers_outside"].values < 0.5)
+    said = [one.headline for one in cycle_findings(found) if "solved films" in one.headline]
+    assert ["of the flanks" in said[0], "of the rollers" in said[1]] == [True, True]
+
+
+def test_a_file_says_which_models_its_axle_takes(copies):
+    notes = {one.field: one for one in read_axle(axle_file(copies)).inputs}
+    assert notes["film.flank_model"][1:4] == ("models/flank.json", "", "given")
+    assert notes["film.roller_model"][1:4] == ("roller.json", "", "given")
+    plain = axle_file(copies, '[film]\nmodel = "solved"\n', "plain.toml")
+    notes = {one.field: one for one in read_axle(plain).inputs}
+    assert notes["film.flank_model"][1:4] == ("hypoid_flank", "", "assumed")
+    assert "film.roller_model" not in notes
+
+
+@pytest.mark.parametrize(
+    ("more", "error", "words"),
+    [
+        ('[film]\nflank_model = "hypoid_flank"', ParameterError, "only for model = solved, got"),
+        (
+            '[film]\nmodel = "solved"\nroller_model = "roller_race"',
+            ParameterError,
+            "only for model.bearing_torque_loss = solved_films, got 'roller_race' with that left",
+        ),
+        (
+            '[film]\nmodel = "solved"\nflank_model = "roller.json"',
+            ParameterError,
+            r"film.flank_model must be a film model of hypoid flanks.*\(kind roller\)",
+        ),
+        (
+            '[film]\nmodel = "solved"\nflank_model = "no.json"',
+            FileError,
+            r"no\.json cannot be read: there is no such file",
+        ),
+        (
+            '[film]\nmodel = "solved"\nflank_model = "models/flank.json"\n'
+            "[oil]\neyring_stress_mpa = 40.0",
+            ParameterError,
+            r"film.flank_model must be a film model that holds for the oil own oil.*Eyring stress "
+            r"40 MPa from .* \(model: 1 to 10 MPa\)",
+        ),
+    ],
+)
+def test_what_cannot_be_is_refused(copies, more, error, words):
+    with pytest.raises(error, match=words):
+        read_axle(axle_file(copies, more))
+
+
+def test_an_fmu_carries_the_models_and_computes_with_them(copies):
+    path = axle_file(copies)
+    guid = guid_of(definition_with_axle(path))
+    flank, roller = altered("hypoid_flank", film=1.2), altered("roller_race", film=1.1)
+    flank.write(copies / "models" / "flank.json")
+    roller.write(copies / "roller.json")
+    definition = definition_with_axle(path)
+    assert guid_of(definition) != guid
+    inside = car_axle_in(definition.resources).axle
+    assert inside.flank_film_model.checksum == flank.checksum
+    assert inside.roller_film_model.checksum == roller.checksum
+    # unpacked, without the folder of the axle file
+    resources = copies / "unpacked"
+    resources.mkdir()
+    for name, content in definition.resources.items():
+        (resources / name).write_bytes(content)
+    assert HypoidAxle.definition_of(resources) is definition
+    # the native FMU has the same numbers as constants
+    data = native_model(definition).data
+    for numbers in (flank_film_model(flank), roller.copied_numbers()):
+        windows = np.lib.stride_tricks.sliding_window_view(data, numbers.size)
+        assert any(np.array_equal(one, numbers, equal_nan=True) for one in windows)
+    plain = native_model(DEFINITION)
+    assert plain.data.size == data.size
+
+
+def test_a_shipped_name_needs_no_file_in_the_fmu(copies):
+    path = axle_file(copies, '[film]\nmodel = "solved"\nflank_model = "hypoid_flank"\n')
+    assert set(definition_with_axle(path).resources) == {"axle.toml"}
+
+
+def test_a_sweep_with_another_oil_keeps_the_models(copies):
+    (copies / "oil.toml").write_text(OIL_FILE)
+    path = axle_file(copies)
+    (copies / "sweep").mkdir()
+    made = axle_with_oil(path, None, copies / "oil.toml", copies / "sweep")
+    for one in (copies / "models" / "flank.json", copies / "roller.json"):
+        one.unlink()
+    axle = read_axle(made).axle
+    assert axle.flank_film_model.checksum == FilmModel.named("hypoid_flank").checksum
+    assert axle.roller_film_model.checksum == FilmModel.named("roller_race").checksum
+    assert axle.oil.name == "own"
+
+
+def test_variants_hold_the_models_in_memory_and_know_their_content(copies):
+    path = axle_file(copies)
+    altered("hypoid_flank", film=1.1).write(copies / "other.json")
+    key = "film.flank_model"
+    read = AxleVariants.read(str(path))
+    variants = read.with_files([(key, "other.json")])
+    before = variants.identity
+    (copies / "other.json").unlink()
+    thicker = variants.car_axle({key: "other.json"}).axle
+    assert thicker.flank_film_model.checksum == altered("hypoid_flank", film=1.1).checksum
+    assert variants.car_axle({}).axle.flank_film_model.name == "hypoid_flank"
+    altered("hypoid_flank", film=1.3).write(copies / "other.json")
+    assert read.with_files([(key, "other.json")]).identity != before
+
+
+def test_the_fields_of_a_file_without_models_are_as_they_were():
+    made = AxleFile.named("mohammadpour_2015").car_axle().axle
+    assert (made.flank_film_model, made.roller_film_model) == (None, None)
+    assert made.film_models == {}
