@@ -57,7 +57,8 @@ def designs(store: Store) -> Any:
         figure, top, bottom = _two_panels()
         for d in "ab":
             colour = COLOURS[d]
-            _curves(top, bottom, drawn_cycle(store, d), f"design {d.upper()}", color=colour)
+            label = f"{d.upper()}, in motion"
+            _curves(top, bottom, drawn_cycle(store, d), label, color=colour)
             dry = dry_cycle(store.folder, FilmCase(design=d, nodes=CYCLE))
             top.plot(
                 dry.step, GPA * dry.max_pressure, ".", color=colour, ms=5,
@@ -72,7 +73,7 @@ def designs(store: Store) -> Any:
         bottom.legend(ncols=2)
         bottom.set_ylim(0.0, None)
         figure.suptitle(
-            "Both designs over the cycle: parabolic relief, $k$ = 1, $F_o$ = 0", fontsize=11
+            "Designs A and B over the cycle: parabolic relief, $k$ = 1, $F_o$ = 0", fontsize=11
         )
     return figure
 
@@ -129,24 +130,26 @@ def parabolas(store: Store) -> Any:
         figure = new_figure(8.2, 4.0)
         left, right = figure.subplots(1, 2)
         rest = [store.steady(parabola_case("a", k), 500) for k in PARABOLAS]
-        left.plot(PARABOLAS, [GPA * f.max_pressure for f in rest], "o-", label="A, at rest")
+        whole = {"clip_on": False, "zorder": 3}  # markers on the axis of k = 0
+        a = {"color": BLUE, "label": "A, at rest", **whole}
+        left.plot(PARABOLAS, [GPA * f.max_pressure for f in rest], "o-", **a)
         left.plot(
-            PARABOLAS, [GPA * f.dry_pressure for f in rest], "x--", color=GREY, label="A, dry"
-        )
-        right.plot(PARABOLAS, [UM * f.min_film for f in rest], "o-", label="A, at rest")
+            PARABOLAS, [GPA * f.dry_pressure for f in rest], "x--", color=GREY, label="A, dry",
+            **whole,
+        )  # fmt: skip
+        right.plot(PARABOLAS, [UM * f.min_film for f in rest], "o-", **a)
         shares = (1.0, *MARCHED_PARABOLAS)
         marches = [store.march(parabola_case("a", k), 500 - APPROACH, 500) for k in shares]
         done = [(k, m) for k, m in zip(shares, marches, strict=True) if m.complete]
         for ax, name, unit in ((left, "max_pressure", GPA), (right, "min_film", UM)):
             ax.plot(
                 [k for k, _ in done], [unit * m.at(name, 500) for _, m in done], "s",
-                color=VERMILLION, label="A, in motion",
+                color=VERMILLION, label="A, in motion", **whole,
             )  # fmt: skip
-        b = [store.steady(parabola_case("b", k), 500) for k in shares]
-        left.plot(
-            shares, [GPA * f.max_pressure for f in b], "^:", color=SERIES[2], label="B, at rest"
-        )
-        right.plot(shares, [UM * f.min_film for f in b], "^:", color=SERIES[2], label="B, at rest")
+        films = [store.steady(parabola_case("b", k), 500) for k in shares]
+        b = {"color": SERIES[2], "label": "B, at rest", **whole}
+        left.plot(shares, [GPA * f.max_pressure for f in films], "^:", **b)
+        right.plot(shares, [UM * f.min_film for f in films], "^:", **b)
         left.set(ylabel="largest pressure [GPa]")
         right.set(ylabel="smallest film [µm]")
         for ax in (left, right):

@@ -8,7 +8,7 @@ from docs.ehl.cases import FACETED, FilmCase, facet_case
 from docs.ehl.claims import GPA, MM, UM
 from docs.ehl.runs import FACET_MARCH, FACET_STEPS
 from docs.ehl.store import Store
-from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
+from gearlube.plotting.style import GREY, ORANGE, PURPLE, SERIES, SKY, house_style, new_figure
 
 
 def facets(store: Store) -> Any:
@@ -16,7 +16,7 @@ def facets(store: Store) -> Any:
     with house_style():
         figure = new_figure(9.6, 7.0)
         axes = figure.subplots(2, 2)
-        for row, step in enumerate((300, *FACET_STEPS)):
+        for row, step in enumerate(sorted((300, *FACET_STEPS))):
             films = [store.steady(facet_case(n), step) for n in (20, 30, 40, 100)]
             films += [store.steady(FilmCase(nodes=FACETED), step)]
             places = range(5)
@@ -40,12 +40,13 @@ def facets(store: Store) -> Any:
         axes[0, 0].set_ylabel("largest pressure [GPa]")
         axes[0, 1].set_ylabel("smallest film [µm]")
         axes[0, 0].legend()
-        for row, n in enumerate((20, 40, 100, 0)):
+        # other colours than those of the steps above
+        for n, colour in zip((20, 40, 100, 0), (PURPLE, ORANGE, SKY, "black"), strict=True):
             film = store.steady(facet_case(n), 300)
             j, label = film.column(0.0), f"$n_f$ = {n}" if n else "smooth"
             x = MM * film.x
-            axes[1, 0].plot(x, GPA * film.pressure[:, j], color=SERIES[row], lw=1.1, label=label)
-            axes[1, 1].plot(x, UM * film.film[:, j], color=SERIES[row], lw=1.1)
+            axes[1, 0].plot(x, GPA * film.pressure[:, j], color=colour, lw=1.3, label=label)
+            axes[1, 1].plot(x, UM * film.film[:, j], color=colour, lw=1.3)
         for ax in axes[1]:
             ax.set(xlabel="across the line, x [mm], y = 0", xlim=(-0.45, 0.4))
         axes[1, 0].set_ylabel("pressure [GPa]")

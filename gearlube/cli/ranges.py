@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from gearlube.cli.oil_option import kelvin_hint
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 
@@ -69,5 +70,6 @@ def numbers_from(
         values += [first + i * step for i in range(count)]
     rising = sorted({round(value, 12) for value in values})
     for value in rising:
-        check_within(option, value, low, high, unit, cure)
+        hint = kelvin_hint(value) if unit == "degC" else ""
+        check_within(option, value, low, high, unit, cure + hint)
     return tuple(rising)

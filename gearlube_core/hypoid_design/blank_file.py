@@ -103,8 +103,8 @@ class BlankFile(InputFile):
         if not 2.0 * pair.offset_mm < size:
             raise ValueError(
                 f"pair.offset_mm must be below half the gear's diameter, {0.5 * size:g} mm, got "
-                f"{pair.offset_mm:g} mm. Reduce it; or is the diameter in inches? {size:g} in is "
-                f"{25.4 * size:g} mm"
+                f"{pair.offset_mm:g} mm. Reduce it; or is the diameter in another unit? {size:g} m "
+                f"is {1e3 * size:g} mm, {size:g} in is {25.4 * size:g} mm"
             )
         return self
 

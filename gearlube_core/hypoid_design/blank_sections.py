@@ -29,7 +29,8 @@ class BlankPair(Section):
     pinion_teeth: int = Field(ge=3, le=100, description="Number of teeth of the pinion")
     gear_teeth: int = Field(ge=3, le=400, description="Number of teeth of the gear")
     offset_mm: Offset = Field(
-        description="Distance between the axes (pinion offset); 0: bevel gears"
+        description="Distance between the axes (pinion offset), without a sign: pinion_hand "
+        "tells its side; 0: bevel gears"
     )
     pinion_hand: Literal["right", "left"] = Field(
         default="right",

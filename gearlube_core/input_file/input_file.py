@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from importlib.resources import files
@@ -12,6 +13,10 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from gearlube_core.errors import ParameterError, why
 from gearlube_core.input_file.field_notes import field_notes, sentence
+from gearlube_core.input_file.file_kind import other_kind
+
+# a line whose value is a number with a comma
+_DECIMAL_COMMA = re.compile(r"^[^#\n=]*=[ \t]*(-?\d+),(\d+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
 class Section(BaseModel):
@@ -73,6 +78,12 @@ class InputFile(Section):
             return cls.model_validate(data)
         except ValidationError as reason:
             notes = field_notes(cls)
+            other = other_kind(data, notes)
+            if other is not None:
+                raise ParameterError(
+                    f"{where} is not the file that is asked for ({cls.title}): its fields are "
+                    f"those of {other.words}. {other.use}"
+                ) from None
             lines = [sentence(error, notes, cls.unmodelled) for error in reason.errors()]
             raise ParameterError(
                 f"{where} has {len(lines)} wrong field(s). " + " ".join(lines)
@@ -94,7 +105,14 @@ class InputFile(Section):
 
 def read_toml(path: str | Path) -> dict[str, Any]:
     """Return the data of a TOML file; raise ParameterError where it cannot be read."""
+    text = ""
     try:
-        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        text = Path(path).read_text(encoding="utf-8")
+        return tomllib.loads(text)
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
-        raise ParameterError(f"{path} is not a readable TOML file: {why(reason)}.") from None
+        cure = ""
+        if isinstance(reason, FileNotFoundError):
+            cure = " A path inside a file counts from the folder of that file."
+        elif (comma := _DECIMAL_COMMA.search(text)) is not None:
+            cure = f" Write {comma[1]}.{comma[2]}, with a point."
+        raise ParameterError(f"{path} is not a readable TOML file: {why(reason)}.{cure}") from None

@@ -83,6 +83,29 @@ def test_an_oil_of_the_library_comes_at_its_temperature():
     assert lubricant.shear.tau0 == 0.0
 
 
+OWN_OIL = """
+name = "75W-90"
+base_oil = "pao"
+density_kg_m3 = 868.0
+viscosity_40_degc_mm2_s = 102.0
+viscosity_100_degc_mm2_s = 15.1
+"""
+
+
+def test_an_oil_file_is_named_from_the_folder_of_the_case(tmp_path):
+    (tmp_path / "oil.toml").write_text(OWN_OIL)
+    (tmp_path / "cases").mkdir()
+    path = tmp_path / "cases" / "line.toml"
+    fields = "".join(f"{key} = {value!r}\n" for key, value in LINE.items() if key != "oil")
+    path.write_text(f'{fields}[oil]\nlibrary = "../oil.toml"\ntemperature_degc = 100.0\n')
+    lubricant = LineCase.from_toml(path).problem().lubricant
+    # 15.1 mm2/s times 868 kg/m3 less 0.6 kg/(m3.K) from 15 to 70 degC: a model has one density
+    assert lubricant.eta0 == pytest.approx(15.1e-6 * (868.0 - 0.6 * 55.0), rel=1e-6)
+    (tmp_path / "oil.toml").write_text(OWN_OIL.replace("name", "nam"))
+    with pytest.raises(ParameterError, match="is it name"):
+        LineCase.from_toml(path).problem()
+
+
 @pytest.mark.parametrize(
     ("entrainment", "slide_roll", "speeds"),
     [(None, None, (3.0, 1.0)), (4.0, None, (6.0, 2.0)), (None, 0.0, (2.0, 2.0)),

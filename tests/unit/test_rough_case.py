@@ -132,6 +132,17 @@ def test_the_key_knows_surfaces_and_grid_and_not_names():
         assert case(**change).key() != key
 
 
+def test_the_key_knows_what_an_oil_file_says(tmp_path):
+    oil = tmp_path / "oil.toml"
+    text = 'name = "o"\nbase_oil = "pao"\ndensity_kg_m3 = 868.0\nviscosity_index = 150\n'
+    keys = []
+    for viscosity in (100.0, 101.0):
+        oil.write_text(f"{text}viscosity_40_degc_mm2_s = {viscosity}\n")
+        made = RoughCase.from_data({**CASE, "oil": {"library": str(oil)}}, "waves")
+        keys.append(made.key())
+    assert keys[0] != keys[1]
+
+
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
 def test_a_march_stores_oil_by_the_scheme_of_its_case(scheme, monkeypatch):
     given = []

@@ -126,7 +126,7 @@ def test_ranges_balance_and_failed_points(sweep):
 
 def test_key_numbers_are_those_of_the_signal(sweep):
     known = {one.name: (one.value, one.unit) for one in numbers(sweep)}
-    value, unit = known["largest mesh order of the DTE, amplitude"]
+    value, unit = known["largest mesh order of the transmission error, amplitude"]
     assert (value, unit) == (pytest.approx(1.0, rel=1e-3), "µm")
     assert known["largest loss"] == (pytest.approx(42.0), "W")
     assert known["least efficiency of the axle"] == (pytest.approx(97.9), "%")

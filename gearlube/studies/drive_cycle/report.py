@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_colour, source_words
+from gearlube.plotting.range_words import range_words
 from gearlube.report.charts import Axis, Line, add_line, line_chart, mark_level, panels, stack_chart
 from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Report, Table
 from gearlube.studies.drive_cycle.figures import LEAST_SHARE
@@ -158,7 +159,11 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
                 Column("energy lost outside", "%", 2),
             ],
             rows=[
-                [str(one["range"].values), 100.0 * float(one), 100.0 * float(energy_share)]
+                [
+                    range_words(str(one["range"].values)),
+                    100.0 * float(one),
+                    100.0 * float(energy_share),
+                ]
                 for one, energy_share in zip(
                     dataset["time_outside_range"], dataset["energy_outside_range"], strict=True
                 )

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
+from gearlube.plotting.range_words import range_words
 
 SUMMARY_HEAD = ("quantity", "value", "unit", "low", "high")
 _COLUMNS = {
@@ -94,9 +95,10 @@ def range_sentence(dataset: xr.Dataset) -> str:
             for name in ("time", "energy")
         )
         parts.append(
-            f"{words}: {time:.2g} % of the running time, {energy:.2g} % of the energy lost"
+            f"{range_words(output)}: {time:.2g} % of the running time, {energy:.2g} % of the "
+            "energy lost"
         )
-    return f"Outside ranges: {'; '.join(parts)}." if parts else ""
+    return f"What left it: {'; '.join(parts)}." if parts else ""
 
 
 def _energy(

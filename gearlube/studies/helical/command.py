@@ -245,10 +245,16 @@ def helical(
         raise typer.Exit(FAILED)
 
 
+_SYMBOLS = (
+    "delta_z: dynamic transmission error; u, F: displacement and bearing force of the pinion along "
+    "x (line of action), y (across it) and z (axis); mu: a constant coefficient of friction"
+)
+
+
 def _table(name: str, rows: list[Row]) -> Table:
     from gearlube.report.numbers import number_text
 
-    table = Table(title=f"{name}: helical pair")
+    table = Table(title=f"{name}: helical pair", caption=_SYMBOLS)
     for heading in ("", "quantity", "value", "unit"):
         table.add_column(heading, justify="right" if heading == "value" else "left")
     topic = ""

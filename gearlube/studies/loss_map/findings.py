@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
+from gearlube.plotting.range_words import RANGE_WORDS
 from gearlube.report.film_ratio import MIXED, film_ratio_level
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
@@ -24,16 +25,6 @@ _INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity c
 _LEAST_SWING = 5e-4  # mean share of the loss that an input moves, below which it has no effect
 _NAMED = 3  # sources of loss and uncertain inputs that are told one by one
 _LEAST_SHARE = 0.005  # of the loss, of a source that is told
-
-# in the order of `gearlube_core.dynamics.ranges.RANGE_OUTPUTS`, the first left out
-_RANGES = (
-    "torque (the mesh table ends)",
-    "load of the film formula (Moes number M)",
-    "speed and viscosity of the film formula (Moes number L)",
-    "traction formula (its pressure, film and temperature together)",
-    "film temperature (the oil data end)",
-    "Hertz pressure (steel yields)",
-)
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -333,8 +324,8 @@ def _ranges(dataset: xr.Dataset) -> list[Finding]:
     if not dataset.attrs["ranges_left"]:
         return [Finding(GOOD, "No point left the range of a formula or table.")]
     exceeded = np.nan_to_num(dataset["range_exceeded"].values).astype(int)
-    shares = [100.0 * float((exceeded >> bit & 1).mean()) for bit in range(len(_RANGES))]
-    by_kind = sorted(zip(shares, _RANGES, strict=True), reverse=True)
+    shares = [100.0 * float((exceeded >> bit & 1).mean()) for bit in range(len(RANGE_WORDS))]
+    by_kind = sorted(zip(shares, RANGE_WORDS.values(), strict=True), reverse=True)
     parts = [
         f"{words} at {'below 1' if share < 1.0 else f'{share:.0f}'} %"
         for share, words in by_kind

@@ -56,15 +56,17 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
     if peaks := peak_orders(dataset):
         top = max(peaks, key=lambda one: one.amplitude)
         found += [
-            Number("largest mesh order of the DTE, amplitude", 1e6 * top.amplitude, "µm"),
-            Number("largest mesh order of the DTE, order", top.order, "", 1),
-            Number("largest mesh order of the DTE, at", top.speed_kmh, "km/h", 2),
+            Number(
+                "largest mesh order of the transmission error, amplitude", 1e6 * top.amplitude, "µm"
+            ),
+            Number("largest mesh order of the transmission error, order", top.order, "", 1),
+            Number("largest mesh order of the transmission error, at", top.speed_kmh, "km/h", 2),
         ]
     loss = dataset["loss"].sum("source", skipna=False)
     warmest = kelvin_to_celsius(_most(dataset["flank_temperature_max"]))
     return [
         *found,
-        Number("largest DTE, peak to peak", 1e6 * _most(dataset["dte_pp"]), "µm"),
+        Number("largest transmission error, peak to peak", 1e6 * _most(dataset["dte_pp"]), "µm"),
         Number("least efficiency of the axle", 100.0 * _least(dataset["efficiency_axle"]), "%", 4),
         Number("best efficiency of the axle", 100.0 * _most(dataset["efficiency_axle"]), "%", 4),
         Number("largest loss", _most(loss), "W"),

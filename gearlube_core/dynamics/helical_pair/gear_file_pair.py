@@ -34,8 +34,9 @@ def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
     springs = file.body(role).supports
     if len(springs) != 2:
         raise ParameterError(
-            f"{role} must have two bearings, but the gear file has {len(springs)}. Add "
-            f"[{role}.bearing_1] and [{role}.bearing_2]."
+            f"{role} must have two bearings, but the gear file has {len(springs)}. Both members "
+            f"need them to vibrate: add [{role}.bearing_1] and [{role}.bearing_2], each with "
+            "distance_mm, stiffness_x_n_per_um, stiffness_y_n_per_um and stiffness_z_n_per_um."
         )
     first, second = (Bearing(**spring._asdict()) for spring in springs)
     return ShaftSupport(first=first, second=second)

@@ -299,6 +299,8 @@ class RoughCase(ContactCase):
             exclude={"name": True, "source": True, "frames": True, "solver": self._unsaid()}
         )
         digest = hashlib.sha256(told.encode())
+        if self.oil.from_file:
+            digest.update(repr(self.oil.film_oil()).encode())
         for one in self.surfaces():
             digest.update(np.ascontiguousarray(one.heights.height).tobytes())
         return digest.hexdigest()[:12]

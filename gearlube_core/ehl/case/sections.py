@@ -10,7 +10,7 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
-from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.oil.oil_heat import OilHeat
 from gearlube_core.units import celsius_to_kelvin
 
@@ -41,12 +41,13 @@ _OWN_DATA = (
 
 
 class Oil(Section):
-    """The oil, by its numbers or as one of the library at a temperature."""
+    """The oil, by its numbers or as one of the library or an oil file at a temperature."""
 
     library: str | None = Field(
         default=None,
-        description="Name of an oil of the library; if given, leave out the four values that it "
-        "brings: viscosity, pressure-viscosity coefficient, Eyring stress and limiting stress",
+        description="Name of an oil of the library, or an oil file (.toml), its path relative to "
+        "the case file; if given, leave out the four values that it brings: viscosity, "
+        "pressure-viscosity coefficient, Eyring stress and limiting stress",
     )
     shear: Literal["eyring", "newtonian", "limited"] = Field(
         default="eyring",
@@ -119,17 +120,24 @@ class Oil(Section):
         if self.library is None:
             for name in _OWN_DATA[:2]:
                 if getattr(self, name) is None:
-                    raise ValueError(f"{name} is missing; give it, or the name of a library oil")
+                    raise ValueError(
+                        f"{name} is missing; give it, or library = an oil or an oil file"
+                    )
         if self.limiting_stress_mpa is None and self.limiting_stress_slope > 0.0:
             raise ValueError("limiting_stress_slope needs limiting_stress_mpa")
         return self
+
+    @property
+    def from_file(self) -> bool:
+        """Whether the values come from an oil file."""
+        return self.library is not None and self.library.endswith(".toml")
 
     def film_oil(self) -> FilmOil:
         """Return the film's data of the oil, in SI units."""
         temperature = celsius_to_kelvin(self.temperature_degc)
         if self.library is not None:
             return film_oil_of(
-                Lubricant.named(self.library),
+                read_oil(self.library).lubricant,
                 temperature,
                 law=self.law,
                 density_law=self.density_law,

@@ -133,4 +133,7 @@ def with_places(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         section = placed.get(name)
         if isinstance(section, dict) and isinstance(section.get("file"), str):
             placed[name] = {**section, "file": str(folder / section["file"])}
+    oil = placed.get("oil")
+    if isinstance(oil, dict) and str(oil.get("library", "")).endswith(".toml"):
+        placed["oil"] = {**oil, "library": str(folder / oil["library"])}
     return placed

@@ -47,7 +47,7 @@ def order_chart(dataset: xr.Dataset) -> Any:
         for row, label, one in _preloads(dataset)
         for order in ORDERS
     ]
-    return line_chart(lines, SPEED, Axis("amplitude of the DTE", "nm", log=True))
+    return line_chart(lines, SPEED, Axis("amplitude of the transmission error", "nm", log=True))
 
 
 def extremes_chart(dataset: xr.Dataset, channel: ExtremesChannel) -> Any:

@@ -32,7 +32,7 @@ class CutChannel:
 
 DTE_CUTS = CutChannel(
     variable="dte_spectrum",
-    label="amplitude of the DTE [nm]",
+    label="amplitude [nm]",
     title="Order cuts of the dynamic transmission error",
     scale=1e9,
 )

@@ -1,0 +1,65 @@
+"""Slips of a first user: a file of another kind, a decimal comma, a path, kelvin for degC."""
+
+import pytest
+
+from drivetrain.axle_file.axle_file import AxleFile
+from gearlube.cli.oil_option import oil_kelvin
+from gearlube.cli.ranges import numbers_from
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.hypoid_design.blank_file import BlankFile
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.input_file.input_file import read_toml
+from gearlube_core.oil.oil_file import OilFile
+
+KINDS = {
+    AxleFile: ("mohammadpour_2015", "an axle file"),
+    HypoidGearFile: ("mohammadpour_2015", "a gear file of a hypoid pair"),
+    HelicalGearFile: ("he_2007", "a gear file of a helical pair"),
+    BlankFile: ("hypoid_13_42", "a blank file"),
+    OilFile: ("iso_vg_220_pao", "an oil file"),
+}
+
+
+@pytest.mark.parametrize("asked", KINDS)
+@pytest.mark.parametrize("given", KINDS)
+def test_a_file_of_another_kind_is_called_by_its_name(asked, given, tmp_path):
+    name, words = KINDS[given]
+    path = tmp_path / "given.toml"
+    path.write_text(given.shipped_text(name), encoding="utf-8")
+    if asked is given:
+        assert asked.from_toml(path)
+        return
+    with pytest.raises(ParameterError, match=f"those of {words}") as told:
+        asked.from_toml(path)
+    assert len(str(told.value)) < 400  # not a list of fields
+
+
+def test_a_wrong_field_of_the_right_kind_is_still_named(tmp_path):
+    path = tmp_path / "axle.toml"
+    path.write_text('[gear_set]\nmesh_table = "mohammadpour_2015"\nbacklash = 1.0\n')
+    with pytest.raises(ParameterError, match=r"is it gear_set\.backlash_um"):
+        AxleFile.from_toml(path)
+
+
+def test_a_decimal_comma_and_a_missing_file_have_a_cure(tmp_path):
+    path = tmp_path / "axle.toml"
+    path.write_text('a = [1, 2]\nname = "x, 1,5"\npreload_n = 5000,5  # N\n')
+    with pytest.raises(ParameterError, match=r"Write 5000\.5, with a point"):
+        read_toml(path)
+    path.write_text("a = [1, 2\n")
+    with pytest.raises(ParameterError) as told:
+        read_toml(path)
+    assert "point" not in str(told.value)
+    with pytest.raises(ParameterError, match="counts from the folder of that file"):
+        read_toml(tmp_path / "none.toml")
+
+
+def test_kelvin_for_degc_is_asked_about():
+    with pytest.raises(ParameterError, match=r"Is it in K\? 353 K is 79\.85 degC"):
+        oil_kelvin(353.0, "mohammadpour_2015")
+    with pytest.raises(ParameterError, match=r"353 K is 79\.85 degC"):
+        numbers_from("--t", ["40", "353"], "degC", -60.0, 250.0, example="40:100:20")
+    with pytest.raises(ParameterError) as told:
+        oil_kelvin(900.0, "mohammadpour_2015")
+    assert "in K" not in str(told.value)
