@@ -57,7 +57,8 @@ def designs(store: Store) -> Any:
         figure, top, bottom = _two_panels()
         for d in "ab":
             colour = COLOURS[d]
-            _curves(top, bottom, drawn_cycle(store, d), f"design {d.upper()}", color=colour)
+            label = f"{d.upper()}, in motion"
+            _curves(top, bottom, drawn_cycle(store, d), label, color=colour)
             dry = dry_cycle(store.folder, FilmCase(design=d, nodes=CYCLE))
             top.plot(
                 dry.step, GPA * dry.max_pressure, ".", color=colour, ms=5,
@@ -72,7 +73,7 @@ def designs(store: Store) -> Any:
         bottom.legend(ncols=2)
         bottom.set_ylim(0.0, None)
         figure.suptitle(
-            "Both designs over the cycle: parabolic relief, $k$ = 1, $F_o$ = 0", fontsize=11
+            "Designs A and B over the cycle: parabolic relief, $k$ = 1, $F_o$ = 0", fontsize=11
         )
     return figure
 

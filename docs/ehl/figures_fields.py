@@ -100,7 +100,10 @@ def sections(store: Store) -> Any:
         for below in axes[1]:
             below.set_xlabel("x [mm]")
         figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=3, loc="outside lower center")
-        figure.suptitle("Design B, step 300: sections across the contact line", fontsize=11)
+        figure.suptitle(
+            "Design B, step 300: motion changes the film where the tip relief begins, at y = 18 mm",
+            fontsize=11,
+        )
     return figure
 
 

@@ -55,7 +55,7 @@ def test_short_waves_deflect_as_the_whole_transform_says(grid, halved):
 
 def test_only_some_dozens_of_neighbours_count():
     grid = closed_grid("cyclic")
-    assert ShortDeflection(grid.coefficients, grid.sides, (False, True))._weights.size < 40
+    assert ShortDeflection(grid.coefficients, grid.sides, (False, True)).weights.size < 40
 
 
 def test_threads_change_no_bit(monkeypatch):

@@ -14,6 +14,7 @@ from gearlube_core.ehl.point.equations.mesh import Grading
 from gearlube_core.ehl.point.level import PointLevel, Scheme
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.sides import FEWEST_ROWS
 from gearlube_core.ehl.point.terms.boundary import AmbientOutside
 from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.entrainment import RowEntrainment
@@ -73,9 +74,8 @@ class MovingLevel(PointLevel):
         self.stencil = self.stencil._replace(wedge_y=conditions.slope / self.grid.dy)
         sides = self.grid.sides
         if sides.closed and (conditions.slope != 0.0 or conditions.side_sliding != 0.0):
-            sides.check_goes_with(
-                self.grid.y.size, conditions.slope, (0.0, conditions.side_sliding)
-            )
+            # the rows of the finest grid were checked with the film; coarse ones have fewer
+            sides.check_goes_with(FEWEST_ROWS, conditions.slope, (0.0, conditions.side_sliding))
         self.gap = np.ascontiguousarray(sides.extended(conditions.gap.T / scales.film))
         mean = sides.extended(mean)
         sliding = sides.extended(conditions.speed_2 - conditions.speed_1)

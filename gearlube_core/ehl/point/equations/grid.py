@@ -145,9 +145,13 @@ class PointGrid:
         """
         if self.graded:
             return np.array(self.single_deflection(pressure))
+        return self.short_waves(halved)(pressure, self.workers)
+
+    def short_waves(self, halved: tuple[bool, bool]) -> ShortDeflection:
+        """Return the deflection under short waves on a uniform grid as a sum over neighbours."""
         if halved not in self._short:
             self._short[halved] = ShortDeflection(self.coefficients, self.sides, halved)
-        return self._short[halved](pressure, self.workers)
+        return self._short[halved]
 
     @property
     def own_deflection(self) -> Array:

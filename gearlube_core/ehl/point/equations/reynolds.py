@@ -10,18 +10,24 @@ import math
 import numpy as np
 
 from gearlube_core.ehl.point.equations.stencil import (
-    BESIDE,
     CENTRE,
     EAST,
+    FAR_EAST,
+    FAR_NORTH,
+    FAR_SOUTH,
+    FAR_WEST,
     NEIGHBOURS,
     NORTH,
+    NORTH_EAST,
+    NORTH_WEST,
     SOUTH,
+    SOUTH_EAST,
+    SOUTH_WEST,
     WEST,
     FilmFlow,
     FlowSlopes,
     MeshMetric,
     StencilParameters,
-    add_rises,
     face_weights,
     mean_fluidity,
 )
@@ -143,73 +149,152 @@ def reynolds_derivatives(
         that of the film is taken then, too. Derivatives by film of the last six are zero.
     """
     ny, nx = pressure.shape
-    by_pressure[:, rows[0] : rows[1]] = 0.0
-    by_film[:, rows[0] : rows[1]] = 0.0
     sheared = by_pressure.shape[0] > NEIGHBOURS
-    cubic, dense = film_flow.cubic, slopes.dense
+    cubic, dense, x, y = film_flow.cubic, slopes.dense, slopes.x, slopes.y
     fluidity_x, resistance_x = film_flow.fluidity_x, film_flow.resistance_x
     fluidity_y, resistance_y = film_flow.fluidity_y, film_flow.resistance_y
     px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
     uy = parameters.wedge_y
-    down = (0, 0, 0, 0, -1, 1, -2)
-    right = (0, -1, 1, -2, 0, 0, 0)
-    for j in range(max(rows[0], 1), min(rows[1], ny - 1)):
-        for i in range(1, nx - 1):
-            if not free[j, i]:
+    by_film[NEIGHBOURS:, rows[0] : rows[1]] = 0.0
+    for j in range(rows[0], rows[1]):
+        inner = 0 < j < ny - 1
+        for i in range(nx):
+            if not (inner and 0 < i < nx - 1 and free[j, i]):
+                for k in range(by_pressure.shape[0]):
+                    by_pressure[k, j, i] = 0.0
+                for k in range(NEIGHBOURS):
+                    by_film[k, j, i] = 0.0
                 continue
+            fw, fs = max(i - 2, 0), max(j - 2, 0)
             here = density[j, i] * film[j, i]
-            west, far = density[j, i - 1] * film[j, i - 1], max(i - 2, 0)
-            far_mass, east = density[j, far] * film[j, far], density[j, i + 1] * film[j, i + 1]
-            w0, w1, w2 = face_weights(parameters, i - 1, far_mass, west, here)
+            west, far_west = density[j, i - 1] * film[j, i - 1], density[j, fw] * film[j, fw]
+            south, far_south = density[j - 1, i] * film[j - 1, i], density[fs, i] * film[fs, i]
+            east, north = density[j, i + 1] * film[j, i + 1], density[j + 1, i] * film[j + 1, i]
+            w0, w1, w2 = face_weights(parameters, i - 1, far_west, west, here)
             e0, e1, e2 = face_weights(parameters, i, west, here, east)
-            south, far = density[j - 1, i] * film[j - 1, i], max(j - 2, 0)
-            far_mass, north = density[far, i] * film[far, i], density[j + 1, i] * film[j + 1, i]
-            s0, s1, s2 = face_weights(parameters, j - 1, far_mass, south, here)
+            s0, s1, s2 = face_weights(parameters, j - 1, far_south, south, here)
             n0, n1, n2 = face_weights(parameters, j, south, here, north)
-            p = pressure[j, i]
             ux = parameters.wedge_x * metric.narrow[i]
-            h = max(film[j, i], 1e-30)
-            for k in (WEST, EAST, SOUTH, NORTH):
-                jj, ii = j + down[k], i + right[k]
-                if right[k] != 0:
-                    unit = px * metric.narrow[i] * metric.near[max(i, ii)]
-                    f, there_f = fluidity_x[j, i], fluidity_x[jj, ii]
-                    rise = resistance_x[j, i] - resistance_x[jj, ii]
-                    along = slopes.x
-                else:
-                    unit = py
-                    f, there_f = fluidity_y[j, i], fluidity_y[jj, ii]
-                    rise = resistance_y[j, i] - resistance_y[jj, ii]
-                    along = slopes.y
-                step = pressure[jj, ii] - p
-                steep = (right[k] + down[k]) * step > 0.0 and (right[k] != 0 or uy > 0.0)
-                mean, m, mt = mean_fluidity(f, there_f, rise, steep)
-                pumped = 2.0 * unit * math.sqrt(cubic[j, i] * cubic[jj, ii])
-                flow, total = pumped * mean, pumped * step
-                c, of_here, of_there = 0.5 * total * mean, total * m, total * mt
-                by_pressure[CENTRE, j, i] += c * dense[j, i] - flow
-                by_pressure[CENTRE, j, i] += of_here * along.by_pressure[j, i]
-                by_film[CENTRE, j, i] += (3.0 * c + of_here * along.by_film[j, i]) / h
-                there_h = max(film[jj, ii], 1e-30)
-                by_pressure[k, j, i] += flow + c * dense[jj, ii]
-                by_pressure[k, j, i] += of_there * along.by_pressure[jj, ii]
-                by_film[k, j, i] += (3.0 * c + of_there * along.by_film[jj, ii]) / there_h
-                if sheared:
-                    add_rises(along, of_here, j, i, BESIDE[CENTRE], j, i, by_pressure)
-                    add_rises(along, of_there, jj, ii, BESIDE[k], j, i, by_pressure)
-            wedge = (
-                -ux * (e0 - w2) - uy * (n0 - s2) - parameters.squeeze,
-                -ux * (e1 - w0),
-                -ux * e2,
-                ux * w1,
-                -uy * (n1 - s0),
-                -uy * n2,
-                uy * s1,
+            wedge = -ux * (e0 - w2) - uy * (n0 - s2) - parameters.squeeze
+            wedge_w, wedge_e, wedge_fw = -ux * (e1 - w0), -ux * e2, ux * w1
+            wedge_s, wedge_n, wedge_fs = -uy * (n1 - s0), -uy * n2, uy * s1
+            # flow through each face, its slope with both rho h^3, and with ln(fluidity) on
+            # this side and on the other
+            p, c, flow = pressure[j, i], cubic[j, i], fluidity_x[j, i]
+            unit, rise = px * metric.narrow[i], resistance_x[j, i]
+            step = pressure[j, i - 1] - p
+            flow_w, c_w, near_w, there_w = _face(
+                c,
+                cubic[j, i - 1],
+                flow,
+                fluidity_x[j, i - 1],
+                rise - resistance_x[j, i - 1],
+                step,
+                unit * metric.near[i],
+                step < 0.0,
             )
-            for k in range(NEIGHBOURS):
-                jj, ii = max(j + down[k], 0), max(i + right[k], 0)
-                by_pressure[k, j, i] += wedge[k] * density_slope[jj, ii] * film[jj, ii]
-                by_film[k, j, i] += wedge[k] * density[jj, ii]
+            step = pressure[j, i + 1] - p
+            flow_e, c_e, near_e, there_e = _face(
+                c,
+                cubic[j, i + 1],
+                flow,
+                fluidity_x[j, i + 1],
+                rise - resistance_x[j, i + 1],
+                step,
+                unit * metric.near[i + 1],
+                step > 0.0,
+            )
+            flow, rise = fluidity_y[j, i], resistance_y[j, i]
+            step = pressure[j - 1, i] - p
+            flow_s, c_s, near_s, there_s = _face(
+                c,
+                cubic[j - 1, i],
+                flow,
+                fluidity_y[j - 1, i],
+                rise - resistance_y[j - 1, i],
+                step,
+                py,
+                step < 0.0 and uy > 0.0,
+            )
+            step = pressure[j + 1, i] - p
+            flow_n, c_n, near_n, there_n = _face(
+                c,
+                cubic[j + 1, i],
+                flow,
+                fluidity_y[j + 1, i],
+                rise - resistance_y[j + 1, i],
+                step,
+                py,
+                step > 0.0 and uy > 0.0,
+            )
+            near_x, near_y, c = near_w + near_e, near_s + near_n, c_w + c_e + c_s + c_n
+            centre = c * dense[j, i] - (flow_w + flow_e + flow_s + flow_n)
+            centre += near_x * x.by_pressure[j, i] + near_y * y.by_pressure[j, i]
+            centre += wedge * density_slope[j, i] * film[j, i]
+            of_w = flow_w + c_w * dense[j, i - 1] + there_w * x.by_pressure[j, i - 1]
+            of_e = flow_e + c_e * dense[j, i + 1] + there_e * x.by_pressure[j, i + 1]
+            of_s = flow_s + c_s * dense[j - 1, i] + there_s * y.by_pressure[j - 1, i]
+            of_n = flow_n + c_n * dense[j + 1, i] + there_n * y.by_pressure[j + 1, i]
+            of_w += wedge_w * density_slope[j, i - 1] * film[j, i - 1]
+            of_e += wedge_e * density_slope[j, i + 1] * film[j, i + 1]
+            of_s += wedge_s * density_slope[j - 1, i] * film[j - 1, i]
+            of_n += wedge_n * density_slope[j + 1, i] * film[j + 1, i]
+            of_fw = wedge_fw * density_slope[j, fw] * film[j, fw]
+            of_fs = wedge_fs * density_slope[fs, i] * film[fs, i]
+            bent = 3.0 * c + near_x * x.by_film[j, i] + near_y * y.by_film[j, i]
+            by_film[CENTRE, j, i] = bent / max(film[j, i], 1e-30) + wedge * density[j, i]
+            bent = (3.0 * c_w + there_w * x.by_film[j, i - 1]) / max(film[j, i - 1], 1e-30)
+            by_film[WEST, j, i] = bent + wedge_w * density[j, i - 1]
+            bent = (3.0 * c_e + there_e * x.by_film[j, i + 1]) / max(film[j, i + 1], 1e-30)
+            by_film[EAST, j, i] = bent + wedge_e * density[j, i + 1]
+            bent = (3.0 * c_s + there_s * y.by_film[j - 1, i]) / max(film[j - 1, i], 1e-30)
+            by_film[SOUTH, j, i] = bent + wedge_s * density[j - 1, i]
+            bent = (3.0 * c_n + there_n * y.by_film[j + 1, i]) / max(film[j + 1, i], 1e-30)
+            by_film[NORTH, j, i] = bent + wedge_n * density[j + 1, i]
+            by_film[FAR_WEST, j, i] = wedge_fw * density[j, fw]
+            by_film[FAR_SOUTH, j, i] = wedge_fs * density[fs, i]
+            if sheared:
+                # as pressure rises across the node itself, and across each neighbour
+                rise = near_x * x.by_rise_x[j, i] + near_y * y.by_rise_x[j, i]
+                of_e, of_w = of_e + rise, of_w - rise
+                rise = near_x * x.by_rise_y[j, i] + near_y * y.by_rise_y[j, i]
+                of_n, of_s = of_n + rise, of_s - rise
+                rise_w, turn_w = there_w * x.by_rise_x[j, i - 1], there_w * x.by_rise_y[j, i - 1]
+                rise_e, turn_e = there_e * x.by_rise_x[j, i + 1], there_e * x.by_rise_y[j, i + 1]
+                turn_s, rise_s = there_s * y.by_rise_x[j - 1, i], there_s * y.by_rise_y[j - 1, i]
+                turn_n, rise_n = there_n * y.by_rise_x[j + 1, i], there_n * y.by_rise_y[j + 1, i]
+                centre += rise_w - rise_e + rise_s - rise_n
+                of_fw, of_fs = of_fw - rise_w, of_fs - rise_s
+                by_pressure[FAR_EAST, j, i], by_pressure[FAR_NORTH, j, i] = rise_e, rise_n
+                by_pressure[SOUTH_WEST, j, i] = -turn_w - turn_s
+                by_pressure[SOUTH_EAST, j, i] = turn_s - turn_e
+                by_pressure[NORTH_WEST, j, i] = turn_w - turn_n
+                by_pressure[NORTH_EAST, j, i] = turn_e + turn_n
+            by_pressure[CENTRE, j, i] = centre
+            by_pressure[WEST, j, i], by_pressure[EAST, j, i] = of_w, of_e
+            by_pressure[SOUTH, j, i], by_pressure[NORTH, j, i] = of_s, of_n
+            by_pressure[FAR_WEST, j, i], by_pressure[FAR_SOUTH, j, i] = of_fw, of_fs
+
+
+@kernel
+def _face(
+    cubic: float,
+    there_cubic: float,
+    fluidity: float,
+    there_fluidity: float,
+    rise: float,
+    step: float,
+    unit: float,
+    steep: bool,
+) -> tuple[float, float, float, float]:
+    """Return what pressure drives through a face, per step of pressure, and its derivatives [-].
+
+    Those by ln(rho h^3) of either node, and by ln(fluidity) of this and of the other one.
+    """
+    mean, near, there = mean_fluidity(fluidity, there_fluidity, rise, steep)
+    pumped = 2.0 * unit * math.sqrt(cubic * there_cubic)
+    total = pumped * step
+    return pumped * mean, 0.5 * total * mean, total * near, total * there
 
 
 @kernel

@@ -70,6 +70,11 @@ class ShortDeflection:
     halved
         Whether the next coarser grid has fewer rows, and fewer columns.
 
+    Attributes
+    ----------
+    offsets, weights : ndarray, shapes (n, 2) and (n,)
+        Steps to neighbours along y and x, and the deflection under their pressure.
+
     Notes
     -----
     The share 1 - (cos(k_x dx/2) cos(k_y dy/2))^16 of the transform of the coefficients is kept,
@@ -89,14 +94,14 @@ class ShortDeflection:
         ]
         short = np.fft.ifft2(np.fft.fft2(whole) * (1.0 - np.outer(*long))).real
         places = np.argwhere(np.abs(short) > _LEAST * short[0, 0])
-        self._weights = short[tuple(places.T)].astype(np.float32)
+        self.weights = short[tuple(places.T)].astype(np.float32)
         size = np.array(short.shape)
-        self._offsets = np.where(places > size // 2, places - size, places)
+        self.offsets = np.where(places > size // 2, places - size, places)
 
     def __call__(self, pressure: Any, workers: RowWorkers) -> Any:
         """Return the deflection, shape (ny, nx), as a new array."""
         result = np.empty(pressure.shape, dtype=np.float32)
-        given = self._offsets, self._weights, self._period, np.ascontiguousarray(pressure)
+        given = self.offsets, self.weights, self._period, np.ascontiguousarray(pressure)
         workers.share(lambda rows: sum_neighbours(*given, rows, result), *result.shape)
         self._sides.fill(result)
         return result

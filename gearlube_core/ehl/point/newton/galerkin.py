@@ -12,7 +12,7 @@ from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.kernels.jit import kernel
 
-_LEAST_FREE = 0.25  # share of free fine nodes around a free coarse node
+LEAST_FREE = 0.25  # share of free fine nodes around a free coarse node
 
 
 @kernel
@@ -141,7 +141,7 @@ def sparse_operator(linear: Linearisation) -> SparseOperator:
 def coarse_operator(fine: SparseOperator, transfer: Transfer) -> SparseOperator:
     """Return the Galerkin operator: restriction, fine operator, interpolation."""
     share = transfer.down(fine.free.astype(np.float64))
-    free = share > _LEAST_FREE
+    free = share > LEAST_FREE
     free[[0, -1]] = False
     free[:, [0, -1]] = False
     matrix = (transfer.restriction @ fine.matrix @ transfer.interpolation).tocsr()

@@ -13,6 +13,7 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.sides import AMBIENT, Sides
 
 _DIRECT_NODES = 1300  # of the grid that is solved directly
+_DIRECT_CLOSED = 500  # likewise with closed sides, where a cycle is built for every linearisation
 _SHORTEST = 12  # nodes of a side that is not halved any more
 
 
@@ -44,7 +45,8 @@ def grid_shapes(
     """
     shapes = [nodes]
     counts, spacing = list(nodes), list(steps)
-    while counts[0] * counts[1] > _DIRECT_NODES:
+    most = _DIRECT_CLOSED if sides.closed else _DIRECT_NODES
+    while counts[0] * counts[1] > most:
         ratio = spacing[0] / spacing[1]
         halve = [ratio < 1.5 and counts[0] > _SHORTEST, ratio > 1.0 / 1.5 and counts[1] > _SHORTEST]
         if not any(halve):

@@ -18,7 +18,7 @@ from gearlube_core.ehl.point.newton.row_factors import (
     solve_side_by_side,
 )
 from gearlube_core.ehl.point.newton.single_stencil import Single, SingleStencil
-from gearlube_core.ehl.point.newton.wave import TransposedGrid, wave_deflection
+from gearlube_core.ehl.point.newton.wave import TransposedGrid, unresolved_wave, wave_deflection
 from gearlube_core.kernels.jit import row_kernel
 from gearlube_core.kernels.row_workers import RowWorkers
 
@@ -232,11 +232,7 @@ class RowSmoother:
         halved: tuple[bool, bool],
         damping: float,
     ) -> None:
-        # the shortest waves that the coarser grid lacks
-        wave_number = max(
-            0.55 * np.pi / grid.dy if halved[0] else 0.0,
-            0.35 * np.pi / grid.dx if halved[1] else 0.0,
-        )
+        wave_number = unresolved_wave(grid, halved)
         shortest = min(wave_number * grid.dy, 0.55 * np.pi)
         matrix = operator.matrix
         equations = Equations(

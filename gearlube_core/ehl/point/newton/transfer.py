@@ -83,16 +83,16 @@ class Transfer:
         if sides.closed:
             self._linear[0] = closed_interpolation(coarse[0], fine[0], sides, 2)
             self._cubic[0] = closed_interpolation(coarse[0], fine[0], sides, 4)
-        self._restriction = []
+        self.means = []
         for matrix in self._linear:
             weights = matrix.T
             shares = weights.sum(axis=1, keepdims=True)
-            self._restriction.append(weights / np.where(shares > 0.0, shares, 1.0))
+            self.means.append(weights / np.where(shares > 0.0, shares, 1.0))
         self.interpolation: csr_matrix = kron(*self._linear, format="csr")
-        self.restriction: csr_matrix = kron(*self._restriction, format="csr")
+        self.restriction: csr_matrix = kron(*self.means, format="csr")
         kinds = (np.dtype(np.float32), np.dtype(np.float64))
         self._short_up = {kind: [_short(m, kind) for m in self._linear] for kind in kinds}
-        self._short_down = {kind: [_short(m, kind) for m in self._restriction] for kind in kinds}
+        self._short_down = {kind: [_short(m, kind) for m in self.means] for kind in kinds}
 
     def down(self, values: Array) -> Array:
         """Return weighted means of nodal values around each coarse node, in their precision."""

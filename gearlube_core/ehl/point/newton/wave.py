@@ -47,6 +47,17 @@ class TransposedGrid:
         return cls((nx, ny), grid.dy, grid.dx, grid.modulus, positions, workers=grid.workers)
 
 
+def unresolved_wave(grid: PointGrid | TransposedGrid, halved: tuple[bool, bool]) -> float:
+    """Return the number k of the longest waves across the rows that a coarser grid lacks [-].
+
+    `halved` tells whether that has fewer rows, and fewer columns.
+    """
+    return max(
+        0.55 * np.pi / grid.dy if halved[0] else 0.0,
+        0.35 * np.pi / grid.dx if halved[1] else 0.0,
+    )
+
+
 def wave_deflection(grid: PointGrid | TransposedGrid, wave_number: float | Array) -> Array:
     """Return the deflection at the nodes of a row under unit pressure on its cells.
 

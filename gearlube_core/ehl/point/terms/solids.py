@@ -11,9 +11,45 @@ from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
 from gearlube_core.ehl.point.solid_contact import SolidLayer
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
+from gearlube_core.kernels.jit import kernel
 
 # pressure of oil between touching solids, as a flow, over what flows out of a node as it drains
 _DRAINING = 1.0e2
+
+
+@kernel
+def add_layer_slopes(
+    offsets: np.ndarray,
+    reach: np.ndarray,
+    begin: np.ndarray,
+    column: np.ndarray,
+    slope: np.ndarray,
+    by_pressure: np.ndarray,
+    by_film: np.ndarray,
+) -> None:
+    """Take p_s' times the derivative by the oil's pressure off that by the film.
+
+    Parameters
+    ----------
+    offsets : ndarray of int, shape (m, 2), m >= n
+        Steps to the neighbours along y and x.
+    reach : ndarray of int, shape (ny + 2,)
+        Of the sides: rows that hold those from one before the first to one behind the last.
+    begin, column : ndarray of int, shapes (ny + 1,) and (k,)
+        Columns of the touching nodes, row after row.
+    slope : ndarray, shape (ny, nx)
+        p_s' of the nodes [-].
+    by_pressure, by_film : ndarray, shape (n, ny, nx)
+        Derivatives; those by film are changed.
+    """
+    _, ny, nx = by_film.shape
+    for k in range(by_film.shape[0]):
+        for j in range(1, ny - 1):
+            there = reach[j + offsets[k, 0] + 1]
+            for m in range(begin[there], begin[there + 1]):
+                i = column[m] - offsets[k, 1]
+                if 0 < i < nx - 1:
+                    by_film[k, j, i] -= by_pressure[k, j, i] * slope[there, column[m]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,19 +131,17 @@ class ContactPressure:
         dry = self.drained(residual)
         dry[[0, -1]] = False
         dry[:, [0, -1]] = False
-        # the equations were taken at an oil pressure of zero where p - p_s is below
-        change, lacking = np.empty(right.shape), self.oil - self.left
-        none = np.zeros(right.shape)
         reach = linear.sides.reach(right.shape[0])
-        apply_derivatives(offsets, by_pressure, by_film, reach, lacking, none, change)
-        right += change
+        # the equations were taken at an oil pressure of zero where p - p_s is below
+        lacking = self.oil - self.left
+        if lacking.any():
+            change, none = np.empty(right.shape), np.zeros(right.shape)
+            apply_derivatives(offsets, by_pressure, by_film, reach, lacking, none, change)
+            right += change
         right[dry] = self.weight * self.left[dry]
-        rows = np.arange(right.shape[0])
-        for k in range(by_film.shape[0]):
-            down, along = offsets[k]
-            there = self.slope[reach[np.clip(rows + down + 1, 0, reach.size - 1)]]
-            # columns on the border are zero: what comes round does not count
-            by_film[k] -= by_pressure[k] * np.roll(there, -along, axis=1)
+        row, column = np.nonzero(self.slope)
+        begin = np.searchsorted(row, np.arange(right.shape[0] + 1))
+        add_layer_slopes(offsets, reach, begin, column, self.slope, by_pressure, by_film)
         by_pressure[linear.centre][dry] = -self.weight
         by_film[linear.centre][dry] = self.weight * self.slope[dry]
         linear.free |= dry

@@ -1,0 +1,128 @@
+"""Multigrid cycle with rows side by side against the one of sparse matrices."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gearlube_core.ehl.point.line_section import line_section
+from gearlube_core.ehl.point.newton import column_levels
+from gearlube_core.ehl.point.newton.column_levels import held_rows
+from gearlube_core.ehl.point.newton.column_multigrid import ColumnCycle
+from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_operator
+from gearlube_core.ehl.point.newton.hierarchy import build_hierarchy
+from gearlube_core.ehl.point.newton.krylov import flexible_gmres
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.oil.film_oil_data import film_oil
+
+ROWS, COLUMNS = 18, 65  # rows that are halved to 9 once
+LENGTH = 0.1e-3  # rows and columns as far apart: both are halved
+
+
+def grids(sides: str, length: float = LENGTH):
+    problem = line_section(
+        R_x=0.014,
+        length=length,
+        line_load=3.6e5,
+        speed_1=7.9178,
+        speed_2=5.5022,
+        contact_modulus=0.5 * 227.5e9,
+        lubricant=film_oil(eta0=0.00625, alpha=13.3e-9, eyring_stress=10e6),
+        nodes=(COLUMNS, ROWS),
+        sides=sides,
+    )
+    return build_hierarchy(problem, PointScales.of(problem), "quick")
+
+
+def linearised(hierarchy):
+    """Derivatives at an uneven pressure with holes, where pressure is known."""
+    level = hierarchy.levels[-1]
+    rng = np.random.default_rng(3)
+    x = np.linspace(-2.5, 1.5, COLUMNS)
+    wave = 1.0 + 0.2 * np.sin(2.0 * np.pi * np.arange(level.shape[0]) / ROWS)[:, None]
+    pressure = np.sqrt(np.maximum(1.0 - x**2, 0.0)) * wave + 0.01 * (np.abs(x) < 1.4)
+    pressure *= rng.uniform(0.9, 1.1, level.shape)
+    pressure[4:6, 30:33] = 0.0
+    pressure[[0, -1]] = 0.0
+    bent = level.film(pressure, 0.0)
+    return level.linearise(level.state(pressure, 0.3 - float(bent.min())))
+
+
+@pytest.mark.parametrize("length", [LENGTH, 20.0 * LENGTH])
+def test_cycle_is_that_of_sparse_matrices(length):
+    hierarchy = grids("cyclic", length)
+    linear = linearised(hierarchy)
+    own, other = ColumnCycle(hierarchy, linear), MultigridCycle(hierarchy, linear)
+    assert own.exchanging is None
+    residual = np.random.default_rng(8).normal(size=linear.free.shape)
+    residual = np.where(linear.free, residual * np.abs(linear.by_pressure[0]), 0.0)
+    for right, load in ((residual, 0.0), (linear.right, 0.2), (np.zeros_like(residual), 1.0)):
+        (pressure, approach), (expected, expected_approach) = own(right, load), other(right, load)
+        # both in single precision
+        assert pressure == pytest.approx(expected, abs=1e-3 * np.abs(expected).max())
+        assert approach == pytest.approx(expected_approach, rel=1e-3)
+    # arrays are taken over: nothing of the cycle before is left
+    again = ColumnCycle(hierarchy, linear, ColumnCycle(hierarchy, linear))
+    assert np.array_equal(again(linear.right, 0.2)[0], own(linear.right, 0.2)[0])
+
+
+@pytest.mark.parametrize("length", [LENGTH, 20.0 * LENGTH])
+def test_cycle_serves_where_no_oil_passes_the_sides(length):
+    # rows beside the sides are smoothed without what they feel of their own image: not the same
+    hierarchy = grids("no_flow", length)
+    linear, level = linearised(hierarchy), hierarchy.levels[-1]
+
+    def operator(pressure, approach):
+        rest = level.grid.integral(pressure) / level.load
+        return level.apply(linear, pressure, approach).copy(), rest
+
+    own, other = (
+        flexible_gmres(operator, cycle, linear.right, 0.1, tolerance=1e-5, most=60, weight=1.0)
+        for cycle in (ColumnCycle(hierarchy, linear), MultigridCycle(hierarchy, linear))
+    )
+    assert own[2] < 1e-5
+    assert own[3] <= other[3] + 1
+
+
+@pytest.mark.parametrize("sides", ["cyclic", "no_flow"])
+def test_coarse_derivatives_are_products_of_matrices(sides):
+    hierarchy = grids(sides)
+    linear = linearised(hierarchy)
+    cycle = ColumnCycle(hierarchy, linear)
+    operator = sparse_operator(linear)
+    for transfer, whole, level in zip(
+        hierarchy.transfers[::-1],
+        cycle.grids.whole[-2::-1],
+        hierarchy.levels[-2::-1],
+        strict=True,
+    ):
+        operator = coarse_operator(operator, transfer)
+        found = whole.operator(Sides(sides))
+        free = operator.free.ravel()
+        assert np.array_equal(found.free, operator.free)
+        assert found.by_approach == pytest.approx(
+            operator.by_approach, abs=1e-6 * np.abs(operator.by_approach).max()
+        )
+        for part in (lambda matrix: matrix.real, lambda matrix: matrix.imag):
+            dense, expected = (part(one.matrix.toarray()) for one in (found, operator))
+            if part(1j) == 0.0:  # pressure of nodes where it is known does not change
+                expected, dense = expected[:, free], dense[:, free]
+            assert dense == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
+        assert found.free.shape == level.shape
+
+
+def test_rows_that_need_an_exchange_go_the_other_way(monkeypatch):
+    hierarchy = grids("cyclic")
+    linear = linearised(hierarchy)
+    monkeypatch.setattr(column_levels, "_LARGEST_SHARE", 0.0)
+    cycle = ColumnCycle(hierarchy, linear)
+    assert cycle.exchanging is not None
+    expected = MultigridCycle(hierarchy, linear)(linear.right, 0.1)
+    assert np.array_equal(cycle(linear.right, 0.1)[0], expected[0])
+
+
+def test_rows_beyond_the_sides():
+    assert list(held_rows(Sides("cyclic"), 4, 3)) == [1, 2, 3, 0, 1, 2, 3, 0, 1, 2]
+    assert list(held_rows(Sides("no_flow"), 4, 5)) == [3, 3, 2, 1, 0, 0, 1, 2, 3, 3, 2, 1, 0, 0]
