@@ -19,6 +19,7 @@ from gearlube.studies.helical.film_friction import film_dataset
 from gearlube.studies.helical.findings import findings as helical_findings
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.variation.points.bearing import BearingPoint
+from gearlube.variation.points.helical import HelicalPoint
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import LossModel
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
@@ -112,6 +113,19 @@ def test_the_march_takes_model_and_oil_of_the_gear_file(folder):
     assert operating(HelicalGearFile.given(str(path)), oil="karagiannis_2012").film().oil.name == (
         "karagiannis_2012"
     )
+
+
+def test_variants_of_a_pair_take_model_and_oil_of_the_file(folder):
+    (folder / "oil.toml").write_text(OIL_FILE)
+    path = gear_file(folder, {**OWN, "oil_file": "oil.toml"})
+    altered("helical_line", film=1.25).write(folder / "models" / "line.json")
+    study = HelicalPoint(file=HelicalGearFile.given(str(path))).prepared({})
+    for one in ("oil.toml", "models/line.json"):
+        (folder / one).unlink()  # held in memory
+    settings = study._settings({})
+    assert settings.film().oil.name == "own"
+    assert settings.film().film_models["line"].name == "altered"
+    assert study._settings({"oil": "karagiannis_2012"}).film().oil.name == "karagiannis_2012"
 
 
 def test_an_fmu_carries_model_and_oil(folder):

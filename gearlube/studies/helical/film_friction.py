@@ -101,7 +101,12 @@ def film_dataset(
         ),
         ("mean_power_loss", [c.mean_power_loss for c in swept], "W", "mean friction power"),
         ("efficiency", [c.efficiency for c in swept], "1", "efficiency, sliding friction alone"),
-        ("smallest_film", [c.smallest_film.thickness for c in swept], "m", "smallest film"),
+        (
+            "smallest_film",
+            [c.smallest_film.thickness for c in swept],
+            "m",
+            "smallest film, Dowson 1968",
+        ),
     ):
         variables[name] = (("film_speed",), np.array(means), {"units": unit, "long_name": words})
     dataset = xr.Dataset(

@@ -170,7 +170,7 @@ def losses_dataset(
             "efficiency of the mesh",
         ),
         "film_ratio": (GRID, film, "1", "least central film over roughness"),
-        "film_min": (GRID, thinnest, "m", "smallest film thickness"),
+        "film_min": (GRID, thinnest, "m", "smallest film thickness, Dowson 1968"),
         "temperature_rise": (GRID, heat, "K", "largest mean rise of the film over the oil"),
     }
     if settings.film().film == "solved":

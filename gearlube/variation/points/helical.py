@@ -18,6 +18,7 @@ from gearlube.variation.point_study import Quantity
 from gearlube.variation.points.mesh_orders import order_quantities, order_values
 from gearlube.variation.points.of_file import FilePoint
 from gearlube.variation.points.operands import operand, value
+from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import LINE
@@ -30,7 +31,7 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
-OIL = operand("oil", "", "Shipped oil or an oil file", "mohammadpour_2015", kind="text")
+OIL = operand("oil", "", "Shipped oil or an oil file", USUAL_OIL, kind="text")
 TEMPERATURE = operand("oil.temperature_degc", "degC", "Of the oil", 80.0, -60.0, 250.0)
 ROUGHNESS = operand("roughness_rms_um", "um", "Of both flanks together", 0.5, 0.01, 10.0)
 FRICTION = operand(
@@ -49,7 +50,7 @@ _QUANTITIES = (
     Quantity("loss", "W", "power lost by the flanks, static loads"),
     *(Quantity(f"loss_{part}", "W", f"power lost by {part}") for part in PARTS_OF_LOSS),
     Quantity("efficiency", "1", "efficiency of the mesh"),
-    Quantity("film_min", "m", "smallest film thickness"),
+    Quantity("film_min", "m", "smallest film thickness, Dowson 1968"),
     Quantity("film_ratio", "1", "least central film over roughness"),
     Quantity("film_temperature_rise", "K", "largest mean rise of the film over the oil"),
     *order_quantities("te", "m", "transmission error under load, without vibration"),
@@ -81,6 +82,11 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
     film_field: ClassVar[str] = "film.line_model"
     film_kind: ClassVar[str] = LINE
     unused: ClassVar[tuple[str, ...]] = ("oil.", "film_mesh.", "meshing_steps.", "compared_with")
+
+    @property
+    def usual_oils(self) -> tuple[str, ...]:
+        """The oil of the gear file, or the usual one."""
+        return (_usual_oil(self.file),)
 
     def check(self, point: Point) -> None:
         """Raise ParameterError where pair, oil or operating point are out of range."""
@@ -135,7 +141,7 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
             positions=value(point, POSITIONS),
             mesh=value(point, MESH),
             friction=value(point, FRICTION),
-            oil=self.oil(value(point, OIL)),
+            oil=self.oil(str(point.get(OIL.name) or _usual_oil(file))),
             oil_temperature=celsius_to_kelvin(value(point, TEMPERATURE)),
             roughness_rms=1e-6 * value(point, ROUGHNESS),
             draws=0,
@@ -143,6 +149,11 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
             parts="dynamics",
         )
         return quick_settings(settings) if self.quick else settings
+
+
+def _usual_oil(file: HelicalGearFile) -> str:
+    """Return the oil where none is asked for: that of the gear file, or the one of `OIL`."""
+    return file.film.oil_file or str(OIL.usual)
 
 
 @lru_cache(maxsize=2)

@@ -67,7 +67,7 @@ class LaggedPreconditioner:
         self.patience = patience
         self.renewals = 0
         self._cycle: Inverse | None = None
-        self._stale = True
+        self._stale, self._same = True, False
         self._free = self._new = np.zeros(0, dtype=np.bool_)
         self._linear: Linearisation | None = None
         level = hierarchy.levels[-1]
@@ -87,6 +87,7 @@ class LaggedPreconditioner:
             self.renew(linear)
         self._linear = linear
         self.deflection.follow(linear.free)
+        self._same = np.array_equal(linear.free, self._free)
         self._new = linear.free & ~self._free
 
     def mark_outdated(self) -> None:
@@ -102,6 +103,9 @@ class LaggedPreconditioner:
         """Return pressure and approach that cancel most of a residual."""
         assert self._cycle is not None
         assert self._linear is not None
+        if self._same:
+            # other nodes have no equation: residual and pressure are zero there
+            return self._cycle(residual, load_residual)
         pressure, approach = self._cycle(np.where(self._free, residual, 0.0), load_residual)
         pressure[~self._linear.free] = 0.0
         new = self._new

@@ -126,7 +126,8 @@ HELICAL_CATALOGUE: dict[str, Picture] = {
     "film_over_mesh": Picture(
         film_over_mesh,
         "Friction over the mesh and over speed",
-        "Green: oil film. Below: mean coefficient of friction and smallest film over speed.",
+        "Green: oil film. Below: mean coefficient of friction and smallest film (Dowson 1968) over "
+        "speed.",
         "film",
     ),
     "losses": Picture(

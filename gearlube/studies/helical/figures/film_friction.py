@@ -90,7 +90,7 @@ def film_over_mesh(film: xr.Dataset) -> Any:
         thin.plot(speed, 1e6 * film["smallest_film"].values, color=BLUE, marker=".")
         thin.axhline(1e6 * film.attrs["roughness_rms"], color=GREY, ls="--", lw=1.2)
         thin.set(xlabel="pinion speed [rpm]", xscale="log", yscale="log")
-        thin.set_ylabel("smallest film [µm]")
+        thin.set_ylabel("smallest film, Dowson [µm]")
         thin.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         thin.yaxis.set_major_formatter("{x:g}")
         thin.yaxis.set_minor_formatter(NullFormatter())

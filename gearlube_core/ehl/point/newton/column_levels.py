@@ -30,6 +30,7 @@ from gearlube_core.ehl.point.sides import Sides
 # of an equation that is taken off another without exchange: three of seven digits are left for it
 _LARGEST_SHARE = 1.0e3
 _LEAST = 1.0e-3  # mean weight of a neighbour that is kept, over that of the heaviest one
+_WEIGHED = 64  # nodes of a row whose neighbours are weighed, at least
 _PLACES = np.stack(np.divmod(np.arange(PLACES), WIDTH), axis=1) - REACH  # steps along y and x
 
 Single: Any = np.float32
@@ -72,21 +73,22 @@ class WholeStencils:
 
     def __init__(self, shape: tuple[int, int]) -> None:
         nx, rows = shape
-        self.by_pressure, self.by_film = np.zeros((2, nx, PLACES, rows), dtype=Single)
+        self.by_pressure, self.by_film = np.zeros((2, PLACES, nx, rows), dtype=Single)
         self.by_approach, self.free = np.zeros((2, nx, rows), dtype=Single)
+        # neighbours that there are, by pressure and by film
         self.used = np.ones((2, PLACES), dtype=np.bool_)
 
     def operator(self, sides: Sides) -> SparseOperator:
         """Return compressed rows of a film with copied rows; for small grids."""
-        nx, _, rows = self.by_pressure.shape
+        _, nx, rows = self.by_pressure.shape
         own = held_rows(sides, rows, REACH)
-        i, place, j = np.nonzero((self.by_pressure != 0.0) | (self.by_film != 0.0))
+        place, i, j = np.nonzero((self.by_pressure != 0.0) | (self.by_film != 0.0))
         down, along = _PLACES[place].T
         inside = (i + along >= 0) & (i + along < nx)
         i, place, j, down, along = (one[inside] for one in (i, place, j, down, along))
         there, to = own[j + down + REACH], i + along
-        pressure = self.by_pressure[i, place, j] * self.free[to, there]
-        entry = pressure + 1j * self.by_film[i, place, j]
+        pressure = self.by_pressure[place, i, j] * self.free[to, there]
+        entry = pressure + 1j * self.by_film[place, i, j]
         size = (rows + 2) * nx
         place_of = (j + 1) * nx + i, (there + 1) * nx + to
         matrix = csr_matrix((entry, place_of), shape=(size, size))
@@ -138,15 +140,16 @@ class ColumnLevel:
         """Return the grid with derivatives and factors; None where rows had to be exchanged."""
         weight, nx, rows = np.zeros((2, PLACES)), *self.shape
         own = self._grid.own_deflection[0, 0]
-        nodes = weigh_places(whole.by_pressure, whole.by_film, own, self._largest, weight)
+        stencils, stride = (whole.by_pressure, whole.by_film), max(1, nx // _WEIGHED)
+        nodes = weigh_places(*stencils, whole.used, own, stride, self._largest, weight)
         kept = weight > _LEAST * nodes
         kept[:, CENTRE] = True
         packed: list[Any] = []
-        for k, stencil in enumerate((whole.by_pressure, whole.by_film)):
+        for k, stencil in enumerate(stencils):
             count = int(kept[k].sum())
             if (k, count) not in self._packed:
                 self._packed[k, count] = np.empty((nx, count, rows), dtype=Single)
-            pack_places(stencil, kept[k], self._packed[k, count])
+            pack_places(stencil, whole.used[k], kept[k], self._packed[k, count])
             packed += [_PLACES[kept[k]], self._packed[k, count]]
         rest: Any = whole.free, self._local, self._across, self._band
         fill_bands(packed[0], packed[1], packed[2], packed[3], *rest)

@@ -76,11 +76,11 @@ class ColumnGrids:
     def _coarsen(self, k: int) -> None:
         level, fine, coarse = self.levels[k - 1], self.whole[k], self.whole[k - 1]
         half = self.between[k - 1] or coarse
-        for of, used, to in (
-            (fine.by_pressure, fine.used[0], half.by_pressure),
-            (fine.by_film, fine.used[1], half.by_film),
+        for kind, of, to in (
+            (0, fine.by_pressure, half.by_pressure),
+            (1, fine.by_film, half.by_film),
         ):
-            coarsen_along(level.along, of, used, to)
+            coarsen_along(level.along, of, fine.used[kind], to, half.used[kind])
         if half is not coarse:
             coarsen_across(level.across, half.by_pressure, coarse.by_pressure)
             coarsen_across(level.across, half.by_film, coarse.by_film)

@@ -1,8 +1,9 @@
 """Stencils of a preconditioner with rows of nodes side by side: building them, kernels.
 
 All arrays are float32 and have the node of a row first and the row last, so that one instruction
-takes many rows: stencils have shape (nx, n, rows). Rows are those of the film, without copied
-ones. Of 25 neighbours, that at (dj, di) has the place 5 (dj + 2) + di + 2.
+takes many rows. Rows are those of the film, without copied ones. Of 25 neighbours, that at
+(dj, di) has the place 5 (dj + 2) + di + 2. Whole stencils have shape (25, nx, rows), packed ones
+(nx, n, rows): what a node needs stands together.
 """
 
 from __future__ import annotations
@@ -69,54 +70,65 @@ def turn_stencils(
         Leave out neighbours that are not free.
     first
         Row of `slopes` that is row 0 of the result.
-    result : ndarray, shape (nx, 25, rows)
+    result : ndarray, shape (25, nx, rows)
         Result; neighbours that `offsets` does not have are left as they are.
     """
-    nx, _, rows = result.shape
+    _, nx, rows = result.shape
     for k in range(slopes.shape[0]):
         dj, di = offsets[k, 0], offsets[k, 1]
         place = (dj + REACH) * WIDTH + di + REACH
         for i0 in range(0, nx, _TILE):
             for j in range(rows):
                 for i in range(i0, min(i0 + _TILE, nx)):
-                    result[i, place, j] = np.float32(slopes[k, j + first, i])
+                    result[place, i, j] = np.float32(slopes[k, j + first, i])
         if not masked:
             continue
         for i in range(nx):
             ii = min(max(i + di, 0), nx - 1)
             for j in range(rows):
-                result[i, place, j] *= free[ii, own[j + dj + REACH]]
+                result[place, i, j] *= free[ii, own[j + dj + REACH]]
 
 
 @kernel
-def coarsen_along(links: Links, fine: np.ndarray, used: np.ndarray, coarse: np.ndarray) -> None:
-    """Write the stencils of a grid with fewer nodes to a row, shapes (nx, 25, rows).
+def coarsen_along(
+    links: Links, fine: np.ndarray, used: np.ndarray, coarse: np.ndarray, reached: np.ndarray
+) -> None:
+    """Write the stencils of a grid with fewer nodes to a row, shapes (25, nx, rows).
 
-    `used`, shape (25,), tells which neighbours the fine stencils have.
+    `used` and `reached`, shape (25,), tell which neighbours the fine stencils have, and the coarse
+    ones get; others are left as they are.
     """
-    nodes = fine.shape[0]
-    coarse[:] = np.float32(0.0)
-    for to in range(coarse.shape[0]):
-        for k in range(links.start[to], links.start[to + 1]):
-            i = links.fine[k]
-            for place in range(PLACES):
-                ii = i + place % WIDTH - REACH
-                if not used[place] or not 0 <= ii < nodes:
-                    continue
-                middle = place // WIDTH * WIDTH + REACH
-                for m in range(2):
-                    step = links.coarse[ii + REACH, m] - to
-                    weight = links.weight[k] * links.share[ii + REACH, m]
-                    if weight == 0.0 or abs(step) > REACH:
+    nodes = fine.shape[1]
+    reached[:] = False
+    for adding in (False, True):
+        for to in range(coarse.shape[1]):
+            for k in range(links.start[to], links.start[to + 1]):
+                i = links.fine[k]
+                for place in range(PLACES):
+                    ii = i + place % WIDTH - REACH
+                    if not used[place] or not 0 <= ii < nodes:
                         continue
-                    total, of = coarse[to, middle + step], fine[i, place]
-                    for j in range(total.size):
-                        total[j] += weight * of[j]
+                    middle = place // WIDTH * WIDTH + REACH
+                    for m in range(2):
+                        step = links.coarse[ii + REACH, m] - to
+                        weight = links.weight[k] * links.share[ii + REACH, m]
+                        if weight == 0.0 or abs(step) > REACH:
+                            continue
+                        if not adding:
+                            reached[middle + step] = True
+                            continue
+                        total, of = coarse[middle + step, to], fine[place, i]
+                        for j in range(total.size):
+                            total[j] += weight * of[j]
+        if not adding:
+            for place in range(PLACES):
+                if reached[place]:
+                    coarse[place] = np.float32(0.0)
 
 
 @kernel
 def coarsen_across(links: Links, fine: np.ndarray, coarse: np.ndarray) -> None:
-    """Write the stencils of a grid with fewer rows, shapes (nx, 25, rows)."""
+    """Write the stencils of a grid with fewer rows, shapes (25, nx, rows)."""
     rows = coarse.shape[2]
     coarse[:] = np.float32(0.0)
     for to in range(rows):
@@ -135,15 +147,17 @@ def coarsen_across(links: Links, fine: np.ndarray, coarse: np.ndarray) -> None:
                     if weight == 0.0 or abs(step) > REACH:
                         continue
                     there = (step + REACH) * WIDTH + place % WIDTH
-                    for i in range(coarse.shape[0]):
-                        coarse[i, there, to] += weight * fine[i, place, j]
+                    for i in range(coarse.shape[1]):
+                        coarse[there, i, to] += weight * fine[place, i, j]
 
 
 @kernel
 def weigh_places(
     by_pressure: np.ndarray,
     by_film: np.ndarray,
+    used: np.ndarray,
     deflection: float,
+    stride: int,
     most: np.ndarray,
     weight: np.ndarray,
 ) -> int:
@@ -151,10 +165,14 @@ def weigh_places(
 
     Parameters
     ----------
-    by_pressure, by_film : ndarray, shape (nx, 25, rows)
+    by_pressure, by_film : ndarray, shape (25, nx, rows)
         Stencils.
+    used : ndarray of bool, shape (2, 25)
+        Neighbours that they have, by pressure and by film.
     deflection
         Of a node under unit pressure on its own cell.
+    stride
+        Every so many-th node of a row is looked at.
     most : ndarray, shape (rows,)
         Overwritten.
     weight : ndarray, shape (2, 25)
@@ -163,54 +181,64 @@ def weigh_places(
     """
     own = np.float32(deflection)
     nodes = 0
-    for i in range(by_film.shape[0]):
+    for i in range(stride // 2, by_film.shape[1], stride):
         most[:] = np.float32(0.0)
         for place in range(PLACES):
-            p, h = by_pressure[i, place], by_film[i, place]
-            for j in range(most.size):
-                most[j] = max(most[j], abs(p[j]), own * abs(h[j]))
+            if used[0, place]:
+                p = by_pressure[place, i]
+                for j in range(most.size):
+                    most[j] = max(most[j], abs(p[j]))
+            if used[1, place]:
+                h = by_film[place, i]
+                for j in range(most.size):
+                    most[j] = max(most[j], own * abs(h[j]))
         for j in range(most.size):
             if most[j] > 0.0:
                 nodes += 1
                 most[j] = np.float32(1.0) / most[j]
         for place in range(PLACES):
-            p, h = by_pressure[i, place], by_film[i, place]
-            by_p = by_h = np.float32(0.0)
-            for j in range(most.size):
-                by_p += abs(p[j]) * most[j]
-                by_h += abs(h[j]) * most[j]
-            weight[0, place] += by_p
-            weight[1, place] += own * by_h
+            total = np.float32(0.0)
+            if used[0, place]:
+                p = by_pressure[place, i]
+                for j in range(most.size):
+                    total += abs(p[j]) * most[j]
+                weight[0, place] += total
+            total = np.float32(0.0)
+            if used[1, place]:
+                h = by_film[place, i]
+                for j in range(most.size):
+                    total += abs(h[j]) * most[j]
+                weight[1, place] += own * total
     return nodes
 
 
 @kernel
-def pack_places(whole: np.ndarray, used: np.ndarray, packed: np.ndarray) -> None:
-    """Write stencils, (nx, n, rows), of the n places used; what is left out goes to the node.
+def pack_places(whole: np.ndarray, used: np.ndarray, kept: np.ndarray, packed: np.ndarray) -> None:
+    """Write stencils, (nx, n, rows), of the n places kept; what is left out goes to the node.
 
     Parameters
     ----------
-    whole : ndarray, shape (nx, 25, rows)
+    whole : ndarray, shape (25, nx, rows)
         Stencils.
-    used : ndarray of bool, shape (25,)
-        Neighbours that are kept; the node itself is one.
+    used, kept : ndarray of bool, shape (25,)
+        Neighbours that there are, and those that are kept; the node itself is one.
     packed : ndarray, shape (nx, n, rows)
         Result.
     """
     here = 0
     for place in range(CENTRE):
-        if used[place]:
+        if kept[place]:
             here += 1
-    for i in range(whole.shape[0]):
+    for i in range(whole.shape[1]):
         n = 0
         for place in range(PLACES):
-            if used[place]:
-                packed[i, n] = whole[i, place]
+            if kept[place]:
+                packed[i, n] = whole[place, i]
                 n += 1
         centre = packed[i, here]
         for place in range(PLACES):
-            if not used[place]:
-                left = whole[i, place]
+            if used[place] and not kept[place]:
+                left = whole[place, i]
                 for j in range(centre.size):
                     centre[j] += left[j]
 
