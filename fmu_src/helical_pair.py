@@ -31,6 +31,7 @@ from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes, named_
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
 from gearlube_core.oil.oil_file import described_oil_of, read_oil_content
+from gearlube_core.units import rpm_to_rads
 
 GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU's resources
 LINE_MODEL_FILE = "line_film_model.json"  # likewise
@@ -281,6 +282,11 @@ def _definition_with(
         "mesh.backlash": pair.backlash,
         "film.model": _number_of("film.model", gear.film.model),
     }
+    if gear.operation is not None:
+        torque = gear.operation.pinion_torque_n_m
+        starts["pinion.torque"] = torque
+        starts["wheel.torque"] = torque * pair.gear_teeth / pair.pinion_teeth
+        starts["pinion.speed_start"] = rpm_to_rads(gear.operation.pinion_speed_rpm)
     if line_mesh:
         starts["mesh.stiffness_model"] = _number_of("mesh.stiffness_model", LINE_MESH)
     of_mesh = f", line mesh {line_mesh.name}" if line_mesh else ""

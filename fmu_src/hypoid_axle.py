@@ -15,6 +15,7 @@ from fmu_src.slave_base import CoSimulationSlave
 from fmu_src.variable import Variable
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.dynamics import hypoid_axle
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import file_of_model, model_in
 from gearlube_core.film_model.model import FLANK, ROLLER, read_model_content
@@ -210,14 +211,19 @@ def _definition_with(
         DEFINITION,
         description=f"{DEFINITION.description}{of_axle}; mesh table {mesh.name} "
         f"({mesh.pinion_teeth}/{mesh.gear_teeth} teeth){source}",
-        variables=tuple(_starting(variable, starts) for variable in HYPOID_AXLE),
+        variables=tuple(_starting(variable, starts, base) for variable in HYPOID_AXLE),
         start=partial(start_axle, base=base),
         resources=resources,
     )
 
 
-def _starting(variable: Variable, starts: Mapping[str, Value]) -> Variable:
+def _starting(
+    variable: Variable, starts: Mapping[str, Value], base: HypoidAxleParameters
+) -> Variable:
     """Return a variable with the start value of an axle; an oil of its own is a new literal."""
+    if variable.name == "wheel.torque":  # balances that of the pinion
+        paper = shipped_mesh_table(PAPER).ratio
+        return replace(variable, start=(variable.start or 0.0) * (base.mesh.ratio / paper))
     own_oil = starts["oil"] == CUSTOM_OIL
     if own_oil and variable.argument == "oil":
         variable = replace(variable, literals=(*variable.literals, CUSTOM_OIL))

@@ -62,7 +62,7 @@ def load_rating(
     ...     rollers=16, diameter=0.017, length=0.0227, contact_angle=0.273, pitch=0.1085
     ... )
     >>> round(1e-3 * rating)  # kN, 32216: catalogues print some 187
-    180
+    179
     """
     long_side = (1e3 * length * math.cos(contact_angle)) ** (7 / 9)
     return long_side * _rating_per_length(rollers, diameter, contact_angle, pitch)

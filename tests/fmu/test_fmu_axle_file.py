@@ -155,6 +155,18 @@ def test_the_parameters_start_at_the_values_of_the_file(axle_file: Path) -> None
     assert by_number.range == (0.0, 3.0)
 
 
+def test_the_load_of_another_ratio_starts_in_balance_with_the_pinion(tmp_path: Path) -> None:
+    paper = shipped_mesh_table("mohammadpour_2015")
+    write_mesh_table(
+        replace(paper, name="own", pinion_teeth=11, gear_teeth=41), tmp_path / "own.nc"
+    )
+    path = tmp_path / "axle.toml"
+    path.write_text('[gear_set]\nmesh_table = "own.nc"\n')
+    # the plain FMU has 60 and 160 N.m at 13 to 36 teeth
+    assert starts(path)["wheel.torque"] == pytest.approx(160.0 * (41 / 11) / (36 / 13))
+    assert starts(path)["pinion.torque"] == 60.0
+
+
 def test_the_shipped_file_starts_where_the_plain_fmu_starts() -> None:
     plain = {v.name: v.start for v in DEFINITION.variables}
     assert {v.name: v.start for v in definition_with_axle("mohammadpour_2015").variables} == plain

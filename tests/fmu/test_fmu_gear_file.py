@@ -101,11 +101,30 @@ def test_the_fmu_computes_with_its_own_pair_bit_for_bit(
     assert plain.outputs[6] != pair.outputs[6]
 
 
+def test_a_pair_of_its_own_starts_at_the_balanced_operation_of_its_file(gear_file: Path) -> None:
+    starts = {v.name: v.start for v in definition_with(gear_file).variables}
+    file = HelicalGearFile.from_toml(gear_file)
+    assert file.operation is not None
+    torque, rpm = file.operation.pinion_torque_n_m, file.operation.pinion_speed_rpm
+    assert starts["pinion.torque"] == torque
+    assert starts["wheel.torque"] == pytest.approx(torque * file.gear.teeth / file.pinion.teeth)
+    assert starts["pinion.speed_start"] == pytest.approx(rpm * 2.0 * np.pi / 60.0)
+    plain = {v.name: v.start for v in DEFINITION.variables}
+    assert starts["wheel.torque"] != plain["wheel.torque"]
+
+
 def test_the_shipped_pairs_are_still_inside(folder: Path, host_of: Callable[[Path], Host]) -> None:
     host = host_of(folder)
+    plain = {v.name: v.start for v in DEFINITION.variables}
     assert (
         host.start(
-            gear__name=1, mesh__stiffness_model=1, mesh__backlash=100e-6, oil__temperature=333.15
+            gear__name=1,
+            mesh__stiffness_model=1,
+            mesh__backlash=100e-6,
+            oil__temperature=333.15,
+            pinion__torque=plain["pinion.torque"],
+            wheel__torque=plain["wheel.torque"],
+            pinion__speed_start=plain["pinion.speed_start"],
         )
         == OK
     )

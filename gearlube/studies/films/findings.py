@@ -92,7 +92,7 @@ def _grid(errors: dict[str, float]) -> list[Finding]:
             WARNING if large else GOOD,
             f"The grid makes an error of about {100.0 * errors[worst]:.2g} % of the {worst}.",
             f"Estimated from coarser grids: {listed}."
-            + (" Take more nodes, or give --film-error where the command has it." if large else ""),
+            + (" Take more nodes; --film-error 2% does so for lines and points." if large else ""),
         )
     ]
 
@@ -163,7 +163,8 @@ def _compared(ratios: Sequence[Ratio], verb: str) -> list[Finding]:
         Finding(
             NOTE,
             f"The central film of {best.source} {verb} {best.ratio:.2f} times the solved one.",
-            f"Formula over solution: {others}.",
+            f"Formula over solution: {others}. The formulas leave out shear thinning and heat, "
+            "which make a film thinner.",
         )
     ]
 

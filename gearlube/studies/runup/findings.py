@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import not_modelled, source_words
+from gearlube.plotting.range_words import range_text
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.runup import levels
@@ -190,7 +191,7 @@ def _ranges(dataset: xr.Dataset) -> list[Finding]:
             WARNING,
             f"{count} {'quantity' if count == 1 else 'quantities'} left the range of a formula or "
             "table; what is computed there is extrapolated.",
-            left.replace("\n", " "),
+            range_text(left.replace("\n", " ")),
         )
     ]
 

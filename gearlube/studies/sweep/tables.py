@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.range_words import range_text
 from gearlube.plotting.style import preload_label
 from gearlube.report.parts import Cell, Column, Table
 from gearlube.studies.sweep.crossings import ORDERS, crossings
@@ -152,7 +153,8 @@ def _ranges(points: Sequence[xr.Dataset]) -> list[Table]:
             title="Points that left a range",
             columns=[*(column for column, _ in _WHERE), Column("what left its range")],
             rows=[
-                [*(value(p) for _, value in _WHERE), str(p["range_message"].values)] for p in left
+                [*(value(p) for _, value in _WHERE), range_text(str(p["range_message"].values))]
+                for p in left
             ],
             caption="They left the range of a formula or of the mesh table. What is computed there "
             "is extrapolated.",
