@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.point.line_section import line_section
-from gearlube_core.ehl.point.newton import column_levels
+from gearlube_core.ehl.point.newton import column_levels, column_multigrid, preconditioner
 from gearlube_core.ehl.point.newton.column_levels import held_rows
 from gearlube_core.ehl.point.newton.column_multigrid import ColumnCycle
 from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_operator
@@ -51,7 +51,8 @@ def linearised(hierarchy):
 
 
 @pytest.mark.parametrize("length", [LENGTH, 20.0 * LENGTH])
-def test_cycle_is_that_of_sparse_matrices(length):
+def test_cycle_is_that_of_sparse_matrices(length, monkeypatch):
+    monkeypatch.setattr(column_multigrid, "_DAMPING", preconditioner._DAMPING)
     hierarchy = grids("cyclic", length)
     linear = linearised(hierarchy)
     own, other = ColumnCycle(hierarchy, linear), MultigridCycle(hierarchy, linear)

@@ -32,8 +32,10 @@ from gearlube_core.ehl.point.newton.column_stencils import (
 )
 from gearlube_core.ehl.point.newton.galerkin import LEAST_FREE
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
-from gearlube_core.ehl.point.newton.preconditioner import DAMPING, MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
+
+_DAMPING = 0.6  # of line solutions; with 0.5 and 0.7 some more iterations, with 0.8 many more
 
 
 class ColumnGrids:
@@ -134,7 +136,7 @@ class ColumnCycle:
         load = load_residual / size
         for k in range(len(levels) - 1, -1, -1):
             below = levels[k - 1].right if k > 0 else self.grids.right
-            total = descend(levels[k], DAMPING, below)
+            total = descend(levels[k], _DAMPING, below)
             load -= total * grids[k + 1].grid.cell / grids[k + 1].load
         coarsest = np.zeros(grids[0].shape, dtype=Single)
         coarsest[1:-1] = self.grids.right.T
@@ -143,7 +145,7 @@ class ColumnCycle:
         pressure, film = (np.ascontiguousarray(one[1:-1].T) for one in (direct, bent))
         halo = 0
         for k, level in enumerate(levels):
-            ascend(level, DAMPING, approach, pressure, film, halo, k < len(levels) - 1)
+            ascend(level, _DAMPING, approach, pressure, film, halo, k < len(levels) - 1)
             pressure, film, halo = level.pressure, level.film, HALO
         result = np.zeros(residual.shape)
         turn_back(pressure, 1, size, result)

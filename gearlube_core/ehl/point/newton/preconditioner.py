@@ -17,7 +17,7 @@ from gearlube_core.ehl.point.terms.linearisation import Linearisation
 
 Lines = RowSmoother | ColumnSmoother
 
-DAMPING = 0.5  # 0.8 and more amplify waves across narrow contacts at high L
+_DAMPING = 0.5  # 0.8 and more amplify waves across narrow contacts at high L
 # of the entrainment through cells along columns over that along rows, above which lines go both
 # ways; where rows carry more, columns on top do harm
 _OBLIQUE = 1.0
@@ -44,9 +44,11 @@ class MultigridCycle:
             fine, coarse = self._levels[k], self._levels[k - 1]
             halved = (coarse.shape[0] < fine.shape[0], coarse.shape[1] < fine.shape[1])
             single = SingleOperator(fine.grid, operator)
-            lines: list[Lines] = [RowSmoother(fine.grid, operator, single.stencil, halved, DAMPING)]
+            lines: list[Lines] = [
+                RowSmoother(fine.grid, operator, single.stencil, halved, _DAMPING)
+            ]
             if fine.stencil.wedge_y > _OBLIQUE * fine.stencil.wedge_x and not fine.grid.graded:
-                lines.append(ColumnSmoother(fine.grid, operator, halved, DAMPING))
+                lines.append(ColumnSmoother(fine.grid, operator, halved, _DAMPING))
             self._smoothers.insert(0, lines)
             self._operators.insert(0, single)
             self._halved.insert(0, halved)
