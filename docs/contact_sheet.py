@@ -89,7 +89,8 @@ def sheet(folder: Path) -> str:
     parts = [section("docs/images", _pictures(images), "docs", folder)]
     for page in sorted(folder.glob(f"*/{PAGE}")):
         run = page.parent
-        parts.append(section(run.name, _pictures(run / "figures"), "runs", folder))
+        pictures = [*_pictures(run), *_pictures(run / "figures")]
+        parts.append(section(run.name, pictures, "runs", folder))
     return (
         '<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8"><title>All figures</title>'
         f"<style>{_STYLE}</style>\n<h1>All figures</h1>\n{''.join(parts)}</html>\n"
