@@ -1,11 +1,13 @@
-"""What solved films cost the axle: `python -m benchmarks.bench_solved_film [--fmu] [--pair]`.
+"""What solved films cost the axle: `python -m benchmarks.bench_solved_film [--fmu [--rollers]]
+[--pair]`.
 
 Processor time of communication steps by formula and by the film model, turn by turn in one process.
 Each turn starts from the same state: with less friction an axle speeds up and takes more steps.
 The bare axle does so within a turn, by one per cent in 20 ms, so that nodes are evaluated anew more
 often than in a car. With `--fmu` the same through HypoidAxle.fmu and FMPy, over the same time. With
-`--pair` it is the helical pair of He et al. at 1000 rpm, whose load holds its speed, and with
-`--fmu` HelicalPair.fmu, in Python and native.
+`--pair` it is the helical pair of He et al. at 1000 rpm, whose load holds its speed. FMUs are timed
+in Python and native. With `--rollers` the FMU of the axle has solved films in its bearings as well,
+against formulas with Biboulet and Houpert's law, which goes from roller to roller too.
 """
 
 from __future__ import annotations
@@ -65,7 +67,9 @@ def cpu_time(axle: HypoidAxle, h: float) -> float:
     return taken
 
 
-def begun_fmu(folder: Path, film: str, starts: dict[str, float]) -> tuple[Any, dict[str, int]]:
+def begun_fmu(
+    folder: Path, options: dict[str, str], starts: dict[str, float]
+) -> tuple[Any, dict[str, int]]:
     """Return an instance that is past its initialisation, and references by name of variable."""
     description = read_model_description(str(folder))
     place = {v.name: v.valueReference for v in description.modelVariables}
@@ -73,12 +77,13 @@ def begun_fmu(folder: Path, film: str, starts: dict[str, float]) -> tuple[Any, d
         guid=description.guid,
         unzipDirectory=str(folder),
         modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName=film,
+        instanceName="timed",
     )
     fmu.instantiate()
-    (option,) = (v for v in description.modelVariables if v.name == "film.model")
-    (value,) = (item.value for item in option.declaredType.items if item.name == film)
-    fmu.setInteger([option.valueReference], [int(value)])
+    for option in description.modelVariables:
+        for item in option.declaredType.items if option.name in options else ():
+            if item.name == options[option.name]:
+                fmu.setInteger([option.valueReference], [int(item.value)])
     fmu.setReal([place[name] for name in starts], list(starts.values()))
     fmu.setupExperiment()
     fmu.enterInitializationMode()
@@ -86,12 +91,12 @@ def begun_fmu(folder: Path, film: str, starts: dict[str, float]) -> tuple[Any, d
     return fmu, place
 
 
-def running_fmu(folder: Path, film: str) -> Callable[[float], float]:
+def running_fmu(folder: Path, options: dict[str, str]) -> Callable[[float], float]:
     """Return `cpu_time` of an instance of the FMU that has run in."""
     speed, *torques = _POINT
     starts = {"pinion.speed_start": speed, "oil.temperature": _OIL}
     starts |= {"pinion.torque": torques[0], "wheel.torque": torques[1]}
-    fmu, place = begun_fmu(folder, film, starts)
+    fmu, place = begun_fmu(folder, options, starts)
     inputs = [place["pinion.torque"], place["wheel.torque"]]
     outputs = [place[name] for name in ("mesh.dte", "pinion.speed", "wheel.speed", "pinion.angle")]
     now = 0.0
@@ -168,7 +173,7 @@ def holding_load(speed: float, loss: float) -> float:
 
 def running_pair_fmu(folder: Path, film: str) -> Callable[[float], float]:
     """Return what steps of an instance of HelicalPair.fmu that has run in take [s]."""
-    fmu, place = begun_fmu(folder, film, {"oil.temperature": _PAIR_OIL})
+    fmu, place = begun_fmu(folder, {"film.model": film}, {"oil.temperature": _PAIR_OIL})
     inputs = [place["pinion.torque"], place["wheel.torque"]]
     outputs = [place[name] for name in ("pinion.speed", "friction.power_loss", "mesh.dte")]
     outputs.append(place["mesh.film_thickness_min"])
@@ -188,28 +193,41 @@ def running_pair_fmu(folder: Path, film: str) -> Callable[[float], float]:
     return lambda h: run(h, round(_SIMULATED / h))
 
 
+def compare_fmus(pair: bool, rollers: bool) -> None:
+    """Compare both in FMUs of the axle or the pair, in Python and native."""
+    kinds = [{"film.model": film} for film in ("formula", "solved")]
+    if rollers:
+        for kind, law in zip(kinds, ("biboulet_houpert_2010", "solved_films"), strict=True):
+            kind["bearing.torque_loss"] = law
+    native = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
+    with tempfile.TemporaryDirectory() as name:
+        (made,) = build_models(
+            Path(name) / "native", "helical-pair" if pair else "hypoid-axle", native=native
+        )
+        in_python = build_helical_pair(name) if pair else build_hypoid_axle(Path(name))
+        for words, path in (("Python", in_python), ("native", made)):
+            folder = Path(extract(str(path), str(Path(name) / words)))
+            _LOGGER.info(words)
+            if pair:
+                compare(*(running_pair_fmu(folder, kind["film.model"]) for kind in kinds))
+            else:
+                compare(*(running_fmu(folder, kind) for kind in kinds))
+
+
 def main() -> None:
     """Compare both at two communication steps."""
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--fmu", action="store_true")
+    options.add_argument("--rollers", action="store_true")
     options.add_argument("--pair", action="store_true")
     chosen = options.parse_args()
-    if chosen.pair and chosen.fmu:
-        with tempfile.TemporaryDirectory() as name:
-            native = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
-            (made,) = build_models(Path(name) / "native", "helical-pair", native=native)
-            for words, path in (("Python", build_helical_pair(name)), ("native", made)):
-                folder = Path(extract(str(path), str(Path(name) / f"{words}-pair")))
-                _LOGGER.info(words)
-                compare(*(running_pair_fmu(folder, film) for film in ("formula", "solved")))
+    if chosen.rollers and (chosen.pair or not chosen.fmu):
+        options.error("--rollers is for the FMU of the axle: give --fmu, without --pair.")
+    if chosen.fmu:
+        compare_fmus(chosen.pair, chosen.rollers)
         return
     if chosen.pair:
         compare_pair()
-        return
-    if chosen.fmu:
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(extract(str(build_hypoid_axle(Path(name))), str(Path(name) / "axle")))
-            compare(*(running_fmu(folder, film) for film in ("formula", "solved")))
         return
     formula, solved = running("formula"), running("solved")
     compare(lambda h: cpu_time(formula, h), lambda h: cpu_time(solved, h))
