@@ -86,7 +86,7 @@ def chosen_model(text: str, kind: str, what: str, folder: Path = Path()) -> Film
     Examples
     --------
     >>> chosen_model("roller_race", "roller", "roller_model").checksum
-    '26d6d9a4ab5b8b3b'
+    '84de052a40a78b22'
     """
     path = file_of_model(text, folder)
     return of_kind(FilmModel.named(text) if path is None else FilmModel.read(path), kind, what)

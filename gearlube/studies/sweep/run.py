@@ -152,7 +152,8 @@ def run_sweep(
     folder = None if out is None else Path(out)
     with ExitStack() as stack:
         modes = _modes_aside(stack, model, loads, speeds[len(speeds) // 2], settings, car_axle)
-        progress(0.0, "FMU of the axle; built if it is new")
+        if fmu is None:
+            progress(0.0, "FMU of the axle; built if it is new")
         archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
         progress(0.0, "starting the first points")
         directory = stack.enter_context(unpacked(archive))
