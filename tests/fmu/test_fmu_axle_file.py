@@ -394,18 +394,3 @@ def test_the_report_lists_what_was_assumed_but_not_what_the_sweep_sets() -> None
     rows = json.loads(notes_as_text(assumed_inputs(made, settings_of(made.axle))))
     ratios = next(row for row in rows if row[0] == "gearbox.ratios")
     assert ratios[1] == "3.6, 2.1, 1.4, 1, 0.8"
-
-
-def test_the_command_shows_inputs_and_prints_the_example(tmp_path: Path) -> None:
-    shown = CliRunner().invoke(cli.app, ["axle", "show", str(EXAMPLE)])
-    assert shown.exit_code == 0
-    lines = {line.split()[0]: line.split()[1:4] for line in shown.output.splitlines()[2:]}
-    assert lines["vehicle.mass_kg"] == ["2100", "kg", "given"]
-    assert lines["driveline.wheel_inertia_kg_m2"] == ["0.9", "kg.m2", "assumed"]
-    only = CliRunner().invoke(cli.app, ["axle", "show", str(EXAMPLE), "--assumed"]).output
-    assert "given" not in only.replace("not given", "")
-    for command in (["sweep"], ["axle", "show"]):
-        text = CliRunner().invoke(cli.app, [*command, "--example"]).output
-        path = tmp_path / "copy.toml"
-        path.write_text(text)
-        assert read_axle(path).name == "mohammadpour_2015"

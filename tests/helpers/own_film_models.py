@@ -5,6 +5,14 @@ from pathlib import Path
 
 from gearlube_core.film_model.model import FilmModel
 
+OIL_FILE = """
+name = "own"
+base_oil = "mineral"
+density_kg_m3 = 880.0
+viscosity_40_degc_mm2_s = 120.0
+viscosity_100_degc_mm2_s = 12.0
+"""
+
 
 def altered(name: str, film: float = 1.0, friction: float = 1.0) -> FilmModel:
     """Return a shipped model whose film and friction over it are multiplied by factors.

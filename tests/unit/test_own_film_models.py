@@ -26,15 +26,8 @@ from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.friction.flank_film import flank_film_model
-from tests.helpers.own_film_models import altered, copy_of
+from tests.helpers.own_film_models import OIL_FILE, altered, copy_of
 
-OIL_FILE = """
-name = "own"
-base_oil = "mineral"
-density_kg_m3 = 880.0
-viscosity_40_degc_mm2_s = 120.0
-viscosity_100_degc_mm2_s = 12.0
-"""
 VISCOUS = LOSS_SOURCES.index("friction_viscous")
 BOTH = (
     '[film]\nmodel = "solved"\nflank_model = "models/flank.json"\nroller_model = "roller.json"\n'

@@ -27,16 +27,9 @@ from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.oil.lubricant import Lubricant
-from tests.helpers.own_film_models import altered, copy_of
+from tests.helpers.own_film_models import OIL_FILE, altered, copy_of
 
 LINES, ROLLERS = FilmModel.named("helical_line"), FilmModel.named("roller_race")
-OIL_FILE = """
-name = "own"
-base_oil = "mineral"
-density_kg_m3 = 880.0
-viscosity_40_degc_mm2_s = 120.0
-viscosity_100_degc_mm2_s = 12.0
-"""
 
 
 def gear_file(folder: Path, film: dict[str, str]) -> Path:

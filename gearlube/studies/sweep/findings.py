@@ -249,13 +249,7 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     if "friction_loss_bound" not in dataset or not _most(dataset["friction_loss_bound"]) > 0.0:
         return []
     bound = float(dataset["friction_loss_bound"].sum() / flank_friction(dataset["loss"]).sum())
-    outside = dataset["share_outside"].values
-    row, column = _place(outside)
-    most, point = float(outside[row, column]), dataset.isel(preload=row, speed=column)
-    words = (
-        f"at most {100.0 * most:.0f} % of the flanks' load, at {float(point['speed_kmh']):g} km/h "
-        f"and preload {float(point['preload']):g} N"
-    )
+    most, words = _outside(dataset["share_outside"], "flanks")
     doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
     return [solved_films(bound, most, words, doubt, model)]
 
@@ -265,14 +259,19 @@ def _solved_rollers(dataset: xr.Dataset) -> list[Finding]:
     if "drag_bound" not in dataset or not _most(dataset["drag_bound"]) > 0.0:
         return []
     bound = float(dataset["drag_bound"].sum() / bearing_drag(dataset["loss"]).sum())
-    outside = dataset["rollers_outside"].values
-    row, column = _place(outside)
-    most, point = float(outside[row, column]), dataset.isel(preload=row, speed=column)
-    words = (
-        f"at most {100.0 * most:.0f} % of the rollers' load, at {float(point['speed_kmh']):g} km/h "
+    most, words = _outside(dataset["rollers_outside"], "rollers")
+    return [solved_rollers(bound, most, words, model=model_of(dataset, ROLLER))]
+
+
+def _outside(share: xr.DataArray, whose: str) -> tuple[float, str]:
+    """Return the largest share of load outside a film model [-], and it in words with its place."""
+    row, column = _place(share.values)
+    point = share.isel(preload=row, speed=column)
+    most = float(point)
+    return most, (
+        f"at most {100.0 * most:.0f} % of the {whose}' load, at {float(point['speed_kmh']):g} km/h "
         f"and preload {float(point['preload']):g} N"
     )
-    return [solved_rollers(bound, most, words, model=model_of(dataset, ROLLER))]
 
 
 def _rollers(dataset: xr.Dataset) -> list[Finding]:

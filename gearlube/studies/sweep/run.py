@@ -153,7 +153,7 @@ def run_sweep(
     with ExitStack() as stack:
         modes = _modes_aside(stack, model, loads, speeds[len(speeds) // 2], settings, car_axle)
         if fmu is None:
-            progress(0.0, "FMU of the axle; built if it is new")
+            progress(0.0, "the FMU of the axle; it is built if none is kept")
         archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
         progress(0.0, "starting the first points")
         directory = stack.enter_context(unpacked(archive))
