@@ -1,7 +1,8 @@
 """Draw and tabulate the whole marches on the columns of the thesis, for 32, 64 and 128 rows.
 
 python -m docs.rough_line_contact.whole_marches [FOLDER]: seconds, from the marches that `variants`
-has finished or begun there. Draws docs/images/rough_rows.png and rough_rows_sections.png.
+has finished there. Draws docs/images/rough_rows.png and rough_rows_sections.png, and prints what
+the filters leave of the profiles, too.
 """
 
 from __future__ import annotations
@@ -11,10 +12,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from docs.rough_line_contact.make import IMAGES, ROOT
-from docs.rough_line_contact.variants import VARIANTS
+from docs.rough_line_contact.variants import VARIANTS, case_of, filtered
 from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube.studies.films.rough.files import frame_file
 
@@ -112,6 +114,30 @@ def table(found: dict[int, xr.Dataset]) -> list[str]:
     return [f"| {line} |" for line in lines]
 
 
+def left_by_filters() -> list[str]:
+    """Return the lines of a table: height and slope of both profiles under each filter."""
+    lines = ["| waves from | Rq, µm | rms slope, deg |"]
+    for rows in (*ROWS, None):
+        case = case_of(f"his columns, {rows or max(ROWS)} rows")
+        if rows is None:
+            case = case.varied(filtered(None))
+        heights, slopes = [], []
+        for surface, fast in ((case.surface_1, True), (case.surface_2, False)):
+            profile = surface.heights(fast)
+            # the profile repeats
+            slope = np.gradient(np.tile(profile.height, 3), profile.spacing)[profile.height.size :]
+            heights.append(profile.height.std() * 1e6)
+            slopes.append(np.rad2deg(np.sqrt((slope[: profile.height.size] ** 2).mean())))
+        cutoff = case.surface_1.cutoff_um
+        words = (
+            "no filter" if cutoff is None else f"{cutoff:g} µm",
+            ", ".join(f"{one:.2f}" for one in heights),
+            ", ".join(f"{one:.1f}" for one in slopes),
+        )
+        lines.append(f"| {' | '.join(words)} |")
+    return lines
+
+
 def main(work: Path) -> None:
     """Draw and print."""
     files = {rows: folder_of(work, rows) / "rough.nc" for rows in ROWS}
@@ -120,7 +146,7 @@ def main(work: Path) -> None:
     }
     pressures(found).savefig(IMAGES / "rough_rows.png", dpi=110)
     sections(work, found).savefig(IMAGES / "rough_rows_sections.png", dpi=110)
-    sys.stdout.write("\n".join((*table(found), "")))
+    sys.stdout.write("\n".join((*table(found), "", *left_by_filters(), "")))
 
 
 if __name__ == "__main__":
