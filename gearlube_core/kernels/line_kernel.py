@@ -14,9 +14,9 @@ def line_kernel(function: _Function) -> _Function:
     """As `row_kernel`, without numba's count of the users of an array.
 
     numba counts whoever holds an array or a part of it, with an instruction that locks the count
-    against other threads. Where a kernel takes a line of an array for every line it writes, that
-    costs as much as the work on the line, and threads wait for each other's counts. A kernel
-    that allocates nothing needs no count: its caller holds the arrays. One that allocates is refused
-    when it is compiled.
+    against other threads. Where a kernel takes a line of an array for every line that it writes,
+    that costs as much as the work on the line, and threads wait for each other's counts. A kernel
+    that allocates nothing needs no count, as its caller holds the arrays. One that does allocate
+    is refused when it is compiled: a line that is set to another array by `a[i] = b` is one.
     """
     return compiled(function, error_model="numpy", nogil=True, _nrt=False)

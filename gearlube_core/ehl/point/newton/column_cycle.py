@@ -359,9 +359,7 @@ def finish(
 def descend_alone(grid: ColumnGrid, scale: float, spare: np.ndarray, below: np.ndarray) -> None:
     """Smooth a whole grid, and write what is left on the coarser one; see `descend`."""
     rows = 0, grid.free.shape[1]
-    solve_rows(
-        grid.band, grid.free, grid.right, scale, grid.along, rows, grid.rest, grid.half
-    )
+    solve_rows(grid.band, grid.free, grid.right, scale, grid.along, rows, grid.rest, grid.half)
     descend(grid, (0, below.shape[0]), spare, below)
 
 
@@ -380,7 +378,5 @@ def ascend_alone(
     columns, rows = (0, grid.free.shape[0]), (0, grid.free.shape[1])
     add_coarser(grid, columns, pressure, film, halo)
     subtract_changes(grid, columns, approach)
-    solve_rows(
-        grid.band, grid.free, grid.rest, scale, grid.along, rows, grid.rest, grid.half
-    )
+    solve_rows(grid.band, grid.free, grid.rest, scale, grid.along, rows, grid.rest, grid.half)
     finish(grid, columns, pressure.shape[1] - 2 * halo, bend, spare)

@@ -26,8 +26,9 @@ from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection, unresolved_wave
 from gearlube_core.ehl.point.sides import Sides
 
-# of an equation that is taken off another without exchange: three of seven digits are left for it
-_LARGEST_SHARE = 1.0e3
+# of an equation that is taken off another without exchange: two of seven digits are left for it,
+# in a row of which there are few
+_LARGEST_SHARE = 1.0e5
 _LEAST = 1.0e-3  # mean weight of a neighbour that is kept, over that of the heaviest one
 _WEIGHED = 64  # nodes of a row whose neighbours are weighed, at least
 TOGETHER = 16  # rows of nodes that one thread takes: a line of the cache
@@ -162,13 +163,20 @@ class ColumnLevel:
             coarse.used[k] = self._reached_by(used)
             packed += [_PLACES[kept[k]], self._packed[k, count]]
             stencils.append(Stencils(both[k], used, kept[k], packed[-1], coarse.used[k], to))
-        share, factors = self._grid.workers.share, (self._band, self._largest)
-        columns = self.coarse[1]
+        columns, share = self.coarse[1], self._grid.workers.share
+
+        def factor(part: tuple[int, int]) -> None:
+            local, across, largest = self._local, self._across, self._largest
+            p_offsets, p, h_offsets, h = packed
+            given = p_offsets, p, h_offsets, h, whole.free, local, across
+            factor_rows(*given, part, self._band, largest)
+
         share(
-            lambda part: pack_and_coarsen(self.along, *stencils, part), columns, nx * rows // columns
+            lambda part: pack_and_coarsen(self.along, *stencils, part),
+            columns,
+            nx * rows // columns,
         )
-        given: Any = *packed, whole.free, self._local, self._across
-        share(lambda part: factor_rows(*given, part, *factors), rows, nx, TOGETHER)
+        share(factor, rows, nx, TOGETHER)
         if not (self._largest <= _LARGEST_SHARE).all():
             return None
         links = *self._held, self.along, self.across

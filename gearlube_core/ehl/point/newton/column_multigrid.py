@@ -146,11 +146,11 @@ class ColumnCycle:
         coarsest[1:-1] = self.grids.right.T
         direct, approach = self._direct(coarsest, load)
         bent = grids[0].grid.single_deflection(direct)
-        fields = [np.ascontiguousarray(one[1:-1].T) for one in (direct, bent)]
+        fields = np.ascontiguousarray(direct[1:-1].T), np.ascontiguousarray(bent[1:-1].T)
         halo = 0
         for level in levels:
             self._ascend(level, approach, fields, halo)
-            fields, halo = [level.pressure, level.film], HALO
+            fields, halo = (level.pressure, level.film), HALO
         result = np.empty(residual.shape)
         result[[0, -1]] = 0.0
         self._workers.share(
@@ -168,10 +168,10 @@ class ColumnCycle:
         def solve(part: tuple[int, int]) -> None:
             if given is not None:
                 turn_field(given[0], 1, 1.0 / given[1], part, grid.right)
-            solve_rows(*lines, grid.right, _DAMPING, grid.along, part, grid.rest, grid.half)
+            _solve(grid, grid.right, part)
 
         (nx, rows), columns = grid.free.shape, below.shape[0]
-        share, lines = self._workers.share, (grid.band, grid.free)
+        share = self._workers.share
         if given is None and self._is_alone(grid):
             descend_alone(grid, _DAMPING, _spare(rows), below)
         else:
@@ -181,26 +181,42 @@ class ColumnCycle:
             )
         return float(grid.sums.sum())
 
-    def _ascend(self, grid: ColumnGrid, approach: float, fields: list[Any], halo: int) -> None:
+    def _ascend(
+        self, grid: ColumnGrid, approach: float, fields: tuple[Any, Any], halo: int
+    ) -> None:
         """Add the coarser grid's pressure and film, and smooth again; the film follows."""
-        (nx, rows), fewer = grid.free.shape, fields[0].shape[1] - 2 * halo
-        share, lines = self._workers.share, (grid.band, grid.free)
+        (nx, rows), (pressure, film) = grid.free.shape, fields
+        fewer = pressure.shape[1] - 2 * halo
+        share = self._workers.share
         bend = grid is not self._levels[-1]
         if self._is_alone(grid):
-            ascend_alone(grid, _DAMPING, approach, *fields, halo, bend, _spare(rows))
+            ascend_alone(grid, _DAMPING, approach, pressure, film, halo, bend, _spare(rows))
             return
-        after = _DAMPING, grid.along
-        share(lambda part: add_coarser(grid, part, *fields, halo), nx, rows)
+        share(lambda part: add_coarser(grid, part, pressure, film, halo), nx, rows)
         share(lambda part: subtract_changes(grid, part, approach), nx, rows)
-        share(
-            lambda part: solve_rows(*lines, grid.rest, *after, part, grid.rest, grid.half),
-            *(rows, nx, TOGETHER),
-        )
+        share(lambda part: _solve(grid, grid.rest, part), rows, nx, TOGETHER)
         share(lambda part: finish(grid, part, fewer, bend, _spare(rows)), nx, rows)
 
     def _is_alone(self, grid: ColumnGrid) -> bool:
         """Return whether one thread does all of a grid: then in one call."""
         return len(self._workers.parts(*grid.free.shape)) == 1
+
+
+class ColumnCycles:
+    """Builds one cycle after the other in the same arrays."""
+
+    def __init__(self) -> None:
+        self._last: ColumnCycle | None = None
+
+    def __call__(self, hierarchy: Hierarchy, linear: Linearisation, _: object) -> ColumnCycle:
+        """Return the cycle of a linearisation; the one before cannot be used any more."""
+        self._last = ColumnCycle(hierarchy, linear, self._last)
+        return self._last
+
+
+def _solve(grid: ColumnGrid, right: Any, rows: tuple[int, int]) -> None:
+    """Write the line solutions of some rows, and their means along the rows."""
+    solve_rows(grid.band, grid.free, right, _DAMPING, grid.along, rows, grid.rest, grid.half)
 
 
 def _spare(rows: int) -> Any:

@@ -81,9 +81,7 @@ def mean_across(across: Links, fine: np.ndarray, coarse: np.ndarray) -> None:
 
 
 @line_kernel
-def interpolate_across(
-    across: Links, coarse: np.ndarray, mirrored: bool, fine: np.ndarray
-) -> None:
+def interpolate_across(across: Links, coarse: np.ndarray, mirrored: bool, fine: np.ndarray) -> None:
     """Write a column linear between the rows of the coarser grid."""
     for j in range(fine.size):
         value = np.float32(0.0)
