@@ -172,7 +172,7 @@ class ColumnLevel:
             factor_rows(*given, part, self._band, largest)
 
         share(
-            lambda part: pack_and_coarsen(self.along, *stencils, part),
+            lambda part: pack_and_coarsen(self.along, stencils[0], stencils[1], part),
             columns,
             nx * rows // columns,
         )
