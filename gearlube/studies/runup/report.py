@@ -115,7 +115,7 @@ def _subtitle(dataset: xr.Dataset) -> str:
     return (
         f"Hypoid axle {dataset.attrs['axle']}, {levels.heading(dataset)}, from {start:.0f} to "
         f"{end:.0f} rpm of the pinion ({kmh * start:.0f} to {kmh * end:.0f} km/h) in "
-        f"{dataset.attrs['setting_duration']:g} s as one continuous ramp."
+        f"{dataset.attrs['setting_duration']:.3g} s as one continuous ramp."
     )
 
 
