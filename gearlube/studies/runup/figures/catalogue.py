@@ -107,7 +107,7 @@ CATALOGUE = (
         caption="Load of every roller where the bearing forces are largest, as bars outwards from "
         "a ring; black marks: the largest of each over one turn of the pinion. Each "
         "bearing has its own scale. A roller without a bar carries no load. `--animate` "
-        "shows the turn.",
+        "shows them in motion.",
         draw=roller_loads,
         needs="roller_load",
     ),
