@@ -30,9 +30,10 @@ _LIMITS = (
     "On the bench the torque on the pinion is smooth; with `--engine-orders` those of the engine "
     "act, in one gear.",
     "Natural frequencies are undamped, at the mean mesh stiffness, along the ramp's torque.",
-    "All teeth are equal unless the mesh table has errors of single teeth. So there is no noise "
-    "floor between the mesh orders, as a measurement would have.",
-    "Films and friction are from formulas, see docs/ehl_hypoid.md for their error.",
+    "All teeth are equal unless the mesh table has errors of single teeth. So between the mesh "
+    "orders lie only the far lower lines of the rollers, not the noise of a measurement.",
+    "Films and friction are from formulas unless film.model is solved; see docs/ehl_hypoid.md for "
+    "their error.",
 )
 _INPUTS = (
     ("start_speed", "start speed of the pinion", "rpm", rads_to_rpm),
@@ -138,7 +139,7 @@ def _subtitle(dataset: xr.Dataset) -> str:
     return (
         f"Hypoid axle {dataset.attrs['axle']}, {levels.heading(dataset)}, from {start:.0f} to "
         f"{end:.0f} rpm of the pinion ({kmh * start:.0f} to {kmh * end:.0f} km/h) in "
-        f"{dataset.attrs['setting_duration']:g} s as one continuous ramp."
+        f"{dataset.attrs['setting_duration']:.3g} s as one continuous ramp."
     )
 
 

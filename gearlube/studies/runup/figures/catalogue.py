@@ -97,7 +97,8 @@ CATALOGUE = (
         name="bearing_spectra",
         title="Spectra of the bearing forces",
         caption="Order spectra at three speeds of the ramp. Mesh orders above. Lines "
-        "between them would come from errors of single teeth, from rollers or from the engine.",
+        "between them are far lower: rollers that pass the loaded zone, and sidebands of mesh "
+        "orders by them; where they are modelled, errors of single teeth and the engine.",
         draw=bearing_spectra,
     ),
     Entry(
