@@ -116,12 +116,15 @@ def _contacts(dataset: xr.Dataset, frame: int) -> list[Any]:
     loaded = np.flatnonzero(np.isfinite(load))
     tooth = flanks.drawn_tooth(dataset)
     beside = 0.1 * tooth.height
-    x, y = 1e3 * dataset["flank_centre"].values[frame, loaded].T + beside
-    y = np.minimum(y, 0.96 * tooth.height)  # a label outside the axes is not drawn
+    sides = [flanks.label_side(dataset, frame, int(pair)) for pair in loaded]
+    x, y = 1e3 * dataset["flank_centre"].values[frame, loaded].T
+    x = x + beside * np.array(sides)
+    y = np.minimum(y + beside, 0.96 * tooth.height)  # a label outside the axes is not drawn
     texts = [f"<b>{quantity_text(float(load[pair]), 'N')}</b>" for pair in loaded]
     traces.append(
         go.Scatter(x=_small(x), y=_small(y), mode="text", text=texts, hoverinfo="skip",
-                   textposition="top right", cliponaxis=False,
+                   textposition=["top right" if one > 0 else "top left" for one in sides],
+                   cliponaxis=False,
                    textfont={"color": [flanks.PAIR_COLOURS[pair] for pair in loaded]})
     )  # fmt: skip
     return traces

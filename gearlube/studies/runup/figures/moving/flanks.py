@@ -46,6 +46,12 @@ def outline(dataset: xr.Dataset, frame: int, pair: int) -> tuple[Array, Array]:
     return ellipse(*parts)
 
 
+def label_side(dataset: xr.Dataset, frame: int, pair: int) -> int:
+    """Return 1 where the ellipse leaves room above and right of its middle, -1: above and left."""
+    along, up = dataset["flank_major"].values[frame, pair]
+    return 1 if along * up < 0.0 else -1
+
+
 def film_scale(dataset: xr.Dataset) -> tuple[float, float]:
     """Return the ends of the colours of films [µm], the same in all frames."""
     film = 1e6 * dataset["flank_film"].values
@@ -101,8 +107,9 @@ def _contacts(ax: Any, dataset: xr.Dataset, frame: int, colour_of: Any) -> None:
         ax.annotate(
             quantity_text(float(load[pair]), "N"),
             tuple(1e3 * dataset["flank_centre"].values[frame, pair]),
-            xytext=(12, 9),
+            xytext=(12 * label_side(dataset, frame, int(pair)), 9),
             textcoords="offset points",
+            ha="left" if label_side(dataset, frame, int(pair)) > 0 else "right",
             fontsize=8.5,
             color=PAIR_COLOURS[pair],
             fontweight="bold",
