@@ -210,6 +210,12 @@ def test_a_loaded_zone_is_where_all_rollers_that_pass_carry(drive) -> None:
 
 
 def test_teeth_that_are_apart_are_said_and_drawn(drive, tmp_path) -> None:
+    some = drive.copy(deep=True)
+    some["side"].values[:5] = 0.0
+    caption = moving_figures(some)[0].caption
+    assert caption.startswith("On the drive flank a contact carries")
+    assert "The teeth are apart in 5 of 48 frames." in caption
+    assert moving_figures(some)[0].chart.frames[0].name == "0.00 (0.00 ms), teeth apart"
     bare = apart(drive).isel(frame=slice(0, 2))
     flanks, _ = moving_figures(bare)
     assert flanks.caption.startswith("No tooth pair carries load")

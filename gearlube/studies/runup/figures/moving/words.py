@@ -32,7 +32,8 @@ def heading(dataset: xr.Dataset) -> str:
 def instant(dataset: xr.Dataset, frame: int) -> str:
     """Return mesh phase and time of a frame, "0.38 (0.63 ms)"."""
     time = 1e3 * float(dataset["frame_time"][frame])
-    return f"{float(dataset['mesh_phase'][frame]):.2f} ({time:.2f} ms)"
+    phase = round(float(dataset["mesh_phase"][frame]), 2) + 0.0  # no -0.00
+    return f"{phase:.2f} ({time:.2f} ms)"
 
 
 def flank_of(dataset: xr.Dataset, frame: int) -> str:
@@ -56,14 +57,16 @@ def flank_sentence(dataset: xr.Dataset) -> str:
     """Return the smallest and largest load, film and friction of a contact."""
     if not np.isfinite(dataset["flank_load"].values).any():
         return "No tooth pair carries load: the teeth are apart in all frames."
-    friction = dataset["flank_friction"].values
-    where = (
-        f"the {flank_of(dataset, 0)}" if one_flank(dataset) else "drive and coast flanks by turns"
-    )
+    friction, side = dataset["flank_friction"].values, dataset["side"].values
+    carrying = sorted({int(one) for one in side if one})
+    one_side = len(carrying) == 1
+    where = f"the {_SIDES[carrying[0]]}" if one_side else "drive and coast flanks by turns"
+    without = int((side == 0).sum())
+    apart = f" The teeth are apart in {without} of {side.size} frames." if without else ""
     return (
         f"On {where} a contact carries {span(dataset['flank_load'].values, 'N')}; its film is "
         f"{span(1e6 * dataset['flank_film'].values, 'µm')} thick, its friction coefficient "
-        f"{np.nanmin(friction):.3f} to {np.nanmax(friction):.3f}."
+        f"{np.nanmin(friction):.3f} to {np.nanmax(friction):.3f}.{apart}"
     )
 
 
