@@ -87,13 +87,16 @@ def crowns(store: Store) -> Any:
                 top,
                 bottom,
                 drawn_crowned(store, start),
-                f"$F_o$ = {start:g} F",
+                f"$F_o$ = {start:g} $F$",
                 color=SERIES[row],
                 lw=1.3,
             )
         bottom.legend(ncols=5, loc="lower center")
         bottom.set_ylim(0.0, None)
-        figure.suptitle("Design A, crown from $F_o$ on", fontsize=11)
+        figure.suptitle(
+            "Design A: crown that begins $F_o$ from the middle of the face; face width $F$",
+            fontsize=11,
+        )
     return figure
 
 

@@ -47,7 +47,12 @@ SMOOTH_PICTURES = (
         figures_fields.sections,
     ),
     Picture(
-        "crowning", "Crowning", "In motion; crosses: steps not converged.", figures_cycle.crowns
+        "crowning",
+        "Crowning",
+        "In motion. A crown that begins later lowers the pressure at both ends of the cycle; one "
+        "that begins close to the end of the face raises it in the middle, and thins the film "
+        "there (J5 to J7).",
+        figures_cycle.crowns,
     ),
     Picture(
         "linear_relief",
