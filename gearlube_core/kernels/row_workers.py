@@ -31,7 +31,8 @@ class RowWorkers:
     -----
     What is done must not depend on which rows are done together, so that results are the same to
     the bit for any number of threads. Work is done at the same time only where its kernels
-    are made with `row_kernel` or `line_kernel`. A process that was forked starts threads of its own.
+    are made with `row_kernel` or `line_kernel`. A process that was forked starts threads of its
+    own.
     """
 
     def __init__(self, threads: int = 1) -> None:
