@@ -210,7 +210,8 @@ def _figures(first: Data, second: Data) -> list[Figure]:
         b = second["charts"].get(name)
         if b is None:
             continue
-        if all(_is_line(trace) for trace in [*a["data"], *b["data"]]):
+        moving = a.get("frames") or b.get("frames")
+        if not moving and all(_is_line(trace) for trace in [*a["data"], *b["data"]]):
             traces = [
                 *(_marked(trace, "A", second=False) for trace in a["data"]),
                 *(_marked(trace, "B", second=True) for trace in b["data"]),
