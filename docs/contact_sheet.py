@@ -36,7 +36,7 @@ EXAMPLES = {
     "design": "design",
     "contact": "contact --quick",
     "measured": "measured measured_example/axle_17.toml",
-    "whine": "whine --quick",
+    "whine": "whine",
     "resonance": "resonance --quick",
     "helical": "helical --quick",
     "ehl_line": "ehl line",

@@ -55,10 +55,17 @@ class RampVehicle:
         Expected loss of the axle at the pinion [N m] at equal times of the ramp.
     lead : float
         Time before the ramp in which the car begins to accelerate, smoothly [s].
+    gear : int, optional
+        By default that of `gear_for_ramp`.
     """
 
     def __init__(
-        self, parameters: DrivelineParameters, ramp: SpeedRamp, loss_torque: Array, lead: float
+        self,
+        parameters: DrivelineParameters,
+        ramp: SpeedRamp,
+        loss_torque: Array,
+        lead: float,
+        gear: int | None = None,
     ) -> None:
         check_within("lead", lead, 0.1, 60.0, "s")
         self.ramp, self._lead = ramp, lead
@@ -67,7 +74,7 @@ class RampVehicle:
         self._metre = parameters.rolling_radius / parameters.axle_ratio  # of the car per rad
         loss = float(self._loss[0]) * ramp.start
         self.driveline = Driveline(
-            parameters, self._speed(-lead), loss, gear=gear_for_ramp(parameters, ramp)
+            parameters, self._speed(-lead), loss, gear=gear or gear_for_ramp(parameters, ramp)
         )
         self._road = parameters.road_load
         self._total = self.driveline.gear_ratio / self._metre  # rad of the crank per metre

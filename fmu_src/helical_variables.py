@@ -132,12 +132,17 @@ def _line(i: int) -> tuple[Variable, ...]:
     )
 
 
+_MEAN = "mean over the communication step"
 _LOSSES = (
     output("friction.power_loss", "W", "Power lost in flank friction", 100.0),
     output("damping.power_loss", "W", "Power lost in the mesh damping", 10.0),
     output("bearing.power_loss", "W", "Power lost in the damping of the bearings", 10.0),
-    output("efficiency", "1", "Efficiency of the gear mesh, mean over the communication step"),
-    output("pair.efficiency", "1", "Efficiency with all losses, mean over the communication step"),
+    output("efficiency", "1", f"Efficiency of the gear mesh alone, {_MEAN}"),
+    output(
+        "pair.efficiency",
+        "1",
+        f"Efficiency of the pair with all losses, {_MEAN}",
+    ),
 )
 
 

@@ -107,13 +107,18 @@ def _flank(i: int) -> tuple[Variable, ...]:
     )
 
 
+_MEAN = "mean over the communication step"
 _LOSSES = (
     output("friction.power_loss", "W", "Power lost in flank friction, viscous and boundary", 100.0),
     output("friction.power_loss_boundary", "W", "Power lost in boundary friction of flanks", 10.0),
     output("bearing.power_loss", "W", "Power lost in the drag of all four bearings", 100.0),
     output("damping.power_loss", "W", "Power lost in the damping of mesh and rollers", 10.0),
-    output("efficiency", "1", "Efficiency of the gear mesh, mean over the communication step"),
-    output("axle.efficiency", "1", "Efficiency with all losses, mean over the communication step"),
+    output("efficiency", "1", f"Efficiency of the gear mesh alone, {_MEAN}"),
+    output(
+        "axle.efficiency",
+        "1",
+        f"Efficiency of the axle with all losses, {_MEAN}",
+    ),
 )
 
 

@@ -1,6 +1,6 @@
 """Rewrite docs/runup.md and its pictures: python -m docs.runup.make.
 
-One run-up, and steady points that it is compared with; about two minutes on one core.
+One run-up, and steady points that it is compared with; about four minutes on one core.
 """
 
 from __future__ import annotations
@@ -12,12 +12,15 @@ import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.axle_file.read_axle import read_axle
+from gearlube.studies.runup.animation.dataset import animate_ramp
 from gearlube.studies.runup.figures import CATALOGUE
+from gearlube.studies.runup.figures.moving.parts import MOVING
 from gearlube.studies.runup.findings import findings
 from gearlube.studies.runup.run import run_runup
 from gearlube.studies.runup.settings import RunupSettings
 from gearlube.studies.sweep.axle_in_fmu import settings_of
 from gearlube.studies.sweep.point import march
+from gearlube_core.progress import no_progress
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,20 +34,22 @@ _DPI = 100
 def main() -> None:
     """Run, draw and write."""
     car = read_axle("mohammadpour_2015")
-    ramp = run_runup(
-        RunupSettings(
-            car_axle=car,
-            start_speed=rpm_to_rads(600.0),
-            end_speed=rpm_to_rads(4000.0),
-            duration=20.0,
-            pinion_torque=TORQUE,
-            oil_temperature=OIL,
-        )
+    settings = RunupSettings(
+        car_axle=car,
+        start_speed=rpm_to_rads(600.0),
+        end_speed=rpm_to_rads(4000.0),
+        duration=20.0,
+        pinion_torque=TORQUE,
+        oil_temperature=OIL,
     )
+    ramp = run_runup(settings)
     images = ROOT / "docs" / "images"
     for entry in CATALOGUE:
         if entry.name != "overview":
             entry.draw(ramp).savefig(images / f"runup_{entry.name}.png", dpi=_DPI)
+    moving = animate_ramp(settings, ramp)
+    for one in MOVING:
+        one.animate(moving, images / f"runup_{one.name}.gif", no_progress)
     text = (Path(__file__).parent / "text.md").read_text(encoding="utf-8")
     page = text.format(
         steady="\n".join(steady_row(car, speed) for speed in STEADY_KMH),

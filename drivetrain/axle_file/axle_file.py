@@ -310,6 +310,9 @@ class AxleFile(InputFile):
     ) -> list[InputNote]:
         of_table = {} if fit is None else {"roughness_rms_um": "asperity_table"}
         notes = self.gear_set.notes("gear_set.", axle, _MODEL, of_table)
+        if doubt := self.gear_set.doubt:
+            doubtful = [note.field for note in notes].index("gear_set.backlash_um")
+            notes[doubtful] = notes[doubtful]._replace(why=doubt)
         if self.gear_set.gear_file is not None:
             notes += self._gear_file_notes(axle.mesh)
         if fit is not None:

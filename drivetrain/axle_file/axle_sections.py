@@ -20,6 +20,7 @@ Text = Annotated[str, Field(min_length=1)]
 Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False)]
 Torques = Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)]
 Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False)]
+LEAST_BACKLASH = 10.0  # um; the runout of cut gears alone is more, so that they would jam
 Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
 LossFactor = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Hysteresis = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
@@ -89,6 +90,17 @@ class GearSet(ModelSection):
     frequency_floor_hz: Floor | None = Field(
         default=None, description="Lowest mesh frequency used in the law of the hysteretic damping"
     )
+
+    @property
+    def doubt(self) -> str:
+        """What is allowed here but hardly meant, as a sentence; "" for nothing."""
+        backlash = self.backlash_um
+        if backlash is None or not 0.0 < backlash < LEAST_BACKLASH:
+            return ""
+        return (
+            f"gear_set.backlash_um = {backlash:g} um is far below that of axle gears, some 100 um. "
+            f"Is it in mm? {backlash:g} mm is {1e3 * backlash:g} um."
+        )
 
     @model_validator(mode="after")
     def _check_gears(self) -> GearSet:

@@ -58,6 +58,7 @@ GROUPS = {
     "--overwrite": _RESULTS,
     "--export": _RESULTS,
     "--animate": _RESULTS,
+    "--animate-rpm": _RESULTS,
     "--snapshots": _RESULTS,
     "--regulation-grid": _RESULTS,
     "--regulation-raised": _RESULTS,

@@ -13,6 +13,7 @@ from gearlube_core.hypoid_geometry.flank.flank import tooth_region
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 _LINE = "#404040"
+_AROUND = np.linspace(0.0, 2.0 * np.pi, 73)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,3 +60,13 @@ class DrawnTooth:
         ax.text(1.01, 0.03, "root", ha="left", va="bottom", **look)
         if title:
             ax.set_title(title, fontsize=9.5)
+
+
+def ellipse(centre: Array, minor: Array, major: Array, size: float = 1.0) -> tuple[Array, Array]:
+    """Return the outline of an ellipse with these semi-axes, each of shape (2,); `size` times."""
+    x, y = (
+        centre[:, None]
+        + size * minor[:, None] * np.cos(_AROUND)
+        + size * major[:, None] * np.sin(_AROUND)
+    )
+    return x, y

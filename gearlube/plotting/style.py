@@ -131,7 +131,13 @@ def name_levels(ax: Any, levels: dict[str, float], size: float = 8.0) -> None:
             va="center",
             fontsize=size,
             annotation_clip=False,
-            arrowprops={"arrowstyle": "-", "lw": 0.5, "color": "#606060", "shrinkA": 0.5},
+            arrowprops={
+                "arrowstyle": "-",
+                "lw": 0.5,
+                "color": "#606060",
+                "shrinkA": 0.5,
+                "relpos": (0.0, 0.5),  # ends at the name, not inside the next one
+            },
         )
 
 

@@ -20,6 +20,8 @@ COLOURS = PARTS
 _SYMBOLS = ("circle", "square", "triangle-up", "diamond", "triangle-down", "cross")
 _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 _LETTERS = 30  # of a line of a label
+_LEVELS = 10  # of a contour map, at most
+_LIGHT = 0.55  # of a scale of colours, from which black is legible on it
 _MANY = 60  # points of a line, above which they have no markers
 
 
@@ -252,10 +254,26 @@ def add_map(
         "hovertemplate": f"%{{z:.4g}} {axes[2].unit} at %{{x:.5g}} {axes[0].unit}, "
         f"%{{y:.5g}} {axes[1].unit}<extra></extra>",
     }
-    if contours:
-        labels = {"showlabels": True, "labelfont": {"size": 11, "color": "white"}}
-        looks |= {"contours": labels, "line": {"width": 0.7, "color": "white"}, "ncontours": 12}
-    figure.add_trace((go.Contour if contours else go.Heatmap)(**looks), **place)
+    if not contours:
+        figure.add_trace(go.Heatmap(**looks), **place)
+        return
+    size = _round_step((high - low) / _LEVELS)
+    light = low + _LIGHT * (high - low)
+    first, change, last = (size * np.ceil(value / size) for value in (low, light, high))
+    looks["contours"] = {"start": first, "end": last, "size": size, "showlines": False}
+    figure.add_trace(go.Contour(**looks), **place)
+    for start, end, ink in ((first, change - size, "white"), (change, last, "black")):
+        lines = {"start": start, "end": end + 0.01 * size, "size": size, "coloring": "none"}
+        lines |= {"showlabels": True, "labelfont": {"size": 11, "color": ink}}
+        own = {name: looks[name] for name in ("x", "y", "z")}
+        look = {"contours": lines, "line": {"width": 0.7, "color": ink}, "hoverinfo": "skip"}
+        figure.add_trace(go.Contour(**own, **look, showscale=False, showlegend=False), **place)
+
+
+def _round_step(step: float) -> float:
+    """Return the next of 1, 2, 5, 10, 20 and so on that is not smaller."""
+    tens = 10.0 ** np.floor(np.log10(step)) if step > 0.0 else 1.0
+    return float(next(tens * one for one in (1.0, 2.0, 5.0, 10.0) if tens * one >= 0.999 * step))
 
 
 def bar_chart(names: Sequence[str], values: Sequence[float] | Array, axis: Axis) -> Any:

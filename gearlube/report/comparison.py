@@ -210,7 +210,8 @@ def _figures(first: Data, second: Data) -> list[Figure]:
         b = second["charts"].get(name)
         if b is None:
             continue
-        if all(_is_line(trace) for trace in [*a["data"], *b["data"]]):
+        moving = a.get("frames") or b.get("frames")
+        if not moving and all(_is_line(trace) for trace in [*a["data"], *b["data"]]):
             traces = [
                 *(_marked(trace, "A", second=False) for trace in a["data"]),
                 *(_marked(trace, "B", second=True) for trace in b["data"]),
@@ -228,7 +229,7 @@ def _figures(first: Data, second: Data) -> list[Figure]:
                     name=f"{name}_{mark}",
                     title=f"{one['title']}, {mark}",
                     caption=one["caption"],
-                    chart=_chart(one["data"], one["layout"]),
+                    chart=_chart(one["data"], one["layout"], one.get("frames", ())),
                 )
             )
     return found
@@ -250,7 +251,11 @@ def _marked(trace: Mapping[str, Any], mark: str, *, second: bool) -> dict[str, A
     return found
 
 
-def _chart(data: Sequence[Mapping[str, Any]], layout: Mapping[str, Any]) -> Any:
+def _chart(
+    data: Sequence[Mapping[str, Any]],
+    layout: Mapping[str, Any],
+    frames: Sequence[Mapping[str, Any]] = (),
+) -> Any:
     import plotly.graph_objects as go
 
-    return go.Figure(data=list(data), layout={**layout, "template": None})
+    return go.Figure(data=list(data), layout={**layout, "template": None}, frames=list(frames))

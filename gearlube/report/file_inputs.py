@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from gearlube.report.numbers import unit_words
 from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, Input
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_unit
-
-_WORDS = {"um": "µm", "deg": "°", "degC": "°C", "urad": "µrad"}
 
 
 def file_inputs(file: HypoidGearFile | HelicalGearFile) -> list[Input]:
@@ -31,7 +30,7 @@ def file_inputs(file: HypoidGearFile | HelicalGearFile) -> list[Input]:
                 origin = kind
                 why = str(reasons[field]) if isinstance(reasons, Mapping) else ""
         unit = field_unit(field)[0]
-        found.append(Input(field, value, _WORDS.get(unit, unit), origin, why))
+        found.append(Input(field, value, unit_words(unit), origin, why))
     return found
 
 

@@ -9,6 +9,19 @@ _LEAST, _MOST = 1e-5, 1e7  # outside, powers of ten are written
 _DECIMALS = 6
 MISSING = "–"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_UNITS = {"um": "µm", "urad": "µrad", "deg": "°", "degC": "°C"}
+
+
+def unit_words(unit: str) -> str:
+    """Return the unit of an input file's field as reports write it.
+
+    Examples
+    --------
+    >>> unit_words("um"), unit_words("N.m.s/rad"), unit_words("kg/m3"), unit_words("mm")
+    ('µm', 'N·m·s/rad', 'kg/m³', 'mm')
+    """
+    text = unit.replace(".", "·").replace("m2", "m²").replace("m3", "m³").replace("K2", "K²")
+    return _UNITS.get(text, text)
 
 
 def number_text(value: float, digits: int = 3) -> str:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import base64
 import gzip
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from gearlube.report.numbers import column_texts, number_text
+from gearlube.report.numbers import column_texts, number_text, unit_words
 from gearlube.report.parts import GIVEN, Input, Report, Table, ranked
 from gearlube.report.provenance import today, versions
 from gearlube.report.stored import PAGE, as_data, as_json
@@ -127,7 +128,8 @@ def _table(table: Table) -> dict[str, Any]:
 
 def _groups(report: Report) -> list[tuple[str, list[Input]]]:
     """Return the inputs as given, and as inferred or assumed."""
-    given = [one for one in report.inputs if one.origin == GIVEN]
-    others = [one for one in report.inputs if one.origin != GIVEN]
+    inputs = [replace(one, unit=unit_words(one.unit)) for one in report.inputs]
+    given = [one for one in inputs if one.origin == GIVEN]
+    others = [one for one in inputs if one.origin != GIVEN]
     groups = (("Given", given), ("Inferred or assumed: give the values that you know", others))
     return [(name, group) for name, group in groups if group]

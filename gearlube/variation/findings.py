@@ -56,7 +56,7 @@ def numbers(results: xr.Dataset, summary: xr.Dataset) -> list[Number]:
     for one in shown_quantities(results):
         values = one.factor * summary["statistics"].sel(quantity=one.name)
         found += [
-            Number(f"{one.meaning}: {words}", _over_axes(values, statistic), one.unit, 4)
+            Number(f"{one.meaning}: {words}", _over_axes(values, statistic), one.unit)
             for statistic, words in (("low", "least"), ("mean", "mean"), ("high", "largest"))
         ]
     return found
@@ -121,10 +121,9 @@ def _strongest(summary: xr.Dataset, name: str) -> list[str]:
 
 def _scatter(values: xr.DataArray, one: Shown) -> str:
     low, high = (float(values.sel(statistic=p).mean()) for p in ("p2.5", "p97.5"))
-    return (
-        f"95 % of the samples lie between {number_text(low)} and {quantity_text(high, one.unit)},"
-        " mean over the axes."
-    )
+    over = ", mean over the axes" if values.sel(statistic="mean").size > 1 else ""
+    ends = f"{number_text(low)} and {quantity_text(high, one.unit)}"
+    return f"95 % of the samples lie between {ends}{over}."
 
 
 def _limits(summary: xr.Dataset) -> list[Finding]:

@@ -90,14 +90,15 @@ def _figures(results: xr.Dataset, summary: xr.Dataset) -> list[Figure]:
     for one in shown[:_MOST]:
         ranks = summary["rank_correlation"].sel(quantity=one.name)
         mean = ranks.mean([d for d in ranks.dims if d != "input"]).values
+        over = ", mean over the axes" if ranks.size > mean.size else ""
         if np.isfinite(mean).any():
             order = np.argsort(-np.abs(np.nan_to_num(mean)))[:12]
             found.append(
                 Figure(
                     name=f"ranks_{one.name.replace('.', '_')}",
-                    title=f"What {one.meaning} follows",
-                    caption="Rank correlation with each sampled input, mean over the axes: near "
-                    "+1 or −1 it follows this input alone, near 0 not at all.",
+                    title=f"Which input it follows: {one.meaning}",
+                    caption=f"Rank correlation with each sampled input{over}: near +1 or −1 it "
+                    "follows this input alone, near 0 not at all.",
                     chart=bar_chart(
                         [str(summary["input"].values[i]) for i in order],
                         mean[order],
@@ -118,7 +119,7 @@ def line_panels(results: xr.Dataset, summary: xr.Dataset, shown: list[Shown]) ->
     """Return the shown quantities over the longest axis, a panel for each."""
     along = line_axis(summary)
     x_axis = Axis(along, units_of(results)[along])
-    axes = [Axis(one.name, one.unit) for one in shown]
+    axes = [Axis(one.name.replace("_", " "), one.unit) for one in shown]
     chart = panels([one.meaning for one in shown], x_axis, axes, height=280)
     first = conditions(summary.isel({along: 0}))[:_MOST]
     for row, (one, axis) in enumerate(zip(shown, axes, strict=True), 1):
@@ -170,7 +171,7 @@ def histogram_chart(results: xr.Dataset, summary: xr.Dataset, shown: list[Shown]
                 row=row,
                 col=1,
             )
-        axis = Axis(one.name, one.unit)
+        axis = Axis(one.name.replace("_", " "), one.unit)
         chart.update_xaxes(title_text=axis.label, row=row, col=1)
         chart.update_yaxes(title_text="points", row=row, col=1)
     return chart
@@ -189,7 +190,7 @@ def _tables(results: xr.Dataset, summary: xr.Dataset) -> list[Table]:
 def _statistics_table(results: xr.Dataset, summary: xr.Dataset, name: str, sampled: bool) -> Table:
     statistics = _STATISTICS if sampled else (("mean", "value"),)
     unit = str(summary["unit"].sel(quantity=name).values)
-    unit = "" if unit == "1" else unit
+    unit = "" if unit == "1" else unit.replace("N m", "N·m")
     axes = [str(axis) for axis in summary["failed"].dims]
     rows: list[list[Cell]] = []
     for _, cell in conditions(summary)[:_MOST_ROWS]:
@@ -214,7 +215,7 @@ def _inputs(results: xr.Dataset) -> list[Input]:
     for one in inputs_of(results):
         values = results[one["key"]].values
         if values.dtype.kind in "fiu":
-            text = f"{values.min():.6g} to {values.max():.6g}"
+            text = f"{values.min():.4g} to {values.max():.4g}"
             if not one["sampled"]:
                 text += f", {np.unique(values).size} values"
         else:

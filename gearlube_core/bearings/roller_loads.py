@@ -16,7 +16,9 @@ from gearlube_core.bearings.parameters import (
 )
 from gearlube_core.bearings.roller_contact import (
     N_LINE,
+    approach_with_film,
     film_amplitude,
+    roller_approach_line,
     roller_load_general,
     roller_load_line,
 )
@@ -130,4 +132,51 @@ def roller_loads(
         else:
             w, _ = roller_load_general(g, rate, film, squeeze_scale, K, c, w_min, p.n)
         out[i] = w
+    return 0
+
+
+@kernel
+def roller_films(
+    motion: ShaftMotion,
+    eta0: float,
+    alpha: float,
+    p: BearingParameters,
+    side: float,
+    out: np.ndarray,
+) -> int:
+    """Write the film that is part of every roller's load, roller 0 first.
+
+    H = (d - g) d_f where the races touch, see `roller_contact`
+
+    Parameters
+    ----------
+    motion, eta0, alpha, p, side
+        As in `bearing_forces`; velocities play no part.
+    out : ndarray, shape (>= n_rollers,)
+        Receives the film [m]; 0 without load, and for a bearing without a film.
+
+    Returns
+    -------
+    int
+        0, or 1 when `out` is too short (nothing is written then).
+
+    References
+    ----------
+    [mohammadpour_2015 (27)]
+    """
+    count = int(p.n_rollers)
+    if out.shape[0] < count:
+        return 1
+    film, _ = film_amplitude(motion.speed, eta0, alpha, p)
+    g0, g1, g2, ga, _, _, _ = approach_terms(
+        motion, math.cos(motion.cage_angle), math.sin(motion.cage_angle), p
+    )
+    line = p.n == N_LINE
+    for i in range(count):
+        g = g0 + side * ga + g1 * COS_TABLE[count, i] + g2 * SIN_TABLE[count, i]
+        if line:
+            x, _, _, _ = roller_approach_line(g, film)
+        else:
+            x = approach_with_film(g, film, p.n)
+        out[i] = (x - g) * FILM_FLOOR_APPROACH if g + film > 0.0 else 0.0
     return 0

@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import TableError
+from gearlube_core.hypoid_contact.drawn_contact import drawn_axes
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_geometry.flank.flank import tooth_region
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.fourier import ZERO_PHASE, fourier, orders_kept
-from gearlube_core.mesh_table.table import PAIRS, MeshTable, Provenance
+from gearlube_core.mesh_table.table import PAIRS, TOOTH_UNITS, MeshTable, Provenance
 
 _FLATTEST = 20.0  # m, R_y where the ellipse is longer than any tooth
 _LOST = 0.02  # largest share of a pair outside its window that is dropped
@@ -39,12 +42,15 @@ def contact_table(file: HypoidGearFile, dataset: xr.Dataset) -> MeshTable:
         raise TableError(reasons[0])
     levels = [("coast", t) for t in fitting["coast"][::-1]]
     levels += [("drive", t) for t in fitting["drive"]]
+    region = tooth_region(file.blank(), "gear")
+    pairs = _pairs_to_draw(file, dataset)
     series: dict[str, list[Array]] = {}
     windows: dict[str, list[Array]] = {}
     for side, torque in levels:
         state = dataset.sel(side=side, torque=torque)
         for key, values in _series(state).items():
             series.setdefault(key, []).append(values)
+        state = state.assign(_on_tooth(state, pairs[side])) if pairs else state
         for key, values in _windows(state, f"{side} {torque:g} N.m").items():
             windows.setdefault(key, []).append(values)
     loaded = np.stack(windows["share"]) > 0.0
@@ -62,6 +68,7 @@ def contact_table(file: HypoidGearFile, dataset: xr.Dataset) -> MeshTable:
             "positions": float(dataset.sizes["phase"]),
             "path_contact_ratio": float(dataset["path_contact_ratio"].sel(side="drive")),
         },
+        tooth_size=(region.face_width, region.whole_height) if pairs else None,
     )
 
 
@@ -113,6 +120,30 @@ _WINDOW_SOURCES: dict[str, Callable[[xr.Dataset], xr.DataArray]] = {
 }
 
 
+def _pairs_to_draw(file: HypoidGearFile, dataset: xr.Dataset) -> dict[str, FlankPair]:
+    """Return the flanks of both sides; none where the dataset has no direction of the ellipses."""
+    if "minor_axis" not in dataset:  # of an earlier version
+        return {}
+    return {side: FlankPair.from_file(file, side) for side in ("drive", "coast")}
+
+
+def _on_tooth(state: xr.Dataset, pair: FlankPair) -> dict[str, xr.DataArray]:
+    """Return the windows of `TOOTH_UNITS` over phase and pair, NaN where a pair carries nothing."""
+    region = pair.gear.region
+    size = np.array([region.face_width, region.whole_height])
+    s, t = state["gear_s"].values, state["gear_t"].values
+    known = np.isfinite(s)
+    life = (state["phase"].values[:, None] + state["pair"].values)[known]
+    axes = drawn_axes(pair, life, s[known], t[known], state["minor_axis"].values[known])
+    columns = [size * np.stack([t[known], s[known]], 1), *(size * one for one in axes)]
+    full = np.full((*s.shape, len(TOOTH_UNITS)), np.nan)
+    full[known] = np.concatenate(columns, axis=1)
+    return {
+        key: state["gear_s"].copy(data=full[..., i]).drop_attrs()
+        for i, key in enumerate(TOOTH_UNITS)
+    }
+
+
 def _windows(state: xr.Dataset, where: str) -> dict[str, Array]:
     positions = state.sizes["phase"]
     nodes = PAIRS * positions
@@ -128,9 +159,11 @@ def _windows(state: xr.Dataset, where: str) -> dict[str, Array]:
     result["share"][place] = kept[inside]
     loaded = np.zeros(nodes, dtype=bool)
     loaded[place] = (kept > 0.0)[inside] & np.isfinite(state["R_x"].values)[inside]
-    for key, source in _WINDOW_SOURCES.items():
+    sources = {key: source(state) for key, source in _WINDOW_SOURCES.items()}
+    sources |= {key: state[key] for key in TOOTH_UNITS if key in state}
+    for key, source in sources.items():
         values = np.zeros(nodes)
-        values[place] = source(state).values[inside]
+        values[place] = source.values[inside]
         result[key] = _held(values, loaded)
     return result
 
@@ -188,5 +221,5 @@ _DERIVATIONS = {
 def _provenance(file: HypoidGearFile) -> dict[str, Provenance]:
     """Return the origin of each datum: `completed` if any completed setting affects it."""
     kind = "completed" if file.completed else "inferred"
-    keys = (*_DERIVATIONS, *_WINDOW_SOURCES)
+    keys = (*_DERIVATIONS, *_WINDOW_SOURCES, *TOOTH_UNITS)
     return {key: Provenance(kind, _DERIVATIONS.get(key, _AT_CENTRE)) for key in keys}  # type: ignore[arg-type]

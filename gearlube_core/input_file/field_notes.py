@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from difflib import get_close_matches
 from functools import cache
 from types import MappingProxyType
@@ -122,8 +123,8 @@ def sentence(
         for word, why in unmodelled.items():
             if word in f"{field} {value}".lower():
                 return f"{field} is not a field of this file: {why}."
-        near = get_close_matches(field, notes, n=1)
-        return f"{field} is not a field of this file" + (f"; is it {near[0]}?" if near else ".")
+        near = _meant(field, notes)
+        return f"{field} is not a field of this file" + (f"; is it {near}?" if near else ".")
     if note is None:
         return f"{field or 'The file'}: {error['msg'].lower()}, got {error['input']!r}."
     limits = f", {note.limits}" if note.limits else ""
@@ -131,6 +132,35 @@ def sentence(
     what = note.kind if note.kind == _KINDS["boolean"] else f"a {note.kind}"
     hint = _likely_unit(note.unit, error)
     return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}.{hint}"
+
+
+def _meant(field: str, notes: Mapping[str, FieldNote]) -> str:
+    """Return the field that a misspelt one is likely to be; "" for none."""
+    return next(iter(get_close_matches(field, notes, n=1)), "")
+
+
+def as_meant(
+    data: Mapping[str, Any], errors: Sequence[Any], notes: Mapping[str, FieldNote]
+) -> dict[str, Any] | None:
+    """Return data with misspelt fields under the names that they are likely to have.
+
+    None if no field is misspelt, or if it is not known what one of them is: what is missing then
+    would only seem to be wrong.
+    """
+    changed = deepcopy(dict(data))
+    unknown = [error["loc"] for error in errors if error["type"] == "extra_forbidden"]
+    for place in unknown:
+        *sections, key = (str(part) for part in place)
+        *meant_sections, meant = _meant(".".join((*sections, key)), notes).split(".")
+        section: Any = changed
+        for part in sections:
+            section = section.get(part) if isinstance(section, dict) else None
+        if not isinstance(section, dict) or meant_sections != sections or meant in section:
+            return None
+        if not get_close_matches(key, [meant]):
+            return None
+        section[meant] = section.pop(key)
+    return changed if unknown else None
 
 
 def _likely_unit(unit: str, error: Any) -> str:

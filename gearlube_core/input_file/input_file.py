@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Self
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from gearlube_core.errors import ParameterError, why
-from gearlube_core.input_file.field_notes import field_notes, sentence
+from gearlube_core.input_file.field_notes import as_meant, field_notes, sentence
 from gearlube_core.input_file.file_kind import other_kind
 
 # a line whose value is a number with a comma
@@ -84,10 +84,27 @@ class InputFile(Section):
                     f"{where} is not the file that is asked for ({cls.title}): its fields are "
                     f"those of {other.words}. {other.use}"
                 ) from None
-            lines = [sentence(error, notes, cls.unmodelled) for error in reason.errors()]
+            errors = [*reason.errors(), *cls._behind(data, reason)]
+            lines = [sentence(error, notes, cls.unmodelled) for error in errors]
             raise ParameterError(
                 f"{where} has {len(lines)} wrong field(s). " + " ".join(lines)
             ) from None
+
+    @classmethod
+    def _behind(cls, data: dict[str, Any], reason: ValidationError) -> list[Any]:
+        """Return the errors that misspelt fields hide: those of the data as they are meant.
+
+        Fields that contradict each other show only where all fields of a section are known.
+        """
+        meant = as_meant(data, reason.errors(), field_notes(cls))
+        if meant is None:
+            return []
+        try:
+            cls.model_validate(meant)
+        except ValidationError as then:
+            known = [(error["loc"], error["type"]) for error in reason.errors()]
+            return [one for one in then.errors() if (one["loc"], one["type"]) not in known]
+        return []
 
     def varied(self, changes: dict[str, Any]) -> Self:
         """Return a copy with dotted fields changed, checked as a file is; None takes one away."""

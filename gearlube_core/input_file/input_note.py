@@ -12,7 +12,7 @@ Origin = Literal["given", "inferred", "assumed"]
 class InputNote(NamedTuple):
     """One input of a model and where its value is from.
 
-    `value` is in `unit`; `why` is empty where the file gives the value.
+    `value` is in `unit`; `why` is empty where the file gives a value that is plausible.
     """
 
     field: str  # dotted name in the file

@@ -17,6 +17,7 @@ from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
 from gearlube_core.mesh_table.table import (
     MEMBERS,
     SERIES_UNITS,
+    TOOTH_UNITS,
     WINDOW_UNITS,
     Kind,
     MeshTable,
@@ -30,6 +31,7 @@ FILE_IN_FMU = "mesh_table.nc"  # name among the resources of an FMU with a table
 _ATTRIBUTES = ("name", "pinion_teeth", "gear_teeth", "contact_ratio")
 _SETTING = "setting_"
 _SHAFT = "e_"  # and the member
+_TOOTH = ("gear_face_width", "gear_tooth_height")  # m
 
 
 def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
@@ -37,9 +39,11 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
     data: dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]] = {}
     for group, units, dims in (
         (table.series, SERIES_UNITS, ("torque", "order", "part")),
-        (table.windows, WINDOW_UNITS, ("torque", "node")),
+        (table.windows, {**WINDOW_UNITS, **TOOTH_UNITS}, ("torque", "node")),
     ):
         for key, unit in units.items():
+            if key not in group:
+                continue
             origin = table.provenance[key]
             attributes = {"units": unit, "provenance": origin.kind, "derivation": origin.derivation}
             data[key] = (dims, group[key], attributes)
@@ -64,6 +68,7 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
             "gear_teeth": table.gear_teeth,
             "contact_ratio": table.contact_ratio,
             "source": table.source,
+            **dict(zip(_TOOTH, table.tooth_size or (), strict=False)),
             **{
                 _SETTING + key: value if isinstance(value, str) else float(value)
                 for key, value in table.settings.items()
@@ -113,6 +118,8 @@ def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:
     missing += [key for key in _ATTRIBUTES if key not in dataset.attrs]
     if missing:
         raise TableError(f"{name} lacks {', '.join(missing)}. Write it with write_mesh_table.")
+    windows = [key for key in (*WINDOW_UNITS, *TOOTH_UNITS) if key in dataset]
+    size = [float(dataset.attrs[key]) for key in _TOOTH if key in dataset.attrs]
     return MeshTable(
         name=str(dataset.attrs["name"]),
         pinion_teeth=int(dataset.attrs["pinion_teeth"]),
@@ -120,13 +127,13 @@ def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:
         torque=np.ascontiguousarray(dataset["torque"].values, dtype=np.float64),
         contact_ratio=float(dataset.attrs["contact_ratio"]),
         series={key: np.ascontiguousarray(dataset[key].values) for key in SERIES_UNITS},
-        windows={key: np.ascontiguousarray(dataset[key].values) for key in WINDOW_UNITS},
+        windows={key: np.ascontiguousarray(dataset[key].values) for key in windows},
         provenance={
             key: Provenance(
                 cast(Kind, str(dataset[key].attrs.get("provenance", ""))),
                 str(dataset[key].attrs.get("derivation", "")),
             )
-            for key in (*SERIES_UNITS, *WINDOW_UNITS)
+            for key in (*SERIES_UNITS, *windows)
         },
         source=str(dataset.attrs.get("source", "")),
         settings={
@@ -139,6 +146,7 @@ def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:
             for member in MEMBERS
             if _SHAFT + member in dataset
         },
+        tooth_size=(size[0], size[1]) if len(size) == len(_TOOTH) else None,
     )
 
 

@@ -38,6 +38,15 @@ WINDOW_UNITS: Mapping[str, str] = {
     "chi": "rad",
     "pressure_max": "Pa",
 }
+# where a pair meets on the drawn gear tooth: in a table of contact analysis, for drawings alone
+TOOTH_UNITS: Mapping[str, str] = {
+    "tooth_along": "m",
+    "tooth_up": "m",
+    "minor_along": "1",
+    "minor_up": "1",
+    "major_along": "1",
+    "major_up": "1",
+}
 ABOVE_ZERO = ("k_m", "R_p", "R_g", "k_t", "R_x", "R_y")  # means of series, every node of windows
 PAIRS = 3
 MEMBERS = ("pinion", "gear")
@@ -85,7 +94,11 @@ class MeshTable:
         speed), friction_arm_p/g [m], xi [-] (unit sliding direction, pinion relative to gear),
         chi [rad] (sliding direction from the minor axis), pressure_max [Pa] (highest contact
         pressure of the pair). Where the share is zero the others must have the nearest loaded
-        value, because they are interpolated from there to the first loaded node.
+        value, because they are interpolated from there to the first loaded node. A table of contact
+        analysis also has where the pair meets on the drawn gear tooth: tooth_along, tooth_up
+        (centre of force from toe and root line [m]), and how a step of one metre along the axes of
+        the ellipse is drawn there, minor_along, minor_up, major_along, major_up [-]: less than
+        one metre, as the tooth winds. All six or none.
     provenance : mapping of str to Provenance
         One entry for each series and window.
     source : str
@@ -97,6 +110,8 @@ class MeshTable:
     settings : mapping of str to str or float
         How they were computed, e.g. numbers of positions; names of letters, digits, "_", "." and
         "-".
+    tooth_size : tuple of float, optional
+        Face width and height of the drawn gear tooth [m].
 
     Raises
     ------
@@ -105,7 +120,8 @@ class MeshTable:
 
     Notes
     -----
-    chi and pressure_max are for reading only; the dynamics does not use them.
+    chi, pressure_max and the places on the tooth are for reading only; the dynamics does not use
+    them.
 
     References
     ----------
@@ -133,6 +149,7 @@ class MeshTable:
     source: str = ""
     settings: Mapping[str, str | float] = field(default_factory=dict)
     shaft_error: Mapping[str, Array] = field(default_factory=dict)
+    tooth_size: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         levels = self.torque.size
@@ -155,7 +172,8 @@ class MeshTable:
                 f"{self.contact_ratio:g}. A mesh table cannot hold more tooth pairs in contact."
             )
         self._check("series", self.series, SERIES_UNITS, 3)
-        self._check("windows", self.windows, WINDOW_UNITS, 2)
+        drawn = TOOTH_UNITS if self.windows.keys() & TOOTH_UNITS.keys() else {}
+        self._check("windows", self.windows, {**WINDOW_UNITS, **drawn}, 2)
         self._check_signs()
         nodes = self.nodes
         if nodes % PAIRS:
@@ -165,6 +183,11 @@ class MeshTable:
         if worst > SHARE_TOLERANCE:
             raise TableError(f"{self.name}: load shares must sum to 1, off by {worst:.3g}.")
         self._check_shaft_error()
+        if self.tooth_size is not None and not min(self.tooth_size) > 0.0:
+            raise TableError(
+                f"{self.name}: tooth_size must be face width and height above 0 m, got "
+                f"{self.tooth_size}."
+            )
         for key, value in self.settings.items():
             if not re.fullmatch(r"[\w.-]+", key, re.ASCII) or not isinstance(
                 value, str | float | int
@@ -228,6 +251,11 @@ class MeshTable:
     def without_shaft_error(self) -> MeshTable:
         """Return the same table repeating with the mesh: all teeth alike."""
         return replace(self, shaft_error={}) if self.shaft_error else self
+
+    @property
+    def has_tooth_places(self) -> bool:
+        """Whether the table says where on the drawn gear tooth each pair meets."""
+        return self.tooth_size is not None and "tooth_along" in self.windows
 
     @property
     def has_coast_levels(self) -> bool:

@@ -3,7 +3,9 @@
 import pytest
 from typer.testing import CliRunner
 
+import gearlube as gl
 from gearlube.command import app
+from gearlube.studies.runup.animation.dataset import load_animation
 from gearlube.studies.runup.figures import CATALOGUE
 from gearlube.studies.runup.run import load_runup
 
@@ -14,7 +16,7 @@ def test_up_and_down_writes_two_ramps_one_summary_and_one_report(tmp_path) -> No
     told = CliRunner().invoke(
         app,
         "runup --rpm --from 1500 --to 1900 --duration 2 --torque 80 --coast-down "
-        "--coast-torque -40 "
+        "--coast-torque -40 --animate-rpm 1700 "
         f"--out {out}".split(),
     )
     assert told.exit_code == 0, told.output
@@ -25,6 +27,13 @@ def test_up_and_down_writes_two_ramps_one_summary_and_one_report(tmp_path) -> No
     assert "Run-up: the loudest is mesh order" in html
     assert "Coast-down: the loudest is mesh order" in html
     assert len(list((out / "figures").glob("*.png"))) == 2 * len(CATALOGUE)
+    assert "Run-up: flanks in motion" in html
+    assert "Coast-down: rollers in motion" in html
+    moving = {path.name for path in (out / "animation").iterdir()}
+    assert {"runup.nc", "runup_flanks.gif", "coastdown_rollers.gif"} < moving
+    down = load_animation(out / "animation" / "coastdown.nc")
+    assert float(down["pinion_speed"].mean()) == pytest.approx(gl.rpm_to_rads(1700.0), rel=1e-3)
+    assert (down["side"].values == -1.0).all()
     ramps = {line.split(",")[0] for line in (out / "summary.csv").read_text().splitlines()[1:]}
     assert ramps == {"run-up", "coast-down"}
 

@@ -8,7 +8,7 @@ from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_conta
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from gearlube_core.mesh_table.table import PAIRS, SERIES_UNITS, WINDOW_UNITS
+from gearlube_core.mesh_table.table import PAIRS, SERIES_UNITS, TOOTH_UNITS, WINDOW_UNITS
 
 TABLE = shipped_mesh_table("mohammadpour_2015")
 RATIO = 36 / 13
@@ -239,7 +239,7 @@ def test_shipped_table_is_what_the_analysis_of_the_shipped_gear_file_writes(tmp_
     dataset = analyse_contact(file, ContactSettings(), cache=tmp_path)
     table = contact_table(file, dataset)
     np.testing.assert_array_equal(table.torque, TABLE.torque)
-    for key in (*SERIES_UNITS, *WINDOW_UNITS):
+    for key in (*SERIES_UNITS, *WINDOW_UNITS, *TOOTH_UNITS):
         now = table.series[key] if key in SERIES_UNITS else table.windows[key]
         stored = TABLE.series[key] if key in SERIES_UNITS else TABLE.windows[key]
         # the tangent comes from conjugate gradients stopped at 1e-5; all else repeats to round-off,

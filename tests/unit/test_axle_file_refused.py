@@ -5,6 +5,7 @@ import math
 import pytest
 
 from drivetrain.axle_file.axle_file import AxleFile
+from gearlube.cli.axle_gears import bring_gears_up_to_date
 from gearlube_core.errors import ParameterError
 from tests.helpers.axle_files import car_axle
 
@@ -114,3 +115,18 @@ def test_all_wrong_fields_are_named_at_once():
 def test_a_file_without_gear_set_says_what_it_needs():
     with pytest.raises(ParameterError, match=r"gear_set: mesh_table or gear_file must be given"):
         AxleFile.from_data({"name": "x"}, "my.toml")
+
+
+def test_a_backlash_in_mm_is_asked_about(caplog, tmp_path):
+    path = tmp_path / "axle.toml"
+    text = '[gear_set]\nmesh_table = "mohammadpour_2015"\nbacklash_um = 0.13\n'
+    path.write_text(text)
+    bring_gears_up_to_date(path)
+    assert "Is it in mm? 0.13 mm is 130 um." in caplog.text
+    notes = {note.field: note for note in AxleFile.from_toml(path).car_axle().inputs}
+    assert "Is it in mm?" in notes["gear_set.backlash_um"].why
+    caplog.clear()
+    for plausible in ("0.0", "30.0"):  # none on purpose, and the least of cut gears
+        path.write_text(text.replace("0.13", plausible))
+        bring_gears_up_to_date(path)
+        assert not caplog.text

@@ -21,6 +21,7 @@ from gearlube_core.bearings import (
 )
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.contact.solid import pi_contact_modulus
 from gearlube_core.film import mostofi_gohar_1983 as film
 
 P = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()
@@ -68,6 +69,27 @@ def test_compiled_roller_loads_equal_their_source():
     assert roller_loads.roller_loads(*SHAFT, 1.0, one) == 0
     assert roller_loads.roller_loads.py_func(*SHAFT, 1.0, two) == 0
     assert one == pytest.approx(two, rel=1e-13)
+
+
+def test_films_of_rollers_are_those_of_the_formula_under_their_loads():
+    compiled, source = np.zeros(12), np.zeros(12)
+    assert roller_loads.roller_films(MOTION, *OIL, P, 1.0, compiled) == 0
+    assert roller_loads.roller_films.py_func(MOTION, *OIL, P, 1.0, source) == 0
+    assert compiled == pytest.approx(source, rel=1e-13)
+    # without velocities and hysteresis a load is that of its film alone
+    still = MOTION._replace(v1=0.0, v2=0.0, v_axial=0.0)
+    lossless = P._replace(loss=0.0, cage_ratio=0.0, squeeze=0.0)
+    loads = np.zeros(12)
+    roller_loads.roller_loads(still, 300.0, *OIL, lossless, 1.0, loads)
+    bearing = TaperedRollerBearing.mohammadpour_2015()
+    shape = 0.5 * bearing.roller_diameter, pi_contact_modulus(bearing.solid, bearing.solid)
+    u = P.film_speed_radius * MOTION.speed
+    expected = [film.central_film(load, u, 0.0, *OIL, *shape) for load in loads]
+    assert compiled == pytest.approx(expected, rel=1e-6)
+    assert roller_loads.roller_films(MOTION, *OIL, P, 1.0, np.zeros(3)) == 1
+    without = P._replace(film_constant=0.0)
+    roller_loads.roller_films(MOTION, *OIL, without, 1.0, compiled)
+    assert not compiled.any()
 
 
 def test_compiled_rotor_equals_its_source():

@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 
 from gearlube.report.parts import GOOD, WARNING
+from gearlube.studies.contact.figures.charts import stiffness_chart
 from gearlube.studies.contact.findings import edge_torque, findings, numbers, transmission_orders
 
 TORQUES, PHASES, ARM = (10.0, 80.0), 16, 0.02
@@ -54,6 +55,14 @@ def test_the_first_mesh_order_of_the_error_is_the_amplitude_of_its_cosine():
     found = transmission_orders(contact().sel(side="drive"))
     np.testing.assert_allclose(found[:, 0], AMPLITUDE, rtol=1e-9)
     np.testing.assert_allclose(found[:, 1:], 0.0, atol=1e-9)
+
+
+def test_the_chart_of_stiffness_has_the_pairs_that_its_caption_names():
+    chart = stiffness_chart(contact().assign(k_t=1.5 * contact()["k_m"]))
+    lines = {(one.name, one.yaxis): one.y for one in chart.data}
+    np.testing.assert_allclose(lines["drive, secant", "y"], 300.0)  # N/um
+    np.testing.assert_allclose(lines["coast, tangent", "y"], 450.0)
+    np.testing.assert_allclose(lines["drive, pairs", "y2"], 2.0)  # two of five carry load
 
 
 def test_a_pressure_above_that_of_edges_is_told_with_its_torque():

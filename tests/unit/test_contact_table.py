@@ -5,10 +5,13 @@ import pytest
 import xarray as xr
 
 from gearlube_core.errors import TableError
+from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.contact_table import contact_table, levels_left_out
+from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.fourier import fourier
 from gearlube_core.mesh_table.kernels import mesh_series, pair_channels, transmission_error
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import PAIRS
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
@@ -251,3 +254,22 @@ def test_a_table_keeps_one_order_for_every_four_positions(positions, orders):
     """Of 20 positions, order 5 is the last that what folds down from above hardly touches."""
     table = contact_table(FILE, dataset(positions=positions))
     assert table.orders == orders
+
+
+def test_under_a_light_load_a_pair_meets_on_its_unloaded_path():
+    """The shipped table's centres of force against the equations of tangency, on both sides."""
+    table = shipped_mesh_table("mohammadpour_2015")
+    width, height = table.tooth_size
+    life = START + PAIRS * np.arange(table.nodes) / table.nodes
+    for side, torque in (("drive", 10.0), ("coast", -10.0)):
+        at = int(np.flatnonzero(table.torque == torque)[0])
+        pair = FlankPair.from_file(FILE, side)
+        alone = table.windows["share"][at] > 0.99
+        path = contact_path(pair, life[alone] * pair.gear_pitch)
+        assert alone.sum() > 5
+        # the ellipse is some mm long: skewness of the gap within it moves its centre by 0.1 mm
+        for key, expected in (
+            ("tooth_along", width * path.gear_t),
+            ("tooth_up", height * path.gear_s),
+        ):
+            assert table.windows[key][at][alone] == pytest.approx(expected, abs=2e-4)

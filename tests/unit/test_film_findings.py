@@ -131,7 +131,7 @@ def test_a_march_tells_the_steps_of_its_extremes():
 
 def test_a_hypoid_flank_tells_its_extremes_and_ratios_by_load():
     flank = hypoid()
-    assert "0.150 µm, at phase -0.50" in headline(flank, "smallest steady film").headline
+    assert "0.150 µm, at phase −0.50" in headline(flank, "smallest steady film").headline
     assert "0.900 GPa, at phase 0.50" in headline(flank, "largest pressure").headline
     assert "20 %" in headline(flank, "friction").detail
     assert headline(flank, "14 % of the films").level == WARNING

@@ -17,7 +17,7 @@ RPM = np.pi / 30.0
 SPEEDS, TEETH = np.array([1000.0, 2000.0, 3000.0]), 30  # rpm; mesh at 500, 1000, 1500 Hz
 
 
-def sweep(natural=(4000.0,), film=True, margin=0.5):
+def sweep(natural=(4000.0,), film=True, margin=0.5, runs_at=2000.0):
     """Order 2 is largest at 2000 rpm, 2 kHz: 1.5 um with the film and 0.7 um at mu 0.1."""
     amplitude = np.full((3, 3), 0.1e-6)
     amplitude[1, 1] = 1.5e-6
@@ -32,17 +32,29 @@ def sweep(natural=(4000.0,), film=True, margin=0.5):
     }
     if film:
         data["film_delta_z_harmonic"] = (("speed", "harmonic"), amplitude)
-    return xr.Dataset(data, coords={"mu": [0.0, 0.1], "speed": SPEEDS * RPM, "harmonic": [1, 2, 3]})
+    return xr.Dataset(
+        data,
+        coords={"mu": [0.0, 0.1], "speed": SPEEDS * RPM, "harmonic": [1, 2, 3]},
+        attrs={"pinion_speed": runs_at * RPM},
+    )
 
 
 def response(natural):
+    """Order 2 is largest with the film, the last case: 0.3 um; order 1 at mu 0.1: 0.9 um."""
     return xr.Dataset(
-        {"natural_frequency": ("mode", np.array(natural))},
+        {
+            "natural_frequency": ("mode", np.array(natural)),
+            "delta_z_harmonic": (
+                ("case", "harmonic"),
+                np.array([[0.9e-6, 0.2e-6, 0.0], [0.1e-6, 0.3e-6, 0.2e-6]]),
+            ),
+        },
+        coords={"case": ["0.1", "film"], "harmonic": [1, 2, 3]},
         attrs={"mesh_frequency": 500.0, "pinion_speed": 1000.0 * RPM},
     )
 
 
-def separation(share):
+def separation(share, runs_at=5000.0):
     return xr.Dataset(
         {
             "separation_share": (("damping", "row"), np.array([[0.0, share, 0.0]])),
@@ -50,7 +62,7 @@ def separation(share):
             "special_kind": (("damping", "special"), np.array([["fold", "fold", ""]])),
         },
         coords={"damping": [0.05]},
-        attrs={"mesh_damping_ratio": 0.05},
+        attrs={"mesh_damping_ratio": 0.05, "pinion_speed": runs_at * RPM},
     )
 
 
@@ -115,11 +127,25 @@ def test_without_a_film_the_largest_order_is_that_at_the_shown_coefficient():
         ((1900.0, 4000.0), WARNING, "5.3 % above the natural frequency of 1.90 kHz"),
     ],
 )
-def test_a_peak_near_a_natural_frequency_is_a_warning(natural, level, words):
+def test_a_peak_near_a_natural_frequency_is_a_warning_where_the_pair_runs(natural, level, words):
     (one,) = findings({"sweep": sweep(natural)})
     assert one.level == level
-    assert "1.50 µm: mesh order 2 at 2000 rpm" in one.headline
+    assert "1.50 µm: mesh order 2 at 2000 rpm, within 10 % of the 2000 rpm" in one.headline
     assert words in one.detail
+
+
+def test_a_resonance_at_ten_times_the_speed_of_the_pair_is_no_warning():
+    (one,) = findings({"sweep": sweep((1900.0,), runs_at=200.0)})
+    assert one.level == NOTE
+    assert "at 2000 rpm, 10 times the 200 rpm at which the pair runs" in one.headline
+
+
+def test_the_first_finding_is_about_the_speed_at_which_the_pair_runs():
+    first, *_ = findings({"sweep": sweep(), "response": response([3000.0])})
+    assert first.level == NOTE
+    assert "At 1000 rpm the largest order" in first.headline
+    assert "0.300 µm: mesh order 2, at 1.00 kHz" in first.headline
+    assert "Friction of the oil film" in first.detail
 
 
 def test_an_unstable_sweep_is_told():
@@ -136,7 +162,7 @@ def test_the_margin_is_that_to_the_next_natural_frequency():
 
 @pytest.mark.parametrize(("natural", "level"), [(1050.0, WARNING), (3000.0, GOOD)])
 def test_an_order_within_a_tenth_of_a_natural_frequency_is_a_warning(natural, level):
-    (one,) = findings({"response": response([natural])})
+    _, one = findings({"response": response([natural])})
     assert one.level == level
     order = 2 if level == WARNING else 3
     assert f"At 1000 rpm mesh order {order}" in one.headline
@@ -149,6 +175,13 @@ def test_separation_is_told_with_its_speeds_share_and_folds():
     assert "from 5000 to 5000 rpm" in apart.headline
     assert "25 % of the time" in apart.headline
     assert "2 folds" in apart.detail
+    assert "runs at 5000 rpm" in apart.detail
+
+
+def test_teeth_that_separate_at_other_speeds_are_no_warning():
+    (far,) = findings({"separation": separation(0.25, runs_at=3000.0)})
+    assert far.level == NOTE
+    assert "runs at 3000 rpm" in far.detail
 
 
 @pytest.mark.parametrize(("pressure", "level"), [(4.0e9, WARNING), (1.4e9, GOOD)])
@@ -178,6 +211,7 @@ def test_the_least_film_ratio_is_that_of_loaded_points(ratio, level):
 
 def test_key_numbers_have_the_same_names_in_every_run():
     everything = {
+        "response": response([3000.0]),
         "sweep": sweep(),
         "contact": contact(1.4e9),
         "separation": separation(0.25),
@@ -188,6 +222,8 @@ def test_key_numbers_have_the_same_names_in_every_run():
     assert [one.name for one in full] == [one.name for one in none]
     assert all(np.isnan(one.value) for one in none)
     value = {one.name: one.value for one in full}
+    assert value["dynamic transmission error in operation"] == pytest.approx(0.3)
+    assert value["largest dynamic transmission error in the sweep"] == pytest.approx(1.5)
     assert value["mean mesh stiffness"] == pytest.approx(500.0)
     assert value["loaded transmission error, peak to peak"] == pytest.approx(0.4)
     assert value["longest time without contact"] == pytest.approx(25.0)

@@ -42,6 +42,30 @@ def test_a_wrong_field_of_the_right_kind_is_still_named(tmp_path):
         AxleFile.from_toml(path)
 
 
+def test_a_misspelt_field_is_told_together_with_fields_that_contradict_each_other(tmp_path):
+    path = tmp_path / "axle.toml"
+    text = '[gear_set]\nmesh_table = "mohammadpour_2015"\nbacklash = 90.0\ngear_file = "g.toml"\n'
+    path.write_text(text)
+    with pytest.raises(ParameterError, match=r"2 wrong field\(s\)") as told:
+        AxleFile.from_toml(path)
+    assert "is it gear_set.backlash_um?" in str(told.value)
+    assert "give mesh_table or gear_file, not both" in str(told.value)
+    # under the name that is meant, the value is wrong too
+    path.write_text(text.replace("90.0", "-1.0").replace('gear_file = "g.toml"\n', ""))
+    with pytest.raises(ParameterError, match="0 to 2000 um, got -1"):
+        AxleFile.from_toml(path)
+
+
+def test_a_misspelt_field_that_is_needed_is_not_called_missing(tmp_path):
+    path = tmp_path / "axle.toml"
+    path.write_text('[gear_set]\nmesh_tabel = "mohammadpour_2015"\n')
+    with pytest.raises(ParameterError, match=r"1 wrong field\(s\).*is it gear_set.mesh_table\?"):
+        AxleFile.from_toml(path)
+    path.write_text('[gear_set]\nquux = "mohammadpour_2015"\n')  # means nothing that is known
+    with pytest.raises(ParameterError, match=r"1 wrong field\(s\).*quux is not a field"):
+        AxleFile.from_toml(path)
+
+
 def test_a_decimal_comma_and_a_missing_file_have_a_cure(tmp_path):
     path = tmp_path / "axle.toml"
     path.write_text('a = [1, 2]\nname = "x, 1,5"\npreload_n = 5000,5  # N\n')

@@ -16,8 +16,9 @@ from typer.testing import CliRunner
 
 import gearlube as gl
 from gearlube.command import COMMANDS, command_line
+from gearlube.report.parts import WARNING
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
-from gearlube.studies.loss_map.findings import moving_inputs
+from gearlube.studies.loss_map.findings import findings, moving_inputs
 from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
@@ -66,6 +67,22 @@ def test_the_sources_are_the_whole(found):
 def test_the_mesh_is_not_damped_in_steady_running(found):
     # the shafts do not vibrate: 1e-28 W was rounding, and stood so in map.csv
     assert np.all(found["loss"].sel(source="mesh_damping").values == 0.0)
+
+
+def test_a_film_hotter_than_the_oil_data_is_told_as_extrapolated(found):
+    warm, hot = (
+        found.assign(flank_temperature=xr.full_like(found["efficiency"], degc))
+        for degc in (149.0, 151.0)
+    )
+    hot["flank_temperature"][0, 1, 5] = 518.2
+    warm["flank_temperature"][0, 1, 5] = np.nan  # a point that failed
+    assert not [one for one in findings(warm) if "flank film" in one.headline]
+    (said,) = (one for one in findings(hot) if "flank film" in one.headline)
+    assert said.level == WARNING
+    # the library's data of this oil end at 150 degC
+    assert "518 °C at 300 N·m, 1432 rpm and 60 °C oil" in said.headline  # 150 rad/s
+    assert "the oil data end at 150 °C" in said.headline
+    assert "at 100 % of the points" in said.detail
 
 
 def test_a_map_with_solved_rollers_has_their_bound(found, tmp_path):

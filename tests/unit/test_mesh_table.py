@@ -20,14 +20,19 @@ from gearlube_core.mesh_table.kernels import (
 )
 from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from gearlube_core.mesh_table.table import SERIES_UNITS, WINDOW_UNITS, Provenance
+from gearlube_core.mesh_table.table import (
+    SERIES_UNITS,
+    TOOTH_UNITS,
+    WINDOW_UNITS,
+    Provenance,
+)
 from tests.helpers.axle_cases import drive_only, with_coast_flanks
 
 SHIPPED = shipped_mesh_table("mohammadpour_2015")
 TABLE = drive_only(SHIPPED)
 LEVELS = TABLE.torque.size
 Z_P = 13
-KEYS = (*SERIES_UNITS, *WINDOW_UNITS)
+KEYS = (*SERIES_UNITS, *WINDOW_UNITS, *TOOTH_UNITS)
 
 
 def data(table, key):
@@ -59,16 +64,27 @@ def test_a_table_written_and_read_is_the_same_table_to_the_bit(tmp_path):
     assert read.contact_ratio == TABLE.contact_ratio
     assert read.provenance == varied.provenance
     assert (read.source, read.settings) == (varied.source, settings)
+    assert read.tooth_size == TABLE.tooth_size
     np.testing.assert_array_equal(read.torque, TABLE.torque)
     for key in KEYS:
         np.testing.assert_array_equal(data(read, key), data(TABLE, key))
     assert [path.name for path in (tmp_path / "sub").iterdir()] == ["table.nc"]
 
 
+def test_a_table_may_lack_places_on_the_tooth_and_refuses_a_tooth_without_size(tmp_path):
+    windows = {key: values for key, values in TABLE.windows.items() if key not in TOOTH_UNITS}
+    bare = replace(TABLE, windows=windows, tooth_size=None)
+    read = read_mesh_table(write_mesh_table(bare, tmp_path / "bare.nc"))
+    assert (read.has_tooth_places, read.tooth_size) == (False, None)
+    assert TABLE.has_tooth_places
+    with pytest.raises(TableError, match="tooth_size must be face width and height above 0 m"):
+        replace(TABLE, tooth_size=(0.03, 0.0))
+
+
 def test_every_datum_in_a_file_carries_its_unit(tmp_path):
     with xr.open_dataset(write_mesh_table(TABLE, tmp_path / "table.nc")) as dataset:
         units = {key: dataset[key].attrs["units"] for key in KEYS}
-    assert units == {**SERIES_UNITS, **WINDOW_UNITS}
+    assert units == {**SERIES_UNITS, **WINDOW_UNITS, **TOOTH_UNITS}
 
 
 @pytest.mark.parametrize("key", KEYS)

@@ -74,6 +74,18 @@ def test_lines_lie_in_one_chart_and_maps_one_after_the_other(folders):
     assert [trace.line.dash for trace in found.figures[0].chart.data] == ["solid", "dot"]
 
 
+def test_figures_that_move_stay_in_motion_beside_each_other(tmp_path):
+    for name, height in (("a", 2.0), ("b", 3.0)):
+        chart = line_chart([Line(name="now", x=[1.0, 2.0], y=[1.0, height])], SPEED, LOSS)
+        chart.frames = [{"name": step, "data": [{"y": [1.0, height]}]} for step in ("0", "1")]
+        moved = Figure(name="moving", title="Moving", caption="c", chart=chart)
+        write_report(Report(study="runup", title="Run-up", figures=[moved]), tmp_path / name)
+    a, b = comparison(*both(tmp_path), ("old", "new")).figures
+    assert (a.title, b.title) == ("Moving, A", "Moving, B")
+    assert [frame.name for frame in b.chart.frames] == ["0", "1"]
+    assert list(b.chart.frames[1].data[0].y) == [1.0, 3.0]
+
+
 def test_equal_reports_are_called_equal(folders):
     a = read_report(folders / "a")
     assert [one.headline for one in comparison(a, a, ("x", "y")).findings] == [

@@ -149,6 +149,32 @@ def test_every_chart_has_named_axes_with_units_and_a_caption(page, report):
         assert f"What {figure.name} says." in page
 
 
+def test_a_picture_is_enlarged_by_a_tap_and_a_chart_is_not(page, report):
+    found = lxml_html.fromstring(page)
+    pictures = found.xpath("//label[@class='picture'][input[@type='checkbox']]/img")
+    assert [one.get("alt") for one in pictures] == [
+        one.title for one in report.figures if one.chart is None
+    ]
+    assert not found.xpath("//label//div[contains(@class, 'plot')]")
+
+
+def test_every_contour_has_one_line_white_on_dark_and_black_on_light():
+    # the product runs from 400 to 3600; colours are light above 55 % of it, 2160
+    filled, *lines = charts()["contours"].data
+    assert filled.contours.showlines is False
+    inks = {one.line.color: np.arange(one.contours.start, one.contours.end, 500.0) for one in lines}
+    np.testing.assert_allclose(inks["white"], [500.0, 1000.0, 1500.0, 2000.0])
+    np.testing.assert_allclose(inks["black"], [2500.0, 3000.0, 3500.0, 4000.0])  # the last unseen
+    assert all(one.contours.size == filled.contours.size == 500.0 for one in lines)
+
+
+def test_units_of_input_files_are_written_as_in_the_rest_of_a_page():
+    inputs = [Input("relief.torque_n_m", "300", "N.m"), Input("angle", "148.4", "deg", "assumed")]
+    found = report_html(Report(study="design", title="Pair", inputs=inputs))
+    assert "300 N·m" in found
+    assert "148.4 °" in found
+
+
 def test_what_a_page_keeps_is_read_back(report, tmp_path):
     write_report(report, tmp_path)
     data = read_report(tmp_path)

@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from gearlube.command import app
 from gearlube.report.stored import read_report
+from gearlube.studies.sound.dataset import level_range, level_values, weighted_order
 from gearlube.studies.sound.run import run_sound
 from gearlube.studies.sound.settings import SoundSettings
 from gearlube.studies.sound.wav import read_wav
@@ -60,6 +61,25 @@ def test_a_steady_recording_is_heard_over_time():
     # 1e-4 Pa/N on the plateau, 400 N: 0.04 Pa of peak is 63.0 dB
     level = found.dataset["level"].sel(time=slice(0.6, 0.9))
     assert level.values == pytest.approx(63.0, abs=0.1)
+
+
+def test_orders_are_drawn_as_the_ear_weighs_them():
+    """A-weighting of IEC 61672-1, table 3: -19.1 dB at 100 Hz, -3.2 at 500 Hz, none at 1 kHz."""
+    frequency = np.array([100.0, 500.0, 1000.0])
+    run = xr.Dataset(
+        {
+            "order_level": (("order", "time"), np.full((1, 3), 60.0)),
+            "pinion_speed": ("time", 2.0 * np.pi * frequency / 13.0),
+            "level_a": ("time", np.full(3, 61.0)),
+        },
+        coords={"order": [13.0], "time": [0.0, 1.0, 2.0]},
+    )
+    # the table has a tenth of a dB
+    np.testing.assert_allclose(weighted_order(run, 0), [40.9, 56.8, 60.0], atol=0.05)
+    assert level_values(run, 2) is None
+    low, high = level_range([run])
+    assert low < 40.9
+    assert high > 61.0
 
 
 def test_the_command_writes_every_file_and_says_what_is_generic(tmp_path, caplog):

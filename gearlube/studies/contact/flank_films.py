@@ -17,6 +17,7 @@ from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.drawn_contact import drawn_axes
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.fourier import ZERO_PHASE
@@ -27,7 +28,6 @@ from gearlube_core.units import rads_to_rpm
 SPEED_RANGE = (10.0, 20000.0)  # rpm
 PAPERS_AXLE = "mohammadpour_2015"
 LEAST_PICTURES = 8
-_STEP = 1e-3  # of the flank's parameters, for its tangents
 _SETTLING = 10  # mesh periods
 _LARGEST_OVER_MEAN = 1.5  # pressure of a Hertz ellipse
 
@@ -217,28 +217,19 @@ def _places(part: xr.Dataset) -> dict[str, Array]:
     pair = FlankPair.from_file(HypoidGearFile.model_validate_json(part.attrs["gear_file"]), "drive")
     life = part["phase"].values[:, None] + part["pair"].values
     row, column = np.nonzero(np.isfinite(part["gear_s"].values))
-    rows = []
-    for k in np.argsort(life[row, column]):
-        one = part.isel(phase=row[k], pair=column[k])
-        s, t = float(one["gear_s"]), float(one["gear_t"])
-        r = pair.gear.sample(
-            np.array([s - _STEP, s + _STEP, s, s]), np.array([t, t, t - _STEP, t + _STEP])
-        ).r
-        slopes = np.stack([r[3] - r[2], r[1] - r[0]]) / (2.0 * _STEP)
-        angle = float(life[row[k], column[k]]) * pair.gear_pitch
-        _, (along, up) = pair.gear_in_place(angle, r[:2], slopes)
-        minor = one["minor_axis"].values
-        normal = np.cross(along, up)
-        major = np.cross(normal / np.linalg.norm(normal), minor)
-        parts, *_ = np.linalg.lstsq(
-            np.stack([along, up], 1), np.stack([minor, major], 1), rcond=None
-        )
-        rows.append([life[row[k], column[k]], t, s, one["R_x"], one["R_y"], *parts.T.ravel()])
-    found = np.array(rows, dtype=float)
+    order = np.argsort(life[row, column])
+    at = {
+        "phase": xr.DataArray(row[order], dims="at"),
+        "pair": xr.DataArray(column[order], dims="at"),
+    }
+    one = part.isel(at)
+    phase = life[row, column][order]
+    s, t = one["gear_s"].values, one["gear_t"].values
+    minor, major = drawn_axes(pair, phase, s, t, one["minor_axis"].values)
     return {
-        "phase": found[:, 0],
-        "centre": found[:, 1:3],
-        "radii": found[:, 3:5],
-        "minor": found[:, 5:7],
-        "major": found[:, 7:9],
+        "phase": phase,
+        "centre": np.stack([t, s], 1),
+        "radii": np.stack([one["R_x"].values, one["R_y"].values], 1),
+        "minor": minor,
+        "major": major,
     }

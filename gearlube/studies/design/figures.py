@@ -60,7 +60,10 @@ def transmission_error(dataset: xr.Dataset) -> Any:
     """Return the unloaded transmission error of single pairs and of the mesh, both sides."""
     with house_style():
         figure = new_figure(9.6, 3.8)
-        for ax, side in zip(figure.subplots(1, 2), _TITLES, strict=True):
+        errors = [dataset["error"].sel(side=side) for side in _TITLES]
+        swings = [1e6 * float(one.max() - one.min()) for one in errors]  # without nan
+        half = 0.9 * max(*swings, 1.0)  # of the axis, the same for both sides
+        for ax, side, swing in zip(figure.subplots(1, 2), _TITLES, swings, strict=True):
             part = dataset.sel(side=side)
             error = part["error"].values
             zero = np.nanmin(error) if side == "drive" else np.nanmax(error)
@@ -70,13 +73,13 @@ def transmission_error(dataset: xr.Dataset) -> Any:
             phase = np.append(part["mesh_phase"].values, part["mesh_phase"].values + 1.0)
             values = 1e6 * np.tile(error - zero, 2)
             ax.plot(phase, values, color=BLUE)
-            span = max(float(np.nanmax(values) - np.nanmin(values)), 1.0)
+            middle = 0.5 * float(np.nanmin(values) + np.nanmax(values))
             ax.set(
                 xlim=(0.0, 2.0),
-                ylim=(np.nanmin(values) - 0.3 * span, np.nanmax(values) + 0.5 * span),
+                ylim=(middle - half, middle + half),
                 xlabel="pinion rotation [mesh periods]",
                 ylabel="gear lags [µrad of the pinion]",
-                title=f"{_TITLES[side]}: {span:.0f} µrad",
+                title=f"{_TITLES[side]}: {swing:.0f} µrad",
             )
         figure.suptitle("Transmission error without load; single pairs grey", fontsize=11.5)
     return figure

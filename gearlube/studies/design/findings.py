@@ -9,7 +9,7 @@ import re
 import numpy as np
 import xarray as xr
 
-from gearlube.report.numbers import number_text, quantity_text
+from gearlube.report.numbers import number_text, quantity_text, unit_words
 from gearlube.report.parts import ASSUMED, GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.design.summary import (
     CENTRE_LIMIT,
@@ -163,12 +163,14 @@ def _chosen(dataset: xr.Dataset) -> list[Finding]:
     chosen = [one for one in notes if one[3] == ASSUMED]
     if not chosen:
         return [Finding(GOOD, "All fields of the blank were given.")]
-    told = "; ".join(f"{field} {value} {unit}".strip() for field, value, unit, *_ in chosen)
+    told = "; ".join(
+        f"{field} {value} {unit_words(unit)}".strip() for field, value, unit, *_ in chosen
+    )
     return [
         Finding(
             NOTE,
             f"{len(chosen)} of {len(notes)} fields were chosen, not given.",
-            f"Give the values that you know better: {_with_signs(told)}.",
+            f"Give the values that you know better: {told}.",
         )
     ]
 

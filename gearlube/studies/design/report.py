@@ -62,7 +62,7 @@ def design_report(dataset: xr.Dataset, figures: Path, command_line: str = "") ->
         figures=pictured(DESIGN_CATALOGUE, figures, charts),
         tables=[_contact(dataset), _teeth(dataset), _blank(dataset), _settings(dataset)],
         inputs=[
-            Input(field, value, unit.replace("um", "µm").replace("urad", "µrad"), origin, why)
+            Input(field, value, unit, origin, why)
             for field, value, unit, origin, why in json.loads(attributes["inputs"])
         ],
         limits=_LIMITS,

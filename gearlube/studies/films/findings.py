@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from gearlube.report.numbers import quantity_text
+from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.films.film_ratios import RATIO_FILMS, film_ratio_finding, film_ratios
 from gearlube_core.ehl.grid_error import LARGE_ERROR
@@ -59,17 +59,21 @@ def _converged(dataset: xr.Dataset) -> Finding:
             return Finding(
                 GOOD,
                 "The film converged.",
-                f"Unbalanced flow {of['residual']:.1e} of the flow, load error "
-                f"{of['load_error']:.1e}.",
+                f"Unbalanced flow {number_text(of['residual'], 2)} of the flow, load error "
+                f"{number_text(of['load_error'], 2)}.",
             )
         return Finding(WARNING, "The film did NOT converge: do not use its numbers.", outcome)
     if of["converged"]:
-        return Finding(GOOD, "All films converged.", outcome)
+        return Finding(GOOD, outcome)
     return Finding(
         WARNING,
         f"{of['failures']} films did NOT converge: they are marked in the figures.",
         outcome,
     )
+
+
+def _signed(phase: float) -> str:
+    return f"{phase:.2f}".replace("-", "−")
 
 
 def largest_errors(dataset: xr.Dataset) -> dict[str, float]:
@@ -212,14 +216,14 @@ def _hypoid(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             NOTE,
             f"The smallest steady film is {quantity_text(film[thin], 'µm')}, at phase "
-            f"{phase[thin]:.2f}.",
-            f"From phase {phase[0]:.2f} to {phase[-1]:.2f} the smallest films are up to "
+            f"{_signed(phase[thin])}.",
+            f"From phase {_signed(phase[0])} to {_signed(phase[-1])} the smallest films are up to "
             f"{quantity_text(np.nanmax(film), 'µm')}.",
         ),
         Finding(
             NOTE,
             f"The largest pressure is {quantity_text(pressure[high], 'GPa')}, at phase "
-            f"{phase[high]:.2f}.",
+            f"{_signed(phase[high])}.",
         ),
         Finding(
             NOTE,

@@ -128,7 +128,9 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
         for row in summary_rows(dataset):
             factor, unit = _UNITS.get(row.unit, (1.0, row.unit))
             away = "" if row.source == SOLUTION else f"{100.0 * row.deviation:+.1f} %"
-            rows.append([row.quantity, row.source, number_text(factor * row.value, 4), unit, away])
+            value = factor * row.value
+            text = f"{value:.0f}" if value.is_integer() else number_text(value, 4)
+            rows.append([row.quantity, row.source, text, unit, away.replace("-", "−")])
         columns = ("quantity", "source", "value", "unit", "against the solution")
     elif kind == "hypoid":
         for one in ratio_rows(dataset):

@@ -60,7 +60,7 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
         rows.append(_own("turns of film and energy", of["turns"], "1"))
     rows += [_own(f"group {key}", of[f"group_{key}"], "1") for key in "ML" if f"group_{key}" in of]
     rows += [
-        _own(f"estimated error, {name}", of[f"error_{key}"], "1")
+        _own(f"estimated error, {name}", 100.0 * of[f"error_{key}"], "%")
         for name, key in _ERRORS.items()
         if math.isfinite(of.get(f"error_{key}", math.nan))
     ]

@@ -23,7 +23,7 @@ ORDERS = (1, 2, 3)  # mesh orders that are compared with natural frequencies
 
 
 class Peak(NamedTuple):
-    """The largest mesh order of the dynamic transmission error in a speed sweep."""
+    """The largest mesh order of the dynamic transmission error, at one speed or in a sweep."""
 
     amplitude: float  # um
     order: int
@@ -50,8 +50,9 @@ def findings(datasets: Datasets) -> list[Finding]:
     """
     found: list[Finding] = []
     for name, of in (
-        ("sweep", _transmission_error),
+        ("response", _operation),
         ("response", _margins),
+        ("sweep", _sweep),
         ("separation", _separation),
         ("contact", _edges),
         ("stability", _stability),
@@ -100,22 +101,55 @@ def meeting(order: int, mesh_frequency: float, natural: Array) -> Meeting:
     return Meeting(order, frequency, next_one, frequency / next_one - 1.0)
 
 
-def _transmission_error(sweep: xr.Dataset) -> list[Finding]:
+def operating_error(response: xr.Dataset) -> Peak:
+    """Return the largest mesh order of the dynamic transmission error at the operating point.
+
+    With the friction of the oil film if there is one, else with the largest coefficient.
+    """
+    amplitude = 1e6 * response["delta_z_harmonic"].transpose("case", "harmonic").values[-1]
+    column = int(np.argmax(amplitude))
+    order = int(response["harmonic"][column])
+    return Peak(
+        float(amplitude[column]),
+        order,
+        response.attrs["pinion_speed"] / RPM,
+        order * float(response.attrs["mesh_frequency"]),
+        str(response["case"].values[-1]) == "film",
+    )
+
+
+def _operation(response: xr.Dataset) -> list[Finding]:
+    peak = operating_error(response)
+    return [
+        Finding(
+            NOTE,
+            f"At {peak.speed:.0f} rpm the largest order of the dynamic transmission error is "
+            f"{quantity_text(peak.amplitude, 'µm')}: mesh order {peak.order}, at "
+            f"{quantity_text(1e-3 * peak.frequency, 'kHz')}.",
+            f"{_friction(peak)} This is the speed at which the pair runs.",
+        )
+    ]
+
+
+def _friction(peak: Peak) -> str:
+    return f"Friction of {'the oil film' if peak.film else 'a constant coefficient'}."
+
+
+def _sweep(sweep: xr.Dataset) -> list[Finding]:
     found = []
     peak = largest_error(sweep)
     if peak is not None:
         met = meeting(1, peak.frequency, sweep["natural_frequency"].values)
-        near = abs(met.margin) < NEAR
-        friction = "the oil film" if peak.film else "a constant coefficient"
+        own = sweep.attrs["pinion_speed"] / RPM
+        runs_there = abs(peak.speed / own - 1.0) < NEAR
         found.append(
             Finding(
-                WARNING if near else NOTE,
-                f"The largest order of the dynamic transmission error is "
-                f"{quantity_text(peak.amplitude, 'µm')}: mesh order {peak.order} at "
-                f"{peak.speed:.0f} rpm.",
-                f"That is {quantity_text(1e-3 * peak.frequency, 'kHz')}, {_beside(met)}. Friction "
-                f"of {friction}. The sweep goes from {float(sweep['speed'][0]) / RPM:.0f} to "
-                f"{float(sweep['speed'][-1]) / RPM:.0f} rpm.",
+                WARNING if runs_there and abs(met.margin) < NEAR else NOTE,
+                f"Over the sweep the largest order is {quantity_text(peak.amplitude, 'µm')}: mesh "
+                f"order {peak.order} at {peak.speed:.0f} rpm, {_away(peak.speed, own)}.",
+                f"That is {quantity_text(1e-3 * peak.frequency, 'kHz')}, {_beside(met)}. "
+                f"{_friction(peak)} The sweep goes from {float(sweep['speed'][0]) / RPM:.0f} to "
+                f"{float(sweep['speed'][-1]) / RPM:.0f} rpm, so that it shows the resonances.",
             )
         )
     margin = float(sweep["stability_margin"].min())
@@ -129,6 +163,14 @@ def _transmission_error(sweep: xr.Dataset) -> list[Finding]:
             )
         )
     return found
+
+
+def _away(speed: float, own: float) -> str:
+    """Return how far a speed is from the one at which the pair runs [rpm]."""
+    ratio = speed / own
+    if abs(ratio - 1.0) < NEAR:
+        return f"within {100.0 * NEAR:.0f} % of the {own:.0f} rpm at which the pair runs"
+    return f"{ratio:.2g} times the {own:.0f} rpm at which the pair runs"
 
 
 def _beside(met: Meeting) -> str:
@@ -162,6 +204,7 @@ def _margins(response: xr.Dataset) -> list[Finding]:
 
 def _separation(separation: xr.Dataset) -> list[Finding]:
     own = float(separation.attrs["mesh_damping_ratio"])
+    runs_at = separation.attrs["pinion_speed"] / RPM
     found = []
     for ratio in separation["damping"].values:
         at = separation.sel(damping=ratio)
@@ -178,12 +221,14 @@ def _separation(separation: xr.Dataset) -> list[Finding]:
             )
             continue
         folds = int((at["special_kind"] == "fold").sum())
+        low, high = speed[apart].min(), speed[apart].max()
+        runs_there = (1.0 - NEAR) * low < runs_at < (1.0 + NEAR) * high
         found.append(
             Finding(
-                WARNING if np.isclose(ratio, own) else NOTE,
-                f"The teeth separate from {speed[apart].min():.0f} to {speed[apart].max():.0f} rpm "
+                WARNING if runs_there and np.isclose(ratio, own) else NOTE,
+                f"The teeth separate from {low:.0f} to {high:.0f} rpm "
                 f"{what}, up to {100.0 * np.nanmax(share):.0f} % of the time.",
-                f"The pair's own damping ratio is {own:g}. "
+                f"The pair runs at {runs_at:.0f} rpm, and its own damping ratio is {own:g}. "
                 + (f"{folds} folds: the motion jumps there." if folds else "No jumps."),
             )
         )
@@ -278,9 +323,12 @@ def numbers(datasets: Datasets) -> list[Number]:
     """Return the key numbers of a study, with the same names in every run."""
     nan = float("nan")
     peak = largest_error(datasets["sweep"]) if "sweep" in datasets else None
+    own = operating_error(datasets["response"]) if "response" in datasets else None
     found = [
-        Number("largest order of the dynamic transmission error", peak[0] if peak else nan, "µm"),
-        Number("its mesh order", peak.order if peak else nan, digits=1),
+        Number("dynamic transmission error in operation", own[0] if own else nan, "µm"),
+        Number("its mesh order", own.order if own else nan, digits=1),
+        Number("largest dynamic transmission error in the sweep", peak[0] if peak else nan, "µm"),
+        Number("its mesh order there", peak.order if peak else nan, digits=1),
         Number("its speed", peak.speed if peak else nan, "rpm", 4),
     ]
     contact, film = datasets.get("contact"), datasets.get("film")

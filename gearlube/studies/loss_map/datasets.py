@@ -15,7 +15,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, AxleLosses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.ranges import left_ranges
-from gearlube_core.units import ZERO_CELSIUS
+from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius
 
 GRID = ("temperature", "speed", "torque")
 _NEVER_MODELLED = ("windage",)
@@ -179,6 +179,7 @@ def _attributes(settings: LossMapSettings, losses: AxleLosses) -> dict[str, obje
         "ratio": axle.mesh.ratio,
         "mesh": axle.mesh.name,
         "oil": axle.oil.name,
+        "oil_data_high_degc": kelvin_to_celsius(axle.oil.temperature_high),
         **film_model_attributes(axle.film_models),
         "not_modelled": ", ".join(not_modelled(axle)),
         "reasons": "; ".join(f"{key}: {words}" for key, words in FAILURES.items() if key),

@@ -50,6 +50,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_warmth(dataset),
             *_uncertainty(dataset),
             *_film(dataset),
+            *_heat(dataset),
             *_solved(dataset),
             *_rollers(dataset),
             *_bulk(dataset),
@@ -69,7 +70,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
         Number("largest loss", _most(_power(dataset)), "W"),
         Number("mean loss torque at the pinion", float(dataset["loss_torque"].mean()), "N·m"),
         Number("least film ratio", _least(dataset["film_ratio"]), "", 2),
-        Number("hottest flank film", _most(dataset["flank_temperature"]), "°C"),
+        Number("films hotter than the oil data", 100.0 * _extrapolated(dataset), "% of points", 2),
         Number(
             "points outside a range", 100.0 * float((dataset["range_exceeded"] > 0).mean()), "%", 2
         ),
@@ -88,7 +89,7 @@ def words_of(point: xr.Dataset) -> str:
     return (
         f"{float(point['torque']):.4g} N·m, {float(point['speed']):.4g} rpm and "
         f"{float(point['temperature']):.4g} °C oil"
-    )
+    ).replace("-", "−")
 
 
 def _power(dataset: xr.Dataset) -> xr.DataArray:
@@ -248,6 +249,32 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
             "the points.",
         )
     ]
+
+
+def _heat(dataset: xr.Dataset) -> list[Finding]:
+    """Say what the hottest film's temperature is worth where the oil data end below it."""
+    hottest, end = dataset["flank_temperature"], dataset.attrs.get("oil_data_high_degc")
+    if end is None or not (hottest > end).any():
+        return []
+    worst = _at(dataset, hottest)
+    hot = 100.0 * _extrapolated(dataset)
+    return [
+        Finding(
+            WARNING,
+            f"The hottest flank film, {float(worst['flank_temperature']):.0f} °C at "
+            f"{words_of(worst)}, is extrapolated: the oil data end at {end:.0f} °C.",
+            "Read it as hotter than the data, not as a temperature. Film and friction follow the "
+            f"same laws of the oil beyond their data, at {hot:.0f} % of the points.",
+        )
+    ]
+
+
+def _extrapolated(dataset: xr.Dataset) -> float:
+    """Return the share of finished points whose hottest film is hotter than the oil data."""
+    hottest = dataset["flank_temperature"].values
+    if "oil_data_high_degc" not in dataset.attrs:
+        return float("nan")
+    return float((hottest > dataset.attrs["oil_data_high_degc"]).sum() / np.isfinite(hottest).sum())
 
 
 def _solved(dataset: xr.Dataset) -> list[Finding]:

@@ -10,6 +10,7 @@ import xarray as xr
 
 from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, add_map, add_stack, bar_chart, panels
+from gearlube.report.numbers import number_text
 from gearlube.report.parts import ASSUMED, Column, Figure, Input, Report, Table
 from gearlube.studies.loss_map.figures import LEAST_SHARE, shown_speeds, some_temperatures
 from gearlube.studies.loss_map.findings import (
@@ -32,11 +33,11 @@ _COOLING = {
 _LIMITS = (
     "Steady running: torque, speed and oil temperature are constant at each point. Vibration adds "
     "no loss here.",
-    "Films and friction are from formulas, not from a solution of the film; the oil temperature is "
-    "that at the inlet of the flanks.",
+    "The oil temperature is that at the inlet of the flanks.",
     "The error bar contains the uncertain data and laws of the table, but not what is left out of "
     "the model.",
 )
+_FORMULAS = "Films and friction of the flanks are from formulas, not from a solution of the film."
 
 
 def loss_map_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
@@ -49,7 +50,8 @@ def loss_map_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report
         study="map",
         title="Loss map of an axle",
         subtitle=f"Gear set {dataset.attrs['mesh']}, oil {dataset.attrs['oil']}: "
-        f"{dataset['status'].size} points from {torque[0]:.4g} to {torque[-1]:.4g} N·m and "
+        f"{dataset['status'].size} points from {number_text(torque[0])} to "
+        f"{number_text(torque[-1])} N·m and "
         f"{speed[0]:.4g} to {speed[-1]:.4g} rpm at the pinion, with oil of "
         f"{', '.join(f'{t:g}' for t in temperature)} °C.",
         findings=findings(dataset),
@@ -57,7 +59,7 @@ def loss_map_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report
         figures=_figures(dataset) if finished else (),
         tables=_tables(dataset) if finished else (),
         inputs=[*_settings(dataset), *inputs],
-        limits=_LIMITS,
+        limits=_LIMITS if "share_outside" in dataset else (*_LIMITS, _FORMULAS),
         files=("map.nc", "map.csv", "map.mat", "files for VECTO, GEM and Modelica", "figures/"),
     )
 
@@ -78,7 +80,8 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
             Figure(
                 name="efficiency",
                 title="Efficiency",
-                caption="Output over input. White: more than half of the input is lost.",
+                caption="Output over input. White: next to no torque, where at a point of the map "
+                "more than half of the input is lost.",
                 chart=contour_chart(dataset, "efficiency", Axis("efficiency", "%"), 100.0),
             )
         )

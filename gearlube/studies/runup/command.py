@@ -111,15 +111,27 @@ def runup(
     animate: Annotated[
         bool,
         typer.Option(
-            "--animate", help="Also animate all roller loads over a turn (GIF), about a minute."
+            "--animate",
+            help="Also show flanks and rollers in motion over two mesh periods, in the report and "
+            "as GIF; about a minute.",
         ),
     ] = False,
+    animate_rpm: Annotated[
+        float | None,
+        typer.Option(
+            "--animate-rpm",
+            help="Do so at this speed of the pinion [rpm]. Default: where the bearing forces are "
+            "largest.",
+            metavar="RPM",
+        ),
+    ] = None,
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Run the axle up or down in one continuous speed ramp: waterfalls, order tracks, Campbell.
 
-    Writes runup.nc (coastdown.nc), summary.csv, figures and report.html. After Ctrl-C the same
+    Writes runup.nc (coastdown.nc), summary.csv, figures and report.html; with --animate also the
+    folder animation. After Ctrl-C the same
     command goes on where it stopped.
     """
     if example:
@@ -129,7 +141,8 @@ def runup(
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
     from gearlube.cli.report_end import tell_findings
-    from gearlube.studies.runup.figures.rollers import animate_rollers
+    from gearlube.studies.runup.animation.dataset import animate_ramp
+    from gearlube.studies.runup.figures.moving.parts import save_moving
     from gearlube.studies.runup.findings import findings
     from gearlube.studies.runup.report import write_runup_report
     from gearlube.studies.runup.run import run_runup
@@ -168,6 +181,7 @@ def runup(
                     pinion_torque=coast_torque,
                 )
             )
+        animated_speed = _animated_speed(ramps, animate_rpm)
         logger.info("Preparing the axle. The first time it is compiled, half a minute.")
         with (
             results_folder(out, "runup", overwrite=overwrite),
@@ -178,14 +192,32 @@ def runup(
                 run_runup(one, folder=out, progress=part_of(progress, i / count, (i + 1) / count))
                 for i, one in enumerate(ramps)
             ]
+            animations = []
+            for one, dataset in zip(ramps, datasets, strict=True):
+                if animate or animate_rpm is not None:
+                    moving = animate_ramp(
+                        one, dataset, speed=animated_speed, folder=out, progress=progress
+                    )
+                    save_moving(moving, out, progress)
+                    animations.append(moving)
             progress(1.0, "writing the report")
             write_text(summary_csv(datasets), out / "summary.csv")
             command_line = shlex.join(["gearlube", *sys.argv[1:]])
-            report = write_runup_report(datasets, out, command_line)
-            for dataset in datasets if animate else ():
-                animate_rollers(dataset, out, progress)
+            report = write_runup_report(datasets, out, command_line, animations)
         logger.info("%.3g s.", time.monotonic() - began)
         tell_findings([one for dataset in datasets for one in findings(dataset)], report)
+
+
+def _animated_speed(ramps: list[RunupSettings], rpm: float | None) -> float | None:
+    """Return the speed of the pinion to animate [rad/s]; None: the loudest of each ramp."""
+    from gearlube.studies.runup.animation.dataset import check_speed
+    from gearlube_core.units import rpm_to_rads
+
+    if rpm is None:
+        return None
+    for one in ramps:
+        check_speed(one, rpm_to_rads(rpm), "--animate-rpm")
+    return rpm_to_rads(rpm)
 
 
 def _check_together(

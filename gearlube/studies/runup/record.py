@@ -9,12 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from drivetrain.ramp_vehicle import RampVehicle
-from drivetrain.speed_ramp import RampHold
+from drivetrain.ramp_vehicle import RampVehicle, gear_for_ramp
+from drivetrain.speed_ramp import RampHold, SpeedRamp
 from gearlube.studies.runup.settings import VEHICLE, RunupSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
+from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.errors import InterruptedRunError
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.interrupts import deferred_interrupts
@@ -39,6 +40,7 @@ MOTION = (
     *(f"wheel.displacement.{axis}" for axis in "xyz"),
 )
 _SHAFTS = 4  # of these, what a driver takes
+_OF_SHAFTS = np.array([OUTPUT_NAMES.index(name) for name in MOTION[:_SHAFTS]])
 FORCES = tuple(f"bearing.{one}.{direction}" for one in BEARINGS for direction in DIRECTIONS)
 ENERGIES = ("energy.pinion_work", *(f"energy.{source}" for source in LOSS_SOURCES))
 _PART = 2.0  # s of the record that are kept together
@@ -123,7 +125,7 @@ def record_ramp(
     progress(0.0, f"{settings.name}: torques and losses; compiled the first time")
     axle = HypoidAxle(settings.car_axle.axle)
     torques = settings.torques()
-    driver = _driver(settings, torques)
+    driver = driver_of(settings, settings.ramp, torques)
     h = 1.0 / settings.sample_rate
     warned: dict[str, str] = {}
     pinion_torque, wheel_torque = driver.initial_torques()
@@ -146,7 +148,7 @@ def record_ramp(
             if part is None:
                 if not settled and not found:
                     progress(0.0, f"{settings.name}: settling at the first speed")
-                    _settle(axle, driver, settings)
+                    march_until(0.0, axle, driver, settings)
                 elif not settled and found:
                     axle.set_state(found[-1]["axle_state"])
                     driver.set_state(found[-1]["driver_state"])
@@ -169,15 +171,22 @@ def record_ramp(
     return _joined(found, h, warned, torques)
 
 
-def _driver(settings: RunupSettings, torques: tuple[Array, Array]) -> RampHold | RampVehicle:
+def driver_of(
+    settings: RunupSettings, ramp: SpeedRamp, torques: tuple[Array, Array]
+) -> RampHold | RampVehicle:
+    """Return what takes the axle through `ramp`, the whole one of the settings or a piece of it.
+
+    `torques` are the torque on the pinion and the expected loss [N m] at equal times of `ramp`.
+    """
     axle, ratio = settings.car_axle.axle, settings.car_axle.axle.mesh.ratio
     teeth = axle.mesh.pinion_teeth
-    mesh_period = 2.0 * math.pi / (teeth * settings.start_speed)
+    mesh_period = 2.0 * math.pi / (teeth * ramp.start)
     lead = max(settings.settling_time, _MOST_SETTLING * mesh_period)
     if settings.driver == VEHICLE:
-        return RampVehicle(settings.car_axle.driveline, settings.ramp, torques[1], lead)
+        car = settings.car_axle.driveline
+        return RampVehicle(car, ramp, torques[1], lead, gear=gear_for_ramp(car, settings.ramp))
     return RampHold(
-        settings.ramp,
+        ramp,
         ratio=ratio,
         pinion_torque=torques[0],
         loss_torque=torques[1],
@@ -186,13 +195,21 @@ def _driver(settings: RunupSettings, torques: tuple[Array, Array]) -> RampHold |
     )
 
 
-def _settle(axle: HypoidAxle, driver: RampHold | RampVehicle, settings: RunupSettings) -> None:
+def march_until(
+    time: float, axle: HypoidAxle, driver: RampHold | RampVehicle, settings: RunupSettings
+) -> None:
+    """March until `time` of the driver's ramp [s], at the sample rate of the record."""
     h = 1.0 / settings.sample_rate
-    columns = np.array([_column(axle, name) for name in MOTION[:_SHAFTS]])
-    out = axle.outputs
-    while driver.time < -0.5 * h:
-        torques = driver.step(h, *out[columns].tolist())
-        axle.step(h, *torques, settings.oil_temperature)
+    while driver.time < time - 0.5 * h:
+        march_step(h, axle, driver, settings)
+
+
+def march_step(
+    h: float, axle: HypoidAxle, driver: RampHold | RampVehicle, settings: RunupSettings
+) -> None:
+    """March by `h` [s]."""
+    motion = axle.outputs[_OF_SHAFTS].tolist()
+    axle.step(h, *driver.step(h, *motion), settings.oil_temperature)
 
 
 def _column(axle: HypoidAxle, name: str) -> int:

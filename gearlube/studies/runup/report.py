@@ -17,6 +17,7 @@ from gearlube.report.page import write_report
 from gearlube.report.parts import GIVEN, Column, Figure, Input, Report, Table
 from gearlube.studies.runup import levels
 from gearlube.studies.runup.figures import CATALOGUE
+from gearlube.studies.runup.figures.moving.parts import moving_figures
 from gearlube.studies.runup.findings import findings, numbers
 from gearlube.studies.runup.peaks import critical_speeds, peaks
 from gearlube.studies.runup.run import FILES
@@ -29,9 +30,10 @@ _LIMITS = (
     "On the bench the torque on the pinion is smooth; with `--engine-orders` those of the engine "
     "act, in one gear.",
     "Natural frequencies are undamped, at the mean mesh stiffness, along the ramp's torque.",
-    "All teeth are equal unless the mesh table has errors of single teeth. So there is no noise "
-    "floor between the mesh orders, as a measurement would have.",
-    "Films and friction are from formulas, see docs/ehl_hypoid.md for their error.",
+    "All teeth are equal unless the mesh table has errors of single teeth. So between the mesh "
+    "orders lie only the far lower lines of the rollers, not the noise of a measurement.",
+    "Films and friction are from formulas unless film.model is solved; see docs/ehl_hypoid.md for "
+    "their error.",
 )
 _INPUTS = (
     ("start_speed", "start speed of the pinion", "rpm", rads_to_rpm),
@@ -47,9 +49,14 @@ _INPUTS = (
 
 
 def write_runup_report(
-    datasets: Sequence[xr.Dataset], folder: Path | str, command_line: str = ""
+    datasets: Sequence[xr.Dataset],
+    folder: Path | str,
+    command_line: str = "",
+    animations: Sequence[xr.Dataset] = (),
 ) -> Path:
     """Write report.html and figures/*.png of one ramp or more; return the path of the report.
+
+    `animations` are of `animate_ramp`, at most one of each ramp.
 
     Examples
     --------
@@ -64,7 +71,7 @@ def write_runup_report(
         if one.needs in dataset.variables
     }
     save_figure_folder(drawn, folder / "figures")
-    return write_report(runup_report(datasets, drawn, command_line), folder)
+    return write_report(runup_report(datasets, drawn, command_line, animations), folder)
 
 
 def _name(dataset: xr.Dataset, name: str) -> str:
@@ -72,17 +79,26 @@ def _name(dataset: xr.Dataset, name: str) -> str:
 
 
 def runup_report(
-    datasets: Sequence[xr.Dataset], drawn: dict[str, Any], command_line: str = ""
+    datasets: Sequence[xr.Dataset],
+    drawn: dict[str, Any],
+    command_line: str = "",
+    animations: Sequence[xr.Dataset] = (),
 ) -> Report:
     """Return the report of ramps; `drawn` has every figure as a picture of matplotlib."""
     several = len(datasets) > 1
+    moving = {str(one.attrs["ramp"]): one for one in animations}
     found = Report(
         study="runup",
         title=" and ".join(str(one.attrs["ramp"]) for one in datasets).capitalize()
         + " of a lubricated hypoid axle",
         subtitle=" ".join(map(_subtitle, datasets)),
         limits=_LIMITS,
-        files=(*(FILES[one.attrs["ramp"]] for one in datasets), "summary.csv", "figures/"),
+        files=(
+            *(FILES[one.attrs["ramp"]] for one in datasets),
+            "summary.csv",
+            "figures/",
+            *(["animation/"] if moving else []),
+        ),
         inputs=_noted(datasets[0]),
         facts=_facts(datasets[0], command_line),
     )
@@ -98,7 +114,15 @@ def runup_report(
                 *found.numbers,
                 *(replace(n, name=f"{before}{n.name}") for n in numbers(dataset)),
             ],
-            figures=[*found.figures, *_figures(dataset, drawn, before)],
+            figures=[
+                *found.figures,
+                *_figures(dataset, drawn, before),
+                *(
+                    moving_figures(moving[dataset.attrs["ramp"]], before)
+                    if dataset.attrs["ramp"] in moving
+                    else []
+                ),
+            ],
             tables=[*found.tables, *tables(dataset, before)],
             inputs=[*_settings(dataset, before), *found.inputs],
         )
@@ -115,7 +139,7 @@ def _subtitle(dataset: xr.Dataset) -> str:
     return (
         f"Hypoid axle {dataset.attrs['axle']}, {levels.heading(dataset)}, from {start:.0f} to "
         f"{end:.0f} rpm of the pinion ({kmh * start:.0f} to {kmh * end:.0f} km/h) in "
-        f"{dataset.attrs['setting_duration']:g} s as one continuous ramp."
+        f"{dataset.attrs['setting_duration']:.3g} s as one continuous ramp."
     )
 
 

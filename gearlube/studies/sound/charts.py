@@ -21,7 +21,7 @@ from gearlube_core.arrays import Array
 
 def level_chart(datasets: Sequence[xr.Dataset]) -> Any:
     """Return the level of the whole sound and of every order; two runs: a panel for each."""
-    x, y = _axis(datasets[0]), Axis("level", "dB")
+    x, y = _axis(datasets[0]), Axis("level", "dB(A)")
     names, ends = level_names(datasets[0]), level_range(datasets)
     if len(datasets) == 1:
         values = [level_values(datasets[0], i) for i in range(len(names))]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sound.a_weighting import a_weighted
+from gearlube.studies.sound.a_weighting import a_weighted, a_weighting
 from gearlube.studies.sound.force_record import ForceRecord
 from gearlube.studies.sound.levels import decibels, fast_level
 from gearlube.studies.sound.metrics import METRICS, Curve
@@ -142,20 +142,27 @@ _RANGE = 60.0  # dB below the loudest, the most that is drawn
 def level_names(dataset: xr.Dataset) -> list[str]:
     """Return what the levels of a run are: the whole sound and the tracked orders."""
     teeth = int(dataset.attrs["pinion_teeth"])
-    return ["whole sound, A-weighted", *(order_name(float(q), teeth) for q in dataset["order"])]
+    return ["whole sound", *(order_name(float(q), teeth) for q in dataset["order"])]
 
 
 def level_values(dataset: xr.Dataset, i: int) -> Array | None:
-    """Return level `i` of `level_names` over time [dB]; None where the run has fewer orders."""
+    """Return level `i` of `level_names` over time [dB(A)]; None where the run has fewer orders."""
     if i == 0:
         return np.asarray(dataset["level_a"].values)
-    orders = dataset["order_level"].values
-    return np.asarray(orders[i - 1]) if i <= orders.shape[0] else None
+    return weighted_order(dataset, i - 1) if i <= dataset.sizes["order"] else None
+
+
+def weighted_order(dataset: xr.Dataset, place: int) -> Array:
+    """Return the A-weighted level of the tracked order at a place, over time [dB(A)]."""
+    one = dataset.isel(order=place)
+    frequency = float(one["order"]) * one["pinion_speed"].values / (2.0 * np.pi)
+    factor = a_weighting(np.maximum(frequency, 1.0))
+    return np.asarray(one["order_level"].values + 20.0 * np.log10(factor))
 
 
 def level_range(datasets: Sequence[xr.Dataset]) -> tuple[float, float]:
-    """Return the ends of an axis that shows the levels of all runs [dB]."""
-    high = max(float(np.nanmax(one["order_level"].values)) for one in datasets)
-    high = max(high, *(float(one["level_a"].max()) for one in datasets))
-    low = min(float(np.nanpercentile(one["order_level"].values, 2.0)) for one in datasets)
+    """Return the ends of an axis that shows the levels of all runs [dB(A)]."""
+    found = [level_values(one, i) for one in datasets for i in range(1 + one.sizes["order"])]
+    high = max(float(np.nanmax(one)) for one in found if one is not None)
+    low = min(float(np.nanpercentile(one, 2.0)) for one in found if one is not None)
     return max(high - _RANGE, low - 5.0), high + 4.0

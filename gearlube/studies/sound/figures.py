@@ -74,7 +74,7 @@ def spectrogram(runs: Sequence[HeardRun]) -> Any:
 
 
 def levels(runs: Sequence[HeardRun]) -> Any:
-    """Return the A-weighted level of the whole sound, and the level of every tracked order.
+    """Return the A-weighted levels of the whole sound and of every tracked order.
 
     One run: all in one panel. Two runs: a panel for each, with both runs.
     """
@@ -101,11 +101,11 @@ def levels(runs: Sequence[HeardRun]) -> Any:
                 ax.set_title(name)
         for ax in panels[len(names) :]:
             ax.set_visible(False)
-        for ax in panels[max(0, len(names) - 2) : len(names)]:
+        for ax in panels[: len(names)][-2:]:
             ax.set_xlabel(_axis_label(runs[0].dataset))
             ax.tick_params(labelbottom=True)
         panels[0].set_ylim(*level_range([run.dataset for run in runs]))
-        figure.supylabel("sound pressure level re 20 µPa [dB]", fontsize=10)
+        figure.supylabel("A-weighted level re 20 µPa [dB(A)]", fontsize=10)
         if apart:
             panels[0].legend(loc="upper left")
         else:

@@ -25,7 +25,7 @@ from gearlube.report.parts import (
 )
 from gearlube.studies.sound.audible import METHOD
 from gearlube.studies.sound.charts import level_chart, metric_chart
-from gearlube.studies.sound.dataset import order_name
+from gearlube.studies.sound.dataset import order_name, weighted_order
 from gearlube.studies.sound.heard import Sound
 from gearlube.studies.sound.metrics import METRICS
 
@@ -38,8 +38,8 @@ _TITLES = {
     ),
     "levels": (
         "Levels over speed",
-        "The whole sound in dB(A), and the orders alone, unweighted. Two runs: solid the first, "
-        "dashed the second.",
+        "The whole sound and each order alone, A-weighted as the ear does for quiet sounds. Two "
+        "runs: solid the first, dashed the second.",
     ),
     "metrics": (
         "Loudness and more over speed",
@@ -123,9 +123,9 @@ def _numbers(dataset: xr.Dataset, *, several: bool) -> list[Number]:
             value = float(dataset[f"{name}_single"])
             found.append(Number(f"{before}{metric.words}{end}", value, metric.unit, 2))
     for i, order in enumerate(dataset["order"].values):
-        level = float(np.nanmax(dataset["order_level"].values[i]))
+        level = float(np.nanmax(weighted_order(dataset, i)))
         words = order_name(float(order), int(dataset.attrs["pinion_teeth"]))
-        found.append(Number(f"{before}largest level of {words}", level, "dB"))
+        found.append(Number(f"{before}largest level of {words}", level, "dB(A)"))
     return found
 
 

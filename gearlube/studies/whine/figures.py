@@ -14,13 +14,11 @@ from gearlube_core.arrays import Array
 from gearlube_core.units import rads_to_rpm
 
 _MOST = 16  # parameters that the map shows
-_FULL = 95.0  # percentile of the changes at which colours are full
 
 
 def order_changes(dataset: xr.Dataset) -> Array:
-    """Return changes of the force of order 1 by each tolerance [%], shape (speeds, parameters)."""
-    first = dataset["force_rate"].isel(order=0).values * dataset["tolerance"].values
-    return np.asarray(100.0 * first / dataset["force"].isel(order=0).values[:, None])
+    """Return changes of the force of order 1 by each tolerance [N], shape (speeds, parameters)."""
+    return np.asarray(dataset["force_rate"].isel(order=0).values * dataset["tolerance"].values)
 
 
 def most_moving(dataset: xr.Dataset) -> NDArray[np.intp]:
@@ -52,7 +50,7 @@ def whine_figure(dataset: xr.Dataset) -> Any:
             )
         top.set(yscale="log", ylabel="mesh force, amplitude [N]")
         top.legend(ncols=3)
-        limit = float(np.nanpercentile(np.abs(first[:, shown]), _FULL))
+        limit = float(np.nanmax(np.abs(first[:, shown])))
         edges = cell_edges(speed), np.arange(len(labels) + 1) - 0.5
         image = below.pcolormesh(
             *edges, first[:, shown].T, cmap="RdBu_r", vmin=-limit, vmax=limit, rasterized=True
@@ -60,12 +58,12 @@ def whine_figure(dataset: xr.Dataset) -> Any:
         below.set_yticks(np.arange(len(labels)), labels)
         below.grid(False)
         below.set_title(
-            "change of mesh order 1 by each error alone; large where that order is small",
+            "change of mesh order 1 by each error alone; red: louder, blue: quieter",
             loc="left",
             fontsize=9.5,
         )
         below.set_xlabel("pinion speed [rpm]")
-        figure.colorbar(image, ax=below, label="change of mesh order 1 [%]", extend="both")
+        figure.colorbar(image, ax=below, label="change of mesh order 1 [N]")
         figure.suptitle(
             f"{dataset.attrs['name']}, {dataset.attrs['torque']:g} N·m: orders of the mesh force, "
             "and what small errors change",

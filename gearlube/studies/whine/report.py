@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from gearlube_core.units import rads_to_rpm
 
 _SPEED = Axis("pinion speed", "rpm")
 _RPM, _MICRO = rads_to_rpm(1.0), 1e6
+_LETTERS = 18  # of a line of a label, so that a phone has room for the map
 _LIMITS = (
     "The pair turns with two degrees of freedom on rigid shafts and bearings; there is no flank "
     "friction. A car has more natural frequencies.",
@@ -91,10 +93,9 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
         Figure(
             name="changes",
             title="What small errors change of the first order",
-            caption="Change of the mesh force in percent of it, by a growth of each parameter by "
-            "its tolerance; point at a cell to read it. Red: louder, blue: quieter. "
-            "Parameters with the largest mean over the speeds are on top. Where the force "
-            "is small, percents are large.",
+            caption="Change of the amplitude of mesh order 1 by a growth of each parameter by its "
+            "tolerance; point at a cell to read it. Red: louder, blue: quieter. Parameters with "
+            "the largest mean over the speeds are on top.",
             chart=_changes(dataset),
         ),
         Figure(
@@ -117,7 +118,7 @@ def _lines(values: xr.DataArray, scale: float) -> list[Line]:
 def _changes(dataset: xr.Dataset) -> Any:
     shown = most_moving(dataset)
     changes = order_changes(dataset)[:, shown].T
-    limit = float(np.nanpercentile(np.abs(changes), 95.0)) or 1.0
+    limit = float(np.nanmax(np.abs(changes))) or 1.0
     rows = np.arange(len(shown), dtype=float)
     names = [
         f"{parameter_words(str(part['parameter'].values))} "
@@ -128,18 +129,25 @@ def _changes(dataset: xr.Dataset) -> Any:
         _RPM * dataset["pinion_speed"].values,
         rows,
         changes,
-        (_SPEED, Axis(""), Axis("change", "%")),
+        (_SPEED, Axis(""), Axis("change", "N")),
         limits=(-limit, limit),
-        height=180 + 26 * len(shown),
+        height=180 + 32 * len(shown),
     )
     chart.update_traces(
         colorscale="RdBu",
         reversescale=True,
-        colorbar={"orientation": "h", "y": 1.0, "yanchor": "bottom", "title": {"side": "top"}},
+        colorbar={
+            "orientation": "h",
+            "y": 1.0,
+            "yanchor": "bottom",
+            "title": {"side": "top"},
+            "nticks": 5,
+        },
         customdata=np.repeat(np.array(names)[:, None], changes.shape[1], axis=1),
-        hovertemplate="%{customdata}: %{z:.3g} % at %{x:.0f} rpm<extra></extra>",
+        hovertemplate="%{customdata}: %{z:.3g} N at %{x:.0f} rpm<extra></extra>",
     )
-    labels = [parameter_words(str(dataset["parameter"].values[k])) for k in shown]
+    words = [parameter_words(str(dataset["parameter"].values[k])) for k in shown]
+    labels = ["<br>".join(wrap(one, _LETTERS)) for one in words]
     chart.update_yaxes(tickvals=rows.tolist(), ticktext=labels, automargin=True)
     return chart
 

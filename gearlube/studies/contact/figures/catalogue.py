@@ -52,8 +52,8 @@ CONTACT_CATALOGUE = {
     "stiffness_torque": Picture(
         stiffness_against_torque,
         "Mesh stiffness over torque",
-        "Mean values over the mesh with bands from smallest to largest, and the number of pairs "
-        "that carry load. Both grow with the torque, because the contact spreads.",
+        "Mean stiffness over the mesh, and the number of pairs that carry load. Both grow with the "
+        "torque, because the contact spreads.",
     ),
     "contact_properties": Picture(
         contact_properties,

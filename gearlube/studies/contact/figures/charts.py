@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.report.charts import Axis, Line, add_line, line_chart, panels
+from gearlube.report.charts import Axis, Line, add_line, panels
 from gearlube.studies.contact.figures.flank_maps import _SIDES, _spread
 from gearlube_core.arrays import Array
 
@@ -58,19 +58,21 @@ def load_share_chart(dataset: xr.Dataset) -> Any:
 
 
 def stiffness_chart(dataset: xr.Dataset) -> Any:
-    """Return mean mesh stiffness over torque, secant and tangent, both sides."""
-    lines = [
-        Line(
-            name=f"{side}, {what}",
-            x=dataset["torque"].values,
-            y=1e-6 * dataset[name].sel(side=side).mean("phase").values,
-            group=number,
-            dash=dash,
-        )
-        for number, side in enumerate(_SIDES)
-        for dash, (name, what) in enumerate((("k_m", "secant"), ("k_t", "tangent")))
-    ]
-    return line_chart(lines, Axis("pinion torque", "N·m"), Axis("mesh stiffness", "N/µm"))
+    """Return mean mesh stiffness, secant and tangent, and pairs in contact over torque."""
+    x, y = Axis("pinion torque", "N·m"), [Axis("mesh stiffness", "N/µm"), Axis("tooth pairs", "-")]
+    figure = panels(["stiffness", "pairs that carry load"], x, y, height=280)
+    torque = dataset["torque"].values
+    for number, side in enumerate(_SIDES):
+        part = dataset.sel(side=side)
+        for dash, (name, what) in enumerate((("k_m", "secant"), ("k_t", "tangent"))):
+            mean = 1e-6 * part[name].mean("phase").values
+            line = Line(name=f"{side}, {what}", x=torque, y=mean, group=number, dash=dash)
+            add_line(figure, line, number, x, y[0], row=1, col=1)
+        pairs = (part["share"] > _LOADED).sum("pair").mean("phase").values
+        line = Line(name=f"{side}, pairs", x=torque, y=pairs, group=number)
+        add_line(figure, line, number, x, y[1], row=2, col=1, showlegend=False)
+    figure.update_yaxes(rangemode="tozero")
+    return figure
 
 
 def two_periods(phase: Array, values: Array) -> tuple[Array, Array]:

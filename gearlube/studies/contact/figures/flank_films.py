@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from gearlube.plotting.animation import save_animation
-from gearlube.plotting.drawn_tooth import DrawnTooth
+from gearlube.plotting.drawn_tooth import DrawnTooth, ellipse
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 from gearlube.studies.contact.flank_films import FlankFilms
 from gearlube_core.arrays import Array
@@ -17,7 +17,6 @@ from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
 ANIMATION = "flank_films.gif"
 _RINGS = 14  # of equal pressure in an ellipse
-_AROUND = np.linspace(0.0, 2.0 * np.pi, 73)
 
 
 def film_picture(films: FlankFilms, tooth: DrawnTooth, frame: int = 0) -> Any:
@@ -84,11 +83,8 @@ def _ellipse(
     films: FlankFilms, tooth: DrawnTooth, frame: int, pair: int, size: float = 1.0
 ) -> tuple[Array, Array]:
     """Return the outline of a contact on the drawn tooth [mm], `size` times the semi-axes."""
-    t, s = (
-        films.centre[frame, pair][:, None]
-        + size * films.minor[frame, pair][:, None] * np.cos(_AROUND)
-        + size * films.major[frame, pair][:, None] * np.sin(_AROUND)
-    )
+    parts = (films.centre[frame, pair], films.minor[frame, pair], films.major[frame, pair])
+    t, s = ellipse(*parts, size)
     return tooth.along(t), tooth.up(s)
 
 

@@ -47,7 +47,7 @@ def ease_off_map(dataset: xr.Dataset) -> Any:
         figure.colorbar(filled, ax=axes, label="ease-off [µm]", ticks=levels[::2], format="%.0f")
         figure.suptitle(
             "Gear tooth without load: gap to the conjugate flank (colours), path of contact "
-            "(black),\npattern that 6.35 µm of marking compound show (red). White: the pinion "
+            "(black),\npattern that 6.35 µm of marking compound shows (red). White: the pinion "
             "does not reach it",
             fontsize=10.5,
         )

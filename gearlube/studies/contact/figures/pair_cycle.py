@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.edge_pressure import mark_edge_pressure
-from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.plotting.style import SERIES, WIDTHS, house_style, new_figure
 from gearlube.studies.contact.figures.flank_maps import _SIDES, _spread
 
 _LOADED = 1e-3  # share above which a pair is drawn
@@ -64,6 +64,7 @@ def _pair_figure(
                         phase[order],
                         values.ravel()[order],
                         color=SERIES[row],
+                        lw=WIDTHS[row],
                         label=f"{torque:g} N·m",
                     )
                 if name == "pressure_max":

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from scipy.spatial.transform import Rotation
 
+from gearlube.report.moving import steering
 from gearlube.studies.contact.figures.flank_maps import inside_pressure
 from gearlube_core.arrays import Array, Indices
 from gearlube_core.hypoid_contact.pair import FlankPair
@@ -84,7 +85,8 @@ def solid_view(dataset: xr.Dataset, height: int = 560) -> Any:
         for data, name in frames
     ]
     figure.update_layout(
-        **_steering([name for _, name in frames]), scene=_scene(pair, frames[0][0][:2])
+        **steering([name for _, name in frames], "mesh phase", frame_ms=250, words="turn"),
+        scene=_scene(pair, frames[0][0][:2]),
     )
     return figure
 
@@ -180,26 +182,3 @@ def _view_direction(pair: FlankPair) -> Array:
     _, normal = pair.gear_in_place(0.0, middle.r, middle.normal)
     towards = normal[0] + np.array([0.0, 0.0, _DOWN])
     return np.asarray(towards / np.linalg.norm(towards))
-
-
-def _steering(names: list[str]) -> dict[str, Any]:
-    """Return slider and buttons that go through the frames."""
-    still = {"mode": "immediate", "frame": {"duration": 0, "redraw": True}}
-    run = {"fromcurrent": True, "frame": {"duration": 250, "redraw": True}}
-    steps = [{"label": name, "method": "animate", "args": [[name], still]} for name in names]
-    buttons = [
-        {"label": "▶ turn", "method": "animate", "args": [None, run]},
-        {"label": "stop", "method": "animate", "args": [[None], still]},
-    ]
-    return {
-        "sliders": [
-            {"steps": steps, "currentvalue": {"prefix": "mesh phase "}, "pad": {"t": 0, "b": 40},
-             "x": 0.03, "len": 0.92, "y": 0.0}
-        ],
-        "updatemenus": [
-            {"type": "buttons", "direction": "left", "buttons": buttons, "x": 0.0, "y": 1.0,
-             "xanchor": "left", "yanchor": "top", "showactive": False}
-        ],
-        "margin": {"l": 0, "r": 0, "t": 10, "b": 90},
-        "showlegend": False,
-    }  # fmt: skip

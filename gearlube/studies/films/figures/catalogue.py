@@ -110,8 +110,17 @@ CATALOGUES: dict[str, dict[str, Picture]] = {
         ),
     },
     "helical_step": {
-        "contours": Picture(step_contours, "Pressure and film from above", ""),
-        "sections": Picture(step_sections, "Sections across the line", ""),
+        "contours": Picture(
+            step_contours,
+            "Pressure and film from above",
+            "At one step of the march, with squeeze. Stretched across the line. Grey: thicker than "
+            "the scale.",
+        ),
+        "sections": Picture(
+            step_sections,
+            "Sections across the line",
+            "At one step of the march, with squeeze. The oil enters on the left.",
+        ),
     },
     "hypoid": {
         "curves": Picture(

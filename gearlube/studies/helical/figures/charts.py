@@ -29,6 +29,9 @@ def error_orders_chart(sweep: xr.Dataset) -> Any:
     for number, one in enumerate(place * speed[-1], 1):
         if one <= speed[-1]:
             mark_level(chart, float(one), f"{number}", across=False)
+    own = sweep.attrs["pinion_speed"] / RPM
+    if own <= speed[-1]:
+        mark_level(chart, float(own), "operating point", across=False)
     chart.update_xaxes(exponentformat="none")
     return chart
 

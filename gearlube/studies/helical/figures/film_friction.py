@@ -10,7 +10,7 @@ import xarray as xr
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 from gearlube.studies.helical.figures.layout import PERIODS, RPM, closed, title
 
-_SHOWN = 1.0  # per cent of the points that lie beyond each end of a colour scale
+_SHOWN = 3.0  # per cent of the points that lie beyond each end of a colour scale
 
 
 def film_on_lines(film: xr.Dataset) -> Any:

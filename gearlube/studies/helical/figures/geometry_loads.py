@@ -57,7 +57,7 @@ def _lines(datasets: Sequence[xr.Dataset], state: int, title: str) -> Any:
         axes[1, 0].set_ylim(0.0, 1.2 * axes[1, 0].get_ylim()[1])
         legend_below(figure, axes[:, 0], 2)
         torques = sorted({float(d.attrs["torque"]) for d in datasets})
-        loads = " and ".join(f"{torque:g}" for torque in torques)
+        loads = " and ".join(f"{torque:.4g}" for torque in torques)
         figure.suptitle(f"{title}; pinion torque {loads} N·m", fontsize=11.5)
     return figure
 

@@ -19,6 +19,7 @@ from gearlube.studies.helical.figures.geometry_layout import (
     scaled,
     shown_name,
 )
+from gearlube.studies.helical.figures.layout import RPM
 
 _DEGREES = 180.0 / np.pi
 
@@ -38,11 +39,11 @@ def contact_characteristics(datasets: Sequence[xr.Dataset]) -> Any:
         axes = figure.subplots(len(rows), 1, sharex=True)
         for ax, (name, label, factor) in zip(axes, rows, strict=True):
             for row, dataset in enumerate(datasets):
-                speed = float(dataset.attrs["pinion_speed"])
+                speed = float(dataset.attrs["pinion_speed"]) / RPM
                 ax.plot(
                     scaled(dataset, "s", MILLI), scaled(dataset, name, factor),
                     color=SERIES[row % len(SERIES)], ls=("-", "--", "-.", ":")[row % 4],
-                    label=f"{pair_name(dataset)}, {speed:.2f} rad/s",
+                    label=f"{pair_name(dataset)}, {speed:.4g} rpm",
                 )  # fmt: skip
             ax.set_ylabel(label)
             if name != "slide_roll":
@@ -71,10 +72,10 @@ def sliding_on_line(datasets: Sequence[xr.Dataset]) -> Any:
             ax.set_xlim(y[0], y[-1])
             line_legend(ax)
         axes[0, 0].set_ylabel("sliding velocity $u_1-u_2$ [m/s]")
-        speeds = sorted({round(float(d.attrs["pinion_speed"]), 2) for d in datasets})
-        speed = " and ".join(f"{one:g}" for one in speeds)
+        speeds = sorted({f"{float(d.attrs['pinion_speed']) / RPM:.4g}" for d in datasets})
+        speed = " and ".join(speeds)
         figure.suptitle(
-            f"Sliding along a contact line, pinion at {speed} rad/s; dashed: pitch line",
+            f"Sliding along a contact line, pinion at {speed} rpm; dashed: pitch line",
             fontsize=11.5,
         )
     return figure

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import house_style, new_figure
+from gearlube.report.numbers import number_text
 from gearlube.studies.helical.figures.layout import (
     PERIODS,
     cases,
@@ -64,7 +65,7 @@ def _histories(
                 values = scale * response[name].sel(case=case).values
                 x, y = closed(phase, values - values.mean())
                 left.plot(x, y, color=colour, label=label, lw=1.3)
-                means.append(f"{values.mean():.3g}".replace("-", "−"))
+                means.append(number_text(float(values.mean())))
                 sets.append((_amplitude(response, name, case, scale), colour, label))
             left.set_ylabel(f"{symbol} minus mean [{unit}]")
             if not name.endswith("_rate"):

@@ -7,7 +7,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import GREEN, GREY, cell_edges, house_style, new_figure, outlined
+from gearlube.plotting.style import (
+    GREEN,
+    GREY,
+    cell_edges,
+    house_style,
+    name_levels,
+    new_figure,
+    outlined,
+)
 from gearlube.studies.helical.figures.layout import (
     NOTHING,
     RPM,
@@ -19,6 +27,7 @@ from gearlube.studies.helical.settings import SHOWN_MU
 from gearlube_core.arrays import Array
 
 _RANGE = 60.0  # dB
+_MAP_RANGE = 40.0  # dB of the map of sums of orders, which have no deep valleys
 _FORCES = (("F_xp", "$F_{x}$"), ("F_yp", "$F_{y}$"), ("F_zp", "$F_{z}$"))
 _CUTS = (
     ("delta_z_rate", r"$\dot\delta_z$ [mm/s]", 1e3),
@@ -28,7 +37,6 @@ _CUTS = (
 )
 _ORDERS = (1, 2, 3)
 _NAMED = 6  # orders with a number in a diagram
-_APART = 0.05  # between names of modes, as a share of the axis
 _CURVES = 4  # coefficients of friction in one panel
 
 
@@ -82,7 +90,8 @@ def campbell(sweep: xr.Dataset) -> Any:
         slope = 1e-3 * mesh[-1] / speed[-1]
         for ax in axes:
             name_orders(ax, order[:_NAMED], slope, (1.02 * speed[-1], ceiling))
-        name_modes(axes[-1], modes, ceiling)
+        names = {f"mode {n}: {mode:.1f}": float(mode) for n, mode in enumerate(modes, 1)}
+        name_levels(axes[-1], names)
         figure.suptitle(
             _heading(sweep, f"Mesh orders 1 to {order[-1]}, µ = {float(part['mu']):g}")
             + "; lines: orders; dotted: natural frequencies [kHz]",
@@ -108,23 +117,6 @@ def name_orders(ax: Any, orders: Array, slope: float, limits: tuple[float, float
             textcoords="offset points",
             fontsize=8.0,
             fontweight="bold",
-        )
-
-
-def name_modes(ax: Any, modes: Array, ceiling: float) -> None:
-    """Write each natural frequency [kHz] beside its line, right of the axes, apart from others."""
-    place = -np.inf
-    for number, mode in enumerate(modes, 1):
-        place = max(float(mode), place + _APART * ceiling)
-        ax.annotate(
-            f"mode {number}: {mode:.1f}",
-            (1.0, mode),
-            xycoords=("axes fraction", "data"),
-            xytext=(1.06, place),
-            textcoords=("axes fraction", "data"),
-            va="center",
-            fontsize=8.0,
-            arrowprops={"arrowstyle": "-", "color": GREY, "lw": 0.6},
         )
 
 
@@ -196,13 +188,13 @@ def friction_speed_maps(sweep: xr.Dataset) -> Any:
                 cell_edges(mu),
                 level,
                 cmap="viridis",
-                vmin=top - _RANGE,
+                vmin=top - _MAP_RANGE,
                 vmax=top,
             )
             # without friction a force may be zero: no contours towards minus infinity
-            felt = np.nanmax(level, axis=1) > top - _RANGE
+            felt = np.nanmax(level, axis=1) > top - _MAP_RANGE
             lines = ax.contour(
-                speed, mu[felt], level[felt], levels=np.arange(top - _RANGE, top, 10.0),
+                speed, mu[felt], level[felt], levels=np.arange(top - _MAP_RANGE, top, 10.0),
                 colors="white", linewidths=0.7,
             ) if min(level[felt].shape) > 1 else None  # fmt: skip
             if lines is not None:

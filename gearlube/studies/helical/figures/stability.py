@@ -19,6 +19,7 @@ from gearlube.plotting.style import (
 from gearlube.studies.helical.figures.layout import RPM, distinct, mesh_description
 from gearlube.studies.helical.stability import LIGHT_DAMPING
 
+_ON_ALL = "#909090"  # seen on the light and the dark colours of a map
 _COLOURS = (BLUE, VERMILLION)
 _TICKS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05)
 
@@ -50,14 +51,14 @@ def instability(stability: xr.Dataset) -> Any:
             if growth.max() > 0.0 > growth.min():
                 ax.contour(frequency, values, growth, levels=[0.0], colors="black", linewidths=1.2)
             for mode in modes:
-                ax.axvline(2.0 * mode, color="#404040", lw=0.9, ls=":")
+                ax.axvline(2.0 * mode, color=_ON_ALL, lw=1.0, ls=":")
             ax.set_title(f"{words}; {_verdict(growth)}")
             ax.grid(False)
             bar = figure.colorbar(mesh, ax=ax, pad=0.01)
             bar.set_label("growth rate [1/s]")
         for ax in axes[:2]:
             ax.set_ylabel("factor on the\nmesh variation")
-            ax.axhline(1.0, color="#404040", lw=0.9, ls="--")
+            ax.axhline(1.0, color=_ON_ALL, lw=1.0, ls="--")
             on_line = ax.get_yaxis_transform()
             text = ax.text(0.995, 1.0, "as it is", transform=on_line, ha="right", va="bottom")
             outlined(text, "white")

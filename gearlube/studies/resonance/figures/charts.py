@@ -15,6 +15,7 @@ from gearlube_core.arrays import Array
 
 _FREQUENCY = Axis("mesh over natural frequency")
 _SHOWN = ("two_dof", "one_dof")  # of the others a click in the legend shows the lines
+_ORDERS = 4  # as in the picture; higher ones may lie beyond those of the mesh table
 _ERROR, _APART = Axis("peak to peak", "µm"), Axis("time without contact", "%")
 _MICRO, _PERCENT = 1e6, 100.0
 
@@ -64,7 +65,7 @@ def harmonics_chart(response: xr.Dataset, model: str) -> Any:
     """Return the mesh orders of the stable motions of a model over frequency."""
     part = segments(response, model)
     lines = []
-    for order in response["harmonic"].values:
+    for order in response["harmonic"].values[:_ORDERS]:
         x, y = _joined(part, "relative_frequency", None)
         values = [
             np.append(_MICRO * one["harmonics"].sel(harmonic=order).values, np.nan) for one in part

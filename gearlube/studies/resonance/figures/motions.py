@@ -12,7 +12,12 @@ from gearlube.studies.resonance.figures.response_curves import COLOURS
 from gearlube.studies.resonance.settings import MODELS
 
 _DRY = ("two_dof", "one_dof")
-_TITLE = "mesh at {:g} of the natural frequency"
+
+
+def _title(relative: float) -> str:
+    """Return where the mesh frequency is, a part of the natural frequency."""
+    part = "" if np.isclose(relative, 1.0) else f"{relative:g} of "
+    return f"mesh at {part}the natural frequency"
 
 
 def _at(cycle: xr.Dataset, relative: float, models: tuple[str, ...]) -> list[xr.Dataset]:
@@ -71,7 +76,7 @@ def _waveforms(cycle: xr.Dataset, models: tuple[str, ...], title: str) -> Any:
         for ax, relative in zip(axes, frequencies, strict=True):
             for motion in _at(cycle, relative, models):
                 _draw(ax, motion)
-            ax.set(title=_TITLE.format(relative), xlim=(0.0, 2.0))
+            ax.set(title=_title(relative), xlim=(0.0, 2.0))
             ax.set_ylabel("transmission\nerror x [µm]")
             _no_contact(ax)
         axes[-1].set_xlabel("pinion rotation [mesh periods]")
@@ -99,7 +104,7 @@ def spectra(cycle: xr.Dataset) -> Any:
         axes = np.atleast_1d(figure.subplots(1, len(frequencies), sharey=True))
         for ax, relative in zip(axes, frequencies, strict=True):
             _stems(ax, cycle, _at(cycle, relative, _DRY))
-            ax.set(title=_TITLE.format(relative), xlabel="mesh order")
+            ax.set(title=_title(relative), xlabel="mesh order")
         axes[0].set_ylabel("amplitude [µm]")
         top = 1e6 * float(cycle["spectrum"].where(cycle["order"] > 0.0).max())
         axes[0].set_ylim(_LEAST_AMPLITUDE, 2.0 * top)  # one scale for all panels
@@ -157,8 +162,8 @@ def constant_radii(cycle: xr.Dataset) -> Any:
                 _draw(row[0], motion, lw=2.4 if wide else 1.2)
             _no_contact(row[0])
             _stems(row[1], cycle, motions)
-            row[0].set(title=_TITLE.format(relative), ylabel="x [µm]", xlim=(0.0, 2.0))
-            row[1].set(title=_TITLE.format(relative), ylabel="amplitude [µm]")
+            row[0].set(title=_title(relative), ylabel="x [µm]", xlim=(0.0, 2.0))
+            row[1].set(title=_title(relative), ylabel="amplitude [µm]")
         axes[-1, 0].set_xlabel("pinion rotation [mesh periods]")
         axes[-1, 1].set_xlabel("mesh order")
         _shared_legend(figure, axes[:, :1])
@@ -185,7 +190,7 @@ def dry_and_lubricated(cycle: xr.Dataset) -> Any:
                     _draw(left, motion, lw=lw)
             for dry, wet in zip(*pairs, strict=False):
                 right.plot(dry["sample"], 1e9 * (wet["x"] - dry["x"]), color="black")
-            left.set(title=_TITLE.format(relative), ylabel="x [µm]", xlim=(0.0, 2.0))
+            left.set(title=_title(relative), ylabel="x [µm]", xlim=(0.0, 2.0))
             right.set(title="lubricated minus dry", ylabel="difference [nm]")
             _no_contact(left)
         for ax in axes[-1]:
@@ -218,7 +223,7 @@ def phase_portraits(cycle: xr.Dataset) -> Any:
             if left < 0.0:
                 ax.axvspan(left, 0.0, color=GREY, alpha=0.3, lw=0)
                 ax.set_xlim(left, right)
-            ax.set(title=_TITLE.format(relative), xlabel="x [µm]")
+            ax.set(title=_title(relative), xlabel="x [µm]")
         axes[0].set_ylabel("dx/dt [mm/s]")
         _shared_legend(figure, axes)
         figure.suptitle(

@@ -37,7 +37,9 @@ def campbell(dataset: xr.Dataset) -> Any:
             )
         engine = np.atleast_1d(dataset.attrs.get("engine_orders", []))
         for i, order in enumerate(engine):
-            label = f"engine orders, gear {dataset.attrs['engine_gear']}" if i == 0 else None
+            orders = ", ".join(f"{one:g}" for one in engine)
+            gear = dataset.attrs["engine_gear"]
+            label = f"engine orders {orders}, gear {gear}" if i == 0 else None
             ax.plot(speed, order * speed / 60.0, color="#909090", lw=0.9, ls="-.", label=label)
         ax.set_ylim(0.0, top)
         levels.speed_axis(ax, dataset)

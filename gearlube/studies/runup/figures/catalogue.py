@@ -97,7 +97,8 @@ CATALOGUE = (
         name="bearing_spectra",
         title="Spectra of the bearing forces",
         caption="Order spectra at three speeds of the ramp. Mesh orders above. Lines "
-        "between them would come from errors of single teeth, from rollers or from the engine.",
+        "between them are far lower: rollers that pass the loaded zone, and sidebands of mesh "
+        "orders by them; where they are modelled, errors of single teeth and the engine.",
         draw=bearing_spectra,
     ),
     Entry(
@@ -106,7 +107,7 @@ CATALOGUE = (
         caption="Load of every roller where the bearing forces are largest, as bars outwards from "
         "a ring; black marks: the largest of each over one turn of the pinion. Each "
         "bearing has its own scale. A roller without a bar carries no load. `--animate` "
-        "shows the turn.",
+        "shows them in motion.",
         draw=roller_loads,
         needs="roller_load",
     ),

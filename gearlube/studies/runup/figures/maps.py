@@ -42,7 +42,7 @@ def frequency_map(dataset: xr.Dataset) -> Any:
     with house_style():
         figure = new_figure(9.4, 5.8)
         ax = figure.subplots()
-        _picture(figure, ax, speed, rows, cells, pad=0.14)
+        _picture(figure, ax, speed, rows, cells, pad=0.03)
         ends = np.array(ax.get_xlim())
         per_rpm = levels.teeth(dataset) / 60.0
         for order in range(1, 8):

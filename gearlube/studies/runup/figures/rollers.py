@@ -1,29 +1,18 @@
-"""Loads of all rollers of the four bearings, at one instant and as an animation."""
+"""Loads of all rollers of the four bearings at one instant, with their range over a turn."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.animation import save_animation
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 from gearlube.studies.runup import levels
+from gearlube.studies.runup.figures.moving.words import AXES, RINGS
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError
-from gearlube_core.progress import Progress, no_progress
 from gearlube_core.units import rads_to_rpm
 
-ANIMATION = "roller_loads.gif"
-_NAMES = {
-    1: "pinion, bearing 1",
-    2: "pinion, bearing 2",
-    3: "gear, bearing 3",
-    4: "gear, bearing 4",
-}
-_AXES = {1: ("z", "y"), 2: ("z", "y"), 3: ("x", "y"), 4: ("x", "y")}
 _HUB = 0.45  # inner radius of the drawn ring, over the largest bar
 _WIDTH = 0.55  # of a bar over the pitch of the rollers
 
@@ -44,8 +33,8 @@ def roller_loads(dataset: xr.Dataset, frame: int = 0) -> Any:
                 frame,
                 BLUE if number <= 2 else VERMILLION,
             )
-            ax.set_title(_NAMES[number], fontsize=10)
-            first, second = _AXES[number]
+            ax.set_title(RINGS[number], fontsize=10)
+            first, second = AXES[number]
             ax.set_xticks([0.0, 0.5 * np.pi], [first, second])
         speed = rads_to_rpm(float(dataset["shape_speed"]))
         turned = np.degrees(float(dataset["frame_angle"][frame]))
@@ -82,33 +71,3 @@ def _ring(ax: Any, angle: Array, load: Array, frame: int, colour: str) -> None:
         annotation_clip=False,
     )
     ax.tick_params(axis="x", labelsize=8.5, pad=-1)
-
-
-def animate_rollers(
-    dataset: xr.Dataset, folder: Path | str, progress: Progress = no_progress
-) -> Path:
-    """Write the loads of all rollers over one turn of the pinion as FOLDER/roller_loads.gif.
-
-    Raises
-    ------
-    ParameterError
-        The bearings of the axle have no rollers.
-
-    Examples
-    --------
-    >>> animate_rollers(load_runup("gearlube_runup"), "gearlube_runup")  # doctest: +SKIP
-    """
-    if "roller_load" not in dataset:
-        raise ParameterError(
-            "The bearings of the axle must have rollers for an animation of roller loads, got "
-            "another type."
-        )
-    name = f"{dataset.attrs['ramp'].replace('-', '')}_{ANIMATION}"
-    return save_animation(
-        lambda frame: roller_loads(dataset, frame),
-        dataset.sizes["frame"],
-        Path(folder) / name,
-        per_second=10,
-        dots_per_inch=70,
-        progress=progress,
-    )

@@ -17,7 +17,7 @@ ORDER_LOOKS = (
     {"color": GREEN, "lw": 1.6, "ls": (0, (1.5, 1.0))},
     {"color": PURPLE, "lw": 1.2, "ls": (0, (6, 1.5, 1.5, 1.5))},
 )
-_NAMES = 0.3  # of the axis, free of curves for the names of critical speeds
+_NAMES = 0.36  # of the axis, free of curves for the names of critical speeds
 _MARKED = 3  # mesh orders whose critical speeds are marked
 _OVERALL = {"color": "black", "lw": 1.0, "ls": "-"}
 _SHOWN = 60.0  # dB below the overall level's peak

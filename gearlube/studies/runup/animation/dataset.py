@@ -1,0 +1,217 @@
+"""The dataset of an animation: contacts of the flanks and rollers of the bearings over frames."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.runup.animation.flanks import flank_variables
+from gearlube.studies.runup.animation.frames import PERIODS, ramp_frames
+from gearlube.studies.runup.animation.rollers import film_law, roller_variables
+from gearlube.studies.runup.settings import RunupSettings
+from gearlube_core import __version__
+from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import read_compressed_dataset, write_compressed_dataset
+from gearlube_core.units import rads_to_rpm
+
+logger = logging.getLogger(__name__)
+
+FOLDER = "animation"
+_AXES = ("x", "y", "z")
+
+# name: (unit, description)
+QUANTITIES: Mapping[str, tuple[str, str]] = {
+    "frame_time": ("s", "time since the first frame"),
+    "mesh_phase": ("1", "mesh periods since the first frame"),
+    "pinion_speed": ("rad s-1", "speed of the pinion"),
+    "dte": ("m", "dynamic transmission error"),
+    "mesh_force": ("N", "mesh force, below 0 on the coast flanks"),
+    "side": ("1", "1: drive flanks carry, -1: coast flanks, 0: the teeth are apart"),
+    "flank_load": ("N", "normal force of a tooth pair"),
+    "flank_film": ("m", "central film thickness of a tooth pair"),
+    "flank_film_ratio": ("1", "film thickness over roughness"),
+    "flank_friction": ("1", "friction coefficient of a tooth pair"),
+    "flank_temperature": ("K", "temperature of the film"),
+    "flank_pressure": ("Pa", "largest Hertz pressure of a tooth pair"),
+    "flank_centre": ("m", "centre of force on the drawn gear tooth, from toe and root line"),
+    "flank_minor": ("m", "minor semi-axis of the contact as drawn on the gear tooth"),
+    "flank_major": ("m", "major semi-axis of the contact as drawn on the gear tooth"),
+    "ring": ("1", "bearing: 1 and 2 of the pinion, 3 and 4 of the gear"),
+    "ring_force": ("N", "force of a bearing on its shaft"),
+    "roller_load": ("N", "load of a roller"),
+    "roller_film": ("m", "film between roller and race"),
+    "roller_angle": ("rad", "angle of a roller about the shaft, from r1 to r2"),
+}
+
+
+def animation_dataset(settings: RunupSettings, time: float) -> xr.Dataset:
+    """Return flanks and rollers over two mesh periods from `time` of a ramp [s] on.
+
+    Parameters
+    ----------
+    settings : RunupSettings
+        Of the ramp.
+    time : float
+        Since the ramp began, within the ramp [s].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over 48 frames: `flank_load`, `flank_film`, `flank_friction` and others over (frame, pair),
+        NaN without load; `flank_centre`, `flank_minor` and `flank_major` if the mesh table knows
+        the places on the tooth; `roller_load` and `roller_angle` over (frame, ring, roller) if the
+        bearings have rollers, `roller_film` if they have films; `ring_force`, `mesh_force`.
+
+    Raises
+    ------
+    ParameterError
+        The time is outside the ramp.
+    GearLubeError
+        The axle refused.
+
+    Examples
+    --------
+    >>> animation_dataset(settings, time=3.0)["flank_load"].sum("pair")  # doctest: +SKIP
+    """
+    check_within("time", time, 0.0, settings.duration, "s", "It is that of the ramp.")
+    frames = ramp_frames(settings, time)
+    axle = settings.car_axle.axle
+    turned = frames.output("pinion.angle") * axle.mesh.pinion_teeth / (2.0 * np.pi)
+    speed = frames.output("pinion.speed")
+    size = axle.mesh.tooth_size or ()
+    dataset = xr.Dataset(
+        {
+            "frame_time": ("frame", frames.time),
+            "mesh_phase": ("frame", turned - round(float(turned[0]))),
+            "pinion_speed": ("frame", speed),
+            "dte": ("frame", frames.output("mesh.dte")),
+            **flank_variables(frames),
+            **roller_variables(frames, settings.oil_temperature),
+        },
+        attrs={
+            "title": f"Flanks and rollers in a {settings.name} of a lubricated hypoid axle",
+            "study": "runup animation",
+            "ramp": settings.name,
+            "gearlube_version": __version__,
+            "axle": settings.car_axle.name,
+            "axle_source": settings.car_axle.source,
+            "mesh_table": axle.mesh.name,
+            "oil": axle.oil.name,
+            "oil_temperature": float(settings.oil_temperature),
+            "pinion_teeth": int(axle.mesh.pinion_teeth),
+            "gear_teeth": int(axle.mesh.gear_teeth),
+            "mesh_periods": PERIODS,
+            "mean_pinion_speed": float(speed.mean()),
+            "pinion_torque": frames.torque,
+            "ramp_time": frames.ramp_time,
+            "roller_film_law": film_law(frames),
+            **dict(zip(("tooth_width", "tooth_height"), size, strict=False)),
+        },
+    )
+    for name, dimension in (("axis", _AXES), ("tooth_axis", ("along", "up"))):
+        if name in dataset.dims:
+            dataset = dataset.assign_coords({name: list(dimension)})
+    for name in map(str, dataset.variables):
+        if name in QUANTITIES:
+            unit, text = QUANTITIES[name]
+            dataset[name].attrs |= {"units": unit, "long_name": text}
+    return dataset
+
+
+def animate_ramp(
+    settings: RunupSettings,
+    ramp: xr.Dataset,
+    *,
+    speed: float | None = None,
+    folder: Path | str | None = None,
+    progress: Progress = no_progress,
+) -> xr.Dataset:
+    """Return `animation_dataset` at one speed of a finished ramp; write it as NetCDF.
+
+    Parameters
+    ----------
+    settings : RunupSettings
+        Of the ramp.
+    ramp : xarray.Dataset
+        Of `run_runup` with these settings.
+    speed : float, optional
+        Of the pinion, within the ramp [rad/s]. Default: where a mesh order of the bearing forces is
+        largest.
+    folder : path, optional
+        Folder of results; the file is animation/runup.nc or animation/coastdown.nc there.
+    progress : callable
+        Called with the share that is done and a sentence.
+
+    Raises
+    ------
+    ParameterError
+        The speed is outside the ramp, or none is given and the results do not tell the loudest.
+    GearLubeError
+        The axle refused.
+
+    Examples
+    --------
+    >>> moving = animate_ramp(settings, ramp, speed=200.0, folder="my_runup")  # doctest: +SKIP
+    """
+    if speed is None:
+        if "shape_speed" not in ramp:
+            raise ParameterError(
+                "The results of the ramp must say where the bearing forces are largest "
+                "(shape_speed), but they do not: they are of an earlier version. Give a speed, or "
+                "run the ramp again."
+            )
+        block = int(np.argmin(np.abs(ramp["block_speed"].values - float(ramp["shape_speed"]))))
+        time = float(ramp["block_time"][block])
+    else:
+        check_speed(settings, speed)
+        time = (speed - settings.start_speed) / settings.ramp.acceleration
+    time = min(max(time, 0.0), settings.duration)
+    progress(0.0, "flanks and rollers in motion")
+    mesh = settings.car_axle.axle.mesh
+    if not mesh.has_tooth_places:
+        logger.warning(
+            "The mesh table %s does not tell where on the tooth its pairs meet, so the animation "
+            "shows no tooth. Run `gearlube contact` again for a table that does.",
+            mesh.name,
+        )
+    dataset = animation_dataset(settings, time)
+    if folder is not None:
+        path = animation_file(folder, settings.name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_compressed_dataset(dataset, path)
+    progress(1.0, "flanks and rollers in motion")
+    return dataset
+
+
+def check_speed(settings: RunupSettings, speed: float, name: str = "The speed to animate") -> None:
+    """Refuse a speed of the pinion [rad/s] that the ramp does not pass; errors speak of rpm.
+
+    Raises
+    ------
+    ParameterError
+    """
+    ends = sorted(rads_to_rpm(one) for one in (settings.start_speed, settings.end_speed))
+    within = "It is a speed of the pinion that the ramp passes."
+    low, high = (round(end, 6) for end in ends)  # an end given in rpm is within
+    check_within(name, round(rads_to_rpm(speed), 6), low, high, "rpm", within)
+
+
+def animation_file(folder: Path | str, ramp: str) -> Path:
+    """Return the path of the animation's dataset; `ramp` is run-up or coast-down."""
+    return Path(folder) / FOLDER / f"{ramp.replace('-', '')}.nc"
+
+
+def load_animation(path: Path | str) -> xr.Dataset:
+    """Read the dataset of an animation.
+
+    Examples
+    --------
+    >>> load_animation("gearlube_runup/animation/runup.nc")["roller_load"]  # doctest: +SKIP
+    """
+    return read_compressed_dataset(Path(path))

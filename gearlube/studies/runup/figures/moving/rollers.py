@@ -1,0 +1,158 @@
+"""Rings of rollers with their loads and films, as a picture for each frame."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.animation import save_animation
+from gearlube.plotting.style import BLUE, house_style, new_figure
+from gearlube.studies.runup.figures.moving import words
+from gearlube_core.arrays import Array
+from gearlube_core.progress import Progress, no_progress
+
+FILM_COLOURS = "viridis"
+HUB = 0.5  # radius of the drawn cage, over the largest bar
+WIDTH = 0.6  # of a bar over the pitch of the rollers
+REACH = 1.08  # of the largest bar
+_STEEL = "#606060"
+
+
+class Ring(NamedTuple):
+    """The rollers of a bearing in a frame; arrays over those that it has."""
+
+    number: int
+    angle: Array  # rad
+    load: Array  # N
+    film: Array  # um; NaN without
+    top: float  # largest load of all frames [N]
+    zone: tuple[Array, Array]  # ends of the arcs where rollers carry load in any frame [rad]
+
+
+def has_rollers(dataset: xr.Dataset) -> bool:
+    """Whether an animation has rollers."""
+    return "roller_load" in dataset
+
+
+def ring_at(dataset: xr.Dataset, ring: int, frame: int) -> Ring:
+    """Return the rollers of ring number `ring`, from 0, in a frame."""
+    known = np.isfinite(dataset["roller_load"].values[0, ring])
+    load = dataset["roller_load"].values[:, ring][:, known]
+    angle = dataset["roller_angle"].values[:, ring][:, known]
+    film = np.full(load.shape[1], np.nan)
+    if "roller_film" in dataset:
+        film = 1e6 * dataset["roller_film"].values[frame, ring][known]
+    top = float(load.max())
+    return Ring(
+        int(dataset["ring"][ring]), angle[frame], load[frame], film, top, _arcs(angle, load)
+    )
+
+
+def _arcs(angle: Array, load: Array, bins: int = 72) -> tuple[Array, Array]:
+    """Return begin and end of the arcs [rad] in which every roller that passes carries load."""
+    place = np.minimum((angle / (2.0 * np.pi) * bins).astype(int), bins - 1)
+    passed = np.bincount(place.ravel(), minlength=bins)
+    idle = np.bincount(place[load <= 0.0].ravel(), minlength=bins)
+    # a place that no roller passes counts as its neighbour before
+    loaded = np.zeros(bins, dtype=bool)
+    state = bool((idle == 0)[np.flatnonzero(passed)[-1]]) if passed.any() else False
+    for k in range(bins):
+        state = bool(idle[k] == 0) if passed[k] else state
+        loaded[k] = state
+    if loaded.all():
+        return np.array([0.0]), np.array([2.0 * np.pi])
+    starts = np.flatnonzero(loaded & ~np.roll(loaded, 1))
+    lengths = [int(np.argmin(np.roll(loaded, -int(k)))) for k in starts]
+    first = 2.0 * np.pi / bins * starts.astype(np.float64)
+    return first, first + 2.0 * np.pi / bins * np.array(lengths, dtype=np.float64)
+
+
+def film_scale(dataset: xr.Dataset) -> tuple[float, float] | None:
+    """Return the ends of the colours of films [µm], one for all bearings; None without films."""
+    if "roller_film" not in dataset or not np.isfinite(dataset["roller_film"].values).any():
+        return None
+    film = 1e6 * dataset["roller_film"].values
+    low, high = float(np.nanmin(film)), float(np.nanmax(film))
+    return (low, high) if high > 1.001 * low else (0.99 * low, 1.01 * high)
+
+
+def ring_title(dataset: xr.Dataset, ring: int) -> tuple[str, str, str]:
+    """Return name, load and film of a bearing over all frames."""
+    load = dataset["roller_load"].values[:, ring]
+    name = words.RINGS[int(dataset["ring"][ring])]
+    zone = words.zone_words(float(words.loaded_zones(dataset)[ring]))
+    if zone == "none":
+        return name, "no load", ""
+    second = ""
+    if film_scale(dataset) is not None:
+        second = f"film {words.span(1e6 * dataset['roller_film'].values[:, ring], 'µm')}"
+    where = zone if zone == "all around" else f"over {zone}"
+    return name, f"{words.span(load, 'N')}, {where}", second
+
+
+def roller_frame(dataset: xr.Dataset, frame: int) -> Any:
+    """Return loads and films of the rollers of all bearings in a frame."""
+    from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    ends = film_scale(dataset)
+    scale, colours = Normalize(*(ends or (0.0, 1.0))), colormaps[FILM_COLOURS]
+    with house_style():
+        figure = new_figure(11.4, 3.75)
+        axes = figure.subplots(1, dataset.sizes["ring"], subplot_kw={"projection": "polar"})
+        for place, ax in enumerate(axes):
+            ring = ring_at(dataset, place, frame)
+            fill = [BLUE if np.isnan(film) else colours(scale(film)) for film in ring.film]
+            _draw(ax, ring, fill)
+            ax.set_title("\n".join(ring_title(dataset, place)), fontsize=9.0)
+        if ends is not None:
+            law = dataset.attrs["roller_film_law"]
+            figure.colorbar(
+                ScalarMappable(scale, colours),
+                ax=axes,
+                label=f"film [µm], {law}",
+                shrink=0.75,
+            )
+        figure.suptitle(
+            f"Rollers at {words.heading(dataset)}, mesh phase {words.instant(dataset, frame)}\n"
+            "bars: load; thick arc: where rollers carry load; black: roller 1 on the cage",
+            fontsize=10.0,
+        )
+    return figure
+
+
+def _draw(ax: Any, ring: Ring, fill: list[Any]) -> None:
+    """Draw the cage with its rollers, and their loads as bars outwards."""
+    top = ring.top or 1.0
+    hub, width = HUB * top, WIDTH * 2.0 * np.pi / ring.angle.size
+    for begin, end in zip(*ring.zone, strict=True):
+        arc = np.linspace(begin, end, 121)
+        ax.plot(arc, np.full(arc.size, 0.82 * hub), color="black", lw=2.4)
+    ax.bar(ring.angle, ring.load, width, bottom=hub, color=fill, edgecolor=_STEEL, lw=0.4)
+    ax.plot(ring.angle, np.full(ring.angle.size, hub), "o", ms=3.6, mfc="white", mec=_STEEL)
+    ax.plot(ring.angle[:1], [hub], "o", ms=4.6, color="black")
+    ax.set_ylim(0.0, hub + REACH * top)
+    ax.set_yticks([])
+    ax.set_xticks([0.0, 0.5 * np.pi], words.AXES[ring.number])
+    ax.tick_params(axis="x", labelsize=8.5, pad=-1)
+
+
+def animate_rollers(dataset: xr.Dataset, path: Path, progress: Progress = no_progress) -> Path:
+    """Write the rollers of all frames as an animated GIF; return the file.
+
+    Examples
+    --------
+    >>> animate_rollers(load_animation("animation/runup.nc"), Path("rollers.gif"))  # doctest: +SKIP
+    """
+    return save_animation(
+        lambda frame: roller_frame(dataset, frame),
+        dataset.sizes["frame"],
+        path,
+        per_second=10,
+        dots_per_inch=75,
+        progress=progress,
+    )
