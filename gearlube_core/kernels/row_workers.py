@@ -31,7 +31,8 @@ class RowWorkers:
     -----
     What is done must not depend on which rows are done together, so that results are the same to
     the bit for any number of threads. Work is done at the same time only where its kernels
-    are made with `row_kernel`. A process that was forked starts threads of its own.
+    are made with `row_kernel` or `line_kernel`. A process that was forked starts threads of its
+    own.
     """
 
     def __init__(self, threads: int = 1) -> None:
@@ -44,14 +45,22 @@ class RowWorkers:
         """Return how a copy is made: with threads of its own."""
         return RowWorkers, (self.threads,)
 
-    def parts(self, rows: int, columns: int) -> list[tuple[int, int]]:
-        """Return the first row of every part and the one behind its last."""
-        count = min(self.threads, rows, max(1, rows * columns // _FEW))
-        edges = [rows * k // count for k in range(count + 1)]
+    def parts(self, rows: int, columns: int, together: int = 1) -> list[tuple[int, int]]:
+        """Return the first row of every part and the one behind its last.
+
+        Parts begin at multiples of `together`.
+        """
+        bundles = -(-rows // together)
+        count = min(self.threads, bundles, max(1, rows * columns // _FEW))
+        edges = [min(together * (bundles * k // count), rows) for k in range(count + 1)]
         return list(pairwise(edges))
 
     def share(
-        self, work: Callable[[tuple[int, int]], object], rows: int, columns: int = 1 << 20
+        self,
+        work: Callable[[tuple[int, int]], object],
+        rows: int,
+        columns: int = 1 << 20,
+        together: int = 1,
     ) -> None:
         """Call `work` with the rows of every part.
 
@@ -61,8 +70,10 @@ class RowWorkers:
             Of the first row and the one behind the last.
         rows, columns
             Of the grid: few nodes are one part.
+        together
+            Parts begin at multiples of so many rows.
         """
-        first, *others = self.parts(rows, columns)
+        first, *others = self.parts(rows, columns, together)
         if not others:
             work(first)
             return

@@ -15,6 +15,8 @@ from gearlube_core.ehl.point.newton.krylov import flexible_gmres
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.kernels import row_workers
+from gearlube_core.kernels.row_workers import RowWorkers
 from gearlube_core.oil.film_oil_data import film_oil
 
 ROWS, COLUMNS = 18, 65  # rows that are halved to 9 once
@@ -85,6 +87,53 @@ def test_cycle_serves_where_no_oil_passes_the_sides(length):
     )
     assert own[2] < 1e-5
     assert own[3] <= other[3] + 1
+
+
+def parts_of(monkeypatch, module, name, place):
+    """Return the parts, an argument at some place, with which a kernel will be called."""
+    work, seen = getattr(module, name), set()
+
+    def spied(*given):
+        seen.add(given[place])
+        return work(*given)
+
+    monkeypatch.setattr(module, name, spied)
+    return seen
+
+
+@pytest.mark.parametrize("threads", [2, 3, 5])
+@pytest.mark.parametrize("length", [LENGTH, 20.0 * LENGTH])
+@pytest.mark.parametrize("sides", ["cyclic", "no_flow"])
+def test_cycle_is_the_same_to_the_bit_for_any_number_of_threads(
+    sides, length, threads, monkeypatch
+):
+    hierarchy = grids(sides, length)
+    linear = linearised(hierarchy)
+    pressure, approach = ColumnCycle(hierarchy, linear)(linear.right, 0.2)
+    monkeypatch.setattr(row_workers, "_FEW", 1)
+    parts = [
+        parts_of(monkeypatch, *work)
+        for work in (
+            (column_levels, "pack_and_coarsen", -1),
+            (column_levels, "factor_rows", -3),
+            (column_multigrid, "turn_derivatives", -2),
+            (column_multigrid, "solve_rows", -3),
+            (column_multigrid, "descend", 1),
+            (column_multigrid, "add_coarser", 1),
+            (column_multigrid, "subtract_changes", 1),
+            (column_multigrid, "finish", 1),
+        )
+    ]
+    for module in (column_levels, column_multigrid):
+        monkeypatch.setattr(module, "TOGETHER", 4)
+    for level in hierarchy.levels:
+        level.set_workers(RowWorkers(threads))
+    shared_pressure, shared_approach = ColumnCycle(hierarchy, linear)(linear.right, 0.2)
+    assert np.array_equal(shared_pressure, pressure)
+    assert shared_approach == approach
+    # all of it was shared
+    for seen in parts:
+        assert len({first for first, _ in seen if first > 0}) >= threads - 1
 
 
 @pytest.mark.parametrize("sides", ["cyclic", "no_flow"])

@@ -11,6 +11,7 @@ import pytest
 from gearlube_core.contact import half_space_periodic
 from gearlube_core.contact.half_space_periodic import PeriodicDeflection, periodic_modes
 from gearlube_core.ehl.point.line_section import line_section
+from gearlube_core.ehl.point.newton import column_multigrid
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.march import FilmMarch
@@ -37,6 +38,15 @@ def test_few_nodes_are_left_to_the_caller():
     workers = RowWorkers(4)
     assert workers.parts(100, 100) == [(0, 100)]
     assert len(workers.parts(100, 300)) == 2
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 7])
+def test_parts_begin_at_multiples(threads):
+    parts = RowWorkers(threads).parts(50, 10_000, 16)
+    assert [first for first, _ in parts][1:] == [end for _, end in parts][:-1]
+    assert (parts[0][0], parts[-1][1]) == (0, 50)
+    assert len(parts) == min(threads, 4)
+    assert all(first % 16 == 0 for first, _ in parts)
 
 
 def test_an_error_in_a_part_reaches_the_caller():
@@ -73,6 +83,9 @@ def test_threads_are_a_number_above_zero():
         RowWorkers(0)
 
 
+THICKNESS = 0.25e-6  # of the layer that carries where solids touch
+
+
 def marched(threads):
     part = line_section(
         R_x=0.014, length=0.4e-3, line_load=2e5, speed_1=8.0, speed_2=5.5, contact_modulus=114e9,
@@ -85,7 +98,7 @@ def marched(threads):
         other = np.cos(k_x * (x[:, None] - 5.5 * t) - k_y * y)
         return min(1.0, t / 4e-6) * 0.3e-6 * (wave + other)
 
-    film = moving_section(part, heights, SolidContact(thickness=0.15e-6))
+    film = moving_section(part, heights, SolidContact(thickness=THICKNESS))
     settings = PointSolverSettings(wedge="quick", tolerance=1e-5)
     step = 0.5 * part.spacing[0] / 8.0
     march = FilmMarch(film, step, settings=settings, threads=threads)
@@ -95,6 +108,14 @@ def marched(threads):
 
 
 def test_rough_film_is_the_same_to_the_bit_for_any_number_of_threads(monkeypatch):
+    parts = set()
+
+    def spied(grid, part, *given):
+        parts.add(part)
+        return descend(grid, part, *given)
+
+    descend = column_multigrid.descend
+    monkeypatch.setattr(column_multigrid, "descend", spied)
     monkeypatch.setattr(row_workers, "_FEW", 50)
     monkeypatch.setattr(half_space_periodic, "_CACHE", 10_000)
     alone, *others = (marched(threads) for threads in (1, 2, 3))
@@ -102,6 +123,8 @@ def test_rough_film_is_the_same_to_the_bit_for_any_number_of_threads(monkeypatch
         assert (other.film == alone.film).all()
         assert (other.pressure == alone.pressure).all()
         assert other.krylov_steps == alone.krylov_steps
+    assert alone.film.min() < THICKNESS  # solids touch
+    assert any(first > 0 for first, _ in parts)  # the multigrid cycle is shared too
 
 
 @pytest.mark.parametrize("single", [False, True])

@@ -248,6 +248,7 @@ class PointLevel:
             result=np.empty(self.shape),
             centre=self._scheme.centre,
             sides=self.grid.sides,
+            workers=self.grid.workers,
         )
         terms.cavitation.add_derivatives(linear, state, self._balance(stencil))
         state.contact.add_derivatives(linear, state.residual)

@@ -12,7 +12,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.ehl.point.cavitation import refuse_rupture
-from gearlube_core.ehl.point.newton.column_multigrid import ColumnCycle
+from gearlube_core.ehl.point.newton.column_multigrid import ColumnCycles
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
@@ -112,7 +112,7 @@ class FilmMarch:
         self._unit = time_step * level.scales.speed / level.scales.length
         if level.grid.sides.closed and not film.long:
             # soon built: for every linearisation
-            self._lagged = LaggedPreconditioner(self._grids, ColumnCycle, patience=0)
+            self._lagged = LaggedPreconditioner(self._grids, ColumnCycles(), patience=0)
         else:
             self._lagged = LaggedPreconditioner(self._grids, RowCycle if film.long else _multigrid)
         begin = clock.perf_counter()

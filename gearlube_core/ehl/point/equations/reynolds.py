@@ -297,6 +297,35 @@ def _face(
     return pumped * mean, 0.5 * total * mean, total * near, total * there
 
 
+@row_kernel
+def apply_to_rows(
+    offsets: np.ndarray,
+    by_pressure: np.ndarray,
+    by_film: np.ndarray,
+    reach: np.ndarray,
+    pressure: np.ndarray,
+    film: np.ndarray,
+    rows: tuple[int, int],
+    result: np.ndarray,
+) -> None:
+    """As `apply_derivatives`, from the first of some rows to the one behind the last."""
+    ny, nx = pressure.shape
+    for j in range(rows[0], rows[1]):
+        result[j] = 0.0
+        if j == 0 or j == ny - 1:
+            continue
+        for k in range(by_pressure.shape[0]):
+            down, right = offsets[k, 0], offsets[k, 1]
+            first, last = max(1, -right), min(nx - 1, nx - right)
+            row = result[j, first:last]
+            there = reach[j + down + 1]
+            p = pressure[there, first + right : last + right]
+            h = film[there, first + right : last + right]
+            a, b = by_pressure[k, j, first:last], by_film[k, j, first:last]
+            for i in range(row.size):
+                row[i] += a[i] * p[i] + b[i] * h[i]
+
+
 @kernel
 def apply_derivatives(
     offsets: np.ndarray,
@@ -322,16 +351,5 @@ def apply_derivatives(
     result : ndarray, shape (ny, nx)
         Zero on the border and where rows are zero.
     """
-    ny, nx = pressure.shape
-    result[:] = 0.0
-    for j in range(1, ny - 1):
-        for k in range(by_pressure.shape[0]):
-            down, right = offsets[k, 0], offsets[k, 1]
-            first, last = max(1, -right), min(nx - 1, nx - right)
-            row = result[j, first:last]
-            there = reach[j + down + 1]
-            p = pressure[there, first + right : last + right]
-            h = film[there, first + right : last + right]
-            a, b = by_pressure[k, j, first:last], by_film[k, j, first:last]
-            for i in range(row.size):
-                row[i] += a[i] * p[i] + b[i] * h[i]
+    rows = 0, pressure.shape[0]
+    apply_to_rows(offsets, by_pressure, by_film, reach, pressure, film, rows, result)

@@ -10,27 +10,28 @@ from scipy.sparse import csr_matrix
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.column_cycle import HALO, ColumnGrid
+from gearlube_core.ehl.point.newton.column_factors import BELOW, factor_rows
 from gearlube_core.ehl.point.newton.column_stencils import (
-    BELOW,
     CENTRE,
     PLACES,
-    REACH,
     WIDTH,
-    Links,
-    factor_bands,
-    fill_bands,
-    pack_places,
+    Stencils,
+    pack_and_coarsen,
+    reached_places,
     weigh_places,
 )
+from gearlube_core.ehl.point.newton.column_transfer import REACH, Links
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection, unresolved_wave
 from gearlube_core.ehl.point.sides import Sides
 
-# of an equation that is taken off another without exchange: three of seven digits are left for it
-_LARGEST_SHARE = 1.0e3
+# of an equation that is taken off another without exchange: two of seven digits are left for it,
+# in a row of which there are few
+_LARGEST_SHARE = 1.0e5
 _LEAST = 1.0e-3  # mean weight of a neighbour that is kept, over that of the heaviest one
 _WEIGHED = 64  # nodes of a row whose neighbours are weighed, at least
+TOGETHER = 16  # rows of nodes that one thread takes: a line of the cache
 _PLACES = np.stack(np.divmod(np.arange(PLACES), WIDTH), axis=1) - REACH  # steps along y and x
 
 Single: Any = np.float32
@@ -113,7 +114,7 @@ class ColumnLevel:
     def __init__(self, grid: PointGrid, coarse: tuple[int, int], transfer: Transfer) -> None:
         self._grid, sides = grid, grid.sides
         rows, nx = grid.shape[0] - 2, grid.shape[1]
-        fewer, coarse_nx = coarse[0] - 2, coarse[1]
+        fewer, coarse_nx = self.coarse = coarse[0] - 2, coarse[1]
         self.shape = nx, rows
         halved = fewer < rows, coarse_nx < nx
         down = transfer.means
@@ -131,32 +132,63 @@ class ColumnLevel:
         self._band = np.empty((nx, 2 * BELOW + 1, rows), dtype=Single)
         self._fields = np.empty((2, nx, rows), dtype=Single)
         self._padded = np.zeros((3, nx, rows + 2 * HALO), dtype=Single)
-        self.half = np.empty((coarse_nx, rows), dtype=Single)
-        self._coarse = np.empty((coarse_nx, fewer), dtype=Single)
+        self.half, back = np.empty((2, coarse_nx, rows), dtype=Single)
+        self._scratch = self.half, back, np.empty(nx)
         self._packed: dict[tuple[int, int], Any] = {}
+        self._reached: dict[bytes, Any] = {}
         self._largest = np.empty(rows, dtype=Single)
 
-    def follow(self, whole: WholeStencils) -> ColumnGrid | None:
-        """Return the grid with derivatives and factors; None where rows had to be exchanged."""
+    def follow(self, whole: WholeStencils, coarse: WholeStencils) -> ColumnGrid | None:
+        """Return the grid with derivatives and factors; None where rows had to be exchanged.
+
+        Parameters
+        ----------
+        whole
+            Derivatives of this grid.
+        coarse
+            Result: derivatives of the grid with fewer nodes to a row and as many rows.
+        """
         weight, nx, rows = np.zeros((2, PLACES)), *self.shape
         own = self._grid.own_deflection[0, 0]
-        stencils, stride = (whole.by_pressure, whole.by_film), max(1, nx // _WEIGHED)
-        nodes = weigh_places(*stencils, whole.used, own, stride, self._largest, weight)
+        both, stride = (whole.by_pressure, whole.by_film), max(1, nx // _WEIGHED)
+        nodes = weigh_places(*both, whole.used, own, stride, self._largest, weight)
         kept = weight > _LEAST * nodes
         kept[:, CENTRE] = True
-        packed: list[Any] = []
-        for k, stencil in enumerate(stencils):
+        stencils, packed = [], []
+        for k, to in enumerate((coarse.by_pressure, coarse.by_film)):
             count = int(kept[k].sum())
             if (k, count) not in self._packed:
                 self._packed[k, count] = np.empty((nx, count, rows), dtype=Single)
-            pack_places(stencil, whole.used[k], kept[k], self._packed[k, count])
+            used = whole.used[k]
+            coarse.used[k] = self._reached_by(used)
             packed += [_PLACES[kept[k]], self._packed[k, count]]
-        rest: Any = whole.free, self._local, self._across, self._band
-        fill_bands(packed[0], packed[1], packed[2], packed[3], *rest)
-        factor_bands(self._band, self._largest)
+            stencils.append(Stencils(both[k], used, kept[k], packed[-1], coarse.used[k], to))
+        columns, share = self.coarse[1], self._grid.workers.share
+
+        def factor(part: tuple[int, int]) -> None:
+            local, across, largest = self._local, self._across, self._largest
+            p_offsets, p, h_offsets, h = packed
+            given = p_offsets, p, h_offsets, h, whole.free, local, across
+            factor_rows(*given, part, self._band, largest)
+
+        share(
+            lambda part: pack_and_coarsen(self.along, stencils[0], stencils[1], part),
+            columns,
+            nx * rows // columns,
+        )
+        share(factor, rows, nx, TOGETHER)
         if not (self._largest <= _LARGEST_SHARE).all():
             return None
         links = *self._held, self.along, self.across
         derivatives = *packed, whole.by_approach, self._band, whole.free
-        fields = *self._fields, *self._padded, self.half, self._coarse
+        fields = *self._fields, *self._padded, *self._scratch
         return ColumnGrid._make((*derivatives, *self._short, *links, *fields))
+
+    def _reached_by(self, used: Any) -> Any:
+        """Return which neighbours the stencils of the coarser grid have."""
+        key = used.tobytes()
+        if key not in self._reached:
+            self._reached[key] = np.empty(PLACES, dtype=np.bool_)
+            nodes = self.shape[0], self.coarse[1]
+            reached_places(self.along, used, *nodes, self._reached[key])
+        return self._reached[key]

@@ -3,7 +3,8 @@
 All arrays are float32 and have the node of a row first and the row last, so that one instruction
 takes many rows. Rows are those of the film, without copied ones. Of 25 neighbours, that at
 (dj, di) has the place 5 (dj + 2) + di + 2. Whole stencils have shape (25, nx, rows), packed ones
-(nx, n, rows): what a node needs stands together.
+(nx, n, rows): what a node needs stands together. Columns are nodes beside each other along y; what
+threads share are parts of them.
 """
 
 from __future__ import annotations
@@ -12,46 +13,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.kernels.jit import kernel
+from gearlube_core.ehl.point.newton.column_transfer import REACH, TILE, Links
+from gearlube_core.kernels.line_kernel import line_kernel
 
-REACH = 2  # nodes that a stencil reaches to each side
 WIDTH = 2 * REACH + 1
 PLACES = WIDTH * WIDTH
 CENTRE = PLACES // 2
-BELOW = 4  # nodes to each side that a node of a row depends on
-_TILE = 32  # rows and columns that are turned at once: they stay in the nearest cache
 
 
-class Links(NamedTuple):
-    """Linear interpolation along one axis, and its transpose as means."""
-
-    # both coarse nodes and their shares, for fine nodes from -REACH to REACH beyond the last;
-    # beyond both ends they go on
-    coarse: np.ndarray  # int, (fine + 2 REACH, 2)
-    share: np.ndarray  # float32, (fine + 2 REACH, 2)
-    start: np.ndarray  # int, of the fine nodes of every coarse one, (coarse + 1,)
-    fine: np.ndarray  # int
-    weight: np.ndarray  # float32
-
-
-@kernel
-def turn_field(values: np.ndarray, first: int, unit: float, result: np.ndarray) -> None:
-    """Write a field, (ny, nx), times `unit` with rows side by side, (nx, rows), from `first` on."""
-    nx, rows = result.shape
-    for i0 in range(0, nx, _TILE):
-        for j in range(rows):
-            for i in range(i0, min(i0 + _TILE, nx)):
-                result[i, j] = np.float32(unit * values[j + first, i])
-
-
-@kernel
-def turn_stencils(
+@line_kernel
+def turn_derivatives(
     slopes: np.ndarray,
     offsets: np.ndarray,
     free: np.ndarray,
     own: np.ndarray,
     masked: bool,
     first: int,
+    rows: tuple[int, int],
     result: np.ndarray,
 ) -> None:
     """Write the derivatives of free nodes with rows side by side.
@@ -62,79 +40,124 @@ def turn_stencils(
         Derivatives by neighbour; rows of nodes that are not free are zero.
     offsets : ndarray of int, shape (m, 2), m >= n
         Steps to the neighbours along y and x.
-    free : ndarray, shape (nx, rows)
-        1 where pressure is unknown, else 0.
+    free : ndarray of bool, shape (ny, nx)
+        Where pressure is unknown.
     own : ndarray of int, shape (rows + 2 REACH,)
         Row that holds each row, from -REACH to REACH beyond the last.
     masked
         Leave out neighbours that are not free.
     first
         Row of `slopes` that is row 0 of the result.
+    rows
+        First row of the result that is written and the one behind the last.
     result : ndarray, shape (25, nx, rows)
         Result; neighbours that `offsets` does not have are left as they are.
     """
-    _, nx, rows = result.shape
+    nx = result.shape[1]
     for k in range(slopes.shape[0]):
         dj, di = offsets[k, 0], offsets[k, 1]
         place = (dj + REACH) * WIDTH + di + REACH
-        for i0 in range(0, nx, _TILE):
-            for j in range(rows):
-                for i in range(i0, min(i0 + _TILE, nx)):
-                    result[place, i, j] = np.float32(slopes[k, j + first, i])
-        if not masked:
-            continue
-        for i in range(nx):
-            ii = min(max(i + di, 0), nx - 1)
-            for j in range(rows):
-                result[place, i, j] *= free[ii, own[j + dj + REACH]]
+        for i0 in range(0, nx, TILE):
+            end = min(i0 + TILE, nx)
+            for j in range(rows[0], rows[1]):
+                of, known = slopes[k, j + first], free[own[j + dj + REACH] + first]
+                for i in range(i0, end):
+                    result[place, i, j] = np.float32(of[i])
+                if masked:
+                    for i in range(i0, end):
+                        if not known[min(max(i + di, 0), nx - 1)]:
+                            result[place, i, j] = np.float32(0.0)
 
 
-@kernel
-def coarsen_along(
-    links: Links, fine: np.ndarray, used: np.ndarray, coarse: np.ndarray, reached: np.ndarray
+@line_kernel
+def reached_places(
+    links: Links, used: np.ndarray, nodes: int, coarse: int, reached: np.ndarray
 ) -> None:
-    """Write the stencils of a grid with fewer nodes to a row, shapes (25, nx, rows).
+    """Tell which neighbours stencils get on a grid with fewer nodes to a row.
 
-    `used` and `reached`, shape (25,), tell which neighbours the fine stencils have, and the coarse
-    ones get; others are left as they are.
+    Parameters
+    ----------
+    links
+        To the coarser grid.
+    used : ndarray of bool, shape (25,)
+        Neighbours that the fine stencils have.
+    nodes, coarse
+        Nodes of a row of both grids.
+    reached : ndarray of bool, shape (25,)
+        Result.
+    """
+    reached[:] = False
+    for to in range(coarse):
+        for k in range(links.start[to], links.start[to + 1]):
+            for place in range(PLACES):
+                ii = links.fine[k] + place % WIDTH - REACH
+                if not used[place] or not 0 <= ii < nodes:
+                    continue
+                for m in range(2):
+                    step = links.coarse[ii + REACH, m] - to
+                    if links.share[ii + REACH, m] != 0.0 and abs(step) <= REACH:
+                        reached[place // WIDTH * WIDTH + REACH + step] = True
+
+
+@line_kernel
+def coarsen_column(
+    links: Links,
+    fine: np.ndarray,
+    used: np.ndarray,
+    reached: np.ndarray,
+    to: int,
+    coarse: np.ndarray,
+) -> None:
+    """Write the stencils of column `to` of a grid with fewer nodes to a row.
+
+    Parameters
+    ----------
+    links
+        To the coarser grid.
+    fine, coarse : ndarray, shapes (25, fine nx, rows) and (25, coarse nx, rows)
+        Stencils; those of neighbours that are not reached are left as they are.
+    used, reached : ndarray of bool, shape (25,)
+        Neighbours that the fine stencils have, and that the coarse ones get.
+    to
+        Coarse node of a row.
     """
     nodes = fine.shape[1]
-    reached[:] = False
-    for adding in (False, True):
-        for to in range(coarse.shape[1]):
-            for k in range(links.start[to], links.start[to + 1]):
-                i = links.fine[k]
-                for place in range(PLACES):
-                    ii = i + place % WIDTH - REACH
-                    if not used[place] or not 0 <= ii < nodes:
-                        continue
-                    middle = place // WIDTH * WIDTH + REACH
-                    for m in range(2):
-                        step = links.coarse[ii + REACH, m] - to
-                        weight = links.weight[k] * links.share[ii + REACH, m]
-                        if weight == 0.0 or abs(step) > REACH:
-                            continue
-                        if not adding:
-                            reached[middle + step] = True
-                            continue
-                        total, of = coarse[middle + step, to], fine[place, i]
-                        for j in range(total.size):
-                            total[j] += weight * of[j]
-        if not adding:
-            for place in range(PLACES):
-                if reached[place]:
-                    coarse[place] = np.float32(0.0)
+    for place in range(PLACES):
+        if reached[place]:
+            total = coarse[place, to]
+            for j in range(total.size):
+                total[j] = np.float32(0.0)
+    for k in range(links.start[to], links.start[to + 1]):
+        i = links.fine[k]
+        for place in range(PLACES):
+            ii = i + place % WIDTH - REACH
+            if not used[place] or not 0 <= ii < nodes:
+                continue
+            middle = place // WIDTH * WIDTH + REACH
+            for m in range(2):
+                step = links.coarse[ii + REACH, m] - to
+                weight = links.weight[k] * links.share[ii + REACH, m]
+                if weight == 0.0 or abs(step) > REACH:
+                    continue
+                total, of = coarse[middle + step, to], fine[place, i]
+                for j in range(total.size):
+                    total[j] += weight * of[j]
 
 
-@kernel
-def coarsen_across(links: Links, fine: np.ndarray, coarse: np.ndarray) -> None:
-    """Write the stencils of a grid with fewer rows, shapes (25, nx, rows)."""
+@line_kernel
+def coarsen_across(links: Links, fine: np.ndarray, used: np.ndarray, coarse: np.ndarray) -> None:
+    """Write the stencils of a grid with fewer rows, shapes (25, nx, rows).
+
+    `used`, shape (25,), tells which neighbours the fine stencils have.
+    """
     rows = coarse.shape[2]
     coarse[:] = np.float32(0.0)
     for to in range(rows):
         for k in range(links.start[to], links.start[to + 1]):
             j = links.fine[k]
             for place in range(PLACES):
+                if not used[place]:
+                    continue
                 jj = j + place // WIDTH
                 for m in range(2):
                     step = links.coarse[jj, m] - to
@@ -151,7 +174,7 @@ def coarsen_across(links: Links, fine: np.ndarray, coarse: np.ndarray) -> None:
                         coarse[there, i, to] += weight * fine[place, i, j]
 
 
-@kernel
+@line_kernel
 def weigh_places(
     by_pressure: np.ndarray,
     by_film: np.ndarray,
@@ -212,9 +235,11 @@ def weigh_places(
     return nodes
 
 
-@kernel
-def pack_places(whole: np.ndarray, used: np.ndarray, kept: np.ndarray, packed: np.ndarray) -> None:
-    """Write stencils, (nx, n, rows), of the n places kept; what is left out goes to the node.
+@line_kernel
+def pack_column(
+    whole: np.ndarray, used: np.ndarray, kept: np.ndarray, i: int, packed: np.ndarray
+) -> None:
+    """Write the stencils of column i with the places kept; what is left out goes to the node.
 
     Parameters
     ----------
@@ -222,110 +247,70 @@ def pack_places(whole: np.ndarray, used: np.ndarray, kept: np.ndarray, packed: n
         Stencils.
     used, kept : ndarray of bool, shape (25,)
         Neighbours that there are, and those that are kept; the node itself is one.
-    packed : ndarray, shape (nx, n, rows)
-        Result.
+    i
+        Node of a row.
+    packed : ndarray, shape (n, rows)
+        Result, of the n places kept.
     """
-    here = 0
-    for place in range(CENTRE):
+    n = here = 0
+    for place in range(PLACES):
         if kept[place]:
-            here += 1
-    for i in range(whole.shape[1]):
-        n = 0
-        for place in range(PLACES):
-            if kept[place]:
-                packed[i, n] = whole[place, i]
-                n += 1
-        centre = packed[i, here]
-        for place in range(PLACES):
-            if used[place] and not kept[place]:
-                left = whole[place, i]
-                for j in range(centre.size):
-                    centre[j] += left[j]
+            if place == CENTRE:
+                here = n
+            of, to = whole[place, i], packed[n]
+            for j in range(to.size):
+                to[j] = of[j]
+            n += 1
+    centre = packed[here]
+    for place in range(PLACES):
+        if used[place] and not kept[place]:
+            left = whole[place, i]
+            for j in range(centre.size):
+                centre[j] += left[j]
 
 
-@kernel
-def fill_bands(
-    offsets: np.ndarray,
-    by_pressure: np.ndarray,
-    film_offsets: np.ndarray,
-    by_film: np.ndarray,
-    free: np.ndarray,
-    local: np.ndarray,
-    across: np.ndarray,
-    band: np.ndarray,
+@line_kernel
+def column_bound(links: Links, to: int, nodes: int) -> int:
+    """Return the first of the fine columns that go with the coarse one `to` and those after it."""
+    if to == 0:
+        return 0
+    return nodes if to >= links.start.size - 1 else int(links.fine[links.start[to]])
+
+
+class Stencils(NamedTuple):
+    """Derivatives by pressure or by film, on a grid, packed and on the next one along x."""
+
+    whole: np.ndarray  # (25, nx, rows)
+    used: np.ndarray  # bool, (25,), neighbours that there are
+    kept: np.ndarray  # bool, (25,), and that are kept
+    packed: np.ndarray  # (nx, n, rows)
+    reached: np.ndarray  # bool, (25,), neighbours on the coarser grid
+    coarse: np.ndarray  # (25, coarse nx, rows)
+
+
+@line_kernel
+def pack_and_coarsen(
+    links: Links, by_pressure: Stencils, by_film: Stencils, part: tuple[int, int]
 ) -> None:
-    """Fill the bands of rows of nodes, uncoupled from each other.
+    """Write the packed stencils of a grid, and those of one with fewer nodes to a row.
 
     Parameters
     ----------
-    offsets, film_offsets : ndarray of int, shapes (n, 2) and (m, 2)
-        Steps to the neighbours along y and x.
-    by_pressure, by_film : ndarray, shapes (nx, n, rows) and (nx, m, rows)
+    links
+        To the coarser grid.
+    by_pressure, by_film
         Stencils.
-    free : ndarray, shape (nx, rows)
-        1 where pressure is unknown; other nodes get the identity.
-    local : ndarray, shape (3,)
-        Deflection along a row 0, 1 and 2 nodes from a cell under unit pressure.
-    across : ndarray, shape (5,)
-        Share of it that neighbours 0 to 4 rows away see.
-    band : ndarray, shape (nx, 9, rows)
-        Result: by node, place of the other node from -4 to 4, and row.
+    part
+        First column of the coarser grid and the one behind the last.
     """
-    nx = free.shape[0]
-    for i in range(nx):
-        here = band[i]
-        here[:] = np.float32(0.0)
-        for k in range(offsets.shape[0]):
-            ii = i + offsets[k, 1]
-            if offsets[k, 0] == 0 and 0 <= ii < nx:
-                total, of, known = here[BELOW + ii - i], by_pressure[i, k], free[ii]
-                for j in range(total.size):
-                    total[j] += of[j] * known[j]
-        for k in range(film_offsets.shape[0]):
-            ii = i + film_offsets[k, 1]
-            if not 0 <= ii < nx:
-                continue
-            share = across[min(abs(film_offsets[k, 0]), 4)]
-            for m in range(max(ii - REACH, 0), min(ii + REACH + 1, nx)):
-                deflection = share * local[abs(ii - m)]
-                total, of, known = here[BELOW + m - i], by_film[i, k], free[m]
-                for j in range(total.size):
-                    total[j] += of[j] * known[j] * deflection
-        known = free[i]
-        for place in range(2 * BELOW + 1):
-            total = here[place]
-            for j in range(total.size):
-                total[j] *= known[j]
-        total = here[BELOW]
-        for j in range(total.size):
-            total[j] += np.float32(1.0) - known[j]
-
-
-@kernel
-def factor_bands(band: np.ndarray, largest: np.ndarray) -> None:
-    """Factor the bands of rows of nodes in place; the reciprocal of the diagonal stands in it.
-
-    Parameters
-    ----------
-    band : ndarray, shape (nx, 9, rows)
-        Of `fill_bands`; L and U on return.
-    largest : ndarray, shape (rows,)
-        Result: largest share of an equation that was taken off another, for every row of nodes.
-    """
-    nx = band.shape[0]
-    largest[:] = np.float32(0.0)
-    for i in range(nx):
-        pivot = band[i, BELOW]
-        for j in range(pivot.size):
-            pivot[j] = np.float32(1.0) / pivot[j]
-        for k in range(1, min(BELOW, nx - 1 - i) + 1):
-            low = band[i + k, BELOW - k]
-            for j in range(low.size):
-                low[j] *= pivot[j]
-            for j in range(low.size):
-                # written so that what is no number counts as too large
-                largest[j] = largest[j] if abs(low[j]) <= largest[j] else abs(low[j])
-            for m in range(1, min(BELOW, nx - 1 - i) + 1):
-                rest, above = band[i + k, BELOW - k + m], band[i, BELOW + m]
-                for j in range(rest.size):
-                    rest[j] -= low[j] * above[j]
+    nodes = by_film.whole.shape[1]
+    for to in range(part[0], part[1]):
+        for i in range(column_bound(links, to, nodes), column_bound(links, to + 1, nodes)):
+            pack_column(
+                by_pressure.whole, by_pressure.used, by_pressure.kept, i, by_pressure.packed[i]
+            )
+            pack_column(by_film.whole, by_film.used, by_film.kept, i, by_film.packed[i])
+        coarsen_column(
+            links, by_pressure.whole, by_pressure.used, by_pressure.reached, to, by_pressure.coarse
+        )
+        coarsen_column(links, by_film.whole, by_film.used, by_film.reached, to, by_film.coarse)

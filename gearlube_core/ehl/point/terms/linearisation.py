@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gearlube_core.arrays import Array, Flags, Offsets
-from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
+from gearlube_core.ehl.point.equations.reynolds import apply_to_rows
 from gearlube_core.ehl.point.equations.stencil import CENTRE
 from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.ehl.point.terms.ruptured_transport import NoTransport, Transport
+from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 
 # steps to the neighbours, derivatives by their pressure and by their film, (n, ny, nx)
 Derivatives = tuple[Offsets, Array, Array]
@@ -32,6 +33,7 @@ class Linearisation:
     transport: Transport = field(default_factory=NoTransport)  # of oil through ruptured nodes
     centre: int = CENTRE  # number of the node itself among its neighbours
     sides: Sides = AMBIENT  # of the rows
+    workers: RowWorkers = ALONE  # who share them
 
     @property
     def neighbours(self) -> Offsets:
@@ -50,15 +52,10 @@ class Linearisation:
 
         The result is overwritten by the next call.
         """
-        apply_derivatives(
-            self.offsets,
-            self.by_pressure,
-            self.by_film,
-            self.sides.reach(self.free.shape[0]),
-            self.sides.filled(pressure),
-            deflection(pressure),
-            self.result,
-        )
+        ny, nx = self.free.shape
+        given = self.offsets, self.by_pressure, self.by_film, self.sides.reach(ny)
+        changes = self.sides.filled(pressure), deflection(pressure)
+        self.workers.share(lambda part: apply_to_rows(*given, *changes, part, self.result), ny, nx)
         self.transport.carry(self.result)
         if approach != 0.0:
             self.result += approach * self.by_approach

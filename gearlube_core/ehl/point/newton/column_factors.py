@@ -1,0 +1,211 @@
+"""Line solutions of a preconditioner with rows of nodes side by side: bands, kernels.
+
+Arrays are as in `column_stencils`. Rows of nodes do not feel each other, so threads share them. A
+band has shape (nx, 9, rows): by node, place of the other node from -4 to 4, and row.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gearlube_core.ehl.point.newton.column_transfer import REACH, Links
+from gearlube_core.kernels.line_kernel import line_kernel
+
+BELOW = 4  # nodes to each side that a node of a row depends on
+
+
+@line_kernel
+def fill_band(
+    offsets: np.ndarray,
+    by_pressure: np.ndarray,
+    film_offsets: np.ndarray,
+    by_film: np.ndarray,
+    free: np.ndarray,
+    local: np.ndarray,
+    across: np.ndarray,
+    i: int,
+    low: int,
+    high: int,
+    band: np.ndarray,
+) -> None:
+    """Fill the band of node i of the rows from `low` to before `high`; see `factor_rows`."""
+    nx = free.shape[0]
+    for place in range(2 * BELOW + 1):
+        total = band[i, place, low:high]
+        for j in range(total.size):
+            total[j] = np.float32(0.0)
+    for k in range(offsets.shape[0]):
+        ii = i + offsets[k, 1]
+        if offsets[k, 0] == 0 and 0 <= ii < nx:
+            total, of = band[i, BELOW + ii - i, low:high], by_pressure[i, k, low:high]
+            known = free[ii, low:high]
+            for j in range(total.size):
+                total[j] += of[j] * known[j]
+    for k in range(film_offsets.shape[0]):
+        ii = i + film_offsets[k, 1]
+        if not 0 <= ii < nx:
+            continue
+        share = across[min(abs(film_offsets[k, 0]), 4)]
+        for m in range(max(ii - REACH, 0), min(ii + REACH + 1, nx)):
+            deflection = share * local[abs(ii - m)]
+            total, of = band[i, BELOW + m - i, low:high], by_film[i, k, low:high]
+            known = free[m, low:high]
+            for j in range(total.size):
+                total[j] += of[j] * known[j] * deflection
+    known = free[i, low:high]
+    for place in range(2 * BELOW + 1):
+        total = band[i, place, low:high]
+        for j in range(total.size):
+            total[j] *= known[j]
+    total = band[i, BELOW, low:high]
+    for j in range(total.size):
+        total[j] += np.float32(1.0) - known[j]
+
+
+@line_kernel
+def factor_node(i: int, low: int, high: int, band: np.ndarray, largest: np.ndarray) -> None:
+    """Take the equations of node i off those of the next nodes; see `factor_rows`."""
+    nx = band.shape[0]
+    pivot, most = band[i, BELOW, low:high], largest[low:high]
+    for j in range(pivot.size):
+        pivot[j] = np.float32(1.0) / pivot[j]
+    for k in range(1, min(BELOW, nx - 1 - i) + 1):
+        share = band[i + k, BELOW - k, low:high]
+        for j in range(share.size):
+            share[j] *= pivot[j]
+        for j in range(share.size):
+            # written so that what is no number counts as too large
+            most[j] = most[j] if abs(share[j]) <= most[j] else abs(share[j])
+        for m in range(1, min(BELOW, nx - 1 - i) + 1):
+            rest, above = band[i + k, BELOW - k + m, low:high], band[i, BELOW + m, low:high]
+            for j in range(rest.size):
+                rest[j] -= share[j] * above[j]
+
+
+@line_kernel
+def factor_rows(
+    offsets: np.ndarray,
+    by_pressure: np.ndarray,
+    film_offsets: np.ndarray,
+    by_film: np.ndarray,
+    free: np.ndarray,
+    local: np.ndarray,
+    across: np.ndarray,
+    rows: tuple[int, int],
+    band: np.ndarray,
+    largest: np.ndarray,
+) -> None:
+    """Write the factors of rows of nodes, uncoupled from each other.
+
+    Parameters
+    ----------
+    offsets, film_offsets : ndarray of int, shapes (n, 2) and (m, 2)
+        Steps to the neighbours along y and x.
+    by_pressure, by_film : ndarray, shapes (nx, n, rows) and (nx, m, rows)
+        Stencils.
+    free : ndarray, shape (nx, rows)
+        1 where pressure is unknown; other nodes get the identity.
+    local : ndarray, shape (3,)
+        Deflection along a row 0, 1 and 2 nodes from a cell under unit pressure.
+    across : ndarray, shape (5,)
+        Share of it that neighbours 0 to 4 rows away see.
+    rows
+        First row of nodes and the one behind the last.
+    band : ndarray, shape (nx, 9, rows)
+        Result: L and U, the reciprocal of the diagonal in its place.
+    largest : ndarray, shape (rows,)
+        Result: largest share of an equation that was taken off another, for every row of nodes.
+    """
+    nx = free.shape[0]
+    largest[rows[0] : rows[1]] = np.float32(0.0)
+    for i in range(nx + BELOW):
+        if i < nx:
+            fill_band(
+                offsets,
+                by_pressure,
+                film_offsets,
+                by_film,
+                free,
+                local,
+                across,
+                i,
+                rows[0],
+                rows[1],
+                band,
+            )
+        if i >= BELOW:
+            factor_node(i - BELOW, rows[0], rows[1], band, largest)
+
+
+@line_kernel
+def solve_rows(
+    band: np.ndarray,
+    free: np.ndarray,
+    right: np.ndarray,
+    scale: float,
+    along: Links,
+    rows: tuple[int, int],
+    values: np.ndarray,
+    means: np.ndarray,
+) -> None:
+    """Write the solution of rows of nodes, and its means around the nodes of a coarser grid.
+
+    Parameters
+    ----------
+    band : ndarray, shape (nx, 9, rows)
+        Of `factor_rows`.
+    free, right : ndarray, shape (nx, rows)
+        1 where pressure is unknown, else 0; right-hand side.
+    scale
+        Of the solution.
+    along
+        To the coarser grid.
+    rows
+        First row of nodes and the one behind the last.
+    values : ndarray, shape (nx, rows)
+        Result, 0 where pressure is known; may be `right`.
+    means : ndarray, shape (coarse nx, rows)
+        Result along the rows only.
+    """
+    nx, factor, low, high = free.shape[0], np.float32(scale), rows[0], rows[1]
+    for i in range(nx):
+        value, given, known = values[i, low:high], right[i, low:high], free[i, low:high]
+        for j in range(value.size):
+            value[j] = factor * given[j] * known[j]
+        if i >= BELOW:
+            for k in range(2, BELOW + 1, 2):
+                a, b = band[i, BELOW - k, low:high], values[i - k, low:high]
+                c, d = band[i, BELOW - k + 1, low:high], values[i - k + 1, low:high]
+                for j in range(value.size):
+                    value[j] -= a[j] * b[j] + c[j] * d[j]
+        else:
+            for k in range(1, i + 1):
+                a, b = band[i, BELOW - k, low:high], values[i - k, low:high]
+                for j in range(value.size):
+                    value[j] -= a[j] * b[j]
+    to = means.shape[0] - 1
+    for i in range(nx - 1, -1, -1):
+        value = values[i, low:high]
+        if i < nx - BELOW:
+            for k in range(2, BELOW + 1, 2):
+                a, b = band[i, BELOW + k, low:high], values[i + k, low:high]
+                c, d = band[i, BELOW + k - 1, low:high], values[i + k - 1, low:high]
+                for j in range(value.size):
+                    value[j] -= a[j] * b[j] + c[j] * d[j]
+        else:
+            for k in range(1, nx - i):
+                a, b = band[i, BELOW + k, low:high], values[i + k, low:high]
+                for j in range(value.size):
+                    value[j] -= a[j] * b[j]
+        pivot = band[i, BELOW, low:high]
+        for j in range(value.size):
+            value[j] *= pivot[j]
+        while to >= 0 and along.fine[along.start[to]] >= i:
+            total = means[to, low:high]
+            for j in range(total.size):
+                total[j] = np.float32(0.0)
+            for k in range(along.start[to], along.start[to + 1]):
+                weight, of = along.weight[k], values[along.fine[k], low:high]
+                for j in range(total.size):
+                    total[j] += weight * of[j]
+            to -= 1
