@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube.studies.runup.animation.frames import Frames
+from gearlube.studies.runup.rollers import Variables
 from gearlube_core.arrays import Array
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
@@ -13,7 +14,6 @@ from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, PHI_P, SIDE
 from gearlube_core.mesh_table.kernels import load_bracket, pair_node
 from gearlube_core.mesh_table.table import PAIRS, TOOTH_UNITS, MeshTable
 
-Variables = dict[str, tuple[object, Array]]
 _LARGEST_OVER_MEAN = 1.5  # pressure of a Hertz ellipse
 _OF_TABLE = ("R_x", "R_y")
 

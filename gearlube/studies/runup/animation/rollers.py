@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from gearlube.studies.runup.animation.frames import Frames
+from gearlube.studies.runup.rollers import RINGS, Variables
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.parameters import BearingParameters
@@ -21,10 +22,8 @@ from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
 from gearlube_core.dynamics.hypoid_axle.state import W_P
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
-RINGS = (1, 2, 3, 4)  # bearings as in docs/conventions.md
 FORMULA = "Mostofi and Gohar 1983"
 SOLVED = "solved films"
-Variables = dict[str, tuple[object, Array]]
 _TURN = 2.0 * math.pi
 
 
