@@ -56,8 +56,6 @@ HIS_COLUMNS: dict[str, Any] = {
     "frames.every": 0,
     "frames.steps": [2500, 4000, 4480],
 }
-# grows in place while the slower surface moves half a half width; the faster one then moves another
-SHORT: dict[str, Any] = {"times.feed": "in_place", "times.until_rough": 0.5, "times.rough": 0.5}
 VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "crossed": (A, {}),
     "straight": (A, STRAIGHT),
@@ -89,11 +87,6 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "his columns, 32 rows": (A, HIS_COLUMNS | {"solver.rows": 32} | filtered(54.0)),
     "his columns, 64 rows": (A, HIS_COLUMNS | {"solver.rows": 64} | filtered(27.0)),
     "his columns, 128 rows": (A, HIS_COLUMNS | {"solver.rows": 128} | filtered(13.5)),
-    # all of the roughness, in a short stretch of time
-    "his columns, 128 rows, no filter": (
-        A,
-        HIS_COLUMNS | {"solver.rows": 128, "frames.steps": []} | filtered(None) | SHORT,
-    ),
 }
 
 

@@ -5,24 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from drivetrain.axle_file.read_axle import read_axle
 from drivetrain.speed_ramp import SpeedRamp
 from gearlube.studies.runup.car_torque import fitting_duration
 from gearlube.studies.runup.record import record_ramp
 from gearlube.studies.runup.run import load_runup, run_runup
-from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core.errors import ParameterError
-
-SHORT = RunupSettings(
-    car_axle=read_axle("mohammadpour_2015"),
-    start_speed=280.0,
-    end_speed=300.0,
-    duration=0.8,
-    pinion_torque=80.0,
-    sample_rate=8192.0,
-    highest_frequency=3000.0,
-    settling_time=0.1,
-)
+from tests.helpers.short_ramp import SHORT
 
 
 def test_a_ramp_too_fast_for_its_orders_is_refused_with_a_cure_that_helps() -> None:

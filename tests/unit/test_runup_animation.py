@@ -11,7 +11,6 @@ from PIL import Image
 from typer.testing import CliRunner
 
 import gearlube as gl
-from drivetrain.axle_file.read_axle import read_axle
 from gearlube.command import app
 from gearlube.output.exports.export import export_results
 from gearlube.report.moving import MOST_FRAMES
@@ -26,20 +25,10 @@ from gearlube.studies.runup.animation.frames import PER_PERIOD, Frames
 from gearlube.studies.runup.animation.rollers import roller_variables
 from gearlube.studies.runup.figures.moving.parts import moving_figures, save_moving
 from gearlube.studies.runup.figures.moving.rollers import ring_at
-from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.errors import ParameterError
+from tests.helpers.short_ramp import SHORT
 
-SHORT = RunupSettings(
-    car_axle=read_axle("mohammadpour_2015"),
-    start_speed=280.0,
-    end_speed=300.0,
-    duration=0.8,
-    pinion_torque=80.0,
-    sample_rate=8192.0,
-    highest_frequency=3000.0,
-    settling_time=0.1,
-)
 OIL = SHORT.oil_temperature
 # of the rollers' axes r1, r2 and the shaft's in x, y, z
 SHAFT_AXES = ((2, 1, 0), (0, 1, 2))

@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube_core.ehl.point.newton.column_transfer import REACH, Links
+from gearlube_core.ehl.point.newton.row_factors import BELOW
 from gearlube_core.kernels.line_kernel import line_kernel
-
-BELOW = 4  # nodes to each side that a node of a row depends on
 
 
 @line_kernel
