@@ -71,11 +71,12 @@ def solve_torque(
     -----
     Source: [polonsky_keer_1999] for the gradient under the load constraint, the projection
     and the load restored by scaling; [dostal_schoeberl_2005] for adding penetrating cells by
-    an exact line search, once their part of the gradient is out of proportion, and for the
-    feasible step where the projected one would raise the energy. Polonsky and Keer's own step
-    for penetrating cells may diverge where a smooth compliance couples all cells. Between
-    changes of the loaded set the displacement follows the step: one application of A an
-    iteration instead of two.
+    an exact line search, once their part of the gradient is out of proportion. Polonsky and
+    Keer's own step for penetrating cells may diverge where a smooth compliance couples all
+    cells. Where the projected step would raise the energy, the step goes towards the nearest
+    moments on the gradient's path, [dai_fletcher_2006], as far as the energy falls: many cells
+    let go at once, so that equal cells do not leave one by one. Between changes of the loaded
+    set the displacement follows the step: one application of A an iteration instead of two.
 
     Examples
     --------
@@ -225,14 +226,21 @@ def _solve(
             forces -= tau * probe
             displacement -= tau * product
             continue
-        feasible, feasible_displacement = forces.copy(), displacement - limit * product
+        before, displacement_before = forces.copy(), displacement
         energy = 0.5 * work + float(weight @ forces)
         project(forces, probe, arm, tau, torque)
         displacement = np.array(problem.compliance(forces))
         operations += 1
         if 0.5 * float(forces @ displacement) + float(weight @ forces) > energy:
-            project(feasible, probe, arm, limit, torque)
-            forces, displacement = feasible, feasible_displacement
+            slope = np.where(problem.usable, residual, 0.0)
+            step = _nearest_forces(problem, arm * before - tau * slope, torque) - before
+            product = problem.compliance(step)
+            operations += 1
+            fall, curvature = -float(step @ (slope * arm)), float(step @ product)
+            share = min(1.0, fall / curvature) if fall > 0.0 and curvature > 0.0 else 1.0
+            forces = np.maximum(before + share * step, 0.0)
+            displacement = displacement_before + share * product
+            loaded_before = math.inf
     outcome = Outcome(
         status="converged" if history[-1] <= tolerance else "iteration limit",
         iterations=len(history) - 1,
@@ -257,6 +265,23 @@ def _solve(
         strain_energy=0.5 * work,
         outcome=outcome,
     )
+
+
+def _nearest_forces(problem: UnilateralProblem, moments: Array, torque: float) -> Array:
+    """Return forces >= 0 whose moments are nearest to those given; their sum is the torque.
+
+    max(q - m, 0)/R, with the one m [N m] that balances; m = 0 where the torque is NaN. Source:
+    [dai_fletcher_2006].
+    """
+    usable = np.flatnonzero(problem.usable)
+    taken = 0.0
+    if not math.isnan(torque):
+        falling = np.sort(moments[usable])[::-1]
+        means = (np.cumsum(falling) - torque) / np.arange(1, falling.size + 1)
+        taken = means[np.flatnonzero(falling > means)[-1]]
+    forces = np.zeros(moments.size)
+    forces[usable] = np.maximum(moments[usable] - taken, 0.0) / problem.arm[usable]
+    return forces
 
 
 def _relative(misfit: float, work: float, penetration: float) -> float:

@@ -8,8 +8,6 @@ import numpy as np
 
 from gearlube_core.kernels.jit import kernel
 
-_ROUNDING = 1e-14
-
 
 @kernel
 def update_separation(
@@ -155,9 +153,7 @@ def project(
     """
     total = 0.0
     for i in range(forces.size):
-        left = forces[i] - tau * probe[i]
-        # the cell that limits a step ends at rounding of zero
-        forces[i] = left if left > _ROUNDING * forces[i] else 0.0
+        forces[i] = max(forces[i] - tau * probe[i], 0.0)
         total += arm[i] * forces[i]
     if not math.isnan(torque) and total > 0.0:
         scale = torque / total

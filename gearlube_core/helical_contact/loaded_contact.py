@@ -198,6 +198,7 @@ class MeshPosition:
             closing=closing,
             width=half_width,
             growth=_GROWTH,
+            tolerance=settings.tolerance,
             where=f"mesh phase {self.phase:.3f} and {torque:g} N.m",
         )
         return self._state(torque, strips, solved)

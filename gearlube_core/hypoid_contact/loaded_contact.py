@@ -185,6 +185,7 @@ class MeshPosition:
             closing=closing,
             width=1.0,
             growth=_GROWTH,
+            tolerance=settings.tolerance,
             where=f"mesh phase {self.phase:.3f} and {torque:g} N.m",
             cure=", or check that the flanks are crowned: the strips hold contact along lines",
         )

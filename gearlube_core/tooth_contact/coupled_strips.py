@@ -98,10 +98,10 @@ def solve_coupled(
     Raises
     ------
     ConvergenceError
-        As `solve_torque` and `tangent_stiffness`.
+        As `tangent_stiffness`. Contact that was not found has the outcome `iteration limit`.
     """
     problem = strips_problem(strips, stiffness)
-    solution = solve_torque(problem, torque, tolerance=tolerance)
+    solution = solve_torque(problem, torque, tolerance=tolerance, throw=False)
     tangents = tangent_forces(problem, solution)
     ends = np.cumsum([0, *(strip.gap.size for strip in strips)])
 

@@ -37,6 +37,7 @@ def solve_on_growing_strips(
     closing: float,
     width: float,
     growth: StripGrowth,
+    tolerance: float,
     where: str,
     cure: str = "",
 ) -> tuple[Strips, CoupledSolution]:
@@ -52,16 +53,25 @@ def solve_on_growing_strips(
         First guesses: closing beyond first touch, width across the contact lines. Any unit.
     growth
         How both are enlarged.
+    tolerance
+        That of `solve`, for the error [-].
     where, cure
         Words for the error.
 
     Raises
     ------
     ConvergenceError
-        When contact keeps running out of the strips.
+        When contact keeps running out of the strips, or is not found on them.
     """
     for _ in range(growth.attempts):
         strips, solved = solve(closing, width)
+        outcome = solved.solution.outcome
+        if not outcome.converged:
+            raise ConvergenceError(
+                f"Contact at {where} must be in balance within {tolerance:g}, got "
+                f"{outcome.residual:.3g} after {outcome.iterations} iterations. Take a slightly "
+                "different torque (--torque, --torques), or another number of --positions."
+            )
         reached = needed(solved)
         sideways = any(bool((forces[[0, -1]] > 0.0).any()) for forces in solved.forces)
         if reached <= closing and not sideways:

@@ -1,10 +1,13 @@
 """Strips are enlarged until they hold the contact: which way, and when it is given up."""
 
+import inspect
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from gearlube.studies.contact.command import contact
+from gearlube.studies.helical.command import helical
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.tooth_contact.strip_growth import StripGrowth, solve_on_growing_strips
 
@@ -17,7 +20,8 @@ def solution(_, width):
     forces = np.zeros((4, 3))
     forces[1:3] = 1.0
     forces[[0, -1]] = float(width < HALF_WIDTH)
-    return width, SimpleNamespace(forces=(forces,))
+    outcome = SimpleNamespace(converged=True)
+    return width, SimpleNamespace(forces=(forces,), solution=SimpleNamespace(outcome=outcome))
 
 
 def grown(closing, width, growth=GROWTH):
@@ -29,7 +33,7 @@ def grown(closing, width, growth=GROWTH):
 
     solve_on_growing_strips(
         solve, lambda _: LENGTH, closing=closing, width=width, growth=growth,
-        where="mesh phase 0.250 and 50 N.m", cure=", or crown the flanks",
+        tolerance=1e-5, where="mesh phase 0.250 and 50 N.m", cure=", or crown the flanks",
     )  # fmt: skip
     return tried
 
@@ -54,3 +58,16 @@ def test_contact_that_always_leaves_is_an_error_with_place_and_cure():
     words = r"mesh phase 0.250 and 50 N.m still .* 2 enlargements. Reduce .*, or crown the flanks."
     with pytest.raises(ConvergenceError, match=words):
         grown(LENGTH, 1e-3 * HALF_WIDTH, StripGrowth(factor=1.5, margin=1.1, attempts=2))
+
+
+def test_contact_that_is_not_found_names_place_residual_and_options_that_exist():
+    outcome = SimpleNamespace(converged=False, residual=0.0125, iterations=2000)
+    lost = SimpleNamespace(forces=(), solution=SimpleNamespace(outcome=outcome))
+    words = "phase 0.250 and 50 N.m .* within 1e-05, got 0.0125 after 2000 .*--torques.*--positions"
+    with pytest.raises(ConvergenceError, match=words):
+        solve_on_growing_strips(
+            lambda closing, width: (width, lost), lambda _: LENGTH, closing=LENGTH, width=1.0,
+            growth=GROWTH, tolerance=1e-5, where="mesh phase 0.250 and 50 N.m",
+        )  # fmt: skip
+    for asked in (contact, helical):
+        assert {"torques", "positions"} <= set(inspect.signature(asked).parameters)

@@ -156,7 +156,7 @@ class HelicalSettings:
         if self.with_contact:
             self.cycle()
         low, high = 0.999 * self.load_steps[0], 1.001 * self.load_steps[-1]
-        if self.with_contact and self.mesh == "contact":
+        if self.with_dynamics and self.mesh == "contact":
             cure = (
                 "The pair vibrates on the stiffness of its loaded contact at that torque: give "
                 "torques around it, or take mesh density (ISO 6336-1)."
