@@ -19,7 +19,8 @@ from gearlube_core.contact.unilateral_kernels import (
 from gearlube_core.contact.unilateral_problem import Outcome, UnilateralProblem, UnilateralSolution
 from gearlube_core.errors import ConvergenceError, ParameterError
 
-_FINEST = 1e-12  # rounding of the convolution ends the descent there
+_FINEST = 1e-12  # least tolerance; rounding of the convolution ends the descent at such gaps
+_SAFETY, _RECENT = 8.0, 4  # of the error, and iterations whose steps it takes
 _PROPORTION = 0.1  # penetrating over loaded squared residual at which cells are added
 
 
@@ -45,8 +46,9 @@ def solve_torque(
     torque
         T [N m], above zero.
     tolerance
-        Limit of `Outcome.residual` [-]; 1e-12 to 1e-2. The rotation is about as accurate, the
-        strain energy more so.
+        Largest error of the forces, root mean square over their mean over all usable cells [-];
+        1e-12 to 1e-2, kept down to 1e-9, where rounding begins. Rotation and strain energy are
+        more accurate.
     max_iterations
         Where to stop without convergence.
     start : ndarray, shape (n,), optional
@@ -77,6 +79,10 @@ def solve_torque(
     moments on the gradient's path, [dai_fletcher_2006], as far as the energy falls: many cells
     let go at once, so that equal cells do not leave one by one. Between changes of the loaded
     set the displacement follows the step: one application of A an iteration instead of two.
+
+    The error of the forces is A^-1 r of the separations r that are left. It is estimated as 8
+    times the norm of r times the longest of the last 4 steps along the gradient; these lie between
+    the inverses of the largest and the smallest eigenvalue of A.
 
     Examples
     --------
@@ -201,13 +207,18 @@ def _solve(
         displacement[:] = _displaced(problem, forces)
         operations += 1
     history: list[float] = []
+    steps: list[float] = []
     loaded_before = math.inf
     while True:
-        delta, loaded, penetrating, misfit, deepest = update_separation(
+        delta, loaded, penetrating, misfit, deepest, spread = update_separation(
             forces, displacement, gap, arm, rotation, residual
         )
         work = float(forces @ displacement)
-        history.append(_relative(misfit, work, deepest * float(forces.sum())))
+        rounded = _relative(misfit, work, deepest * float(forces.sum()))
+        softest = max(steps[-_RECENT:]) if len(steps) >= _RECENT else math.inf
+        mean = max(float(forces.sum()) / math.sqrt(float(problem.usable.sum())), 1e-300)
+        error = _SAFETY * softest * math.sqrt(spread) / mean
+        history.append(rounded if rounded <= _FINEST else error)
         if history[-1] <= tolerance or len(history) > max_iterations:
             break
         if penetrating > _PROPORTION * loaded:
@@ -221,6 +232,7 @@ def _solve(
         product = problem.compliance(probe)
         operations += 1
         tau = step_length(residual, direction, probe, product)
+        steps.append(tau)
         limit = longest_step(forces, probe)
         if tau <= limit:
             forces -= tau * probe

@@ -17,7 +17,7 @@ def update_separation(
     arm: np.ndarray,
     rotation: float,
     residual: np.ndarray,
-) -> tuple[float, float, float, float, float]:
+) -> tuple[float, float, float, float, float, float]:
     """Write the angular separation of all cells; return the error of complementarity.
 
     r = (g + u)/R - delta
@@ -35,7 +35,8 @@ def update_separation(
     -------
     tuple of float
         delta [rad], sum of r^2 over loaded and over penetrating cells [rad2], sum of f |r R|
-        [J], and the deepest penetration -r R of an unloaded cell [m].
+        [J], the deepest penetration -r R of an unloaded cell [m], and the sum of (r/R)^2 over
+        loaded and penetrating cells [rad2/m2].
     """
     if math.isnan(rotation):
         total, count = 0.0, 0
@@ -44,7 +45,7 @@ def update_separation(
                 total += (gap[i] + displacement[i]) / arm[i]
                 count += 1
         rotation = total / count
-    loaded, penetrating, misfit, deepest = 0.0, 0.0, 0.0, 0.0
+    loaded, penetrating, misfit, deepest, spread = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(forces.size):
         r = (gap[i] + displacement[i]) / arm[i] - rotation
         residual[i] = r
@@ -54,7 +55,9 @@ def update_separation(
         elif r < 0.0:
             penetrating += r * r
             deepest = max(deepest, -r * arm[i])
-    return rotation, loaded, penetrating, misfit, deepest
+        if forces[i] > 0.0 or r < 0.0:
+            spread += (r / arm[i]) ** 2
+    return rotation, loaded, penetrating, misfit, deepest, spread
 
 
 @kernel

@@ -93,10 +93,9 @@ class Outcome:
     iterations, operations
         Conjugate-gradient iterations, and applications of the compliance.
     residual
-        Larger of the load-weighted gap error and the deepest penetration, both over the
-        load-weighted displacement [-].
+        Estimated error of the forces, root mean square over their mean [-].
     history
-        Residual after each iteration [-].
+        Residual after each iteration [-]; infinite over the first ones, which cannot be judged.
     """
 
     status: Literal["converged", "iteration limit"]

@@ -44,7 +44,7 @@ class LoadedSettings:
     ----------
     strips : StripSettings
     tolerance : float
-        Of the unilateral contact's residual [-].
+        Of the cells' forces, as in `solve_torque` [-].
     """
 
     strips: StripSettings = field(default_factory=StripSettings)

@@ -63,7 +63,7 @@ def press_patch(
     start
         Pressure to start from [Pa], shape (nx, ny), e.g. that at a lower load.
     tolerance
-        Tolerance of the contact solver [-].
+        Largest root mean square error of the pressure over the mean pressure [-].
 
     Raises
     ------

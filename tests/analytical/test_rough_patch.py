@@ -136,6 +136,23 @@ def test_wavy_half_space_has_the_contact_of_westergaard(half_width: float):
     assert found.gap.min() >= -1e-4 * A
 
 
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("load", [0.02, 0.5, 2.0])
+def test_tolerance_bounds_the_error_of_the_pressure(seed: int, load: float):
+    # self-affine waves of 4 to 32 a side, Hurst exponent 0.3; loads over E* times the rms slope
+    waves = 64.0 * np.hypot(np.fft.fftfreq(64)[:, None], np.fft.fftfreq(64))
+    size = np.where((waves >= 4.0) & (waves <= 32.0), np.maximum(waves, 1.0) ** -1.3, 0.0)
+    phase = np.random.default_rng(seed).random((64, 64))
+    height = np.fft.ifft2(size * np.exp(2j * math.pi * phase)).real
+    height *= 0.1 / math.sqrt(2.0 * np.mean(np.gradient(height, 1e-6, axis=0) ** 2))
+    patch = HeightMap(height=height, spacing=(1e-6, 1e-6), periodic=(True, True))
+    mean = 0.1 * load * 1e11
+    exact = press_patch(patch, mean, 1e11, tolerance=1e-12).pressure
+    for tolerance in (1e-3, 1e-6, 1e-9):
+        found = press_patch(patch, mean, 1e11, tolerance=tolerance).pressure
+        assert math.sqrt(np.mean((found - exact) ** 2)) < tolerance * mean
+
+
 def test_gaussian_patches_touch_over_twice_their_load_over_modulus_and_slope():
     # A/A_0 = kappa p/(E* slope); kappa is 2 to 2.3 in numerical solutions of resolved patches,
     # 1.6 in Persson's theory and 2.5 in that of Bush, Gibson and Thomas [campana_mueser_2007]
