@@ -132,7 +132,7 @@ def test_the_same_path_in_any_form_is_the_same(part, unit, tmp_path):
         (("gear.axial real", "gear.axial size"), ["real, imag, magnitude or phase"]),
         (("gear.axial real", "gear.other real"), ["gear.other", "must have real and imag"]),
         (("gear.axial ", "hub.axial "), ["missing: gear.axial", "give zeros"]),
-        (("\n40,", "\n40,x"), ["Row 2", "9 numbers"]),
+        (("\n40,", "\n40,x"), ["line 3", "[Pa/N] must be a finite", "got 'x"]),
         (("\n40,", "\n20,"), ["must rise", "Sort the rows"]),
     ],
 )
