@@ -34,7 +34,8 @@ def vtlm_text(dataset: xr.Dataset) -> str:
         if np.isfinite(loss[j, k])
     ]
     if len(rows) >= _LEAST_ROWS and rows[0][0] > 0.0:
-        rows = [(0.0, *point) for speed, *point in rows if speed == rows[0][0]] + rows
+        lowest = rows[0][0]
+        rows = [(0.0, torque, lost) for speed, torque, lost in rows if speed == lowest] + rows
     return _text(rows)
 
 
