@@ -87,7 +87,7 @@ positive height is a peak and makes the gap smaller. With `holds = "gap"` the fi
 undeformed gap, up to a constant. Examples are tip relief, crown, or a flank from a measuring
 machine. The radii then only set scales, domain and start.
 
-- A profile is a CSV file. Its first line is `x_mm,height_um`. Lines with # are comments. A cubic
+- A profile is a [table](conventions.md#tables) with the columns `x_mm` and `height_um`. A cubic
   spline interpolates between the points.
 - A height map is a NetCDF file with the dimensions x and y, or an `.npz` file with the arrays `x`
   (nx), `y` (ny) and `height` (nx, ny), in mm, mm and um. A bicubic spline interpolates between the

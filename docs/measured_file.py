@@ -39,7 +39,7 @@ are invented, and its files say so.
 
 ## Deviations of the flanks
 
-The CSV file has one line for each point, in any order. Lines that begin with # are comments:
+The [table](conventions.md#tables) has one line for each point, in any order:
 
 ```
 member,flank,tooth,row,column,deviation_um

@@ -90,7 +90,8 @@ gearlube oil fit --example > measurements.csv      # a table to start from, comp
 gearlube oil fit measurements.csv --oil my_oil.toml --radius-mm 9.525 --out fitted_oil.toml
 ```
 
-The first line of the CSV file has the column names. Each further line is one measured point:
+The first line of the [table](conventions.md#tables) has the column names. Each further line is
+one measured point:
 
 | Column | Unit | Meaning |
 |---|---|---|

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,8 +10,9 @@ import numpy.typing as npt
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
-from gearlube_core.errors import ParameterError, why
+from gearlube_core.errors import ParameterError
 from gearlube_core.friction.traction_curve import CONTACTS, MAX_OVER_MEAN
+from gearlube_core.input_file.table import Table, read_table
 from gearlube_core.units import celsius_to_kelvin
 
 FEWEST_POINTS = 5
@@ -28,6 +26,7 @@ _COLUMNS = {
     "temperature_degc": (-60.0, 250.0, "degC", "Of the oil at the inlet; 333 K is 60 degC."),
     "traction_coefficient": (-0.5, 0.5, "", "Traction over load; 5 % is 0.05."),
 }
+_ALWAYS = ("entrainment_speed_m_s", "temperature_degc", "traction_coefficient")
 _EITHER = (
     ("slide_roll_ratio", "sliding_speed_m_s"),
     ("mean_pressure_gpa", "hertz_pressure_gpa"),
@@ -67,12 +66,12 @@ class TractionMeasurements:
 
 
 def read_traction(path: str | Path, contact: str) -> TractionMeasurements:
-    """Return the measurements of a CSV file.
+    """Return the measurements of a table, see `read_table`.
 
     Parameters
     ----------
     path : path
-        With a line of column names: `slide_roll_ratio` or `sliding_speed_m_s`,
+        Columns `slide_roll_ratio` or `sliding_speed_m_s`,
         `entrainment_speed_m_s`, `mean_pressure_gpa` or `hertz_pressure_gpa` (the largest),
         `temperature_degc`, `traction_coefficient`. Other columns are not read.
     contact : {"point", "line"}
@@ -81,31 +80,13 @@ def read_traction(path: str | Path, contact: str) -> TractionMeasurements:
     Raises
     ------
     ParameterError
-        The file cannot be read, a column is missing or double, or a number is wrong.
+        The file cannot be read, a column is missing or there twice, or a number is wrong.
     """
     check_option("contact", contact, CONTACTS)
-    try:
-        with Path(path).open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.DictReader(file, skipinitialspace=True)
-            names = tuple(name.strip() for name in reader.fieldnames or ())
-            reader.fieldnames = list(names)
-            rows = list(reader)
-    except (OSError, UnicodeDecodeError, csv.Error) as reason:
-        raise ParameterError(f"{path} is not a readable table: {why(reason)}.") from None
-    slip, pressure = (_either(path, names, pair) for pair in _EITHER)
-    needed = (slip, "entrainment_speed_m_s", pressure, "temperature_degc", "traction_coefficient")
-    missing = [name for name in needed if name not in names]
-    if missing:
-        raise ParameterError(
-            f"{path} must have the column(s) {', '.join(missing)}, got "
-            f"{', '.join(names) or 'none'}."
-        )
-    if len(rows) < FEWEST_POINTS:
-        raise ParameterError(f"{path} must have {FEWEST_POINTS} points or more, got {len(rows)}.")
-    data = {
-        name: np.array([_number(path, line, name, row) for line, row in enumerate(rows, 2)])
-        for name in needed
-    }
+    table = read_table(path, _ALWAYS, fewest=FEWEST_POINTS)
+    needed = (*_ALWAYS, *(_either(path, table, pair) for pair in _EITHER))
+    slip, pressure = needed[len(_ALWAYS) :]
+    data = {name: table.column(name, *_COLUMNS[name]) for name in needed}
     speed = data["entrainment_speed_m_s"]
     sliding = data[slip] * speed if slip == "slide_roll_ratio" else data[slip]
     if not np.any(sliding):
@@ -124,24 +105,11 @@ def read_traction(path: str | Path, contact: str) -> TractionMeasurements:
     )
 
 
-def _either(path: str | Path, names: tuple[str, ...], pair: tuple[str, str]) -> str:
-    found = [name for name in pair if name in names]
+def _either(path: str | Path, table: Table, pair: tuple[str, str]) -> str:
+    found = [name for name in pair if name in table.places]
     if len(found) != 1:
         raise ParameterError(
             f"{path} must have one of the columns {pair[0]} and {pair[1]}, got "
-            f"{'both' if found else f'none of them among {chr(44).join(names)}'}."
+            f"{'both' if found else f'none of them among {chr(44).join(table.names)}'}."
         )
     return found[0]
-
-
-def _number(path: str | Path, line: int, name: str, row: Mapping[str, str | None]) -> float:
-    low, high, unit, cure = _COLUMNS[name]
-    text = (row[name] or "").strip()
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not low <= value <= high:
-        limits = f"within {low:g} to {high:g} {unit}".strip()
-        raise ParameterError(f"{path}, line {line}: {name} must be {limits}, got {text!r}. {cure}")
-    return value

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -12,11 +11,12 @@ from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError, why
+from gearlube_core.input_file.table import read_table
 from gearlube_core.units import MILLIMETRE
 
 _MICROMETRE = 1e-6  # m
 _FEWEST = 4  # points of a cubic spline
-_HEAD = ["x_mm", "height_um"]
+_HEAD = ("x_mm", "height_um")
 _ROUNDING = 1e-6  # of an interval or a range
 
 
@@ -100,37 +100,16 @@ class MeasuredMap:
 
 
 def read_profile(path: str | Path) -> MeasuredProfile:
-    """Read a CSV file with the columns x_mm and height_um; lines with # are left out.
+    """Read a table with the columns x_mm and height_um, see `read_table`.
 
     Raises
     ------
     ParameterError
         The file is missing or not such a file.
     """
-    try:
-        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as reason:
-        raise ParameterError(f"{path} is not a readable CSV file: {why(reason)}.") from None
-    rows = [
-        (number, row)
-        for number, row in enumerate(csv.reader(lines), 1)
-        if row and not row[0].startswith("#")
-    ]
-    if not rows or [entry.strip() for entry in rows[0][1]] != _HEAD:
-        got = ",".join(rows[0][1])[:60] if rows else "an empty file"
-        raise ParameterError(f"{path} must begin with the line {','.join(_HEAD)}, got {got!r}.")
-    table = np.empty((len(rows) - 1, 2))
-    for k, (number, row) in enumerate(rows[1:]):
-        try:
-            table[k] = [float(entry) for entry in row]
-        except ValueError:
-            raise ParameterError(
-                f"{path}, line {number}: must be two numbers, got {','.join(row)[:60]!r}. "
-                "Write a point as decimal mark and a comma between the numbers."
-            ) from None
-    return MeasuredProfile(
-        table[:, 0] * MILLIMETRE, table[:, 1] * _MICROMETRE, name=f"profile {path}"
-    )
+    table = read_table(path, _HEAD)
+    x, height = (table.column(name) for name in _HEAD)
+    return MeasuredProfile(x * MILLIMETRE, height * _MICROMETRE, name=f"profile {path}")
 
 
 def read_map(path: str | Path) -> MeasuredMap:

@@ -161,12 +161,20 @@ def test_vtk_holds_film_and_pressure_over_the_plane(tmp_path):
             "pressure": (("instant", "x", "y"), pressure, {"units": "Pa"}),
             "film": (("instant", "y", "x"), 1e-7 * pressure.swapaxes(1, 2), {"units": "m"}),
         },
-        {"x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"})},
+        {
+            "x": ("x", x, {"units": "m"}),
+            "y": ("y", y, {"units": "m"}),
+            "instant": ("instant", [0.1234567, 0.1234568], {"units": "s"}),
+        },
     )
     fields.to_netcdf(tmp_path / "film.nc")
     written = gl.export_results(tmp_path / "film.nc", "vtk", tmp_path / "out")
-    assert {path.name for path in written} == {"pressure_instant_0.vtu", "pressure_instant_1.vtu"}
-    mesh = meshio.read(tmp_path / "out" / "pressure_instant_1.vtu")
+    # six digits of the instants agree, and each has its file
+    assert {path.stem for path in written} == {
+        "pressure_instant_0.123457",
+        "pressure_instant_0.123457_2",
+    }
+    mesh = meshio.read(tmp_path / "out" / "pressure_instant_0.123457_2.vtu")
     for k, (px, py, _) in enumerate(mesh.points):
         i, j = np.abs(x - px).argmin(), np.abs(y - py).argmin()
         assert mesh.point_data["pressure [Pa]"][k] == pressure[1, i, j]

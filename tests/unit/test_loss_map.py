@@ -247,6 +247,11 @@ def test_vecto_reads_its_map_back(found, folder):
     inside = LinearNDInterpolator(
         np.column_stack([speed / speed.max(), (torque - loss) / torque.max()]), loss
     )
+    # at rest the losses of the lowest speed, so that no start is beyond the map
+    lowest = speed[speed > 0.0].min()
+    assert np.array_equal(torque[speed == 0.0], torque[speed == lowest])
+    assert np.array_equal(loss[speed == 0.0], loss[speed == lowest])
+    assert speed[0] == 0.0
     point = found.sel(temperature=60.0, torque=150.0).isel(speed=1)
     output = 150.0 - float(point["loss_torque"])
     read = float(inside(float(point["speed"]) / speed.max(), output / torque.max()))

@@ -77,7 +77,7 @@ def test_the_netcdf_and_matlab_files_hold_what_was_found(out):
 
 def test_files_for_other_tools_have_the_other_points_alone(out):
     lines = (out / "vecto_40degC.vtlm").read_text().splitlines()[1:]
-    assert [float(line.split(",")[1]) for line in lines] == [0.0, 1.0, 0.0, 1.0]
+    assert [float(line.split(",")[1]) for line in lines] == [0.0, 1.0] * 3  # and at rest
     with (out / "gem_40degC.csv").open() as file:
         assert len(list(csv.DictReader(file))) == 4
     assert "nan" not in (out / "lossy_gear_40degC.mo").read_text().lower()

@@ -91,8 +91,8 @@ def wrong(rows, index, line):
         (wrong(lines(), 3, "ring,drive,1,1,4,2.0"), ["member must be pinion or gear, got 'ring'"]),
         (wrong(lines(), 3, "pinion,drive,1,1,4,2.0"), ["Add the section [pinion.grid], or its"]),
         (wrong(lines(), 3, "gear,drive,1,1,10,2.0"), ["line 6: column must be", "from 1 to 9"]),
-        (wrong(lines(), 3, "gear,drive,1,1,4,2000"), ["from -500 to 500, got '2000'"]),
-        (wrong(lines(), 3, "gear,drive,1,1,4,2,5"), ["line 6: must have 6 entries", "got 7"]),
+        (wrong(lines(), 3, "gear,drive,1,1,4,2000"), ["within -500 to 500 um, got '2000'"]),
+        (wrong(lines(), 3, "gear,drive,1,1,4,2,5"), ["line 6: has 7 of 6 columns"]),
         (
             wrong(lines(), 22, "gear,drive,1,3,5,1.5"),
             ["middle point must be 0 within 0.05 um, got 1.5 um", 'middle_point = "measured"'],
@@ -101,7 +101,7 @@ def wrong(rows, index, line):
             [f"{one.rpartition(',')[0]},{1e-3 * float(one.rpartition(',')[2])}" for one in lines()],
             ["must be 0 or at least 0.1 um, got 0.008 um", "Is it in mm? 0.008 mm is 8 um"],
         ),
-        ([], ["has no values under its first line"]),
+        ([], ["at least 1 row of values"]),
     ],
 )
 def test_wrong_measured_data_are_refused_with_line_value_and_cure(folder, rows, parts):
@@ -112,7 +112,7 @@ def test_wrong_measured_data_are_refused_with_line_value_and_cure(folder, rows, 
 
 
 def test_another_layout_is_refused_by_its_first_line(folder):
-    with pytest.raises(ParameterError, match=r"must begin with the line member,flank,tooth,row"):
+    with pytest.raises(ParameterError, match=r"must have the columns member, flank, tooth, row"):
         read_measured_flanks(folder(lines(), head="x_mm,y_mm,z_mm"))
 
 

@@ -59,8 +59,8 @@ def test_files_give_metres(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "an empty file"),
-        ("x,height_um\n", "'x,height_um'"),
+        ("", "must have a line of names"),
+        ("x,height_um\n", "missing: x_mm; got x, height_um"),
         ("x_mm,height_um\n0,1\n1,2\n2;3,0,1\n", "line 4"),
     ],
 )
@@ -69,7 +69,7 @@ def test_tables_of_another_kind_are_refused(tmp_path, text: str, words: str):
     table.write_text(text)
     with pytest.raises(ParameterError, match=words):
         read_profile(table)
-    with pytest.raises(ParameterError, match="not a readable CSV"):
+    with pytest.raises(ParameterError, match="not a readable table"):
         read_profile(tmp_path / "missing.csv")
 
 

@@ -11,7 +11,7 @@ from gearlube.studies.sound.pressure import sound_pressure
 from gearlube.studies.sound.read_path import read_transfer
 from gearlube.studies.sound.run import run_sound
 from gearlube.studies.sound.settings import SoundSettings
-from gearlube.studies.sound.wav import write_wav
+from gearlube.studies.sound.wav import wav_names, write_wav
 from gearlube_core.errors import FileError, ParameterError
 from tests.helpers.made_run import made_run
 
@@ -132,7 +132,7 @@ def test_the_same_path_in_any_form_is_the_same(part, unit, tmp_path):
         (("gear.axial real", "gear.axial size"), ["real, imag, magnitude or phase"]),
         (("gear.axial real", "gear.other real"), ["gear.other", "must have real and imag"]),
         (("gear.axial ", "hub.axial "), ["missing: gear.axial", "give zeros"]),
-        (("\n40,", "\n40,x"), ["Row 2", "9 numbers"]),
+        (("\n40,", "\n40,x"), ["line 3", "[Pa/N] must be a finite", "got 'x"]),
         (("\n40,", "\n20,"), ["must rise", "Sort the rows"]),
     ],
 )
@@ -231,3 +231,18 @@ def test_without_a_package_of_loudness_all_metrics_are_left_out_and_a_named_one_
     assert "loudness" not in sound.runs[0].dataset
     with pytest.raises(ParameterError, match="neither is installed"):
         run_sound(made_run({13.0: 2.0}), SoundSettings(metrics=("loudness",)))
+
+
+@pytest.mark.parametrize(
+    ("runs", "stems"),
+    [
+        (["müll", "möll"], ["müll", "möll"]),
+        (["m l", "m/l"], ["m_l", "m_l_2"]),
+        (["Run", "run"], ["Run", "run_2"]),  # one file where the case of letters is lost
+        (["u\u0308", "\u00fc"], ["\u00fc", "\u00fc_2"]),  # the same letter, composed and not
+        (["漢字", "..."], ["漢字", "run"]),
+        (["a" * 300, "a" * 301], ["a" * 100, "a" * 100 + "_2"]),
+    ],
+)
+def test_wav_files_of_two_runs_have_readable_names_of_their_own(runs, stems):
+    assert wav_names(runs, 0.5) == [f"{stem}_full_scale_0.5_Pa.wav" for stem in stems]

@@ -83,20 +83,20 @@ def test_orders_are_drawn_as_the_ear_weighs_them():
 
 
 def test_the_command_writes_every_file_and_says_what_is_generic(tmp_path, caplog):
-    for name, size in (("one", 400.0), ("two", 200.0)):
+    for name, size in (("möll", 400.0), ("müll", 200.0)):
         (tmp_path / name).mkdir()
         made_run({13.0: size}, start=150.0, end=250.0).to_netcdf(tmp_path / name / "runup.nc")
     out = tmp_path / "out"
-    arguments = [tmp_path / "one", tmp_path / "two", "--metrics", "none", "--out", out]
+    arguments = [tmp_path / "möll", tmp_path / "müll", "--metrics", "none", "--out", out]
     caplog.set_level("INFO", logger="gearlube")
     result = CliRunner().invoke(app, ["sound", *map(str, arguments)])
     assert result.exit_code == 0, caplog.text
-    assert "At mesh order 1 two is 6 dB quieter" in caplog.text
+    assert "At mesh order 1 müll is 6 dB quieter" in caplog.text
     assert "generic, not measured" in caplog.text
     wavs = sorted(out.glob("*.wav"))
     assert [file.name for file in wavs] == [
-        "one_full_scale_0.05_Pa.wav",
-        "two_full_scale_0.05_Pa.wav",
+        "möll_full_scale_0.05_Pa.wav",
+        "müll_full_scale_0.05_Pa.wav",
     ]
     signals = [read_wav(file, full_scale=0.05)[0][12000:36000] for file in wavs]
     ratio = np.sqrt(np.mean(signals[0] ** 2) / np.mean(signals[1] ** 2))
@@ -104,9 +104,9 @@ def test_the_command_writes_every_file_and_says_what_is_generic(tmp_path, caplog
     with xr.open_dataset(out / "sound_b.nc") as stored:
         assert stored.attrs["wav_full_scale_pa"] == 0.05
         assert stored["order_level"].attrs["units"] == "dB"
-    with (out / "summary.csv").open() as lines:
+    with (out / "summary.csv").open(encoding="utf-8") as lines:
         rows = list(csv.DictReader(lines))
-    assert {row["run"] for row in rows} == {"one", "two"}
+    assert {row["run"] for row in rows} == {"möll", "müll"}
     assert {"vehicle_speed_kmh", "level_a_dba", "mesh_order_1_db"} <= set(rows[0])
     page = (out / "report.html").read_text()
     assert page.count("<audio controls") == 2

@@ -120,7 +120,7 @@ def test_points_that_were_not_measured_are_refused(tmp_path):
         ("broken.sdf", "no header", "not a readable SDF file"),
         ("broken.x3p", "no archive", "not a readable X3P file"),
         ("one.csv", "x_mm,height_um\n0,0\n", "at least 4 places"),
-        ("hole.csv", "x_mm,height_um\n0,0\n1,nan\n2,0\n3,1\n4,0\n", "must be finite"),
+        ("hole.csv", "x_mm,height_um\n0,0\n1,nan\n2,0\n3,1\n4,0\n", "must be a finite number"),
         ("far.csv", "x_mm,height_um\n0,0\n2,1\n4,0\n6,1\n8,0\n", "1 um is 1e-6 m"),
         ("gap.csv", "x_mm,height_um\n0,0\n0.001,1\n0.5,0\n1,1\n", "more than 10 times as many"),
     ],

@@ -60,7 +60,7 @@ def test_single_pitch_is_the_step_from_the_tooth_before(csv):
             "cumulative",
             ["must be 0 or at least 0.1 um, got 0.003 um", "0.003 mm is 3 um"],
         ),
-        ([*LINES[:-1], "pinion,drive,5,nan"], "cumulative", ["from -500 to 500, got 'nan'"]),
+        ([*LINES[:-1], "pinion,drive,5,nan"], "cumulative", ["within -500 to 500 um, got 'nan'"]),
     ],
 )
 def test_wrong_pitch_is_refused_with_line_value_and_cure(csv, lines, kind, parts):
@@ -83,8 +83,8 @@ def test_waves_are_read_in_metres_and_radians(csv):
     [
         ("gear,drive,83,0.2,0", "83 waves of the gear's drive flank occur twice"),
         ("gear,drive,8.5,0.2,0", "waves must be a whole number"),
-        ("gear,drive,84,-0.2,0", "amplitude_um must be a number from 0 to 50"),
-        ("gear,drive,84,0.2,400", "phase_deg must be a number from -360 to 360"),
+        ("gear,drive,84,-0.2,0", "amplitude_um must be a finite number within 0 to 50 um"),
+        ("gear,drive,84,0.2,400", "phase_deg must be a finite number within -360 to 360 deg"),
     ],
 )
 def test_wrong_waves_are_refused(csv, line, part):

@@ -17,6 +17,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.storage.atomic_file import atomic_write
+from gearlube_core.storage.file_names import file_stem, told_apart
 
 FILE_LIMIT = 1000
 _PLANES = (("x", "y"), ("map_s", "map_t"))
@@ -43,10 +44,11 @@ def write_vtk(dataset: xr.Dataset, folder: Path) -> list[Path]:
             f"{', '.join(map(str, dataset.data_vars)) or 'none'}. Fields are in the results of "
             "gearlube contact and gearlube ehl; choose csv or mat for others."
         )
-    files = {}
-    for (plane, others), names in groups.items():
-        for place in _places(dataset, others):
-            files["_".join([names[0], *_words(dataset, place)])] = (plane, names, place)
+    files = [
+        (plane, names, place)
+        for (plane, others), names in groups.items()
+        for place in _places(dataset, others)
+    ]
     if len(files) > FILE_LIMIT:
         raise ParameterError(
             f"At most {FILE_LIMIT} VTK files are written, got {len(files)}. Choose variables with "
@@ -54,7 +56,10 @@ def write_vtk(dataset: xr.Dataset, folder: Path) -> list[Path]:
         )
     folder.mkdir(parents=True, exist_ok=True)
     paths = []
-    for stem, (plane, names, place) in files.items():
+    stems = told_apart(
+        file_stem("_".join([names[0], *_words(dataset, place)])) for _, names, place in files
+    )
+    for stem, (plane, names, place) in zip(stems, files, strict=True):
         on_flank = plane == _PLANES[1]
         points, cells = _flank(dataset, place) if on_flank else _plane(dataset, plane)
         fields = {heading(n, dataset[n]): _field(dataset[n], plane, place) for n in names}

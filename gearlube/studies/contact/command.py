@@ -19,6 +19,7 @@ from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
+from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.contact.summary import ContactSummary
@@ -204,7 +205,7 @@ def contact(
         console.print(_table(file.name, rows))
         for sentence in [*levels_left_out(results.contact), *edge_warnings(results.contact)]:
             logger.warning("%s", sentence)
-        table = out / f"{file.name}.nc"
+        table = out / f"{pair_stem(file.name)}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)
         if films is not None:
             logger.info("Animation: %s", animation)

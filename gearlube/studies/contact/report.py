@@ -21,6 +21,7 @@ from gearlube.studies.contact.figures.solid_view import solid_view
 from gearlube.studies.contact.findings import findings, numbers
 from gearlube.studies.contact.summary import contact_summary
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.storage.file_names import pair_stem
 
 _LIMITS = (
     "Quasi-static: the pair turns slowly. Vibration, friction and oil film are not in the contact.",
@@ -79,7 +80,7 @@ def contact_report(contact: xr.Dataset, figures: Path, command_line: str = "") -
             for name, text in (("command", command_line), ("source", str(attributes["source"])))
             if text
         ],
-        files=(f"{attributes['name']}.nc", "contact.nc", "figures/"),
+        files=(f"{pair_stem(attributes['name'])}.nc", "contact.nc", "figures/"),
     )
 
 

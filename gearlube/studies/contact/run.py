@@ -16,6 +16,7 @@ from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
+from gearlube_core.storage.file_names import pair_stem
 
 POSITIONS = "positions"  # folder of finished positions, in that of the results
 
@@ -88,5 +89,5 @@ def run_contact(
         write_contact_report(dataset, folder, command_line)
     results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
     if folder is not None:
-        write_mesh_table(results.mesh_table, folder / f"{file.name}.nc")
+        write_mesh_table(results.mesh_table, folder / f"{pair_stem(file.name)}.nc")
     return results

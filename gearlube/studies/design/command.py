@@ -18,6 +18,7 @@ from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
+from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.design.summary import AskedAndFound
@@ -70,7 +71,7 @@ def design(
                 file, folder=out, jobs=jobs, progress=progress, command_line=command_line()
             )
         console.print(_table(file.name, asked_and_found(results.design)))
-        gear = out / f"{results.design.file.name}.toml"
+        gear = out / f"{pair_stem(results.design.file.name)}.toml"
         logger.info("Designed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s, %s, %s", gear, out / "design.nc", out / "figures")
         tell_findings(findings(results.dataset), out / PAGE)

@@ -17,6 +17,7 @@ from gearlube.report.pictures import pictured
 from gearlube.studies.design.figures import DESIGN_CATALOGUE
 from gearlube.studies.design.findings import findings, numbers
 from gearlube_core.hypoid_design.pinion_fit import SIDES
+from gearlube_core.storage.file_names import pair_stem
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 _MICRO = 1e-6
@@ -67,7 +68,13 @@ def design_report(dataset: xr.Dataset, figures: Path, command_line: str = "") ->
         ],
         limits=_LIMITS,
         facts=[("command", command_line)] if command_line else [],
-        files=(f"{attributes['name']}.toml", "axle.toml", "problem.toml", "design.nc", "figures/"),
+        files=(
+            f"{pair_stem(attributes['name'])}.toml",
+            "axle.toml",
+            "problem.toml",
+            "design.nc",
+            "figures/",
+        ),
     )
 
 

@@ -18,6 +18,7 @@ from gearlube_core.hypoid_design.design import Design, design_pair
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm, tooth_form
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.storage.file_names import pair_stem
 
 _SHARE = 0.9  # of the time for the settings
 
@@ -105,9 +106,9 @@ def write_design(results: DesignResults, folder: Path, command_line: str = "") -
     """Write gear file, axle.toml, problem.toml, report, design.nc, figures/; return the first."""
     folder.mkdir(parents=True, exist_ok=True)
     file = results.design.file
-    path = folder / f"{file.name}.toml"
+    path = folder / f"{pair_stem(file.name)}.toml"
     write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
-    write_text(axle_stub(file.name), folder / "axle.toml")
+    write_text(axle_stub(pair_stem(file.name)), folder / "axle.toml")
     write_text(problem_text(results.design), folder / PROBLEM)
     write_dataset(results.dataset, folder / "design.nc")
     save_pictures(DESIGN_CATALOGUE, folder / "figures", results.dataset)

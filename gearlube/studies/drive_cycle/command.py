@@ -25,8 +25,11 @@ def drive_cycle(
     cycle: Annotated[
         str,
         typer.Option(
-            help="nedc, wltc, ftp75, or a CSV file with time_s and speed_kmh, or with time_s, "
-            "pinion_speed_rpm and pinion_torque_n_m; a row at least every 5 s.",
+            "--cycle",
+            "--trace",
+            help="nedc, wltc, ftp75, a cycle of VECTO (.vdri), or a CSV file with time_s and "
+            "speed_kmh, or time_s, pinion_speed_rpm and pinion_torque_n_m; a row at least every "
+            "5 s.",
             metavar="NAME|FILE",
         ),
     ] = "nedc",

@@ -174,6 +174,7 @@ def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> di
     ranges = [settings.car.axle.ranges[i] for i in left]
     return {
         "cycle": cycle.name,
+        "trace_notes": "\n".join(cycle.notes),
         "axle": settings.car.name,
         "oil": settings.car.axle.oil.name,
         **film_model_attributes(settings.car.axle.film_models),

@@ -32,6 +32,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         *_solved(dataset),
         *_rollers(dataset),
         _ranges(dataset),
+        *(Finding(WARNING, note) for note in dataset.attrs.get("trace_notes", "").splitlines()),
         Finding(NOTE, f"Not modelled: {dataset.attrs['not_modelled']}."),
     ]
 

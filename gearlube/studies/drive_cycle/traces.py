@@ -13,6 +13,7 @@ from gearlube.studies.drive_cycle.packaged_cycles import ftp75, wltc
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.table import TABLES
 
 NAMED: dict[str, Callable[[], tuple[Array, Array]]] = {"nedc": nedc, "wltc": wltc, "ftp75": ftp75}
 MOST_ROWS = 200_000
@@ -21,6 +22,9 @@ _LONGEST_STEP, _SHORTEST_GAP = 5.0, 2.0  # s
 _USUAL_STEPS = 10.0  # that a gap lasts
 HARDEST = 8.0, 12.0  # m/s2: two driven tyres on dry road; four that brake
 _STEEPEST = 0.5
+# sensor noise around rest: below half of the 1 km/h under which a car stands in tests of real
+# driving (Regulation (EU) 2017/1151, Annex IIIA, 6.8); 0.5 km/h is about 15 rpm of a pinion
+_NOISE = {"speed": (0.5 / 3.6, 3.6, "km/h"), "pinion_speed": (1.6, 30.0 / np.pi, "rpm")}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,6 +47,9 @@ class DriveCycle:
     pinion_speed, pinion_torque : ndarray of shape (n,), optional
         Measured pinion speed and torque, instead of speed and grade [rad/s], [N.m]; torque below 0:
         coast.
+    notes : tuple of str
+        What was done to the trace, in sentences. Speeds down to -0.5 km/h and pinion speeds down to
+        -15 rpm are noise of a sensor at rest: they become 0, with a note.
 
     Raises
     ------
@@ -62,6 +69,7 @@ class DriveCycle:
     grade: Array | None = None
     pinion_speed: Array | None = None
     pinion_torque: Array | None = None
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         measured = self.pinion_speed is not None and self.pinion_torque is not None
@@ -124,7 +132,29 @@ class DriveCycle:
                 "corners needs rows between them, such as one a second. Times are in seconds."
             )
 
+    def _rest_is_zero(self, name: str) -> None:
+        """Take the noise of a sensor at rest as 0; refuse a car that drives backwards."""
+        values = getattr(self, name)
+        noise, factor, unit = _NOISE[name]
+        back = np.flatnonzero(values < -noise)
+        if back.size:
+            raise ParameterError(
+                f"{name} of {self.name} must be at least {-factor * noise:.3g} {unit}, got "
+                f"{factor * values[back[0]]:.3g} {unit} in row {back[0] + 1}, and {back.size} such "
+                "rows in all. Driving backwards is not modelled: cut these rows out, or write 0 "
+                "there. If the car drives forwards, change the sign of the column."
+            )
+        below = np.flatnonzero(values < 0.0)
+        if below.size:
+            object.__setattr__(self, name, np.maximum(values, 0.0))
+            note = (
+                f"{below.size} of {values.size} rows have a {name.replace('_', ' ')} from "
+                f"{factor * values.min():.3g} {unit} to 0: noise of a sensor at rest, taken as 0."
+            )
+            object.__setattr__(self, "notes", (*self.notes, note))
+
     def _check_values(self) -> None:
+        self._rest_is_zero("pinion_speed" if self.speed is None else "speed")
         if self.speed is None:
             self._within(
                 "pinion_speed", 0.0, MAX_SPEED, "rad/s", "Name the column pinion_speed_rpm?"
@@ -180,23 +210,23 @@ class DriveCycle:
         if name not in NAMED:
             raise ParameterError(
                 f"A cycle must be one of {', '.join(NAMED)}, got {name!r}. A trace of your own "
-                "is a CSV file."
+                "is a table (CSV) or a cycle of VECTO (.vdri)."
             )
         time, speed = NAMED[name]()
         return cls(name=name, time=time, speed=speed)
 
     @classmethod
     def read(cls, path: str | Path) -> DriveCycle:
-        """Return the cycle of a CSV file; see `trace_file.read_trace` for its columns."""
+        """Return the cycle of a table or of VECTO (.vdri), see `trace_file.read_trace`."""
         from gearlube.studies.drive_cycle.trace_file import read_trace
 
         return cls(name=Path(path).stem, **read_trace(Path(path)))
 
     @classmethod
     def given(cls, text: str) -> DriveCycle:
-        """Return the cycle of a name, or of a file if the text ends in .csv or is a path."""
+        """Return the cycle of a name, or of a file if the text ends like one or is a path."""
         if text.lower() in NAMED:
             return cls.named(text.lower())
-        if text.lower().endswith(".csv") or Path(text).exists():
+        if text.lower().endswith((*TABLES, ".vdri")) or Path(text).exists():
             return cls.read(text)
         return cls.named(text)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from pathlib import Path
 from typing import NamedTuple
@@ -16,6 +15,7 @@ from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.ehl.gears.hypoid_window import pair_contact
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.film_model.groups import FilmContact
+from gearlube_core.input_file.table import TABLES, read_table
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 COLUMNS = ("pinion_speed_rpm", "pinion_torque_n_m", "oil_temperature_degc")
@@ -44,15 +44,16 @@ def visited_points(run: Path) -> OperatingPoints:
     FileError
         There is none, or it cannot be read.
     ParameterError
-        No point turns under load.
+        The table cannot be read, see `read_table`, or no point turns under load.
     """
     if run.is_dir():
         found = [run / name for name in _FILES if (run / name).exists()]
         if not found:
             raise FileError(f"{run} must hold {' or '.join(_FILES)}, got neither. {_CURE}")
         speed, torque, temperature = _of_dataset(found[0])
-    elif run.suffix == ".csv":
-        speed, torque, temperature = _of_table(run)
+    elif run.suffix.lower() in TABLES:
+        table = read_table(run, COLUMNS, cure=_CURE)
+        speed, torque, temperature = (table.column(name) for name in COLUMNS)
     else:
         raise FileError(f"The run must be a folder or a CSV file, got {run}. {_CURE}")
     held = (speed > 0.0) & (torque != 0.0) & np.isfinite(speed + torque + temperature)
@@ -75,18 +76,6 @@ def _of_dataset(path: Path) -> tuple[Array, Array, Array]:
             return speed, torque, dataset["oil_temperature"].values[: speed.size]
     except (OSError, KeyError, ValueError) as error:
         raise FileError(f"{path} cannot be read: {error}. {_CURE}") from error
-
-
-def _of_table(path: Path) -> tuple[Array, Array, Array]:
-    try:
-        with path.open(newline="", encoding="utf-8") as stream:
-            rows = [[float(row[name]) for name in COLUMNS] for row in csv.DictReader(stream)]
-    except (OSError, KeyError, ValueError, TypeError) as error:
-        raise FileError(f"{path} cannot be read: {error}. {_CURE}") from error
-    if not rows:
-        raise FileError(f"{path} has no rows. {_CURE}")
-    speed, torque, temperature = np.array(rows).T
-    return speed, torque, temperature
 
 
 def visited_contacts(

@@ -15,6 +15,7 @@ from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.report_end import finish_with_report
 from gearlube.cli.results_folder import results_folder
+from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.measured.teeth import ToothErrorResults
@@ -101,7 +102,7 @@ def measured(
         console.print(_table(flanks))
         for one in fits:
             console.print(_settings(flanks.file.name, one))
-        gear = out / f"{flanks.file.name}.toml"
+        gear = out / f"{pair_stem(flanks.file.name)}.toml"
         logger.info("Results: %s (gear file), %s", gear, out / "flanks.nc")
         finish_with_report(flank_report(dataset, out / "flanks.png"), out)
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
@@ -135,7 +136,7 @@ def _teeth(file: str, table: str, positions: int, out: Path, jobs: int | None) -
             file, table, positions=positions, folder=out, jobs=jobs, progress=progress
         )
     console.print(_orders(found))
-    mesh = out / f"{found.flanks.file.name}.nc"
+    mesh = out / f"{pair_stem(found.flanks.file.name)}.nc"
     logger.info("Results: %s (mesh table), %s", mesh, out / "tooth_errors.png")
     finish_with_report(tooth_report(found.dataset), out)
     logger.info("Next: gearlube sweep --mesh-table %s", mesh)

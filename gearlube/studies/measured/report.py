@@ -19,6 +19,7 @@ from gearlube.studies.measured.findings import (
     tooth_numbers,
 )
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.storage.file_names import pair_stem
 
 _MICRO = 1e6
 
@@ -53,7 +54,7 @@ def flank_report(flanks: xr.Dataset, picture: Path) -> Report:
             "Roughness is not in a smooth surface.",
         ),
         facts=[("source", str(attributes["source"]))],
-        files=(f"{attributes['name']}.toml", "flanks.nc", "flanks.png"),
+        files=(f"{pair_stem(attributes['name'])}.toml", "flanks.nc", "flanks.png"),
     )
 
 
@@ -161,7 +162,7 @@ def tooth_report(teeth: xr.Dataset) -> Report:
             "the mesh table; a table shows it.",
             "Orders above a quarter of the positions times the teeth are not kept.",
         ),
-        files=(f"{attributes['name']}.nc", "tooth_errors.nc", "tooth_errors.png"),
+        files=(f"{pair_stem(attributes['name'])}.nc", "tooth_errors.nc", "tooth_errors.png"),
     )
 
 

@@ -11,6 +11,7 @@ from gearlube_core.hypoid_geometry.measured.measured_flanks import (
     read_measured_flanks,
 )
 from gearlube_core.storage.atomic_file import write_text
+from gearlube_core.storage.file_names import pair_stem
 
 
 def run_measured(path: str | Path, *, folder: Path | None = None) -> MeasuredFlanks:
@@ -37,6 +38,7 @@ def run_measured(path: str | Path, *, folder: Path | None = None) -> MeasuredFla
     file = flanks.gear_file()
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
-        write_text(toml_text(file.model_dump(exclude_defaults=True)), folder / f"{file.name}.toml")
+        text = toml_text(file.model_dump(exclude_defaults=True))
+        write_text(text, folder / f"{pair_stem(file.name)}.toml")
         measured_flanks(flanks).savefig(folder / "flanks.png")
     return flanks

@@ -24,6 +24,7 @@ from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
+from gearlube_core.storage.file_names import pair_stem
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 POSITIONS = 12
@@ -121,7 +122,7 @@ def run_tooth_errors(
     results = ToothErrorResults(flanks=flanks, cycle=cycle, mesh_table=cycle.added_to(nominal))
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
-        write_mesh_table(results.mesh_table, folder / f"{file.name}.nc")
+        write_mesh_table(results.mesh_table, folder / f"{pair_stem(file.name)}.nc")
         write_dataset(results.dataset, folder / "tooth_errors.nc")
         tooth_errors(cycle, file.name).savefig(folder / "tooth_errors.png")
     return results

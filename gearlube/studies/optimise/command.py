@@ -19,6 +19,7 @@ from gearlube.cli.progress_report import progress_on
 from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
 from gearlube_core.checks import check_within
+from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.optimise.summary import MeasureRow
@@ -99,7 +100,7 @@ def optimise(
         found = results.optimised
         console.print(_table(given.name, measure_rows(found)))
         logger.info("Optimised in %.1f s.", time.monotonic() - began)
-        gear = out / f"{given.name}.toml"
+        gear = out / f"{pair_stem(given.name)}.toml"
         logger.info("Results: %s, %s, %s", gear, out / "optimise.nc", out / "figures")
         tell_findings(findings(results.dataset), out / PAGE)
         kind = "contact" if found.problem.is_hypoid else "helical"

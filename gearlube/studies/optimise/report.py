@@ -18,6 +18,7 @@ from gearlube.studies.optimise.figures import NAMES, error_words
 from gearlube.studies.optimise.findings import findings, numbers
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.storage.file_names import pair_stem
 
 _MICRO = 1e6
 _MOST_FIELDS = 8  # that a table of the front shows
@@ -68,7 +69,7 @@ def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:
         ],
         limits=_LIMITS,
         facts=[("command", command_line)] if command_line else [],
-        files=(f"{attributes['name']}.toml", "optimise.nc", "figures/"),
+        files=(f"{pair_stem(attributes['name'])}.toml", "optimise.nc", "figures/"),
     )
 
 

@@ -16,6 +16,7 @@ from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.storage.file_names import pair_stem
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,7 +86,7 @@ def write_optimise(results: OptimiseResults, folder: Path, command_line: str = "
     """Write gear file, report.html, optimise.nc and figures/; return the gear file."""
     folder.mkdir(parents=True, exist_ok=True)
     found = results.optimised
-    path = folder / f"{found.problem.given.name}.toml"
+    path = folder / f"{pair_stem(found.problem.given.name)}.toml"
     file = found.better.file.model_copy(
         update={
             "name": found.problem.given.name,

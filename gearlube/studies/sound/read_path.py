@@ -10,6 +10,7 @@ from gearlube.studies.sound.transfer_csv import read_csv_path
 from gearlube.studies.sound.transfer_path import TransferPath
 from gearlube.studies.sound.transfer_uff import read_uff_path
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.table import TABLES
 
 _UFF = (".uff", ".unv", ".uf", ".58")
 
@@ -30,11 +31,12 @@ def read_transfer(file: Path | str | None, record: ForceRecord) -> TransferPath:
         bearings = list(dict.fromkeys(bearing for bearing, _, _ in named))
         directions = list(dict.fromkeys(direction for _, _, direction in named))
         found = read_uff_path(path, bearings, directions)
-    elif path.suffix.lower() == ".csv":
+    elif path.suffix.lower() in TABLES:
         found = read_csv_path(path)
     else:
         raise ParameterError(
-            f"A transfer path must be a .csv or a universal file ({', '.join(_UFF)}), got {path}."
+            f"A transfer path must be a table ({', '.join(TABLES)}) or a universal file "
+            f"({', '.join(_UFF)}), got {path}."
         )
     found.check_paths(record.paths)
     return found

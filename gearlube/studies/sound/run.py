@@ -26,7 +26,7 @@ from gearlube.studies.sound.pressure import sound_pressure
 from gearlube.studies.sound.read_path import read_transfer
 from gearlube.studies.sound.results import write_sound
 from gearlube.studies.sound.settings import METRICS, SoundSettings
-from gearlube.studies.sound.wav import full_scale_for, played, wav_name
+from gearlube.studies.sound.wav import full_scale_for, played, wav_names
 from gearlube.studies.sound.words import limit_sentences, sound_sentences
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress, part_of
@@ -103,7 +103,7 @@ def run_sound(
     if len(heard) == 2:
         common_speeds(heard[0].dataset, heard[1].dataset)
     full_scale = _full_scale(heard, settings)
-    files = [wav_name(str(one.dataset.attrs["name"]), full_scale) for one in heard]
+    files = wav_names([str(one.dataset.attrs["name"]) for one in heard], full_scale)
     sound = Sound(
         runs=tuple(replace(one, wav=name) for one, name in zip(heard, files, strict=True)),
         full_scale=full_scale,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from pathlib import Path
 
@@ -11,7 +10,8 @@ import numpy as np
 from gearlube.studies.sound.generic_path import generic_path
 from gearlube.studies.sound.transfer_path import Complex, TransferPath
 from gearlube_core.arrays import Array
-from gearlube_core.errors import FileError, ParameterError, why
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.table import read_table
 
 AXLE_FORCES = tuple(
     f"{bearing}.{direction}"
@@ -37,17 +37,16 @@ def read_csv_path(file: Path) -> TransferPath:
 
     Raises
     ------
-    FileError
-        The file cannot be read.
     ParameterError
-        A heading has no unit or is not known, half of a pair is missing, a cell is no number.
+        The file cannot be read, see `read_table`; a heading has no unit or is not known, or half
+        of a pair is missing.
     """
-    head, rows = _table(file)
+    table = read_table(file, fewest=2, cure=_CURE)
     columns: dict[tuple[str, str], Array] = {}
     frequency = None
-    for i, heading in enumerate(head):
+    for heading in table.names:
         path, part, unit = _meaning(heading, file)
-        values = rows[:, i]
+        values = table.column(heading)
         if part == "frequency":
             frequency = values
         elif unit in _REFERENCE:
@@ -74,30 +73,6 @@ def example_text() -> str:
         columns += [20.0 * np.log10(np.abs(response) / 20e-6), np.angle(response, deg=True)]
     rows = "".join(",".join(f"{one:.6g}" for one in row) + "\n" for row in np.column_stack(columns))
     return f"# {path.source}. Put measured values in place.\n{','.join(head)}\n{rows}"
-
-
-def _table(file: Path) -> tuple[list[str], Array]:
-    try:
-        text = file.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as reason:
-        raise FileError(f"The transfer path {file} cannot be read: {why(reason)}.") from None
-    lines = [row for row in csv.reader(text.splitlines()) if row and not row[0].startswith("#")]
-    if len(lines) < 3:
-        raise ParameterError(
-            f"{file} must have a line of headings and at least two lines of numbers, got "
-            f"{len(lines)} lines. {_CURE}"
-        )
-    head = lines[0]
-    rows = np.empty((len(lines) - 1, len(head)))
-    for i, row in enumerate(lines[1:]):
-        try:
-            rows[i] = [float(cell) for cell in row]
-        except ValueError:
-            raise ParameterError(
-                f"Row {i + 1} of {file} must have {len(head)} numbers, one for each heading, got "
-                f"{', '.join(row)[:80]}. Fill the row or leave it out; the decimal sign is a point."
-            ) from None
-    return head, rows
 
 
 def _meaning(heading: str, file: Path) -> tuple[str, str, str]:

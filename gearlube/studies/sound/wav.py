@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +12,10 @@ from gearlube.studies.sound.resample import resampled
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.storage.atomic_file import atomic_write
+from gearlube_core.storage.file_names import file_stem, told_apart
 
 _LARGEST = 32767  # of 16 bits
-OWN_WAV = "*_full_scale_*_Pa.wav"  # what a study writes, see `wav_name`
+OWN_WAV = "*_full_scale_*_Pa.wav"  # what a study writes, see `wav_names`
 _STEPS = (1.0, 2.0, 5.0)
 
 
@@ -40,16 +41,16 @@ def played(pressure: Array, rate: int) -> Array:
     return resampled(pressure, rate / RATE)
 
 
-def wav_name(name: str, full_scale: float) -> str:
-    """Return the name of a WAV: it says the full scale.
+def wav_names(runs: Sequence[str], full_scale: float) -> list[str]:
+    """Return the names of the WAV files of runs, each of its own: they say the full scale.
 
     Examples
     --------
-    >>> wav_name("my axle", 0.5)
-    'my_axle_full_scale_0.5_Pa.wav'
+    >>> wav_names(["müll", "möll 2"], 0.5)
+    ['müll_full_scale_0.5_Pa.wav', 'möll_2_full_scale_0.5_Pa.wav']
     """
-    plain = re.sub(r"[^A-Za-z0-9_.-]+", "_", name).strip("_.") or "run"
-    return f"{plain}_full_scale_{full_scale:g}_Pa.wav"
+    stems = told_apart(file_stem(run, "run") for run in runs)
+    return [f"{stem}_full_scale_{full_scale:g}_Pa.wav" for stem in stems]
 
 
 def write_wav(pressure: Array, file: Path, *, full_scale: float, rate: int = RATE) -> None:

@@ -11,7 +11,8 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side
-from gearlube_core.hypoid_geometry.measured.csv_rows import read_rows
+from gearlube_core.hypoid_geometry.measured.member_rows import role_of, side_of
+from gearlube_core.input_file.table import read_table
 
 COLUMNS = ("member", "flank", "tooth", "row", "column", "deviation_um")
 MOST_POINTS = 99  # rows or columns of a grid
@@ -123,9 +124,9 @@ def read_deviation_grids(
         if it were in another unit, or its middle point is not zero though it should be.
     """
     values: dict[tuple[Role, Side], dict[int, Array]] = {}
-    for row in read_rows(path, COLUMNS):
-        role = row.role()
-        side = row.side(role)
+    for row in read_table(path, COLUMNS):
+        role = role_of(row)
+        side = side_of(row, role)
         if (role, side) not in places:
             raise ParameterError(
                 f"{row.where}: the file has points of the {role}'s {side} flank, whose grid is not "
@@ -135,7 +136,7 @@ def read_deviation_grids(
         at = places[role, side]
         shape = at.s.size, at.t.size
         i, j = row.whole("row", 1, shape[0]) - 1, row.whole("column", 1, shape[1]) - 1
-        value = row.number("deviation_um", -_MOST, _MOST, "Give micrometres, plus for material.")
+        value = row.number("deviation_um", -_MOST, _MOST, "um", "Plus for material.")
         grid = values.setdefault((role, side), {}).setdefault(tooth, np.full(shape, np.nan))
         if np.isfinite(grid[i, j]):
             raise ParameterError(

@@ -14,8 +14,9 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.export import MIRROR
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.measured.csv_rows import read_rows
 from gearlube_core.hypoid_geometry.measured.deviation_grid import MOST_POINTS, GridPlaces
+from gearlube_core.hypoid_geometry.measured.member_rows import role_of, side_of
+from gearlube_core.input_file.table import read_table
 from gearlube_core.units import MILLIMETRE
 
 COLUMNS = ("member", "flank", "row", "column", "x_mm", "y_mm", "z_mm")
@@ -164,17 +165,16 @@ def _unwound(sine: Array, cosine: Array) -> Array:
 def _read(path: str | Path) -> dict[tuple[Role, Side], Array]:
     """Return the points of each flank in the file [m], (m, n, 3)."""
     values: dict[tuple[Role, Side], dict[tuple[int, int], list[float]]] = {}
-    for row in read_rows(path, COLUMNS):
-        role = row.role()
-        found = values.setdefault((role, row.side(role)), {})
+    for row in read_table(path, COLUMNS):
+        role = role_of(row)
+        found = values.setdefault((role, side_of(row, role)), {})
         place = row.whole("row", 1, MOST_POINTS), row.whole("column", 1, MOST_POINTS)
         if place in found:
             raise ParameterError(
                 f"{row.where}: the point {place[0]}, {place[1]} occurs twice. Keep one."
             )
         found[place] = [
-            row.number(name, -_FARTHEST, _FARTHEST, "Give millimetres.")
-            for name in ("x_mm", "y_mm", "z_mm")
+            row.number(name, -_FARTHEST, _FARTHEST, "mm") for name in ("x_mm", "y_mm", "z_mm")
         ]
     grids = {}
     for (role, side), points in sorted(values.items()):

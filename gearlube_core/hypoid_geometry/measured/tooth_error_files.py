@@ -11,8 +11,9 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side
-from gearlube_core.hypoid_geometry.measured.csv_rows import read_rows
+from gearlube_core.hypoid_geometry.measured.member_rows import role_of, side_of
 from gearlube_core.hypoid_geometry.measured.tooth_errors import Wave
+from gearlube_core.input_file.table import read_table
 from gearlube_core.units import DEGREE
 
 PITCH_COLUMNS = ("member", "flank", "tooth", "deviation_um")
@@ -46,9 +47,9 @@ def read_pitch(
         deviations do not sum to zero.
     """
     values: dict[tuple[Role, Side], Array] = {}
-    for row in read_rows(path, PITCH_COLUMNS):
-        role = row.role()
-        side = row.side(role)
+    for row in read_table(path, PITCH_COLUMNS):
+        role = role_of(row)
+        side = side_of(row, role)
         tooth = row.whole("tooth", 1, teeth[role]) - 1
         found = values.setdefault((role, side), np.full(teeth[role], np.nan))
         if np.isfinite(found[tooth]):
@@ -56,7 +57,7 @@ def read_pitch(
                 f"{row.where}: tooth {tooth + 1} of the {role}, {side} flank, occurs twice. Keep "
                 "one, or check the flank."
             )
-        found[tooth] = row.number("deviation_um", -_MOST, _MOST, "Give micrometres.")
+        found[tooth] = row.number("deviation_um", -_MOST, _MOST, "um")
     result = {}
     for (role, side), found in sorted(values.items()):
         where = f"{path}: {role}, {side} flank"
@@ -95,14 +96,14 @@ def read_waves(path: str | Path) -> dict[tuple[Role, Side], tuple[Wave, ...]]:
         A number is out of range, or a number of waves is given twice.
     """
     values: dict[tuple[Role, Side], dict[int, Wave]] = {}
-    for row in read_rows(path, WAVE_COLUMNS):
-        role = row.role()
-        side = row.side(role)
+    for row in read_table(path, WAVE_COLUMNS):
+        role = role_of(row)
+        side = side_of(row, role)
         count = row.whole("waves", 1, 10_000)
         wave = Wave(
             count,
-            1e-6 * row.number("amplitude_um", 0.0, 50.0, "Half of peak to peak, micrometres."),
-            DEGREE * row.number("phase_deg", -360.0, 360.0, "Degrees."),
+            1e-6 * row.number("amplitude_um", 0.0, 50.0, "um", "Half of peak to peak."),
+            DEGREE * row.number("phase_deg", -360.0, 360.0, "deg"),
         )
         found = values.setdefault((role, side), {})
         if count in found:

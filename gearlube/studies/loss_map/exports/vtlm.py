@@ -18,6 +18,8 @@ def vtlm_text(dataset: xr.Dataset) -> str:
     """Return the lines of a .vtlm file: input is the pinion, coast torque negative, loss positive.
 
     The torque of the wheels is (torque - loss) times the ratio. Points that failed are left out.
+    Rows at 0 rpm repeat the lowest speed, as in VECTO's generic axles: VECTO starts from rest, and
+    friction from rest is not computed.
 
     Raises
     ------
@@ -25,12 +27,16 @@ def vtlm_text(dataset: xr.Dataset) -> str:
         Fewer than four points are left; VECTO refuses such a map.
     """
     loss = dataset["loss_torque"].transpose("speed", "torque").values
-    return _text(
+    rows = [
         (float(speed), float(torque), float(loss[j, k]))
         for j, speed in enumerate(dataset["speed"].values)
         for k, torque in enumerate(dataset["torque"].values)
         if np.isfinite(loss[j, k])
-    )
+    ]
+    if len(rows) >= _LEAST_ROWS and rows[0][0] > 0.0:
+        lowest = rows[0][0]
+        rows = [(0.0, torque, lost) for speed, torque, lost in rows if speed == lowest] + rows
+    return _text(rows)
 
 
 def regulation_text(found: RegulationMap) -> str:
