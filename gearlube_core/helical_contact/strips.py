@@ -18,8 +18,8 @@ from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.involute_gap import (
     engagement,
+    involute_bounds,
     roll_beside,
-    tip_edge,
 )
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
@@ -191,8 +191,9 @@ def cut_strip(
     offset = (np.arange(settings.cells_across) - settings.cells_across // 2) * across
     y = met.y + offset[:, None]
     r_p, r_g = pair.pinion_base_radius, pair.gear_base_radius
-    outside = y > tip_edge(x, r_p, pair.pinion_tip_radius) + _ON_EDGE * across
-    outside |= -y > tip_edge(pair.tangent_length - x, r_g, pair.gear_tip_radius) + _ON_EDGE * across
+    tip, mate_tip, start, mate_start = involute_bounds(x, pair)
+    on = _ON_EDGE * across
+    outside = (y > np.minimum(tip, mate_start) + on) | (y < np.maximum(mate_tip, start) - on)
     gap = normal_gap(modified, X, y, z)
     cos_b = math.cos(pair.base_helix_angle)
     return LineStrip(

@@ -15,8 +15,8 @@ from gearlube_core.checks import check_option
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, contact_modulus
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import MEMBERS, involute_flank
-from gearlube_core.helical_geometry.iso_6336_stiffness import profile_shifts
 from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.helical_geometry.tooth_limits import involute
 from gearlube_core.tooth_compliance.tooth_body import (
     FLANK_GRID,
     ToothBodySettings,
@@ -63,14 +63,10 @@ def tooth_form(pair: HelicalPair, member: str) -> ToothForm:
     """
     check_option("member", member, MEMBERS)
     k = MEMBERS.index(member)
-    teeth = (pair.pinion_teeth, pair.gear_teeth)[k]
     flank = involute_flank(pair, member)
     root = (pair.pinion_root_radius, pair.gear_root_radius)[k]
-    alpha_t = pair.transverse_pressure_angle
-    shift = profile_shifts(pair)[k]
-    half = (0.5 * math.pi + 2.0 * shift * math.tan(pair.normal_pressure_angle)) / teeth
-    half += _involute(alpha_t)
-    half -= 0.25 * pair.backlash / (math.cos(pair.base_helix_angle) * flank.base_radius)
+    reference = (pair.pinion_reference_radius, pair.gear_reference_radius)[k]
+    half = 0.5 * pair.tooth_thickness[k] / reference + involute(pair.transverse_pressure_angle)
     lowest = float(flank.radius(flank.roll_low))
     start = root + min(_CLEARANCE * pair.normal_module, _BELOW_CONTACT * (lowest - root))
     form = ToothForm(flank.base_radius, start, flank.tip_radius, root, half)
@@ -80,11 +76,6 @@ def tooth_form(pair: HelicalPair, member: str) -> ToothForm:
             f"the {member}'s teeth must be at least {_THINNEST:g} normal modules thick at their "
             f"tip, got {1e3 * land:.3g} mm of {1e3 * pair.normal_module:.3g} mm. Reduce the tip "
             "radius."
-        )
-    if start >= lowest:
-        raise ParameterError(
-            f"the {member}'s contact begins at {1e3 * lowest:.5g} mm, not above its root circle of "
-            f"{1e3 * root:.5g} mm. Reduce the root radius."
         )
     return form
 
@@ -97,10 +88,6 @@ def half_angle(form: ToothForm, radius: ArrayLike) -> Array:
     """
     roll = np.sqrt(np.maximum((np.asarray(radius) / form.base_radius) ** 2 - 1.0, 0.0))
     return np.asarray(form.base_half_angle - (roll - np.arctan(roll)))
-
-
-def _involute(angle: float) -> float:
-    return math.tan(angle) - angle
 
 
 def tooth_body(pair: HelicalPair, member: str, settings: HelicalBodySettings) -> ToothGeometry:

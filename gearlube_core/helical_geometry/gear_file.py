@@ -36,9 +36,13 @@ Origin = Literal["table", "inferred", "completed"]
 Role = Literal["pinion", "gear"]
 _MICROMETRE = 1e-6  # m
 _STEEL = 7850.0  # kg/m3
-_FULL_DEPTH = 2.25  # normal modules; [iso_53]: addendum 1, dedendum 1.25
+_DEDENDUM = 1.25  # normal modules; [iso_53], beside an addendum of 1
+_UNUSUAL = 0.15  # of an addendum less 1, and of roots against tips, where a guess is doubtful
 _ABSENT = {
-    "root_diameter_mm": "the basic rack's full depth, 2.25 normal modules, below the tip",
+    "root_diameter_mm": "the basic rack's dedendum, 1.25 normal modules, below the profile shift, "
+    "or its full depth, 2.25 normal modules, below the tip",
+    "profile_shift_coefficient": "from the centre distance without backlash, and from the other "
+    "gear's profile shift or equal addenda",
     "body.mass_kg": "a steel disc of the root diameter and the face width",
     "body.polar_inertia_kg_mm2": "a disc of the member's mass and the root diameter",
     "body.diametral_inertia_kg_mm2": "a disc: J_z/2 + m W^2/12",
@@ -142,6 +146,7 @@ class HelicalGearFile(InputFile):
         pair, cos = self.pair, math.cos(self.pair.helix_angle_deg * DEGREE)
         angles = ((pair.normal_pressure_angle_deg, 1.0), (pair.transverse_pressure_angle_deg, cos))
         tangent = next(math.tan(a * DEGREE) * factor for a, factor in angles if a is not None)
+        backlash = math.nan if pair.backlash_mm is None else pair.backlash_mm * MILLIMETRE
         return HelicalPair(
             name=self.name,
             pinion_teeth=self.pinion.teeth,
@@ -155,7 +160,9 @@ class HelicalGearFile(InputFile):
             pinion_root_radius=self._root_radius(self.pinion),
             gear_root_radius=self._root_radius(self.gear),
             face_width=pair.face_width_mm * MILLIMETRE,
-            backlash=pair.backlash_mm * MILLIMETRE,
+            backlash=backlash,
+            profile_shift=self._given_shifts,
+            fillet_factor=pair.fillet_radius_factor,
         )
 
     def modified_pair(self) -> ModifiedPair:
@@ -165,6 +172,34 @@ class HelicalGearFile(InputFile):
             pinion=_modification(self.pinion.flank),
             gear=_modification(self.gear.flank),
         )
+
+    def guessed_shifts(self) -> str:
+        """Return a sentence on profile shifts that are guessed; empty where one is given."""
+        if self._given_shifts != (None, None):
+            return ""
+        x1, x2 = (round(x, 3) + 0.0 for x in self.helical_pair().profile_shifts)
+        return (
+            f"Profile shift coefficients are guessed: x = {x1:.3f} (pinion) and {x2:.3f} (gear). "
+            "They follow from centre distance and tip diameters, with equal addenda and no "
+            "backlash. Give profile_shift_coefficient of [pinion] and [gear]."
+        )
+
+    def remarks(self) -> list[str]:
+        """Return warnings about tips, roots, undercut and guessed profile shifts."""
+        pair, doubts = self.helical_pair(), []
+        if self._given_shifts == (None, None):
+            m, (x1, x2) = pair.normal_module, pair.profile_shifts
+            pinion, gear = pair.pinion_reference_radius, pair.gear_reference_radius
+            addendum = (pair.pinion_tip_radius - pinion) / m - x1
+            roots = ((pinion - pair.pinion_root_radius) / m + x1,
+                     (gear - pair.gear_root_radius) / m + x2)  # fmt: skip
+            if max(abs(addendum - 1.0), abs(roots[0] - roots[1])) > _UNUSUAL:
+                doubts.append(
+                    "The guessed profile shifts are doubtful: with them addenda are "
+                    f"{addendum:.2f} and dedenda {roots[0]:.2f} (pinion) and {roots[1]:.2f} (gear) "
+                    "normal modules. Usual are 1 and 1.25, alike for both gears."
+                )
+        return doubts + pair.remarks()
 
     def body(self, role: Role) -> GearBody:
         """Return inertia and supports of the "pinion" or the "gear", in SI units."""
@@ -217,10 +252,18 @@ class HelicalGearFile(InputFile):
         modules = ((self.pair.normal_module_mm, 1.0), (self.pair.transverse_module_mm, cos))
         return next(m * factor * MILLIMETRE for m, factor in modules if m is not None)
 
+    @property
+    def _given_shifts(self) -> tuple[float | None, float | None]:
+        return self.pinion.profile_shift_coefficient, self.gear.profile_shift_coefficient
+
     def _root_radius(self, member: Member) -> float:
+        module, x = self._normal_module, member.profile_shift_coefficient
         if member.root_diameter_mm is not None:
             return 0.5 * member.root_diameter_mm * MILLIMETRE
-        return 0.5 * member.tip_diameter_mm * MILLIMETRE - _FULL_DEPTH * self._normal_module
+        if x is not None:
+            reference = 0.5 * member.teeth / math.cos(self.pair.helix_angle_deg * DEGREE)
+            return (reference + x - _DEDENDUM) * module
+        return 0.5 * member.tip_diameter_mm * MILLIMETRE - (1.0 + _DEDENDUM) * module
 
 
 def _modification(flank: Flank) -> FlankModification:

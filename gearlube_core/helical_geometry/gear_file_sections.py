@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from gearlube_core.helical_geometry.tooth_limits import USUAL_FILLET
 from gearlube_core.input_file.input_file import Section
 
 Nodes = Annotated[int, Field(ge=17, le=2049)]
@@ -26,6 +27,8 @@ Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Exponent = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
 Start = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
 Facets = Annotated[int, Field(ge=0, le=10000)]
+Shift = Annotated[float, Field(ge=-2.0, le=2.0, allow_inf_nan=False)]
+Fillet = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Mass = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
 Inertia = Annotated[float, Field(gt=0.0, le=1e13, allow_inf_nan=False)]
 Stiffness = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
@@ -67,8 +70,15 @@ class Pair(Section):
     )
     centre_distance_mm: Length = Field(description="Distance between the parallel axes")
     face_width_mm: Width = Field(description="Face width that both members have in common")
-    backlash_mm: Backlash = Field(
-        default=0.0, description="Normal backlash, along the line of action"
+    backlash_mm: Backlash | None = Field(
+        default=None,
+        description="Normal backlash, along the line of action; left out: what the profile shifts "
+        "leave at the centre distance, 0 without them",
+    )
+    fillet_radius_factor: Fillet = Field(
+        default=USUAL_FILLET,
+        description="Fillet radius of the basic rack divided by the normal module, for undercut; "
+        "ISO 53 has 0.38 (A), 0.3 (B), 0.25 (C)",
     )
     reduced_modulus_gpa: Modulus | None = Field(
         default=None,
@@ -205,8 +215,13 @@ class Member(Section):
     tip_diameter_mm: Length = Field(description="Tip diameter")
     root_diameter_mm: Length | None = Field(
         default=None,
-        description="Root diameter; left out: the tip diameter minus 4.5 normal modules (full "
-        "depth 2.25)",
+        description="Root diameter; left out: with a profile shift the rack's dedendum of 1.25 "
+        "normal modules, else the tip diameter minus 4.5 normal modules (full depth 2.25)",
+    )
+    profile_shift_coefficient: Shift | None = Field(
+        default=None,
+        description="Profile shift coefficient x; left out for one gear: what the centre distance "
+        "needs without backlash; left out for both: guessed from centre distance and tip diameters",
     )
     flank: Flank = Flank()
     body: Body = Body()

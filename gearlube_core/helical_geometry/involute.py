@@ -27,7 +27,7 @@ class InvoluteFlank(NamedTuple):
 
     base_radius: float  # r_b [m]
     tip_radius: float  # [m]
-    roll_low: float  # roll length where the mate's tip touches [m]
+    roll_low: float  # roll length where contact begins: the mate's tip, or above undercut [m]
     roll_high: float  # and at the own tip [m]
     face_width: float  # [m]
 
@@ -47,11 +47,11 @@ def involute_flank(pair: HelicalPair, member: str) -> InvoluteFlank:
     if member == "pinion":
         return InvoluteFlank(
             pair.pinion_base_radius, pair.pinion_tip_radius, pair.contact_start,
-            pair.contact_end, pair.face_width,
+            pair.tip_end, pair.face_width,
         )  # fmt: skip
     return InvoluteFlank(
         pair.gear_base_radius, pair.gear_tip_radius, pair.tangent_length - pair.contact_end,
-        pair.tangent_length - pair.contact_start, pair.face_width,
+        pair.tangent_length - pair.tip_start, pair.face_width,
     )  # fmt: skip
 
 

@@ -47,47 +47,15 @@ class IsoStiffness:
     outside: tuple[str, ...]
 
 
-def _involute(angle: float) -> float:
-    return math.tan(angle) - angle
-
-
 def virtual_teeth(pair: HelicalPair) -> tuple[float, float]:
     """Return z_n1, z_n2 = z/(cos2(beta_b) cos(beta)) [-]."""
     divisor = math.cos(pair.base_helix_angle) ** 2 * math.cos(pair.helix_angle)
     return pair.pinion_teeth / divisor, pair.gear_teeth / divisor
 
 
-def profile_shift_sum(pair: HelicalPair) -> float:
-    """Return x1 + x2 [-] that meshes without backlash at the centre distance.
-
-    x1 + x2 = (z1 + z2)(inv(alpha_wt) - inv(alpha_t))/(2 tan(alpha_n))
-
-    Notes
-    -----
-    Source: [iso_21771].
-    """
-    roll = _involute(pair.working_pressure_angle) - _involute(pair.transverse_pressure_angle)
-    teeth = pair.pinion_teeth + pair.gear_teeth
-    return 0.5 * teeth * roll / math.tan(pair.normal_pressure_angle)
-
-
-def profile_shifts(pair: HelicalPair) -> tuple[float, float]:
-    """Return x1, x2 [-]: their sum from the centre distance, their difference from the tips.
-
-    Both addenda are taken as alike, h_a = r_a - r - x m_n, so that
-    x1 - x2 = [(r_a1 - r_1) - (r_a2 - r_2)]/m_n.
-    """
-    half = 0.5 * pair.transverse_module
-    addendum_1 = pair.pinion_tip_radius - half * pair.pinion_teeth
-    addendum_2 = pair.gear_tip_radius - half * pair.gear_teeth
-    difference = (addendum_1 - addendum_2) / pair.normal_module
-    total = profile_shift_sum(pair)
-    return 0.5 * (total + difference), 0.5 * (total - difference)
-
-
 def rack_dedendum_of(pair: HelicalPair) -> tuple[float, float]:
     """Return h_fP/m_n of both members' basic rack [-], from their root radii."""
-    shifts, half = profile_shifts(pair), 0.5 * pair.transverse_module
+    shifts, half = pair.profile_shifts, 0.5 * pair.transverse_module
     depth_1 = half * pair.pinion_teeth - pair.pinion_root_radius
     depth_2 = half * pair.gear_teeth - pair.gear_root_radius
     return depth_1 / pair.normal_module + shifts[0], depth_2 / pair.normal_module + shifts[1]
@@ -166,7 +134,7 @@ def iso_stiffness(
     check_within("blank_factor", blank_factor, 0.5, 1.1)
     for name, value in zip(("pinion", "gear"), modulus, strict=True):
         check_within(f"modulus of the {name}", value, 1e9, 1e12, "Pa", "Steel has 2.06e11 Pa.")
-    x1, x2 = profile_shifts(pair)
+    x1, x2 = pair.profile_shifts
     z_n1, z_n2 = virtual_teeth(pair)
     terms = (1.0, 1.0 / z_n1, 1.0 / z_n2, x1, x1 / z_n1, x2, x2 / z_n2, x1**2, x2**2)
     flexibility = sum(c * term for c, term in zip(_C, terms, strict=True))

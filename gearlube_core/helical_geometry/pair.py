@@ -4,13 +4,37 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.helical_geometry.tooth_limits import (
+    USUAL_FILLET,
+    InvoluteStart,
+    RackTool,
+    check_clearance,
+    check_reach,
+    check_tip,
+    involute,
+    involute_start,
+    largest_fillet,
+    tip_thickness,
+)
 
 _METRES = "Give metres, not millimetres."
 _LARGEST_HELIX = math.radians(45.0)
+_ROUNDED_SHIFTS = 2e-3  # normal modules of backlash that shifts of three decimals leave at most
+Shifts = tuple[float, float]
+
+
+class _Member(NamedTuple):
+    role: str
+    reference: float  # radii [m]
+    base: float
+    tip: float
+    root: float
+    shift: float  # [-]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,11 +59,17 @@ class HelicalPair:
     pinion_tip_radius, gear_tip_radius : float
         [m]
     pinion_root_radius, gear_root_radius : float
-        [m]; only the teeth's elasticity depends on them.
+        [m]; elasticity of the teeth, tip clearance and undercut depend on them.
     face_width : float
         Common to both members [m].
-    backlash : float
-        Normal backlash along the line of action [m].
+    backlash : float, optional
+        Normal backlash along the line of action [m]; left out: what given profile shifts leave,
+        which is the least, or none.
+    profile_shift : tuple of float or None
+        x1, x2 [-]; None for one: what the other leaves of `profile_shift_sum`; for both:
+        `guessed_shifts`.
+    fillet_factor : float
+        Corner radius of the tool, or fillet radius of the basic rack, in normal modules [-].
 
     Raises
     ------
@@ -64,7 +94,9 @@ class HelicalPair:
     pinion_root_radius: float
     gear_root_radius: float
     face_width: float
-    backlash: float = 0.0
+    backlash: float = math.nan
+    profile_shift: tuple[float | None, float | None] = (None, None)
+    fillet_factor: float = USUAL_FILLET
 
     def __post_init__(self) -> None:
         for name in ("pinion_teeth", "gear_teeth"):
@@ -76,7 +108,6 @@ class HelicalPair:
         )
         check_within("helix_angle", self.helix_angle, 0.0, _LARGEST_HELIX, "rad", "Give radians.")
         check_positive("face_width", self.face_width, "m", _METRES)
-        check_within("backlash", self.backlash, 0.0, self.normal_module, "m", _METRES)
         smallest = self.pinion_base_radius + self.gear_base_radius
         check_within(
             "centre_distance", self.centre_distance, 1.0001 * smallest, 1.3 * smallest, "m",
@@ -90,18 +121,71 @@ class HelicalPair:
             base = getattr(self, f"{member}_base_radius")
             check_within(f"{member}_tip_radius", tip, base, 2.0 * base, "m", _METRES)
             check_within(f"{member}_root_radius", root, 0.3 * base, tip, "m", _METRES)
+        self._check_backlash()
         if self.contact_start < 0.0 or self.contact_end > self.tangent_length:
             raise ParameterError(
                 "Contact must lie between the tangent points of the base circles, 0 to "
                 f"{1e3 * self.tangent_length:.4g} mm, got {1e3 * self.contact_start:.4g} to "
                 f"{1e3 * self.contact_end:.4g} mm. Reduce the tip radii: the teeth interfere."
             )
+        self.remarks()
         if not self.transverse_contact_ratio + self.overlap_ratio > 1.0:
+            undercut = any(start.undercut for start in self.involute_starts)
             raise ParameterError(
                 "the total contact ratio must exceed 1, got "
-                f"{self.transverse_contact_ratio + self.overlap_ratio:.4g}. "
-                "Use longer teeth or a wider face."
+                f"{self.transverse_contact_ratio + self.overlap_ratio:.4g}. Use longer teeth or a "
+                f"wider face{', or more teeth, which are undercut' if undercut else ''}."
             )
+
+    def _check_backlash(self) -> None:
+        """Complete the backlash; raise ParameterError where it contradicts the profile shifts."""
+        if math.isnan(self.backlash):
+            object.__setattr__(self, "backlash", max(self.backlash_of_shifts, 0.0))
+        check_within("backlash", self.backlash, 0.0, self.normal_module, "m", _METRES)
+        check_within("fillet_factor", self.fillet_factor, 0.0, 1.0, "", "0.25 to 0.4 is usual.")
+        for role, x in zip(("pinion", "gear"), self.profile_shifts, strict=True):
+            if self.profile_shift != (None, None):
+                check_within(f"profile shift coefficient x of the {role}", x, -2.0, 2.0)
+        left, rounding = self.backlash_of_shifts, _ROUNDED_SHIFTS * self.normal_module
+        if left < -rounding:
+            raise ParameterError(
+                "The profile shifts must leave a normal backlash of at least 0 mm at the centre "
+                f"distance, got {1e3 * left:.4g} mm: the teeth jam. x1 + x2 must be at most "
+                f"{self.profile_shift_sum:.4f}, got {sum(self.profile_shifts):.4f}. Increase the "
+                "centre distance or reduce a profile shift."
+            )
+        if self.backlash < left - rounding:
+            raise ParameterError(
+                f"backlash must be at least the {1e3 * left:.4g} mm that the profile shifts leave "
+                f"at the centre distance, got {1e3 * self.backlash:.4g} mm. Leave it out, or "
+                "correct a profile shift or the centre distance."
+            )
+
+    def remarks(self) -> list[str]:
+        """Return warnings about the teeth, one sentence each: roots, tips, undercut.
+
+        Raises
+        ------
+        ParameterError
+            Tips that cut into the mate's root, are pointed or run into the mate's fillet.
+        """
+        m, found = self.normal_module, []
+        members = self._members
+        reached = (self.tip_start, self.tangent_length - self.tip_end)
+        for own, mate in (members, members[::-1]):
+            found += check_clearance(
+                own.role, self.centre_distance - mate.tip - own.root, m,
+                f"Increase the centre distance, or reduce the {mate.role}'s tip diameter or the "
+                f"{own.role}'s root diameter.",
+            )  # fmt: skip
+        for own, thickness in zip(members, self.tooth_thickness, strict=True):
+            arc = tip_thickness(own.reference, thickness, own.tip, self.transverse_pressure_angle)
+            lead = math.atan(math.tan(self.helix_angle) * own.tip / own.reference)
+            cure = f"Reduce the {own.role}'s tip diameter, profile shift or pressure angle."
+            found += check_tip(own.role, arc * math.cos(lead), m, cure)
+        for own, reach in zip(members, reached, strict=True):
+            found += check_reach(own.role, own.base, reach, self._rack(own), m)
+        return found
 
     @property
     def transverse_pressure_angle(self) -> float:
@@ -125,6 +209,107 @@ class HelicalPair:
 
     def _base_radius(self, teeth: int) -> float:
         return 0.5 * teeth * self.transverse_module * math.cos(self.transverse_pressure_angle)
+
+    @property
+    def pinion_reference_radius(self) -> float:
+        """[m]."""
+        return 0.5 * self.pinion_teeth * self.transverse_module
+
+    @property
+    def gear_reference_radius(self) -> float:
+        """[m]."""
+        return 0.5 * self.gear_teeth * self.transverse_module
+
+    @property
+    def _members(self) -> tuple[_Member, _Member]:
+        """Radii of pinion and gear."""
+        return (
+            _Member(
+                "pinion", self.pinion_reference_radius, self.pinion_base_radius,
+                self.pinion_tip_radius, self.pinion_root_radius, self.profile_shifts[0],
+            ),
+            _Member(
+                "gear", self.gear_reference_radius, self.gear_base_radius,
+                self.gear_tip_radius, self.gear_root_radius, self.profile_shifts[1],
+            ),
+        )  # fmt: skip
+
+    @property
+    def profile_shift_sum(self) -> float:
+        """x1 + x2 that meshes without backlash at the centre distance [-]; [iso_21771].
+
+        x1 + x2 = (z1 + z2)(inv(alpha_wt) - inv(alpha_t))/(2 tan(alpha_n))
+        """
+        roll = involute(self.working_pressure_angle) - involute(self.transverse_pressure_angle)
+        teeth = self.pinion_teeth + self.gear_teeth
+        return 0.5 * teeth * roll / math.tan(self.normal_pressure_angle)
+
+    @property
+    def guessed_shifts(self) -> Shifts:
+        """x1, x2 [-]: their sum from the centre distance, their difference from the tips.
+
+        Both addenda are taken as alike, h_a = r_a - r - x m_n, so that
+        x1 - x2 = [(r_a1 - r_1) - (r_a2 - r_2)]/m_n.
+        """
+        addendum_1 = self.pinion_tip_radius - self.pinion_reference_radius
+        addendum_2 = self.gear_tip_radius - self.gear_reference_radius
+        difference = (addendum_1 - addendum_2) / self.normal_module
+        total = self.profile_shift_sum
+        return 0.5 * (total + difference), 0.5 * (total - difference)
+
+    @property
+    def profile_shifts(self) -> Shifts:
+        """x1, x2 [-], as given, completed or guessed."""
+        x1, x2 = self.profile_shift
+        if x1 is None and x2 is None:
+            return self.guessed_shifts
+        total = self.profile_shift_sum
+        return (
+            total - (x2 or 0.0) if x1 is None else x1,
+            total - (x1 or 0.0) if x2 is None else x2,
+        )
+
+    @property
+    def backlash_of_shifts(self) -> float:
+        """Normal backlash [m] of teeth as thick as given profile shifts make them; else 0.
+
+        2 m_n sin(alpha_n) (X - x1 - x2), with X = `profile_shift_sum`; [iso_21771].
+        """
+        if None in self.profile_shift:
+            return 0.0
+        short = self.profile_shift_sum - sum(self.profile_shifts)
+        return 2.0 * self.normal_module * math.sin(self.normal_pressure_angle) * short
+
+    @property
+    def tooth_thickness(self) -> Shifts:
+        """s_t of pinion and gear: transverse arcs on the reference circles [m]; [iso_21771].
+
+        m_n (pi/2 + 2 x tan(alpha_n))/cos(beta), less half of the backlash beyond
+        `backlash_of_shifts` on each member.
+        """
+        tangent, cos = math.tan(self.normal_pressure_angle), math.cos(self.helix_angle)
+        thinner = 0.5 * (self.backlash - self.backlash_of_shifts)
+        thinner /= math.cos(self.normal_pressure_angle)
+        x1, x2 = (0.5 * math.pi + 2.0 * x * tangent for x in self.profile_shifts)
+        return (self.normal_module * x1 - thinner) / cos, (self.normal_module * x2 - thinner) / cos
+
+    def _rack(self, member: _Member) -> RackTool:
+        """Return the hob without protuberance that leaves the root circle of a member."""
+        depth, m = member.reference - member.root, self.normal_module
+        limit = largest_fillet(m, self.normal_pressure_angle, depth + member.shift * m)
+        return RackTool(
+            radius=member.reference,
+            pressure_angle=self.normal_pressure_angle,
+            helix_angle=self.helix_angle,
+            depth=depth,
+            fillet=min(self.fillet_factor * m, limit),
+        )
+
+    @property
+    def involute_starts(self) -> tuple[InvoluteStart, InvoluteStart]:
+        """Where the involutes of pinion and gear begin, cut by a hob without protuberance."""
+        first, second = (involute_start(self._rack(member)) for member in self._members)
+        return first, second
 
     @property
     def ratio(self) -> float:
@@ -152,14 +337,28 @@ class HelicalPair:
         return self.centre_distance * math.sin(self.working_pressure_angle)
 
     @property
-    def contact_start(self) -> float:
-        """Where the gear's tip enters the line of action: x of A [m]; [jamali_2015 (2.3)]."""
+    def tip_start(self) -> float:
+        """Where the gear's tip enters the line of action [m]; [jamali_2015 (2.3)]."""
         return self.tangent_length - math.sqrt(self.gear_tip_radius**2 - self.gear_base_radius**2)
 
     @property
-    def contact_end(self) -> float:
-        """Where the pinion's tip leaves the line of action: x of D [m]; [jamali_2015 (2.2)]."""
+    def tip_end(self) -> float:
+        """Where the pinion's tip leaves the line of action [m]; [jamali_2015 (2.2)]."""
         return math.sqrt(self.pinion_tip_radius**2 - self.pinion_base_radius**2)
+
+    @property
+    def contact_start(self) -> float:
+        """Where contact begins: x of A [m], at the gear's tip or above the pinion's undercut."""
+        start = self.involute_starts[0]
+        return max(self.tip_start, start.roll) if start.undercut else self.tip_start
+
+    @property
+    def contact_end(self) -> float:
+        """Where contact ends: x of D [m], at the pinion's tip or above the gear's undercut."""
+        start = self.involute_starts[1]
+        return (
+            min(self.tip_end, self.tangent_length - start.roll) if start.undercut else self.tip_end
+        )
 
     @property
     def pitch_point(self) -> float:

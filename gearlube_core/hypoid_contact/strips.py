@@ -148,12 +148,10 @@ def strip_frame(gaps: GapMap, reach: float) -> StripFrame | None:
     weight = middle[inside] / middle.sum()
     line = points[inside]
     centre = weight @ line
-    nearest = np.unravel_index(
-        np.argmin(
-            np.linalg.norm(gaps.point - centre, axis=-1) + np.where(np.isfinite(gaps.gap), 0, 1.0)
-        ),
-        gaps.gap.shape,
-    )
+    # where the gear has no flank its points are NaN, which argmin would take for the least
+    distance = np.linalg.norm(gaps.point - centre, axis=-1)
+    known = np.where(np.isfinite(gaps.gap), distance, np.inf)
+    nearest = np.unravel_index(np.argmin(known), gaps.gap.shape)
     normal = gaps.normal[nearest]
     offsets = line - centre
     offsets = offsets - np.outer(offsets @ normal, normal)

@@ -11,6 +11,12 @@ import math
 from typing import Literal, NamedTuple
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.tooth_limits import (
+    check_clearance,
+    check_tip,
+    tip_thickness,
+    undercut_depth,
+)
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.units import DEGREE, MILLIMETRE
 
@@ -20,7 +26,6 @@ STEEPEST = 65.0 * DEGREE  # spiral angle anywhere on the face; gear files go no 
 LEAST_BLADE, LARGEST_BLADE = 5.0 * DEGREE, 40.0 * DEGREE
 WIDEST = 0.45  # face width over outer cone distance
 USUAL_WIDTH = 0.35  # a third is customary
-THIN_TOPLAND = 0.2  # of the normal module
 
 
 class SectionTooth(NamedTuple):
@@ -55,10 +60,8 @@ def section_tooth(designed: DesignedBlank, role: Role) -> SectionTooth:
         addendum, mate = blank.gear.addendum, blank.pinion.addendum
     alpha = designed.pressure_angle
     radius = distance * math.tan(angle) / math.cos(spiral) ** 2
-    tip = radius + addendum
-    alpha_tip = math.acos(radius * math.cos(alpha) / tip)
-    topland = tip * (thickness / radius + 2.0 * (_involute(alpha) - _involute(alpha_tip)))
-    return SectionTooth(topland, mate - radius * math.sin(alpha) ** 2)
+    topland = tip_thickness(radius, thickness, radius + addendum, alpha)
+    return SectionTooth(topland, undercut_depth(radius, alpha, mate))
 
 
 def check_blank(designed: DesignedBlank) -> list[str]:
@@ -76,9 +79,9 @@ def check_blank(designed: DesignedBlank) -> list[str]:
 
 def _angles(designed: DesignedBlank) -> None:
     cones = designed.cones
-    if cones.gear_spiral_angle <= 0.0:
+    if cones.gear_spiral_angle < 0.0:
         raise ParameterError(
-            "The pinion's spiral angle must be above the offset angle, got "
+            "The pinion's spiral angle must be at least the offset angle, got "
             f"{cones.pinion_spiral_angle / DEGREE:.1f} and {cones.offset_angle / DEGREE:.1f} deg: "
             "none is left for the gear. Increase the spiral angle or reduce pair.offset_mm."
         )
@@ -137,7 +140,7 @@ def _trace(designed: DesignedBlank) -> list[str]:
                 f"got {spiral / DEGREE:.1f} deg. Enlarge cutter.radius_mm, or reduce the spiral "
                 "angle or pair.face_width_mm."
             )
-        if spiral < 0.0:
+        if spiral < 0.0 < designed.cones.gear_spiral_angle:
             warnings.append(
                 f"The gear's spiral angle turns to the other hand at the {name}, "
                 f"{spiral / DEGREE:.1f} deg. A larger cutter or spiral angle avoids it."
@@ -158,23 +161,18 @@ def _trace(designed: DesignedBlank) -> list[str]:
 
 
 def _teeth(designed: DesignedBlank) -> list[str]:
-    warnings = []
     module = designed.normal_module
+    warnings = check_clearance(
+        "gear", designed.blank.root_clearance, module, "Increase depth.clearance_factor."
+    )
     roles: tuple[Role, Role] = ("pinion", "gear")
     for role in roles:
         tooth = section_tooth(designed, role)
-        if tooth.topland <= 0.0:
-            raise ParameterError(
-                f"The {role}'s teeth are pointed: their flanks meet "
-                f"below the tip at mid-face (topland {tooth.topland / MILLIMETRE:.2f} mm). Reduce "
-                "depth.depth_factor or the pressure angles of [cutter], or move addendum to the "
-                "mate (depth.gear_addendum_factor)."
-            )
-        if tooth.topland < THIN_TOPLAND * module:
-            warnings.append(
-                f"The {role}'s topland at mid-face is thin, about "
-                f"{tooth.topland / MILLIMETRE:.2f} mm, below {THIN_TOPLAND:g} normal modules."
-            )
+        warnings += check_tip(
+            role, tooth.topland, module,
+            "Reduce depth.depth_factor or the pressure angles of [cutter], or move addendum to the "
+            "mate (depth.gear_addendum_factor).",
+        )  # fmt: skip
         if tooth.undercut > 0.0:
             raise ParameterError(
                 f"The {role} is undercut on its working flank: at mid-face the tip of the mate "
@@ -184,7 +182,3 @@ def _teeth(designed: DesignedBlank) -> list[str]:
                 "depth.gear_addendum_factor)."
             )
     return warnings
-
-
-def _involute(angle: float) -> float:
-    return math.tan(angle) - angle

@@ -10,8 +10,6 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
     gear_blank_factor,
     iso_stiffness,
-    profile_shift_sum,
-    profile_shifts,
     rack_dedendum_of,
     stiffness_density,
     virtual_teeth,
@@ -47,7 +45,7 @@ def test_published_example_is_met():
     """Printed in five decimals; the centre distance leaves x2 = 0.0002 where 0 is printed."""
     pair = published_pair()
     assert virtual_teeth(pair) == pytest.approx((18.905, 114.543), abs=5e-4)
-    assert profile_shift_sum(pair) == pytest.approx(0.145, abs=3e-4)
+    assert pair.profile_shift_sum == pytest.approx(0.145, abs=3e-4)
     got = iso_stiffness(pair, line_load=LOAD)
     assert got.profile_shift == pytest.approx((0.145, 0.0), abs=3e-4)
     assert got.theoretical / PER_MM_UM == pytest.approx(17.85584, rel=1e-4)
@@ -154,7 +152,7 @@ def test_limits_of_the_fit_that_a_pair_exceeds_are_named():
         gear_tip_radius=pair.gear_tip_radius + swap,
         gear_root_radius=pair.gear_root_radius + swap,
     )
-    assert profile_shifts(swapped) == pytest.approx((0.045, 0.1), abs=1e-3)
+    assert swapped.profile_shifts == pytest.approx((0.045, 0.1), abs=1e-3)
     assert iso_stiffness(swapped, line_load=LOAD).outside == ("x1 >= x2, got 0.045 and 0.100",)
 
 

@@ -75,11 +75,9 @@ def test_spur_teeth_are_straight():
 
 
 def test_pointed_teeth_and_odd_settings_are_refused():
-    long = replace(HE_2007, pinion_tip_radius=46.5e-3, gear_root_radius=40e-3)
+    long = replace(HE_2007, pinion_tip_radius=44.7e-3, gear_root_radius=40e-3)
     with pytest.raises(ParameterError, match="thick at their tip"):
         tooth_form(long, "pinion")
-    with pytest.raises(ParameterError, match="not above its root circle"):
-        tooth_form(replace(HE_2007, pinion_root_radius=38.5e-3), "pinion")
     with pytest.raises(ParameterError, match="base_depth_modules"):
         HelicalBodySettings(base_depth_modules=0.1)
     with pytest.raises(ParameterError, match="member"):

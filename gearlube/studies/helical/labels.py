@@ -60,6 +60,8 @@ def study_attributes(settings: HelicalSettings, command_line: str) -> dict[str, 
         "pinion_speed_units": "rad/s",
         "mesh": settings.mesh,
         "friction": settings.friction,
+        "guessed": settings.file.guessed_shifts(),
+        "remarks": "\n".join(settings.file.remarks()),
     }
     return attributes | _provenance(settings.file)
 
