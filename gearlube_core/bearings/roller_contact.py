@@ -41,12 +41,15 @@ _HALF = 0.5 * (1.0 + _M_LINE)
 _SECOND = 0.5 * (1.0 + _M_LINE) * (2.0 + _M_LINE)
 _THIRD = _SECOND / 3.0
 _RATIO = 3.0 * (1.0 + _M_LINE) / (2.0 + _M_LINE)
-_Y_MAX = FILM_RANGE ** (1.0 / 9.0)
+# The start of the root, 7e-4 off, may lie beyond either end of its range
+_Y_MIN, _Y_MAX = 0.999, 1.001 * FILM_RANGE ** (1.0 / 9.0)
 _FACTOR_MIN = FILM_RANGE**-_M_LINE
 # y^-0.45 = x^-0.05 for 1 <= y <= 2^(8/9) in powers of y - 1.4, relative error 1.6e-8
 _C0, _C1, _C2 = 8.5949307304674676e-01, -2.7626541955432316e-01, 1.4306731966889319e-01
 _C3, _C4, _C5 = -8.3471653477310503e-02, 5.1380959307017110e-02, -3.2342442232490484e-02
 _C6, _C7, _C8 = 2.1439964607431590e-02, -1.6579160463181739e-02, 9.5607876228063268e-03
+# Lengths over which films begin and end to give way to a change of load, see `moving_share`
+_BEGINS, _ENDS = 0.25, 64.0
 _SPEED_MIN = 1e-9  # m/s; the film is below 1e-12 m there
 # 132 v/u at which the squeeze factor reaches its lower clip, and where its Pade form turns
 _T_MAX = math.log((1.0 - SQUEEZE_FACTOR_MIN) / SQUEEZE_SHARE)
@@ -106,14 +109,30 @@ def film_amplitude(
 
 
 @inlined
-def _squeezed_excess(t: float) -> float:
-    """Return q(t)/q(0) - 1 = 3 (1 - exp(t)), clipped as the squeeze factor, t = 132 v/u.
+def moving_share(x: float) -> float:
+    """Return how far a film gives way where the approach x [d_f] changes, 0 to 1.
+
+    At the limits of its load dependence the slope of a film jumps, and with it the rate of the
+    approach. The forces by that rate build up over a quarter of the floor's approach, and over 64
+    at the other end, so that they are continuous; the steady load is as it is.
+    """
+    begins = (x - 1.0) * (1.0 / _BEGINS)
+    ends = (FILM_RANGE - x) * (1.0 / _ENDS)
+    share = begins if begins < ends else ends
+    share = 0.0 if share < 0.0 else share
+    return 1.0 if share > 1.0 else share
+
+
+@inlined
+def _squeezed_excess(t: float) -> tuple[float, float]:
+    """Return q(t)/q(0) - 1 = 3 (1 - exp(t)), clipped as the squeeze factor, and its slope over t.
 
     Pade [2/2] form of exp(t) - 1, exact to 2e-8 for |t| < 0.1 and to 0.04 at t = -3.
     """
     t = _T_MAX if t > _T_MAX else t
     t = _T_MIN if t < _T_MIN else t
-    return -36.0 * t / (12.0 + t * (t - 6.0))
+    part = -36.0 / (12.0 + t * (t - 6.0))
+    return part * t, part * part * (t * t - 12.0) * (1.0 / 36.0)
 
 
 @inlined
@@ -141,13 +160,15 @@ def roller_approach_line(g: float, film: float) -> tuple[float, float, float, fl
     approaches from 0.04 nm to 90 mm.
     """
     raw = g + film
-    touching = 0.0 if raw <= 0.0 else 1.0
+    touching = raw * (1.0 / ROOT_MIN)  # continuous: damping does not vanish with the approach
+    touching = 0.0 if touching < 0.0 else touching
+    touching = 1.0 if touching > 1.0 else touching
     x0 = ROOT_MIN if raw < ROOT_MIN else raw
     inverse = 1.0 / x0
     start = ninth_root_start(x0)
     r = ninth_root_residual(start, inverse)
     y0 = ninth_root_refined(start, r)
-    s = 1.0 if start < 1.0 else start
+    s = _Y_MIN if start < _Y_MIN else start
     s = (_Y_MAX if s > _Y_MAX else s) - 1.4
     s2 = s * s
     s4 = s2 * s2
@@ -195,8 +216,8 @@ def roller_response_line(
     Returns
     -------
     tuple of float
-        Load and its quasi-steady part K x^n [N]; slopes of the load against g [N] and against
-        g_rate [N s], both without the squeeze, zero where the load is clipped.
+        Load and its quasi-steady part K x^n [N]; slopes of the load against g [N], without the
+        squeeze, and against g_rate [N s]; zero where the load is clipped.
 
     Notes
     -----
@@ -211,14 +232,19 @@ def roller_response_line(
     [mohammadpour_2015 (25)] [mohammadpour_2015 (26)] [mohammadpour_2015 (27)]
     """
     x, y, x_g, slope = roller_approach_line(g, film)
-    x_rate = g_rate * x_g
-    squeezed = (x - g) * _squeezed_excess(-squeeze_scale * slope * x_rate)
+    share = moving_share(x)
+    moving = 1.0 - share * (1.0 - x_g)
+    x_rate = g_rate * moving
+    squeeze = squeeze_scale * share * slope
+    excess, steepness = _squeezed_excess(-squeeze * x_rate)
+    squeezed = (x - g) * excess
     stiffness = K * y
     steady = stiffness * x
     w = steady + N_LINE * stiffness * (c * x_rate + squeezed)
-    tangent = 0.0 if w <= w_min else N_LINE * stiffness * x_g
-    w_g = tangent * (1.0 + (N_LINE - 1.0) * c * x_rate / max(x, ROOT_MIN))
-    return w_min if w <= w_min else w, steady, w_g, tangent * c
+    tangent = 0.0 if w <= w_min else N_LINE * stiffness
+    w_g = tangent * x_g * (1.0 + (N_LINE - 1.0) * c * x_rate / max(x, ROOT_MIN))
+    damping = tangent * moving * (c - (x - g) * squeeze * steepness)
+    return w_min if w <= w_min else w, steady, w_g, damping
 
 
 @inlined
@@ -274,16 +300,20 @@ def roller_response_general(
     if x <= 0.0:
         return max(w_min, 0.0), 0.0, 0.0, 0.0
     h, slope = film_and_slope(x, film, n)
-    x_rate = g_rate / (1.0 + slope)
-    squeezed = h * _squeezed_excess(-squeeze_scale * slope * x_rate)
+    share = moving_share(x)
+    moving = 1.0 - share * slope / (1.0 + slope)
+    x_rate = g_rate * moving
+    squeeze = squeeze_scale * share * slope
+    excess, steepness = _squeezed_excess(-squeeze * x_rate)
+    squeezed = h * excess
     stiffness = K * x ** (n - 1.0)
     steady = stiffness * x
     w = steady + n * stiffness * (c * x_rate + squeezed)
     if w <= w_min:
         return w_min, steady, 0.0, 0.0
-    bearing = n * stiffness / (1.0 + slope)
-    w_g = bearing * (1.0 + (n - 1.0) * c * x_rate / x)
-    return w, steady, w_g, bearing * c
+    tangent = n * stiffness
+    w_g = tangent / (1.0 + slope) * (1.0 + (n - 1.0) * c * x_rate / x)
+    return w, steady, w_g, tangent * moving * (c - h * squeeze * steepness)
 
 
 @kernel

@@ -30,6 +30,16 @@ TOO_FAST_WORDS = (
     f"a shaft turns faster than {MAX_SPEED:g} rad/s, where the model has no meaning. "
     "Reduce the torque, or load the wheel"
 )
+
+
+def too_many_steps_words(most: int) -> str:
+    """Return why a step is refused that costs more than `most` integrator steps."""
+    return (
+        f"the step costs more than {most} integrator steps. Shorten the communication step, or "
+        "take fewer solver.steps_per_highest_period and solver.steps_per_mesh_period"
+    )
+
+
 _OK = 0  # status of a kernel that made its step
 
 

@@ -23,6 +23,8 @@ from gearlube_core.bearings.roller_contact import (
     film_amplitude,
     roller_load_general,
     roller_load_line,
+    roller_response_general,
+    roller_response_line,
 )
 from gearlube_core.bearings.roller_loads import bearing_forces, roller_loads
 from gearlube_core.bearings.shaft_energy import roller_energy, shaft_bearing_energy
@@ -243,6 +245,46 @@ def test_squeeze_changes_the_film_by_about_a_ten_thousandth():
     hysteresis = roller_load_line(g, rate, film, 0.0, K, 0.009 / F_REF, 0.0)[0] - steady
     # it acts as a damper 0.3 % as strong as the hysteresis
     assert (with_squeeze - steady) / hysteresis == pytest.approx(3e-3, rel=0.3)
+
+
+@pytest.mark.parametrize(
+    ("respond", "edge"),
+    [
+        (roller_response_line, 0.0),
+        (roller_response_line, 1.0),
+        (roller_response_line, FILM_RANGE),
+        (roller_response_general, 1.0),
+        (roller_response_general, FILM_RANGE),
+    ],
+)
+def test_a_moving_roller_has_no_jump_where_its_film_begins_or_ends_to_give_way(respond, edge):
+    """The slope of the film jumps at both limits, and damping begins where the races touch."""
+    film, scale = film_amplitude(SPEED, *OIL, WET)
+    exponent = () if respond is roller_response_line else (N_LINE,)
+    K, c, rate = WET.kn * FILM_FLOOR_APPROACH**N_LINE, 0.009 / F_REF, 3e3  # 1.5 mm/s
+
+    def load(g):
+        return respond(g, rate, film, scale, K, c, 0.0, *exponent)[0]
+
+    at = edge - film * (min(edge, FILM_RANGE) ** -0.05 if edge > 0.0 else 1.0)
+    moved = 1e-7 * max(edge, 1e-3)
+    jump = abs(load(at + moved) - load(at - moved))
+    # the slope of the load times the move of 2e-7, and the fit of the film's load factor
+    assert jump <= 3e-7 * load(at + 0.5)
+
+
+def test_slopes_of_a_roller_over_its_rate_are_those_of_its_load():
+    film, scale = film_amplitude(SPEED, *OIL, WET)
+    K, c = WET.kn * FILM_FLOOR_APPROACH**N_LINE, 0.009 / F_REF
+    for respond, exponent in ((roller_response_line, ()), (roller_response_general, (N_LINE,))):
+        for g, rate in ((0.6, 2e3), (8.0, -3e3), (30.0, 1e5)):
+            ends = [
+                respond(g, rate * (1.0 + d), film, scale, K, c, 0.0, *exponent)[0]
+                for d in (1e-4, -1e-4)
+            ]
+            slope = respond(g, rate, film, scale, K, c, 0.0, *exponent)[3]
+            # the share of the squeeze is 0.3 %: 1e-5 tells whether it is in; rounding is 1e-8
+            assert slope == pytest.approx((ends[0] - ends[1]) / (2e-4 * rate), rel=1e-5)
 
 
 def test_halved_approach_halves_the_stiffness():

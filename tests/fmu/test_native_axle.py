@@ -28,9 +28,10 @@ from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameter
 from gearlube_core.dynamics.hypoid_axle.integrate import TOO_MANY_STEPS
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.dynamics.hypoid_axle.output_names import PINION_ACCELERATION, RATES
 from gearlube_core.dynamics.hypoid_axle.parameters import FRICTION_WITH_SOLVED_FILM
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE, W_P
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_laws import MixedFlankFriction
@@ -219,6 +220,11 @@ def test_solved_films_are_those_of_python(native):
     bounds = np.array([axle.output(f"flank[{i}].friction_bound") for i in (1, 2, 3)])
     np.testing.assert_array_equal(bounds > 0.0, loaded)
     assert 0.0 < axle.output("bearing.power_loss_bound") < 0.02 * axle.output("bearing.power_loss")
+    # rates are the same whether they are read alone or after all outputs
+    of_all = run.outputs[RATES:].copy()
+    run(Operation.DERIVATIVES)
+    np.testing.assert_array_equal(run.outputs[RATES:], of_all)
+    assert of_all[W_P] == run.outputs[PINION_ACCELERATION] != 0.0
 
 
 def test_an_axle_file_changes_constants_alone_and_is_the_axle_of_python_over_20_ms(

@@ -251,7 +251,6 @@ def all_cases():
                     state,
                     2e-5,
                     first,
-                    expand,
                     inputs,
                     *at_load,
                     p,
@@ -260,8 +259,12 @@ def all_cases():
                 ),
             )
             for first in (1.0, 0.0)
-            for expand in (1.0, 0.0)
         ),
+        (integrate.place_ahead, (state, 3e-5, p, zeros(N_STATE))),
+        *((integrate.contact_parts, (x, -0.3, 150.0)) for x in (0.2, 3.0, -149.9, -80.0)),
+        (rhs.expand_bearings, (state, state_of_oil, p, scratch)),
+        (outputs.films_asked, (state,)),
+        (outputs.films_asked, (at_start,)),
         (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p, bearing_drag.AxleRaceways())),
         (
             integrate.step_inputs,
@@ -313,7 +316,7 @@ def all_cases():
             for levels in (table, both_sides)
         ),
         (outputs.write_derivatives, (state, torques, OIL, table, p, work, zeros(N_OUTPUTS))),
-        (outputs._write_rates, (state, torques, OIL, table, p, 2.0, work, zeros(N_OUTPUTS))),
+        (outputs._write_rates, (state, torques, OIL, table, p, work, zeros(N_OUTPUTS))),
         (outputs.stored_energy, (state, 5e8, state_of_oil, p)),
         *(
             (

@@ -42,6 +42,7 @@ CASES = [
     (roller_contact.contact_angle_terms, (0.26,)),
     (roller_contact.contact_angle_terms, (0.0,)),
     (roller_contact.film_amplitude, (145.0, *OIL, P)),
+    *((roller_contact.moving_share, (x,)) for x in (0.5, 1.1, 8.0, 210.0, 300.0)),
     (roller_contact._squeezed_excess, (-1e-2,)),
     (roller_contact.roller_load_line, (8.0, 300.0, 0.7, 3e-5, 40.0, 3e-5, 0.0)),
     (roller_contact.roller_load_general, (8.0, 300.0, 0.7, 3e-5, 40.0, 3e-5, 0.0, 1.3)),

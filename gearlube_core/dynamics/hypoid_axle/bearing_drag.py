@@ -72,6 +72,9 @@ class AxleRaceways(NamedTuple):
     gear: SolvedRaceways = NO_RACEWAYS
 
 
+NO_AXLE_RACEWAYS = AxleRaceways()
+
+
 @kernel
 def axle_raceways(
     s: Array, oil: LubricantState, p: AxleParameters, films: RollerFilms

@@ -9,7 +9,9 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import RollerFilms
 from gearlube_core.drag.churning import churning_torque
 from gearlube_core.drag.seals import seal_drag
+from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
+    NO_AXLE_RACEWAYS,
     PALMGREN,
     AxleRaceways,
     BearingDrag,
@@ -30,9 +32,16 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     place_at_load,
     series_size,
 )
-from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
-from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force, reference_frequency
+from gearlube_core.dynamics.hypoid_axle.rhs import (
+    SCRATCH,
+    StepInputs,
+    axle_rhs,
+    expand_bearings,
+)
 from gearlube_core.dynamics.hypoid_axle.state import (
+    CAGE_G,
+    CAGE_P,
     DRAG_BOUND,
     FILM_NODES,
     FRICTION_BOUND,
@@ -68,12 +77,19 @@ NOT_FINITE = 1
 TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
-MAX_STEPS = 200_000  # in one communication interval; half a second of computing
+MAX_STEPS = 200_000  # in one communication interval, or their cost; half a second of computing
+RACEWAY_COST = 6.0  # of the drag of all rollers, in integrator steps
 STEPS_PER_EXPANSION = 12  # integrator steps that share an expansion of the bearing forces, at most
 # um at 1 step per highest period, displacement from where they were expanded that ends it sooner;
 # 0.07 um at 17 steps. It falls with the square of the step, so that what is left out, of second
 # order in it, falls with the fourth power as the error of the integrator does.
 EXPANSION_REACH = 20.0
+# Relative change of the load level that the mesh data follow at once
+LOAD_REACH = 1e-4
+# Parts of a step in which flanks meet or part: the slope of their force jumps there, and damping
+# builds up over half a micrometre. A step moves them by that much at 0.1 m/s.
+CONTACT_PARTS = 8
+_STILL = 0.1  # of the build-up; smaller moves in a step need no parts
 LOAD_FILTER_TIME = 0.02  # s, load level follows the torque below the driveline's shuffle
 REAL_AXIS_LIMIT = 2.0  # RK4 is stable to 2.78 on the negative real axis
 DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
@@ -117,7 +133,6 @@ def rk4_step(
     s: Array,
     h: float,
     first: float,
-    expand: float,
     inputs: StepInputs,
     mesh: MeshAtLoad,
     oil: LubricantState,
@@ -127,10 +142,9 @@ def rk4_step(
 ) -> None:
     """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
 
-    With `expand`, the bearing forces are expanded at the first middle stage, which serves the
-    stages until the next such step; with `first`, at the first stage. Tractions are evaluated at
-    the first middle and the last stage, with `first` also at the first; the stages after these
-    keep them, which lie within O(h^2) of them. Everything else is evaluated at every stage.
+    Bearing forces follow the expansion in `scratch`. Tractions are evaluated at the first middle
+    and the last stage, with `first` also at the first; the stages after these keep them, which lie
+    within O(h^2) of them. Everything else is evaluated at every stage.
 
     Parameters
     ----------
@@ -142,11 +156,11 @@ def rk4_step(
     trial = stages[0:N_STATE]
     slope = stages[N_STATE : N_STATE + N_ODE]
     total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
-    axle_rhs(s, inputs, mesh, oil, p, BETWEEN_NODES * first, first, scratch, slope)
+    axle_rhs(s, inputs, mesh, oil, p, BETWEEN_NODES * first, 0.0, scratch, slope)
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, BETWEEN_NODES, expand, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, BETWEEN_NODES, 0.0, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
@@ -183,6 +197,39 @@ def largest_change(a: Displacements, b: Displacements) -> float:
     for i in range(len(a)):
         largest = max(largest, abs(a[i] - b[i]))
     return largest
+
+
+@kernel
+def place_ahead(s: Array, time: float, p: AxleParameters, ahead: Array) -> None:
+    """Write the state `s` with shafts and cages where they are `time` [s] later into `ahead`."""
+    for i in range(N_STATE):
+        ahead[i] = s[i]
+    moved = displacements(s, time)
+    for i in range(3):
+        ahead[U_P + i] = moved[i]
+        ahead[U_G + i] = moved[3 + i]
+    ahead[CAGE_P] += time * p.bearing_p.cage_ratio * s[W_P]
+    ahead[CAGE_G] += time * p.bearing_g.cage_ratio * s[W_G]
+
+
+@kernel
+def contact_parts(x: float, change: float, backlash: float) -> int:
+    """Return into how many parts a step is divided: CONTACT_PARTS where flanks meet or part.
+
+    Parameters
+    ----------
+    x, change
+        Transmission error, and how far it moves in the step [um].
+    backlash
+        [um]
+    """
+    build_up = DAMPING_BUILD_UP * MICRO
+    if abs(change) < _STILL * build_up:
+        return 1
+    low, high = min(x, x + 1.5 * change), max(x, x + 1.5 * change)
+    drive = high > 0.0 and low < build_up
+    coast = low < -backlash and high > -backlash - build_up
+    return CONTACT_PARTS if drive or coast else 1
 
 
 def work_size(series: int, n_nodes: int) -> int:
@@ -263,9 +310,10 @@ def advance(
 
     Notes
     -----
-    The load level of the mesh table is that at the start of the communication step; it follows the
-    pinion torque with LOAD_FILTER_TIME. The side, drive or coast flanks, is chosen after every
-    integrator step, see `follow_flank`.
+    The load level of the mesh table follows the pinion torque with LOAD_FILTER_TIME, and the mesh
+    data follow it within LOAD_REACH. The side, drive or coast flanks, is chosen after every
+    integrator step, see `follow_flank`. All this happens at times that integrator steps decide.
+    So a communication step matters only as it is a whole number of integrator steps.
     """
     at_scratch = N_STATE + 2 * N_ODE
     at_series = at_scratch + SCRATCH
@@ -289,40 +337,48 @@ def advance(
     for i in range(n_films):
         scratch[FILMS + i] = s[FILM_NODES + i]
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
+    span = math.ceil(steps / math.ceil(steps / STEPS_PER_EXPANSION))
     expanded_at = displacements(s, 0.0)
     age = 0
+    at_load = s[LOAD_TORQUE]
+    rate = mesh_force(s, mesh.series, mesh.n_orders, p.mesh).x_rate * MICRO
     rollers = RollerFilms(table.roller_model, s[ROLLER_NODES:N_STATE], 1.0)
-    drag = bearing_drag(s, oil, p, axle_raceways(s, oil, p, rollers))
+    drag = BearingDrag(0.0, 0.0, 0.0)
+    cost = 0.0
     for k in range(steps):
-        expand = 0.0
-        moved = largest_change(displacements(s, h), expanded_at)
-        if k > 0 and (age == STEPS_PER_EXPANSION or moved > reach):
-            expand = 1.0
-            expanded_at = displacements(s, 0.5 * h)
+        if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + abs(at_load)):
+            at_load = s[LOAD_TORQUE]
+            blend_mesh(at_load, s[SIDE], table, mesh)
+        if p.drag <= PALMGREN:
+            drag = bearing_drag(s, oil, p, NO_AXLE_RACEWAYS)
+        if k == 0 or age == span or largest_change(displacements(s, h), expanded_at) > reach:
+            # about where the shafts are half of the time later that the expansion will serve
+            speed = largest_change(displacements(s, 1.0), displacements(s, 0.0))
+            later = max(0.5 * h, min(0.5 * h * span, reach / max(speed, reach)))
+            place_ahead(s, later, p, stages)
+            expand_bearings(stages, oil, p, scratch)
+            expanded_at = displacements(stages, 0.0)
             age = 0
-        # raceways are dear: anew where the bearing forces are
-        if k > 0 and (expand != 0.0 or p.drag <= PALMGREN):
-            drag = bearing_drag(s, oil, p, axle_raceways(s, oil, p, rollers))
+            # raceways are dear: anew where the bearing forces are
+            if p.drag > PALMGREN:
+                cost += RACEWAY_COST
+                drag = bearing_drag(stages, oil, p, axle_raceways(stages, oil, p, rollers))
         inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
         age += 1
-        rk4_step(
-            s,
-            h,
-            1.0 if k == 0 else 0.0,
-            expand,
-            inputs,
-            mesh,
-            oil,
-            p,
-            scratch,
-            stages,
-        )
-        s[FRICTION_BOUND] += h * scratch[BOUND_POWER]
+        parts = contact_parts(s[X], h * rate, p.mesh.backlash * MICRO)
+        cost += parts
+        if cost > MAX_STEPS:
+            return TOO_MANY_STEPS
+        for part in range(parts):
+            first = 1.0 if k == 0 and part == 0 else 0.0
+            rk4_step(s, h / parts, first, inputs, mesh, oil, p, scratch, stages)
+            s[FRICTION_BOUND] += h / parts * scratch[BOUND_POWER]
+            if table.levels[0] < 0.0:
+                follow_flank(s, table, p.mesh, mesh)
+        rate = stages[N_STATE + X]
         s[DRAG_BOUND] += h * drag.bound
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
-        if table.levels[0] < 0.0:
-            follow_flank(s, table, p.mesh, mesh)
     for i in range(n_films):
         s[FILM_NODES + i] = scratch[FILMS + i]
     total = 0.0

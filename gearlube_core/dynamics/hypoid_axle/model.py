@@ -44,6 +44,7 @@ from gearlube_core.dynamics.stepped_model import (
     SteppedModel,
     TorqueLimits,
     Words,
+    too_many_steps_words,
 )
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
@@ -57,9 +58,7 @@ STEP_REFUSALS = {
         "the axle state is no longer finite or the teeth have parted by more than 0.1 m. "
         "Reduce the torques or check for an unstable option (equations='as_printed')"
     ),
-    TOO_MANY_STEPS: (
-        f"the step needs more than {MAX_STEPS} integrator steps. Shorten the communication step"
-    ),
+    TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
     TOO_FAST: TOO_FAST_WORDS,
 }
 MARCH_WITH_WARM_FLANKS = (

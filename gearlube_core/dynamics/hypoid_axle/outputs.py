@@ -208,10 +208,20 @@ def write_derivatives(
 ) -> None:
     """Write the rates of the continuous states and the event indicators.
 
-    The right-hand side is exact: films, tractions and bearing forces are evaluated at `s`, and
-    nothing is kept between calls. Arguments as in `write_outputs`.
+    They are those among the outputs of `write_outputs`, with the same arguments: a function of the
+    state alone, whatever was read before.
     """
-    _write_rates(s, torques, oil_temperature, table, p, EXACT, work, out)
+    _write_rates(s, torques, oil_temperature, table, p, work, out)
+
+
+@kernel
+def films_asked(s: Array) -> float:
+    """Return how film models are evaluated in the state `s`, see `tooth_pair`.
+
+    After a step as the step has done it. Otherwise, as in model exchange, where there are no
+    steps, at the contact itself.
+    """
+    return BETWEEN_NODES if s[TIME_IN_STEP] > 0.0 else EXACT
 
 
 @kernel
@@ -221,10 +231,10 @@ def _write_rates(
     oil_temperature: float,
     table: MeshLevels,
     p: AxleParameters,
-    asked: float,
     work: Array,
     out: Array,
 ) -> AxleRaceways:
+    asked = films_asked(s)
     at_series = N_ODE + SCRATCH
     at_window = at_series + series_size(table)
     rates = work[0:N_ODE]
@@ -269,9 +279,7 @@ def write_outputs(
     scratch = work[N_ODE:at_series]
     data = place_at_load(table, work[at_series:at_window], work[at_window:])
     oil = lubricant_state(p.oil, oil_temperature)
-    # after a step a film model is taken as the step has taken it
-    asked = BETWEEN_NODES if s[TIME_IN_STEP] > 0.0 else EXACT
-    raceways = _write_rates(s, torques, oil_temperature, table, p, asked, work, out)
+    raceways = _write_rates(s, torques, oil_temperature, table, p, work, out)
     write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
     mesh = write_motion(
         s,
@@ -295,7 +303,7 @@ def write_outputs(
         oil,
         p,
         data.film_model,
-        asked,
+        films_asked(s),
         scratch[FILMS:N_FRICTION],
         FLANKS,
         FIRST_FLANK_BOUND,

@@ -97,6 +97,16 @@ def gear_motion(s: Array) -> ShaftMotion:
 
 
 @kernel
+def expand_bearings(s: Array, oil: LubricantState, p: AxleParameters, scratch: Array) -> None:
+    """Expand the bearing forces of both shafts about the state `s`; others as in `axle_rhs`."""
+    f_ref = reference_frequency(p.mesh, s[W_P])
+    of_pinion = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
+    expand_forces(p.bearing_p, pinion_motion(s), f_ref, oil, of_pinion)
+    of_gear = scratch[AT_EXPANSION + N_EXPANSION : AT_ROLLERS]
+    expand_forces(p.bearing_g, gear_motion(s), f_ref, oil, of_gear)
+
+
+@kernel
 def axle_rhs(
     s: Array,
     inputs: StepInputs,
@@ -155,15 +165,12 @@ def axle_rhs(
     )
     w_p = s[W_P]
     w_g = s[W_G]
-    f_ref = reference_frequency(p.mesh, w_p)
-
+    if bearings != 0.0:
+        expand_bearings(s, oil, p, scratch)
     expansion_p = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
     expansion_g = scratch[AT_EXPANSION + N_EXPANSION : AT_ROLLERS]
     pinion = pinion_motion(s)
     gear = gear_motion(s)
-    if bearings != 0.0:
-        expand_forces(p.bearing_p, pinion, f_ref, oil, expansion_p)
-        expand_forces(p.bearing_g, gear, f_ref, oil, expansion_g)
     p_z, p_y, p_x, lost_p = expanded_forces(p.bearing_p, pinion, expansion_p)
     g_x, g_y, g_z, lost_g = expanded_forces(p.bearing_g, gear, expansion_g)
     shared = p.mesh.consistent

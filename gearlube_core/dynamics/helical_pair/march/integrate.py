@@ -23,6 +23,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     WORK_MARK,
 )
 from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -32,7 +33,13 @@ NOT_FINITE = 1
 TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
-MAX_STEPS = 150_000  # in one communication interval; below a second of computing
+# Steps in one communication interval, or their cost: 0.7 s of computing. The unit is a step with
+# as many stations along a line as the line mesh of he_2007 has.
+MAX_STEPS = 150_000
+_STATIONS = 14.0
+_REFRESH_COST, _SOLVED_REFRESH_COST = 1.0, 4.0  # of friction by the formulas and by solved films
+# Relative change of the load level that the line mesh follows at once
+_LOAD_REACH = 1e-3
 LOAD_FILTER_TIME = 0.02  # s, the load level follows the torque below the shafts' own motions
 DIVERGED = 0.1  # m along the line of action: teeth long broken
 
@@ -127,9 +134,8 @@ def advance(
 
     Notes
     -----
-    The level of the line mesh is that at the start of the communication step; it follows the
-    pinion torque with LOAD_FILTER_TIME. A change of level changes the springs' energy by what
-    `energy.stored` shows.
+    The level of the line mesh follows the pinion torque with LOAD_FILTER_TIME, to a thousandth. A
+    change of level changes the springs' energy by what `energy.stored` shows.
     """
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     control: StepControl = tuple_from_array(control_values, StepControl)
@@ -147,16 +153,26 @@ def advance(
     s[TIME_IN_STEP] = duration
     for i in range(N_STATE):
         stages[i] = s[i]
+    at_load = s[LOAD_TORQUE]
+    refresh_cost = _SOLVED_REFRESH_COST if p.film == SOLVED else _REFRESH_COST
+    step_cost = max(1.0, p.motion.flanks.stations / _STATIONS)
+    follows = -math.expm1(-h / LOAD_FILTER_TIME)
+    cost = 0.0
     for _ in range(steps):
+        if abs(s[LOAD_TORQUE] - at_load) > _LOAD_REACH * (1.0 + at_load):
+            at_load = s[LOAD_TORQUE]
+            mesh_at_torque(at_load, mesh, data)
+        cost += step_cost
+        if cost > MAX_STEPS:
+            return TOO_MANY_STEPS
         if p.friction_form > 0.0 and refresh_friction(s, data, oil):
+            cost += refresh_cost
             for i in range(N_ODE, N_STATE):
                 stages[i] = s[i]
         rk4_step(s, h, pinion_torque, wheel_torque, data, stages)
+        s[LOAD_TORQUE] += follows * (abs(pinion_torque) - s[LOAD_TORQUE])
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
             return NOT_FINITE if abs(s[PSI]) > DIVERGED else TOO_FAST
-    s[LOAD_TORQUE] += -math.expm1(-duration / LOAD_FILTER_TIME) * (
-        abs(pinion_torque) - s[LOAD_TORQUE]
-    )
     total = 0.0
     for i in range(N_ODE):
         total += abs(s[i])

@@ -40,6 +40,7 @@ from gearlube_core.dynamics.stepped_model import (
     SteppedModel,
     TorqueLimits,
     Words,
+    too_many_steps_words,
 )
 from gearlube_core.errors import ConvergenceError
 
@@ -57,9 +58,7 @@ WORDS = Words(
             "the state is no longer finite or the teeth have parted by more than 0.1 m. "
             "Reduce the torques"
         ),
-        TOO_MANY_STEPS: (
-            f"the step needs more than {MAX_STEPS} integrator steps. Shorten the communication step"
-        ),
+        TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
         TOO_FAST: TOO_FAST_WORDS,
     },
 )
