@@ -34,7 +34,9 @@ from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES, writ
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import LOAD_TORQUE, N_ODE, N_STATE
+from gearlube_core.dynamics.ranges import TOO_FAR
 from gearlube_core.dynamics.stepped_model import (
+    TOO_FAR_WORDS,
     TOO_FAST_WORDS,
     Kernels,
     SteppedModel,
@@ -61,6 +63,7 @@ WORDS = Words(
             f"the step needs more than {MAX_STEPS} integrator steps. Shorten the communication step"
         ),
         TOO_FAST: TOO_FAST_WORDS,
+        TOO_FAR: TOO_FAR_WORDS,
     },
 )
 
