@@ -113,6 +113,22 @@ def _hide_all_but(module: Any, name: str) -> None:
             one.linkage = "internal"
 
 
+def optimised(code: str, target: Target) -> tuple[Any, Any]:
+    """Return intermediate code as an LLVM module optimised for a target, and the target machine."""
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    module = llvm.parse_assembly(code)
+    machine = llvm.Target.from_triple(target.triple).create_target_machine(
+        cpu=target.cpu, reloc="pic", opt=3
+    )
+    module.triple = target.triple
+    module.data_layout = str(machine.target_data)
+    tuning = llvm.create_pipeline_tuning_options(speed_level=3)
+    passes = llvm.create_pass_builder(machine, tuning)
+    passes.getModulePassManager().run(module, passes)
+    return module, machine
+
+
 def object_code(code: str, target: Target) -> tuple[bytes, set[str]]:
     """Return intermediate code as an object file, and the symbols it expects from outside.
 
@@ -127,17 +143,7 @@ def object_code(code: str, target: Target) -> tuple[bytes, set[str]]:
     tuple of (bytes, set of str)
         Object file in the format of the target; undefined symbols, libm's included.
     """
-    llvm.initialize_all_targets()
-    llvm.initialize_all_asmprinters()
-    module = llvm.parse_assembly(code)
-    machine = llvm.Target.from_triple(target.triple).create_target_machine(
-        cpu=target.cpu, reloc="pic", opt=3
-    )
-    module.triple = target.triple
-    module.data_layout = str(machine.target_data)
-    tuning = llvm.create_pipeline_tuning_options(speed_level=3)
-    passes = llvm.create_pass_builder(machine, tuning)
-    passes.getModulePassManager().run(module, passes)
+    module, machine = optimised(code, target)
     undefined = {
         f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")
     }

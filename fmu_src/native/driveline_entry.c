@@ -19,6 +19,9 @@
 
 enum { STEP_TOO_LONG = 1, NOT_FINITE = 2, NO_GEAR = 3 };
 enum { GEAR_AT = MEMORY + GL_INPUTS, PINION_AT, ENGINE_AT };
+/* s; nothing moves in it, and the means over a shorter step are lost to underflow */
+static const double SHORTEST_STEP = 1e-290;
+
 enum { LIMITS = 3, GEAR_SIZE = LIMITS + SPEEDS * ROW, GEARS_AT = 2 };
 
 static void fill_work(const double *data, double *work)
@@ -115,7 +118,8 @@ static void interval(int gear, const double **arguments, double **results)
 
 static int64_t advance(double h, const double *parameters, const double *inputs, double *state)
 {
-    const double motion[] = {h, inputs[0], inputs[1], inputs[2], inputs[3]};
+    const int gear = (int)fmin(fmax(state[GEAR_AT], 0.0), GEARS + 1.0);
+    const double motion[] = {fmax(h, SHORTEST_STEP), inputs[0], inputs[1], inputs[2], inputs[3]};
     const double settings[] = {inputs[4], state[ENGINE_AT], parameters[0]};
     const double *arguments[] = {state, motion, settings};
     double next[MEMORY], torques[3];
@@ -123,7 +127,10 @@ static int64_t advance(double h, const double *parameters, const double *inputs,
     if (h > LONGEST_STEP) {
         return STEP_TOO_LONG;
     }
-    interval((int)state[GEAR_AT], arguments, results);
+    if (gear < 1 || gear > GEARS) {
+        return NO_GEAR;
+    }
+    interval(gear, arguments, results);
     const double sum = torques[0] + torques[1] + torques[2];
     if (sum - sum != 0.0) {
         return NOT_FINITE;

@@ -20,7 +20,10 @@ from fmu_src.native.model import OK, Exchange, NativeModel, Operation
 from fmu_src.object_code import array_at, matrix_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march import equilibrium, integrate
-from gearlube_core.dynamics.helical_pair.march.communication import step_without_outputs
+from gearlube_core.dynamics.helical_pair.march.communication import (
+    state_status,
+    step_without_outputs,
+)
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.continuous import (
     EVENT_INDICATORS,
@@ -73,12 +76,10 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     LINES_MAX,
     N_CONTINUOUS,
     N_STATE,
-    PSI,
-    W_G,
-    W_P,
+    TIME_IN_STEP,
 )
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import COUPLING_CURE
-from gearlube_core.dynamics.ranges import MAX_SPEED, RangeLimits
+from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
@@ -318,6 +319,10 @@ def entry(
     bearings = fixed[BEARINGS_AT:GIVEN_AT]
     out = array_at(outputs, N_OUTPUTS)
     own = array_at(state, STATE_SIZE)
+    if operation != _START:
+        status = state_status(own[:N_STATE])
+        if status != OK:
+            return status
     sets_inputs = operation in (_START, _STEP)
     if sets_inputs and not within_limits(wanted, fixed[LIMITS_AT:BEARINGS_AT]):
         return INPUT_OUT_OF_RANGE
@@ -335,17 +340,13 @@ def entry(
         if status != OK:
             return status
     if operation == _DERIVATIVES:
-        if max(abs(own[W_P]), abs(own[W_G])) > MAX_SPEED:
-            return integrate.TOO_FAST
-        if abs(own[PSI]) > integrate.DIVERGED:
-            return integrate.NOT_FINITE
         last = own[INPUTS_AT:CONTROL_AT]
         write_derivatives(own[:N_STATE], last, mesh, pair_data, scratch, out)
         return OK
     if operation == _EVENT:
         event(own[:N_STATE], own[CONTROL_AT - 1], mesh, pair_data)
         return OK
-    if operation == _MOTION:  # after a step, where no rates are read
+    if operation == _MOTION and own[TIME_IN_STEP] > 0.0:  # before, powers are rates
         constants: MarchConstants = tuple_from_array(pair_data, MarchConstants)
         write_motion(own[:N_STATE], scratch, constants.teeth, bearings, out)
         return OK

@@ -21,7 +21,7 @@ from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.roller_contact import contact_angle_terms, preload_approach
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
+from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels, state_status
 from gearlube_core.dynamics.hypoid_axle.continuous import (
     EVENT_INDICATORS,
     STATE_NAMES,
@@ -52,7 +52,7 @@ from gearlube_core.dynamics.hypoid_axle.start import (
     NO_EQUILIBRIUM_CURE,
     OK,
 )
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE, TIME_IN_STEP
 from gearlube_core.dynamics.hypoid_axle.step_control import NO_MODES, NO_MODES_WORDS
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.film_model.model import FLANK, shipped_model
@@ -228,6 +228,10 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
         mesh = _chosen_mesh(constants, at, values)
         packed = values[0 : at.settings]
         s = kept[0:N_STATE]
+        if operation not in (_START, _RESUME):
+            status = state_status(s)
+            if status != OK:
+                return status
         trial = values[at.trial : at.control]
         rollers = values[at.rollers : at.films]
         scratch = values[at.scratch : at.work_end]
@@ -240,7 +244,8 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
             return status
         last = kept[N_STATE:_CONTROL_AT]
         if operation == _DERIVATIVES:
-            return continuous_rates(s, last, mesh, packed, scratch, out)
+            continuous_rates(s, last, mesh, packed, scratch, out)
+            return OK
         if operation == _EVENT:
             event(s, mesh, packed, scratch)
             return OK
@@ -270,7 +275,7 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
                 last[i] = given[i]
             for i in range(_N_CONTROL):
                 kept[_CONTROL_AT + i] = control[i]
-        if operation == _MOTION:
+        if operation == _MOTION and s[TIME_IN_STEP] > 0.0:  # before, powers are rates
             motion_outputs(s, mesh, packed, scratch, out)
         else:
             write_outputs(s, last, mesh, packed, scratch, rollers, out)

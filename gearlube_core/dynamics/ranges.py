@@ -29,6 +29,10 @@ TORQUE_MARGIN = 1.5
 HERTZ_LIMIT = 4.0e9
 # Below this film ratio roughness carries the load: no film formula is in use. So it is near rest.
 LEAST_FILM_RATIO = 0.05
+# rad, of shafts and cages: 55 hours at the highest speed. An angle is then known to 1e-7 rad, about
+# 1e-6 of a mesh period; much further on the phase of the mesh is lost in rounding.
+MAX_ANGLE = 1e9
+TOO_FAR = 9  # status of a step or a state with an angle beyond it
 MAX_SPEED = 5e3  # rad/s, of either shaft; 48 000 rpm is twice what electric drives reach
 
 

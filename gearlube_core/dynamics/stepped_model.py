@@ -12,6 +12,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_within
 from gearlube_core.dynamics.ranges import (
+    MAX_ANGLE,
     MAX_SPEED,
     RANGE_EXCEEDED,
     TORQUE_MARGIN,
@@ -26,6 +27,10 @@ Control = TypeVar("Control", bound=tuple[float, ...])  # a NamedTuple of floats
 
 MAX_STEP = 0.1  # s, communication step
 _N_INPUTS = 3
+TOO_FAR_WORDS = (
+    f"an angle of a shaft or cage is beyond {MAX_ANGLE:g} rad, where rounding blurs the phase of "
+    "the mesh. Start anew, or take whole turns of all shafts from the angles"
+)
 TOO_FAST_WORDS = (
     f"a shaft turns faster than {MAX_SPEED:g} rad/s, where the model has no meaning. "
     "Reduce the torque, or load the wheel"

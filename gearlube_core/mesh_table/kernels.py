@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.places import place_below
 
 # order of the series in a packed coefficient array
 K_M, R_P, R_G, N_X, N_Y, N_Z, E = range(7)
@@ -213,10 +216,8 @@ def transmission_error(coefficients: Array, n_orders: int, z_p: float, phi: floa
 def pair_node(n_nodes: int, z_p: float, phi: float, pair: int) -> tuple[int, float]:
     """Return the node of the window before a tooth pair, and how far it is on to the next one."""
     position = z_p * phi * _WINDOWS_PER_RADIAN + pair * _THIRD
-    position = (position - math.floor(position)) * n_nodes
-    node = int(position)
-    if node >= n_nodes:
-        node = n_nodes - 1
+    position = (position - np.floor(position)) * n_nodes
+    node = place_below(position, n_nodes)
     return node, position - node
 
 

@@ -18,6 +18,8 @@ from fmu_src.native.driveline import default_car, driveline_model
 from fmu_src.native.model import NativeModel
 from fmu_src.native.platforms import platform_of_this_machine
 from gearlube_core.errors import ParameterError
+from tests.helpers.native_library import OK, NativeInstance, NativeLibrary
+from tests.helpers.native_walk import unpacked_library, walk
 
 OUTPUTS = ("pinion.torque", "wheel.torque", "vehicle.speed", "engine.speed", "start.pinion_speed",
            "start.gear")  # fmt: skip
@@ -129,6 +131,38 @@ def test_steps_that_its_integration_cannot_take_are_refused(
     job = Job(fmu=fmus[0], reals={}, integers={}, names=OUTPUTS, step_size=2.0**-11)
     with pytest.raises(RuntimeError, match=r"steps of the driveline must be at most 0\.25 ms"):
         in_c_host(job, c_host(tmp_path), tmp_path)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_random_and_extreme_calls_never_break_it(
+    fmus: list[Path], version: int, tmp_path: Path
+) -> None:
+    model = driveline_model()
+    path = unpacked_library(fmus[version - 2], version, tmp_path)
+    library = NativeLibrary(path, model, str(native_guid(model)), version)
+    counts = walk(library, sequences=150, seed=1)
+    for kind in ("start 0", "steps 0", "step 2", "get 0", "freed_again 3", "forged 0", "forged 3"):
+        assert counts[kind] > 0
+
+
+@pytest.mark.parametrize("h", [5e-324, 1e-320, 2e-308, 1e-15])
+def test_the_shortest_steps_have_the_torques_of_that_moment(
+    fmus: list[Path], h: float, tmp_path: Path
+) -> None:
+    model = driveline_model()
+    path = unpacked_library(fmus[0], 2, tmp_path)
+    instance = NativeInstance(NativeLibrary(path, model, str(native_guid(model)), 2))
+    assert instance.start() == OK
+    assert instance.step(1e-4) == OK
+    state = instance.save()
+    assert instance.step(1e-9, time=instance.time) == OK
+    expected = [instance.get(f"{one}.torque") for one in ("pinion", "wheel")]
+    assert instance.restore(state) == OK
+    assert instance.step(h, time=1e-4) == OK
+    found = [instance.get(f"{one}.torque") for one in ("pinion", "wheel")]
+    # over 1 ns torques of modes below 350 Hz change by 2e-6 of their size
+    assert found == pytest.approx(expected, rel=1e-5)
+    instance.close()
 
 
 def test_a_start_speed_without_a_gear_is_refused(fmus: list[Path], tmp_path: Path) -> None:

@@ -43,7 +43,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     REFRESHED,
     W_G,
 )
-from gearlube_core.dynamics.ranges import range_limits
+from gearlube_core.dynamics.ranges import TOO_FAR, range_limits
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.film_model.net import N_NUMBERS
 from tests.helpers.object_code import (
@@ -298,7 +298,7 @@ def test_a_refused_step_changes_nothing(shipped: LoadedModel) -> None:
 
 
 def test_every_status_has_words(shipped: LoadedModel, tmp_path: Path) -> None:
-    told = set(range(1, COUPLING_TOO_LARGE + 1))
+    told = {*range(1, COUPLING_TOO_LARGE + 1), TOO_FAR}
     assert set(shipped.model.refusals) == told | {MISSING_CASE + i for i in (3, 5, 6, 7)}
     carried = own_gear(tmp_path, str)
     assert set(carried.refusals) == told | {MISSING_CASE + i for i in (3, 5, 7)}

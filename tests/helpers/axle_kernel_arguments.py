@@ -11,6 +11,7 @@ from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
     bearing_drag,
     bearing_outputs,
+    communication,
     continuous,
     film_nodes,
     flank_outputs,
@@ -36,6 +37,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     PINION_BEARINGS,
 )
 from gearlube_core.dynamics.hypoid_axle.state import (
+    CAGE_G,
     LOAD_TORQUE,
     N_CONTINUOUS,
     N_ODE,
@@ -44,6 +46,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PINION_WORK,
     SIDE,
     TIME_IN_STEP,
+    W_G,
     WORK_MARK,
     X,
 )
@@ -110,6 +113,8 @@ def all_cases():
     crossed, crossed_back = state.copy(), state.copy()
     crossed[X], crossed_back[X] = -100.0, -50.0
     crossed_back[SIDE] = -1.0
+    no_good = [state.copy() for _ in range(3)]
+    no_good[0][X], no_good[1][W_G], no_good[2][CAGE_G] = -2e5, -5001.0, 1.1e9
     at_start = state.copy()
     at_start[TIME_IN_STEP] = 0.0
     torques = (torque_p, torque_g)
@@ -330,6 +335,8 @@ def all_cases():
             for one, model, asked in ((p, zeros(0), 1.0), (by_model, numbers, 2.0))
         ),
         (bearing_outputs.write_shaft, (*write_shaft, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
+        *((communication.state_status, (one,)) for one in (state, *no_good)),
+        (mean_power.keep_means, (at_start, state, PINION_WORK, WORK_MARK, 10, TIME_IN_STEP)),
         *(
             (mean_power.mean_power, (state, slope, PINION_WORK, WORK_MARK, duration))
             for duration in (0.0, 1e-4)

@@ -278,9 +278,13 @@ class NativeInstance:
         return status, list(found)[:count]
 
     def save(self, place: Any = None) -> Any:
-        state = pointer() if place is None else place
-        assert self.call(_STATES[self.library.version][0], byref(state)) == OK
+        status, state = self.try_save(place)
+        assert status == OK
         return state
+
+    def try_save(self, place: Any = None) -> tuple[int, Any]:
+        state = pointer() if place is None else place
+        return self.call(_STATES[self.library.version][0], byref(state)), state
 
     def restore(self, state: Any, time: float | None = None) -> int:
         """Restore a state, saved at `time` if that is not ours."""
@@ -289,6 +293,11 @@ class NativeInstance:
 
     def free_state(self, state: Any) -> int:
         return self.call(_STATES[self.library.version][2], byref(state))
+
+    def size_of_state(self, state: Any) -> int:
+        """Ask for the length of a state as bytes; return the status."""
+        size = c_size_t()
+        return self.call(_STATES[self.library.version][3], state, byref(size))
 
     def serialise(self, state: Any) -> bytes:
         _, _, _, size_call, call, _ = _STATES[self.library.version]

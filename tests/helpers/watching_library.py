@@ -1,34 +1,58 @@
-"""A native library that watches its own memory and arithmetic: gcc's sanitizers."""
+"""A native library that watches its own memory and arithmetic: sanitizers in C code and kernels.
+
+gcc instruments the C code. The kernels are instrumented by the clang of ziglang, whose LLVM reads
+the intermediate code of numba's; gcc's run-time library serves both.
+"""
 
 from __future__ import annotations
 
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 from fmu_src.native.build import ENTRY, native_guid
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
 from fmu_src.native.platforms import fmi_headers
 from fmu_src.native.sources import c_sources
-from fmu_src.object_code import LINUX, intermediate_code, object_code
+from fmu_src.object_code import LINUX, intermediate_code, optimised
 
 COMPILER = shutil.which("gcc")
-_FLAGS = ["-std=c99", "-g", "-O1", "-shared", "-fPIC", "-ffp-contract=off", "-I.",
-          "-fsanitize=address,undefined,float-cast-overflow", "-fno-sanitize-recover=all",
+NO_COMPILER = (
+    "Watching a library needs gcc, whose run-time library does the watching, not found. "
+    "Install gcc 12 or newer, for instance by `apt install gcc`."
+)
+_WATCHES = ["-fsanitize=address,undefined,float-cast-overflow", "-fno-sanitize-recover=all"]
+_FLAGS = ["-std=c99", "-g", "-O1", "-shared", "-fPIC", "-ffp-contract=off", "-I.", *_WATCHES,
           "-fno-omit-frame-pointer"]  # fmt: skip
+_KERNELS = ["-target", "x86_64-linux-gnu.2.17", "-c", "-O1", "-fPIC", "-fsanitize=address"]
+
+
+def _watching_kernels(model: NativeModel, folder: Path) -> None:
+    """Write `kernels.o`, in which every access to memory is checked, into `folder`."""
+    module, _ = optimised(intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY), LINUX)  # type: ignore[arg-type]
+    for function in module.functions:
+        if not function.is_declaration:
+            function.add_function_attribute("sanitize_address")
+    (folder / "kernels.ll").write_text(str(module))
+    command = [sys.executable, "-m", "ziglang", "cc", *_KERNELS, "kernels.ll", "-o", "kernels.o"]
+    subprocess.run(command, cwd=folder, check=True)
 
 
 def watching_library(model: NativeModel, folder: Path) -> Path:
     """Build the library of a model with its sources into `folder`; return its path."""
     sources = c_sources(model, str(native_guid(model))) | fmi_headers()
-    for name, text in sources.items():
+    for name, text in {**sources, **model.c_code}.items():
         (folder / name).write_text(text)
-    code = intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
-    (folder / "kernels.o").write_bytes(object_code(code, LINUX)[0])
     files = sorted(name for name in sources if name.endswith(".c"))
+    if model.entry:
+        _watching_kernels(model, folder)
+        files.append("kernels.o")
+    else:
+        files.append(next(iter(model.c_code)))  # which includes the others
     path = folder / f"{model.definition.name}.so"
-    command = [str(COMPILER), *_FLAGS, *files, "kernels.o", "-o", str(path), "-lm"]
+    command = [str(COMPILER), *_FLAGS, *files, "-o", str(path), "-lm"]
     subprocess.run(command, cwd=folder, check=True)
     return path
 

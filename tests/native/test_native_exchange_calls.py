@@ -260,3 +260,16 @@ def test_a_model_without_states_is_for_co_simulation_only(
 
 def test_a_wrong_token_is_refused(library: NativeLibrary) -> None:
     assert NativeInstance(library, exchange=True, guid="another").address is None
+
+
+@pytest.mark.parametrize("seed", [1e305, -1e308, 1.7e308])
+def test_a_seed_beyond_numbers_is_refused_and_nothing_written(
+    free: NativeInstance, seed: float
+) -> None:
+    status, values = free.differentiate(["der(pinion.angle)"], ["pinion.speed"], [1e-300])
+    assert (status, values) == (OK, [pytest.approx(1e-300)])
+    before = free.content()
+    drag = ["der(pinion.speed)", "pinion.angle"]  # the first grows by 1/INERTIA
+    status, values = free.differentiate(drag, ["pinion.torque"], [seed])
+    assert (status, values) in ((DISCARD, [0.0, 0.0]), (OK, [pytest.approx(seed / INERTIA), 0.0]))
+    assert free.content() == before

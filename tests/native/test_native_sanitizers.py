@@ -9,13 +9,18 @@ from pathlib import Path
 import pytest
 
 from tests.helpers.small_native_builds import MODEL
-from tests.helpers.watching_library import COMPILER, watching_environment, watching_library
+from tests.helpers.watching_library import (
+    COMPILER,
+    NO_COMPILER,
+    watching_environment,
+    watching_library,
+)
 
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(COMPILER is None, reason="no gcc, whose run-time library does the watching")
+@pytest.mark.skipif(COMPILER is None, reason=NO_COMPILER)
 def test_no_call_leaves_its_memory_or_overflows(tmp_path: Path) -> None:
     folder = tmp_path / "small_native_model"
     folder.mkdir()

@@ -7,6 +7,7 @@ import math
 import struct
 import zlib
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -102,6 +103,53 @@ def test_a_freed_state_is_null_and_may_be_freed_again(mass: NativeInstance) -> N
     assert state.value is None
     assert mass.free_state(state) == OK
     assert mass.restore(state) == ERROR
+
+
+def test_freed_states_are_refused_however_many_there_were(new: New) -> None:
+    one, other = new(), new()
+    for instance in (one, other):
+        instance.start()
+    kept, content = one.save(), one.content()
+    gone = []
+    for instance in (one, other):
+        for _ in range(1000):
+            state = instance.save()
+            gone.append(ctypes.c_void_p(state.value))
+            assert instance.free_state(state) == OK
+    alive = [one.save() for _ in range(10)]  # where memory of freed ones may lie
+    for state in gone[::50]:
+        for instance in (one, other):
+            before = instance.content()
+            assert instance.restore(state) == ERROR
+            assert instance.size_of_state(state) == ERROR
+            assert instance.try_save(state)[0] == ERROR
+            assert instance.free_state(ctypes.c_void_p(state.value)) == ERROR
+            assert "has been freed" in instance.log[-1][2]
+            assert instance.content() == before
+    assert one.restore(kept) == OK
+    assert [one.serialise(state) for state in alive] == 10 * [content]
+
+
+def test_a_state_outlives_its_instance_and_is_freed_by_another(new: New) -> None:
+    one, other = new(), new()
+    one.start(mass__inertia=2.5)
+    state, content = one.save(), one.content()
+    one.close()
+    assert other.restore(state) == OK
+    assert other.content() == content
+    stale = ctypes.c_void_p(state.value)
+    assert other.free_state(state) == OK
+    assert new().restore(stale) == ERROR
+
+
+def test_instances_save_and_free_states_at_the_same_time(new: New) -> None:
+    def work(instance: NativeInstance) -> None:
+        for _ in range(300):
+            states = [instance.save() for _ in range(5)]
+            assert {instance.free_state(state) for state in states} == {OK}
+
+    with ThreadPoolExecutor(4) as pool:  # ctypes lets other threads run during a call
+        list(pool.map(work, [new() for _ in range(4)]))
 
 
 def test_memory_that_is_no_state_is_refused(mass: NativeInstance) -> None:

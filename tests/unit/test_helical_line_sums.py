@@ -10,6 +10,8 @@ from gearlube_core.dynamics.helical_pair.march import line_sums as module
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums, pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
 from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE
+from gearlube_core.kernels.places import place_below
+from gearlube_core.mesh_table import kernels
 from tests.helpers.helical_march_cases import he_march, wavy_mesh
 from tests.helpers.source_of import interpret, source_of
 
@@ -139,3 +141,38 @@ def test_tooth_pair_keeps_its_place_from_line_to_line(lines):
         later = [slot(period + 1.4, line, lines) for line in range(lines)]
         assert later[1:] == places[:-1]
         assert places[0] == period % lines
+
+
+# 2^53 and beyond: neighbouring floats lie whole mesh periods apart
+HUGE = [2.0**53 + 2.0, -2.9e16, 1.4e19, -1e19, 2.0**63, 1e100, -1e305, 1.7e308, math.inf, math.nan]
+
+
+@np.errstate(invalid="ignore")
+@pytest.mark.parametrize("phase", [*HUGE, *[-phase for phase in HUGE]])
+def test_every_phase_has_a_place_in_the_arrays(phase):
+    sums = [line_sums(1e-5, 1e-4, phase, DATA, MU, MU_AT) for line_sums in (module.line_sums,
+            module.line_sums.py_func)]  # fmt: skip
+    for one in (pair_slot, pair_slot.py_func):
+        assert {one(phase, line, LINES) for line in range(LINES)} == set(range(LINES))
+    if math.isfinite(phase):
+        # no part of a period is left: as at phase zero, but for who meets whose friction
+        expected = module.line_sums(1e-5, 1e-4, 0.0, DATA, MU, MU_AT)
+        for found in sums:
+            assert (found.N, found.stiffness) == pytest.approx((expected.N, expected.stiffness))
+
+
+@pytest.mark.parametrize(
+    ("position", "place"),
+    [(-1e300, 0), (-0.5, 0), (0.999, 0), (1.0, 1), (2.9, 2), (6.999, 6), (7.0, 6), (2.0**63, 6),
+     (1e308, 6), (math.inf, 6), (-math.inf, 0), (math.nan, 0)],
+)  # fmt: skip
+def test_a_position_becomes_the_nearest_place(position, place):
+    assert place_below(position, 7) == place_below.py_func(position, 7) == place
+
+
+@np.errstate(invalid="ignore")
+def test_tooth_pairs_have_places_beyond_the_precision_of_their_phase():
+    for phi in [*HUGE, *[-phi for phi in HUGE]]:
+        for pair in range(3):
+            for pair_node in (kernels.pair_node, kernels.pair_node.py_func):
+                assert 0 <= pair_node(60, 13.0, phi, pair)[0] < 60

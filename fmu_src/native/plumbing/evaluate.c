@@ -47,7 +47,7 @@ void gl_watch_ranges(gl_instance *instance)
     if (GL_RANGES == 0) {
         return;
     }
-    unsigned outside = (unsigned)instance->now.values[GL_EXCEEDED];
+    unsigned outside = (unsigned)gl_whole(instance->now.values[GL_EXCEEDED], 0, INT32_MAX);
     for (int i = 0; outside && i < GL_RANGES; i++) {
         if (!(outside >> i & 1u) || instance->outside[i]++) {
             continue;

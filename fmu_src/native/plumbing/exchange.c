@@ -103,6 +103,16 @@ static gl_status check_array(gl_instance *instance, const double *values, size_t
     return values || !count ? GL_OK : gl_refuse(instance, "The values are missing: a null pointer.");
 }
 
+gl_status gl_check_state(gl_instance *instance, int place, double value)
+{
+    if (isfinite(value / gl_states[place].unit)) {
+        return GL_OK;
+    }
+    gl_say(instance, GL_DISCARD, "%s must be finite, also in the unit of the model, got %g.",
+           gl_variables[gl_states[place].reference].name, value);
+    return GL_DISCARD;
+}
+
 gl_status gl_set_states(gl_instance *instance, const double *values, size_t count)
 {
     gl_status status = gl_expect(instance, GL_CONTINUOUS_TIME);
@@ -112,13 +122,14 @@ gl_status gl_set_states(gl_instance *instance, const double *values, size_t coun
     if (status != GL_OK) {
         return status;
     }
-    if (!gl_all_finite(values, GL_CONTINUOUS)) {
-        gl_say(instance, GL_DISCARD, "A continuous state is not finite.");
-        return GL_DISCARD;
-    }
+    double state[GL_STATE];
     for (int i = 0; i < GL_CONTINUOUS; i++) {
-        instance->now.state[i] = values[i] / gl_states[i].unit;
+        if (gl_check_state(instance, i, values[i]) != GL_OK) {
+            return GL_DISCARD;
+        }
+        state[i] = values[i] / gl_states[i].unit;
     }
+    memcpy(instance->now.state, state, GL_CONTINUOUS * sizeof *state);
     instance->fresh = 0;
     return GL_OK;
 }
@@ -223,16 +234,16 @@ static gl_status check_direction(gl_instance *instance, const unsigned *unknowns
     return status;
 }
 
-/* Outputs at the present state, changed along the direction by so much. */
+/* Outputs at the present state, changed by this share of the seed. */
 static gl_status outputs_beside(gl_instance *instance, int operation, const unsigned *knowns,
-                                size_t n_knowns, const double *seed, double change,
+                                size_t n_knowns, const double *seed, double whole, double share,
                                 double *outputs)
 {
     double state[GL_STATE], inputs[GL_INPUTS] = {0.0}, unit;
     memcpy(state, instance->now.state, sizeof state);
     for (size_t i = 0; i < n_knowns; i++) {
         int place = place_of(knowns[i], &unit);
-        state[place] += change * seed[i] / unit;
+        state[place] += share * (seed[i] / whole) / unit;
     }
     int64_t refusal = gearlube_entry(operation, 0.0, gl_data, instance->parameters, inputs, state,
                                      instance->work, outputs);
@@ -261,23 +272,29 @@ gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size
         needs |= gl_variables[unknowns[i]].needs;
     }
     int operation = needs == GL_OF_RATES ? GL_DERIVATIVES : GL_WRITE_OUTPUTS;
-    double change = largest > 0.0 ? DIFFERENCE / largest : 1.0;
+    double whole = largest > 0.0 ? largest : 1.0;
     if (status == GL_OK) {
-        status = outputs_beside(instance, operation, knowns, n_knowns, seed, change, above);
+        status = outputs_beside(instance, operation, knowns, n_knowns, seed, whole, DIFFERENCE,
+                                above);
     }
     if (status == GL_OK) {
-        status = outputs_beside(instance, operation, knowns, n_knowns, seed, -change, below);
+        status = outputs_beside(instance, operation, knowns, n_knowns, seed, whole, -DIFFERENCE,
+                                below);
     }
-    for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
-        int place = gl_variables[unknowns[i]].place;
-        if (!isfinite(above[place] - below[place])) {
-            gl_say(instance, GL_DISCARD, "%s is not finite.", gl_variables[unknowns[i]].name);
-            status = GL_DISCARD;
+    for (int writes = 0; status == GL_OK && writes < 2; writes++) { /* after all are known good */
+        for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
+            int place = gl_variables[unknowns[i]].place;
+            double slope = (above[place] - below[place]) / (2.0 * DIFFERENCE) * whole;
+            if (writes) {
+                derivatives[i] = slope;
+            } else if (!isfinite(slope)) {
+                gl_say(instance, GL_DISCARD,
+                       "The derivative of %s is not finite, with a seed of %g times the nominal "
+                       "value. Use a smaller seed, or a state nearer to a run.",
+                       gl_variables[unknowns[i]].name, largest);
+                status = GL_DISCARD;
+            }
         }
-    }
-    for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
-        int place = gl_variables[unknowns[i]].place;
-        derivatives[i] = (above[place] - below[place]) / (2.0 * change);
     }
     return status;
 }

@@ -18,7 +18,6 @@ static void set_to_start(gl_instance *instance)
     instance->now.exchange = exchange;
     memset(instance->refused, 0, sizeof instance->refused);
     memset(instance->outside, 0, sizeof instance->outside);
-    memcpy(instance->now.owner, GL_GUID, strlen(GL_GUID));
     instance->points = 0;
     instance->stop = INFINITY;
     instance->refusals = 0;

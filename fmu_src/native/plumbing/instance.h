@@ -27,7 +27,7 @@ extern const char *const gl_log_names[GL_LOGS];
 
 typedef struct gl_instance gl_instance;
 
-enum { GL_LONGEST_MESSAGE = 1024, GL_OWNER_SIZE = 40 };
+enum { GL_LONGEST_MESSAGE = 1024 };
 
 /* Passes a message on to the host. */
 typedef void (*gl_listener)(gl_instance *instance, gl_status status, const char *category,
@@ -35,7 +35,6 @@ typedef void (*gl_listener)(gl_instance *instance, gl_status status, const char 
 
 /* Everything that a host may save and restore. */
 typedef struct {
-    char owner[GL_OWNER_SIZE]; /* GUID of the FMU: tells a state of it from other memory */
     gl_phase phase;
     int exchange;                /* 1: model exchange, 0: co-simulation */
     double time;                 /* last communication point, or what the host has set [s] */

@@ -44,6 +44,9 @@ const char *gl_refusal_text(int64_t status);
 /* In model exchange: puts the present inputs into the state, unless they are refused. */
 gl_status gl_take_inputs(gl_instance *instance);
 
+/* Refuses a value of the continuous state at a place that is not finite in the model's unit. */
+gl_status gl_check_state(gl_instance *instance, int place, double value);
+
 /* Place of a continuous state by the reference of its variable; -1: none such. */
 int gl_state_place(unsigned reference);
 

@@ -10,11 +10,59 @@
    what follows, time, values, state. */
 enum {
     MARK_SIZE = 8,
-    HEADER_SIZE = MARK_SIZE + GL_OWNER_SIZE + 4 + 4,
+    OWNER_SIZE = 40,
+    HEADER_SIZE = MARK_SIZE + OWNER_SIZE + 4 + 4,
     OF_EXCHANGE = 256, /* added to the phase in model exchange */
     NUMBERS_SIZE = 8 * (1 + GL_VARIABLES + GL_STATE)
 };
 static const char MARK[MARK_SIZE + 1] = "gearlub2";
+static const char OWNER[OWNER_SIZE] = GL_GUID;
+static const char FREED[] = "The state is none of this FMU, or has been freed. Save one again.";
+
+/* States that hosts hold. A host gets a number that is never given again, not an address: a freed
+   state is known as such without a look at its memory. Any instance of this library may use a
+   state. Instances of several threads go through the rows one at a time, for some nanoseconds. */
+typedef struct held {
+    uintptr_t name;
+    gl_snapshot snapshot;
+    struct held *next;
+} held;
+enum { ROWS = 1024 };
+static held *rows[ROWS];
+static uintptr_t names_given;
+
+#ifdef _MSC_VER
+#include <intrin.h>
+static volatile long busy;
+#define LOCK() while (_InterlockedExchange(&busy, 1)) {}
+#define UNLOCK() _InterlockedExchange(&busy, 0)
+#else
+static char busy;
+#define LOCK() while (__atomic_test_and_set(&busy, __ATOMIC_ACQUIRE)) {}
+#define UNLOCK() __atomic_clear(&busy, __ATOMIC_RELEASE)
+#endif
+
+/* Where the state of this name hangs, or where its row ends; only while the rows are locked. */
+static held **link_of(uintptr_t name)
+{
+    held **link = &rows[name % ROWS];
+    while (*link && (*link)->name != name) {
+        link = &(*link)->next;
+    }
+    return link;
+}
+
+/* Gives a state a name; far from those of other libraries, which begin at their own rows. */
+static void *hold(held *state)
+{
+    LOCK();
+    state->name = (uintptr_t)rows + (uintptr_t)0x9e3779b97f4a7c15u * ++names_given;
+    held **link = link_of(state->name);
+    state->next = NULL;
+    *link = state;
+    UNLOCK();
+    return (void *)state->name;
+}
 
 static uint32_t checksum(uint32_t phase, const unsigned char *bytes, size_t size)
 {
@@ -33,29 +81,40 @@ static gl_status check_pointers(gl_instance *instance, const void *one, const vo
     return one && other ? GL_OK : gl_refuse(instance, "A pointer of the call is null.");
 }
 
-static gl_status check_state(gl_instance *instance, const void *state)
+/* The snapshot of a state; NULL, and a message, if the state is none. */
+static gl_snapshot *found(gl_instance *instance, const void *state)
 {
     if (!state) {
-        return gl_refuse(instance, "The state is missing: a null pointer.");
+        gl_refuse(instance, "The state is missing: a null pointer.");
+        return NULL;
     }
-    if (memcmp(state, instance->now.owner, GL_OWNER_SIZE)) {
-        return gl_refuse(instance, "The state is none of this FMU, or has been freed.");
+    LOCK();
+    held *there = *link_of((uintptr_t)state);
+    UNLOCK();
+    if (!there) {
+        gl_refuse(instance, FREED);
+        return NULL;
     }
-    return GL_OK;
+    return &there->snapshot;
 }
 
 /* Keeps a snapshot where the host has one, or in new memory. */
 static gl_status keep(gl_instance *instance, const gl_snapshot *snapshot, void **place)
 {
-    if (*place && check_state(instance, *place) != GL_OK) {
-        return GL_ERROR;
+    if (*place) {
+        gl_snapshot *old = found(instance, *place);
+        if (!old) {
+            return GL_ERROR;
+        }
+        *old = *snapshot;
+        return GL_OK;
     }
-    gl_snapshot *kept = *place ? *place : malloc(sizeof *kept);
-    if (!kept) {
+    held *state = malloc(sizeof *state);
+    if (!state) {
         return gl_refuse(instance, "There is not enough memory for a state.");
     }
-    *kept = *snapshot;
-    *place = kept;
+    state->snapshot = *snapshot;
+    *place = hold(state);
     return GL_OK;
 }
 
@@ -91,20 +150,25 @@ gl_status gl_forget(gl_instance *instance, void **place)
     if (!place || !*place) {
         return GL_OK;
     }
-    gl_status status = check_state(instance, *place);
-    if (status == GL_OK) {
-        memset(*place, 0, GL_OWNER_SIZE);
-        free(*place);
-        *place = NULL;
+    LOCK();
+    held **link = link_of((uintptr_t)*place), *state = *link;
+    if (state) {
+        *link = state->next;
     }
-    return status;
+    UNLOCK();
+    if (!state) {
+        return gl_refuse(instance, FREED);
+    }
+    free(state);
+    *place = NULL;
+    return GL_OK;
 }
 
 gl_status gl_state_size(gl_instance *instance, const void *state, size_t *size)
 {
     gl_status status = check_pointers(instance, state, size);
-    if (status == GL_OK) {
-        status = check_state(instance, state);
+    if (status == GL_OK && !found(instance, state)) {
+        status = GL_ERROR;
     }
     if (status == GL_OK) {
         *size = HEADER_SIZE + NUMBERS_SIZE;
@@ -114,24 +178,21 @@ gl_status gl_state_size(gl_instance *instance, const void *state, size_t *size)
 
 gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *bytes, size_t size)
 {
-    const gl_snapshot *snapshot = state;
     gl_status status = check_pointers(instance, state, bytes);
-    if (status == GL_OK) {
-        status = check_state(instance, state);
+    const gl_snapshot *snapshot = status == GL_OK ? found(instance, state) : NULL;
+    if (!snapshot) {
+        return GL_ERROR;
     }
-    if (status == GL_OK && size < HEADER_SIZE + NUMBERS_SIZE) {
-        status = gl_refuse(instance, "A state needs %d bytes, got room for %lu.",
-                           HEADER_SIZE + NUMBERS_SIZE, (unsigned long)size);
-    }
-    if (status != GL_OK) {
-        return status;
+    if (size < HEADER_SIZE + NUMBERS_SIZE) {
+        return gl_refuse(instance, "A state needs %d bytes, got room for %lu.",
+                         HEADER_SIZE + NUMBERS_SIZE, (unsigned long)size);
     }
     unsigned char *numbers = bytes + HEADER_SIZE;
     uint32_t phase = (uint32_t)snapshot->phase + (snapshot->exchange ? OF_EXCHANGE : 0);
     memset(bytes, 0, HEADER_SIZE);
     memcpy(bytes, MARK, MARK_SIZE);
-    memcpy(bytes + MARK_SIZE, snapshot->owner, GL_OWNER_SIZE);
-    memcpy(bytes + MARK_SIZE + GL_OWNER_SIZE, &phase, 4);
+    memcpy(bytes + MARK_SIZE, OWNER, OWNER_SIZE);
+    memcpy(bytes + MARK_SIZE + OWNER_SIZE, &phase, 4);
     memcpy(numbers, &snapshot->time, 8);
     memcpy(numbers + 8, snapshot->values, sizeof snapshot->values);
     memcpy(numbers + 8 + sizeof snapshot->values, snapshot->state, sizeof snapshot->state);
@@ -172,13 +233,13 @@ static gl_status from_bytes(gl_instance *instance, const unsigned char *bytes, s
     if (size < HEADER_SIZE || memcmp(bytes, MARK, MARK_SIZE)) {
         return gl_refuse(instance, "The FMU state was not written by a native gearlube FMU.");
     }
-    if (memcmp(bytes + MARK_SIZE, instance->now.owner, GL_OWNER_SIZE)) {
+    if (memcmp(bytes + MARK_SIZE, OWNER, OWNER_SIZE)) {
         return gl_refuse(instance,
                          "The FMU state must come from the FMU with GUID %s. Restore it in the "
                          "FMU that wrote it.",
                          GL_GUID);
     }
-    memcpy(&phase, bytes + MARK_SIZE + GL_OWNER_SIZE, 4);
+    memcpy(&phase, bytes + MARK_SIZE + OWNER_SIZE, 4);
     memcpy(&sum, bytes + HEADER_SIZE - 4, 4);
     const unsigned char *numbers = bytes + HEADER_SIZE;
     snapshot->exchange = (phase & OF_EXCHANGE) != 0;
@@ -187,7 +248,6 @@ static gl_status from_bytes(gl_instance *instance, const unsigned char *bytes, s
         checksum(phase, numbers, NUMBERS_SIZE) != sum) {
         return gl_refuse(instance, "The FMU state is damaged: length or checksum do not agree.");
     }
-    memcpy(snapshot->owner, instance->now.owner, GL_OWNER_SIZE);
     memcpy(&snapshot->time, numbers, 8);
     memcpy(snapshot->values, numbers + 8, sizeof snapshot->values);
     memcpy(snapshot->state, numbers + 8 + sizeof snapshot->values, sizeof snapshot->state);
@@ -210,8 +270,8 @@ gl_status gl_deserialise(gl_instance *instance, const unsigned char *bytes, size
 
 gl_status gl_restore(gl_instance *instance, const void *state)
 {
-    const gl_snapshot *snapshot = state;
-    if (check_state(instance, state) != GL_OK) {
+    const gl_snapshot *snapshot = found(instance, state);
+    if (!snapshot) {
         return GL_ERROR;
     }
     if (snapshot->exchange != instance->now.exchange) {

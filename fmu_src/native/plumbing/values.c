@@ -145,10 +145,8 @@ gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const 
                                "parameters before the end of initialisation, inputs before "
                                "termination, outputs never.",
                                gl_variables[refs[i]].name);
-        } else if (is_set_as_state(instance, refs[i]) && !isfinite(((const double *)values)[i])) {
-            gl_say(instance, GL_DISCARD, "%s must be finite, got %g.", gl_variables[refs[i]].name,
-                   ((const double *)values)[i]);
-            status = GL_DISCARD;
+        } else if (is_set_as_state(instance, refs[i])) {
+            status = gl_check_state(instance, gl_state_place(refs[i]), ((const double *)values)[i]);
         }
     }
     return status;

@@ -31,9 +31,25 @@ from gearlube_core.dynamics.hypoid_axle.outputs import (
     write_outputs,
 )
 from gearlube_core.dynamics.hypoid_axle.start import rest
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE, W_G, W_P, X
+from gearlube_core.dynamics.hypoid_axle.state import (
+    CAGE_G,
+    CAGE_P,
+    DRAG_BOUND,
+    FRICTION_BOUND,
+    N_ENERGIES,
+    N_STATE,
+    PHI_G,
+    PHI_P,
+    PINION_WORK,
+    TIME_IN_STEP,
+    W_G,
+    W_P,
+    WORK_MARK,
+    X,
+)
 from gearlube_core.dynamics.hypoid_axle.step_control import write_step_control
-from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.dynamics.mean_power import LEAST_WINDOW, keep_means
+from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
@@ -49,8 +65,19 @@ class AxleKernels(NamedTuple):
     step_without_outputs: Callable[..., int]
     motion_outputs: Callable[..., None]
     outputs: Callable[..., None]
-    continuous_rates: Callable[..., int]
+    continuous_rates: Callable[..., None]
     event: Callable[..., None]
+
+
+@kernel
+def state_status(s: Array) -> int:
+    """Return OK, or why the model says nothing of a state: NOT_FINITE, TOO_FAST or TOO_FAR."""
+    if not abs(s[X]) <= DIVERGED_UM:
+        return NOT_FINITE
+    if not max(abs(s[W_P]), abs(s[W_G])) <= MAX_SPEED:
+        return TOO_FAST
+    angle = max(abs(s[PHI_P]), abs(s[PHI_G]), abs(s[CAGE_P]), abs(s[CAGE_G]))
+    return OK if angle <= MAX_ANGLE else TOO_FAR
 
 
 @cache
@@ -148,8 +175,15 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         torques = (inputs[0], inputs[1])
         for i in range(N_STATE):
             trial[i] = s[i]
-        status = advance(trial, duration, torques, inputs[2], table, p, control, work)
+        status = state_status(s)
         if status == OK:
+            status = advance(trial, duration, torques, inputs[2], table, p, control, work)
+        if status == OK:
+            status = state_status(trial)
+        if status == OK:
+            if duration < LEAST_WINDOW:
+                keep_means(s, trial, PINION_WORK, WORK_MARK, N_ENERGIES, TIME_IN_STEP)
+                trial[FRICTION_BOUND], trial[DRAG_BOUND] = s[FRICTION_BOUND], s[DRAG_BOUND]
             for i in range(N_STATE):
                 s[i] = trial[i]
         return status
@@ -216,19 +250,11 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
     @kernel
     def continuous_rates(
         s: Array, inputs: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
-    ) -> int:
-        """Write rates and event indicators as in `write_derivatives`; return a status.
-
-        Arguments as in `outputs`; the status is OK, NOT_FINITE or TOO_FAST.
-        """
-        if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
-            return TOO_FAST
-        if not abs(s[X]) <= DIVERGED_UM:
-            return NOT_FINITE
+    ) -> None:
+        """Write rates and event indicators as in `write_derivatives`; arguments as in `outputs`."""
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
         table = MeshLevels(*mesh)
         write_derivatives(s, (inputs[0], inputs[1]), inputs[2], table, p, work, out)
-        return OK
 
     @kernel
     def event(s: Array, mesh: MeshFields, parameters: Array, work: Array) -> None:

@@ -38,7 +38,9 @@ from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM_CURE, OK, RE
 from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, SIDE
 from gearlube_core.dynamics.hypoid_axle.step_control import CONTROL_WORK, NO_MODES_WORDS
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
+from gearlube_core.dynamics.ranges import TOO_FAR
 from gearlube_core.dynamics.stepped_model import (
+    TOO_FAR_WORDS,
     TOO_FAST_WORDS,
     Kernels,
     SteppedModel,
@@ -60,6 +62,7 @@ STEP_REFUSALS = {
     ),
     TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
     TOO_FAST: TOO_FAST_WORDS,
+    TOO_FAR: TOO_FAR_WORDS,
 }
 MARCH_WITH_WARM_FLANKS = (
     "flank_bulk_resistance must be 0 K/W in a march in time: teeth warm up in minutes, a march "

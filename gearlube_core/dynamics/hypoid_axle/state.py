@@ -26,10 +26,10 @@ N_ENERGIES = 10  # from PINION_WORK on
 N_ODE = 29  # everything above is integrated
 
 LOAD_TORQUE = 29  # filtered abs(pinion torque) that selects the load level [N.m]
-TIME_IN_STEP = 30  # length of the last communication step [s]
-WORK_MARK = 31  # these energies at the start of the last communication step [J]
+TIME_IN_STEP = 30  # length of the communication step that means are over, see `keep_means` [s]
+WORK_MARK = 31  # these energies at the start of that step [J]
 SIDE = WORK_MARK + N_ENERGIES  # below 0: the mesh data are those of the coast flanks [-]
-FRICTION_BOUND = SIDE + 1  # of the flank friction losses of the last communication step [J]
+FRICTION_BOUND = SIDE + 1  # of the flank friction losses of that step [J]
 DRAG_BOUND = FRICTION_BOUND + 1  # of the drag losses of the bearings, likewise [J]
 FILM_NODES = DRAG_BOUND + 1  # `film_nodes`, with a film model
 ROLLER_NODES = FILM_NODES + N_FILMS  # `roller_nodes` of both shafts, with a film model of rollers

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, MotionConstants
@@ -59,7 +59,7 @@ def refresh_friction(s: Array, data: Array, lubricant: LubricantState) -> bool:
     motion: MotionConstants = tuple_from_array(data, MotionConstants)
     flanks = motion.flanks
     drive = drive_view(s, flanks)
-    mark = 4.0 * math.floor(drive.phase * data[REFRESHES_AT])
+    mark = 4.0 * np.floor(drive.phase * data[REFRESHES_AT])
     if touches(drive, data[LEAST_OFFSET], flanks):
         mark += 1.0
     if coast_near(s, data[LEAST_OFFSET], flanks):

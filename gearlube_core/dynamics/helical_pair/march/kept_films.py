@@ -12,9 +12,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.state import FLANK_POINTS, POINTS_PER_LINE
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.places import place_below
 
 NODES_KEPT = 16  # nodes of a mesh period; with more refreshes nothing is kept
 LOAD_BIN, SPEED_BIN = 0.1, 0.1  # widths, of logarithms
@@ -58,8 +61,8 @@ def bin_of(line_load: float, pinion_speed: float, temperature: float) -> Bin:
     """Return the bin of a load [N/m], a speed [rad/s], both above zero, and an oil [K]."""
     load, speed = math.log(line_load) / LOAD_BIN, math.log(pinion_speed) / SPEED_BIN
     oil = temperature / OIL_BIN
-    i, j, k = math.floor(load), math.floor(speed), math.floor(oil)
-    return Bin(float(i), float(j), float(k), load - i - 0.5, speed - j - 0.5, oil - k - 0.5)
+    i, j, k = np.floor(load), np.floor(speed), np.floor(oil)
+    return Bin(i, j, k, load - i - 0.5, speed - j - 0.5, oil - k - 0.5)
 
 
 @kernel
@@ -77,9 +80,9 @@ def place_of(coast: bool, node: int, line: int, place: int, box: Bin) -> int:
     """Return where a point of a line at a node has its place in what is kept."""
     point = line * POINTS_PER_LINE + place
     at = ((NODES_KEPT if coast else 0) + node) * FLANK_POINTS + point
-    odd = 2.0 * (box.load - 2.0 * math.floor(0.5 * box.load))
-    odd += box.speed - 2.0 * math.floor(0.5 * box.speed)
-    return (at * _SIDES + int(odd)) * N_KEPT
+    odd = 2.0 * (box.load - 2.0 * np.floor(0.5 * box.load))
+    odd += box.speed - 2.0 * np.floor(0.5 * box.speed)
+    return (at * _SIDES + place_below(odd, _SIDES)) * N_KEPT
 
 
 @kernel

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants, FlankView
@@ -40,6 +42,7 @@ from gearlube_core.friction.solved_line import BoundedLine, line_film, line_inle
 from gearlube_core.helical_geometry.contact_line import ContactPlane, clip_line, pitch_crossing
 from gearlube_core.helical_geometry.line_kinematics import LineKinematics, line_kinematics
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.places import place_below
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 _TINY = 1e-300  # coefficient of friction in pure rolling
@@ -90,8 +93,8 @@ def point_load(
     lines = int(p.lines)
     at_density = STATIONS_AT + n_s
     to_offset = n_phase * lines * n_s
-    at_phase = (phase - math.floor(phase)) * n_phase
-    row = min(int(at_phase), n_phase - 1)
+    at_phase = (phase - np.floor(phase)) * n_phase
+    row = place_below(at_phase, n_phase)
     part = at_phase - row
     here = at_density + (row * lines + line) * n_s
     after = here + lines * n_s
@@ -121,13 +124,13 @@ def film_node(phase: float, coast: bool, p: MarchConstants) -> tuple[int, float]
     refreshes, start = p.refreshes, p.motion.flanks.coast_phase
     if refreshes > NODES_KEPT:
         return -1, 0.0
-    number = math.floor((start - phase if coast else phase) * refreshes)
-    node = number - refreshes * math.floor(number / refreshes)
+    number = np.floor((start - phase if coast else phase) * refreshes)
+    node = number - refreshes * np.floor(number / refreshes)
     there = number / refreshes
-    if math.floor(start - there if coast else there) != math.floor(phase):
+    if np.floor(start - there if coast else there) != np.floor(phase):
         return -1, 0.0  # other lines than now
     part = start - node / refreshes if coast else node / refreshes
-    return int(node), part - math.floor(part)
+    return place_below(node, NODES_KEPT), part - np.floor(part)
 
 
 @kernel
@@ -229,7 +232,7 @@ def line_point(
     """
     flanks = p.motion.flanks
     plane = flanks.plane
-    point = line_place(view.phase - math.floor(view.phase), line, place, plane)
+    point = line_place(view.phase - np.floor(view.phase), line, place, plane)
     if point.length == 0.0:
         still = LineKinematics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         none = LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

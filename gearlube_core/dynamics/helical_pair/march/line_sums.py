@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
+
+import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
@@ -14,6 +15,7 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import built_up
 from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.places import place_below
 
 GAUSS = 0.21132486540518713  # (1 - 1/sqrt(3))/2: first of two points between 0 and 1
 _HALF_APART = 0.28867513459481287  # 1/(2 sqrt(3)): of the two points
@@ -39,8 +41,8 @@ class LineSums(NamedTuple):
 @kernel
 def pair_slot(phase: float, line: int, lines: int) -> int:
     """Return the place of the tooth pair on line `line`; it keeps its place from entry to exit."""
-    first = math.floor(phase)
-    slot = int(first - lines * math.floor(first / lines)) - line
+    first = np.floor(phase)
+    slot = place_below(first - lines * np.floor(first / lines), lines) - line
     return slot + lines if slot < 0 else slot
 
 
@@ -93,8 +95,8 @@ def line_sums(
     n_phase = int(p.phases)
     at_density = STATIONS_AT + n_s
     to_offset = n_phase * lines * n_s
-    fraction = phase - math.floor(phase)
-    row = min(int(fraction * n_phase), n_phase - 1)
+    fraction = phase - np.floor(phase)
+    row = place_below(fraction * n_phase, n_phase)
     part = fraction * n_phase - row
     per_cos = 1.0 / plane.cos_b
     slope = tilt * per_cos

@@ -34,7 +34,9 @@ from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES, writ
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import LOAD_TORQUE, N_ODE, N_STATE
+from gearlube_core.dynamics.ranges import TOO_FAR
 from gearlube_core.dynamics.stepped_model import (
+    TOO_FAR_WORDS,
     TOO_FAST_WORDS,
     Kernels,
     SteppedModel,
@@ -60,6 +62,7 @@ WORDS = Words(
         ),
         TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
         TOO_FAST: TOO_FAST_WORDS,
+        TOO_FAR: TOO_FAR_WORDS,
     },
 )
 

@@ -16,8 +16,8 @@ N_ENERGIES = 5
 N_ODE = 30  # everything above is integrated
 
 LOAD_TORQUE = 30  # filtered abs(pinion torque) that selects the level of the line mesh [N.m]
-TIME_IN_STEP = 31  # length of the last communication step [s]
-WORK_MARK = 32  # the energies at the start of the last communication step [J]
+TIME_IN_STEP = 31  # length of the communication step that means are over, see `keep_means` [s]
+WORK_MARK = 32  # the energies at the start of that step [J]
 REFRESHED = WORK_MARK + N_ENERGIES  # when friction was last computed [refreshes since phase 0]
 LINES_MAX = 6  # contact lines at once; a total contact ratio above 6 is refused
 POINTS_PER_LINE = 4  # two Gauss points on either side of the pitch line

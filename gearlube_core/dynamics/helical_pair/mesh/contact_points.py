@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.helical_geometry.contact_line import (
@@ -14,6 +16,7 @@ from gearlube_core.helical_geometry.contact_line import (
     pitch_crossing,
 )
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.places import place_below
 
 # columns of a table of points
 X, Z, LENGTH, DENSITY, OFFSET, SLIDING, LINE, LOAD, MU = range(9)
@@ -58,8 +61,8 @@ def contact_points(
     Source: [he_2007 (5a)] [he_2007 (5b)] [he_2007 (6)]
     """
     phases, lines, stations = mesh.density.shape
-    place = (phase - math.floor(phase)) * phases
-    row = min(int(place), phases - 1)
+    place = (phase - np.floor(phase)) * phases
+    row = place_below(place, phases)
     weight = place - row
     tan_b = plane.sin_b / plane.cos_b
     gear_speed = pinion_speed * plane.r_bp / plane.r_bg
