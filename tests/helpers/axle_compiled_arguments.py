@@ -66,6 +66,18 @@ def compiled_cases(state, torques, table, both_sides, p, lossless, control, work
             COMPILED.motion_outputs,
             (state, tuple(table), flatten(p), work, zeros(N_OUTPUTS)),
         ),
+        *(
+            (group, (state, array([*torques, OIL]), tuple(table), flatten(p), work,
+                     zeros(N_OUTPUTS)))
+            for group in (COMPILED.flank_outputs, COMPILED.raceway_outputs)
+        ),
+        (
+            COMPILED.bearing_outputs,
+            (
+                state, array([*torques, OIL]), tuple(table), flatten(p), work,
+                zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
+            ),
+        ),
         (
             COMPILED.outputs,
             (

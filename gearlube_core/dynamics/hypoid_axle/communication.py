@@ -13,7 +13,10 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.dynamics.hypoid_axle.bearing_outputs import write_raceways
 from gearlube_core.dynamics.hypoid_axle.continuous import change_side
+from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
+from gearlube_core.dynamics.hypoid_axle.flanks import FILMS
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import force_derivatives
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     DIVERGED_UM,
@@ -24,19 +27,45 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
     advance,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields, MeshLevels
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+    MeshFields,
+    MeshLevels,
+    blend_mesh,
+    place_at_load,
+    series_size,
+)
+from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    BEARING_SHARE_OUTSIDE,
+    FIRST_BEARING_FILM,
+)
 from gearlube_core.dynamics.hypoid_axle.outputs import (
+    raceways_of,
+    write_bearing_group,
     write_derivatives,
+    write_flank_group,
     write_motion_after_step,
     write_outputs,
 )
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH
 from gearlube_core.dynamics.hypoid_axle.start import rest
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE, W_G, W_P, X
+from gearlube_core.dynamics.hypoid_axle.state import (
+    FILM_NODES,
+    LOAD_TORQUE,
+    N_ODE,
+    N_STATE,
+    SIDE,
+    W_G,
+    W_P,
+    X,
+)
 from gearlube_core.dynamics.hypoid_axle.step_control import write_step_control
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.mesh_table.kernels import blend_levels, load_bracket
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 
 class AxleKernels(NamedTuple):
@@ -48,6 +77,9 @@ class AxleKernels(NamedTuple):
     communication_step: Callable[..., int]
     step_without_outputs: Callable[..., int]
     motion_outputs: Callable[..., None]
+    flank_outputs: Callable[..., None]
+    raceway_outputs: Callable[..., None]
+    bearing_outputs: Callable[..., None]
     outputs: Callable[..., None]
     continuous_rates: Callable[..., int]
     event: Callable[..., None]
@@ -214,6 +246,56 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         write_motion_after_step(s, MeshLevels(*mesh), p, work, out)
 
     @kernel
+    def flank_outputs(
+        s: Array, inputs: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
+    ) -> None:
+        """Write `FLANK_GROUP` of the state that a step has left, as in `outputs`."""
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        table = MeshLevels(*mesh)
+        at_series = N_ODE + SCRATCH
+        at_window = at_series + series_size(table)
+        scratch = work[N_ODE:at_series]
+        data = place_at_load(table, work[at_series:at_window], work[at_window:])
+        blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
+        if data.film_model.size > 0:
+            for i in range(N_FILMS):
+                scratch[FILMS + i] = s[FILM_NODES + i]
+        force = mesh_force(s, data.series, data.n_orders, p.mesh).force
+        oil = lubricant_state(p.oil, inputs[2])
+        write_flank_group(s, force, inputs[2], oil, data, p, scratch, out)
+
+    @kernel
+    def raceway_outputs(
+        s: Array, inputs: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
+    ) -> None:
+        """Write `RACEWAY_GROUP` of the state that a step has left, as in `outputs`."""
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        scratch = work[N_ODE : N_ODE + SCRATCH]
+        oil = lubricant_state(p.oil, inputs[2])
+        raceways = raceways_of(s, oil, p, MeshLevels(*mesh).roller_model, scratch)
+        write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
+
+    @kernel
+    def bearing_outputs(
+        s: Array,
+        inputs: Array,
+        mesh: MeshFields,
+        parameters: Array,
+        work: Array,
+        rollers: Array,
+        out: Array,
+    ) -> None:
+        """Write `BEARING_GROUP` of the state that a step has left, as in `outputs`."""
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        table = MeshLevels(*mesh)
+        size = series_size(table)
+        series = work[N_ODE : N_ODE + size]
+        bracket = load_bracket(s[LOAD_TORQUE], s[SIDE], table.levels, table.levels.size)
+        blend_levels(table.series, size, bracket, series)
+        stiffness = mesh_force(s, series, table.n_orders, p.mesh).stiffness
+        write_bearing_group(s, stiffness, lubricant_state(p.oil, inputs[2]), p, rollers, out)
+
+    @kernel
     def continuous_rates(
         s: Array, inputs: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
     ) -> int:
@@ -243,6 +325,9 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         communication_step,
         step_without_outputs,
         motion_outputs,
+        flank_outputs,
+        raceway_outputs,
+        bearing_outputs,
         outputs,
         continuous_rates,
         event,
