@@ -62,8 +62,8 @@ REFUSALS: Mapping[int, str] = {
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
     PRINTED_FILM: PRINTED_WITH_SOLVED_FILM,
 }
-_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT, *_groups = map(int, Operation)
-_FLANKS, _BEARINGS, _RACEWAYS = _groups
+_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
+_FLANKS = int(Operation.FLANKS)  # the groups follow in the order of `communication`
 _N_INPUTS = 3
 _N_CONTROL = count_floats(StepControl)
 _CONTROL_AT = N_STATE + _N_INPUTS
@@ -195,8 +195,7 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
     static_state, step_control = kernels.static_state, kernels.step_control
     step_without_outputs, write_outputs = kernels.step_without_outputs, kernels.outputs
     motion_outputs, event = kernels.motion_outputs, kernels.event
-    flank_outputs, raceway_outputs = kernels.flank_outputs, kernels.raceway_outputs
-    bearing_outputs = kernels.bearing_outputs
+    group_outputs = kernels.group_outputs
     continuous_rates = kernels.continuous_rates
 
     def entry(
@@ -265,12 +264,8 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
                 kept[_CONTROL_AT + i] = control[i]
         if operation == _MOTION:
             motion_outputs(s, mesh, packed, scratch, out)
-        elif operation == _FLANKS:
-            flank_outputs(s, last, mesh, packed, scratch, out)
-        elif operation == _RACEWAYS:
-            raceway_outputs(s, last, mesh, packed, scratch, out)
-        elif operation == _BEARINGS:
-            bearing_outputs(s, last, mesh, packed, scratch, rollers, out)
+        elif operation >= _FLANKS:
+            group_outputs(operation - _FLANKS, s, last, mesh, packed, scratch, rollers, out)
         else:
             write_outputs(s, last, mesh, packed, scratch, rollers, out)
         return OK

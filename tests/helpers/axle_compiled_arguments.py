@@ -67,16 +67,14 @@ def compiled_cases(state, torques, table, both_sides, p, lossless, control, work
             (state, tuple(table), flatten(p), work, zeros(N_OUTPUTS)),
         ),
         *(
-            (group, (state, array([*torques, OIL]), tuple(table), flatten(p), work,
-                     zeros(N_OUTPUTS)))
-            for group in (COMPILED.flank_outputs, COMPILED.raceway_outputs)
-        ),
-        (
-            COMPILED.bearing_outputs,
             (
-                state, array([*torques, OIL]), tuple(table), flatten(p), work,
-                zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
-            ),
+                COMPILED.group_outputs,
+                (
+                    group, state, array([*torques, OIL]), tuple(table), flatten(p), work,
+                    zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
+                ),
+            )
+            for group in range(3)
         ),
         (
             COMPILED.outputs,

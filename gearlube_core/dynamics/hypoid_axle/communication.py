@@ -64,8 +64,9 @@ from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import blend_levels, load_bracket
 from gearlube_core.oil.lubricant_state import lubricant_state
+
+OF_FLANKS, OF_BEARINGS, OF_RACEWAYS = range(3)  # groups of outputs
 
 
 class AxleKernels(NamedTuple):
@@ -77,9 +78,7 @@ class AxleKernels(NamedTuple):
     communication_step: Callable[..., int]
     step_without_outputs: Callable[..., int]
     motion_outputs: Callable[..., None]
-    flank_outputs: Callable[..., None]
-    raceway_outputs: Callable[..., None]
-    bearing_outputs: Callable[..., None]
+    group_outputs: Callable[..., None]
     outputs: Callable[..., None]
     continuous_rates: Callable[..., int]
     event: Callable[..., None]
@@ -246,37 +245,8 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         write_motion_after_step(s, MeshLevels(*mesh), p, work, out)
 
     @kernel
-    def flank_outputs(
-        s: Array, inputs: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
-    ) -> None:
-        """Write `FLANK_GROUP` of the state that a step has left, as in `outputs`."""
-        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        table = MeshLevels(*mesh)
-        at_series = N_ODE + SCRATCH
-        at_window = at_series + series_size(table)
-        scratch = work[N_ODE:at_series]
-        data = place_at_load(table, work[at_series:at_window], work[at_window:])
-        blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
-        if data.film_model.size > 0:
-            for i in range(N_FILMS):
-                scratch[FILMS + i] = s[FILM_NODES + i]
-        force = mesh_force(s, data.series, data.n_orders, p.mesh).force
-        oil = lubricant_state(p.oil, inputs[2])
-        write_flank_group(s, force, inputs[2], oil, data, p, scratch, out)
-
-    @kernel
-    def raceway_outputs(
-        s: Array, inputs: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
-    ) -> None:
-        """Write `RACEWAY_GROUP` of the state that a step has left, as in `outputs`."""
-        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        scratch = work[N_ODE : N_ODE + SCRATCH]
-        oil = lubricant_state(p.oil, inputs[2])
-        raceways = raceways_of(s, oil, p, MeshLevels(*mesh).roller_model, scratch)
-        write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
-
-    @kernel
-    def bearing_outputs(
+    def group_outputs(
+        group: int,
         s: Array,
         inputs: Array,
         mesh: MeshFields,
@@ -285,15 +255,30 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         rollers: Array,
         out: Array,
     ) -> None:
-        """Write `BEARING_GROUP` of the state that a step has left, as in `outputs`."""
-        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        """Write group OF_FLANKS, OF_BEARINGS or OF_RACEWAYS of a state that a step has left.
+
+        Other arguments as in `outputs`.
+        """
         table = MeshLevels(*mesh)
-        size = series_size(table)
-        series = work[N_ODE : N_ODE + size]
-        bracket = load_bracket(s[LOAD_TORQUE], s[SIDE], table.levels, table.levels.size)
-        blend_levels(table.series, size, bracket, series)
-        stiffness = mesh_force(s, series, table.n_orders, p.mesh).stiffness
-        write_bearing_group(s, stiffness, lubricant_state(p.oil, inputs[2]), p, rollers, out)
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        oil = lubricant_state(p.oil, inputs[2])
+        at_series = N_ODE + SCRATCH
+        at_window = at_series + series_size(table)
+        scratch = work[N_ODE:at_series]
+        if group == OF_RACEWAYS:
+            raceways = raceways_of(s, oil, p, table.roller_model, scratch)
+            write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
+            return
+        data = place_at_load(table, work[at_series:at_window], work[at_window:])
+        blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
+        force = mesh_force(s, data.series, data.n_orders, p.mesh)
+        if group == OF_BEARINGS:
+            write_bearing_group(s, force.stiffness, oil, p, rollers, out)
+            return
+        if data.film_model.size > 0:
+            for i in range(N_FILMS):
+                scratch[FILMS + i] = s[FILM_NODES + i]
+        write_flank_group(s, force.force, inputs[2], oil, data, p, scratch, out)
 
     @kernel
     def continuous_rates(
@@ -325,9 +310,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         communication_step,
         step_without_outputs,
         motion_outputs,
-        flank_outputs,
-        raceway_outputs,
-        bearing_outputs,
+        group_outputs,
         outputs,
         continuous_rates,
         event,

@@ -86,8 +86,8 @@ STEPS_PER_EXPANSION = 12  # integrator steps that share an expansion of the bear
 # 0.07 um at 17 steps. It falls with the square of the step, so that what is left out, of second
 # order in it, falls with the fourth power as the error of the integrator does.
 EXPANSION_REACH = 20.0
-# Relative change of the load level that the mesh data follow at once
-LOAD_REACH = 1e-4
+# Change of the load level that the mesh data follow at once, over load or torque
+LOAD_REACH = 4e-3
 # Parts of a step in which flanks meet or part: the slope of their force jumps there, and damping
 # builds up over half a micrometre. A step moves them by that much at 0.1 m/s.
 CONTACT_PARTS = 8
@@ -348,7 +348,7 @@ def advance(
     kept = s[KEPT_DRAG:N_STATE]
     cost = 0.0
     for k in range(steps):
-        if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + abs(at_load)):
+        if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + max(at_load, abs(torques[0]))):
             at_load = s[LOAD_TORQUE]
             blend_mesh(at_load, s[SIDE], table, mesh)
         if p.drag <= PALMGREN:
