@@ -76,8 +76,8 @@ def test_result_does_not_depend_on_the_communication_step(film, after_reversal):
     steady, reversed_ = (
         [np.array(list(run(h, turn))) for h in (1e-3, 1e-4)] for turn in (1.0, 0.01)
     )
-    # documented: 5e-5 of the value, with solved rollers; a slope that is left out of the expanded bearing forces
-    # makes 4e-4
+    # documented: 5e-5 of the value, with solved rollers. A slope that is left out of the expanded
+    # bearing forces makes 4e-4
     assert np.max(np.abs(steady[0] / steady[1] - 1.0)) < 2e-5
     # teeth part and meet on the other side; documented as 1.5e-3 of the transmission error's swing
     difference = np.abs(reversed_[0] - reversed_[1])[:, 0]
