@@ -150,7 +150,7 @@ DENSITY_WITH_LINE_MESH = 7
 COUPLING_TOO_LARGE = 8
 MISSING_CASE = 10  # and its number
 
-_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, Operation)
+_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
 
 
 @kernel

@@ -21,6 +21,7 @@ from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.roller_contact import contact_angle_terms, preload_approach
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle import output_names
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels, state_status
 from gearlube_core.dynamics.hypoid_axle.continuous import (
     EVENT_INDICATORS,
@@ -31,15 +32,8 @@ from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields
 from gearlube_core.dynamics.hypoid_axle.mesh_force import equivalent_mass, modal_damping
-from gearlube_core.dynamics.hypoid_axle.model import (
-    START_WORK,
-    STEP_REFUSALS,
-)
-from gearlube_core.dynamics.hypoid_axle.output_names import (
-    MOTION_OUTPUTS,
-    N_OUTPUTS,
-    POWERS,
-)
+from gearlube_core.dynamics.hypoid_axle.model import START_WORK, STEP_REFUSALS
+from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     NO_MODAL_LOSS,
     PRINTED_WITH_SOLVED_FILM,
@@ -47,11 +41,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
     MeshStiffness,
     Radii,
 )
-from gearlube_core.dynamics.hypoid_axle.start import (
-    NO_EQUILIBRIUM,
-    NO_EQUILIBRIUM_CURE,
-    OK,
-)
+from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE, OK
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, TIME_IN_STEP
 from gearlube_core.dynamics.hypoid_axle.step_control import NO_MODES, NO_MODES_WORDS
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
@@ -72,7 +62,8 @@ REFUSALS: Mapping[int, str] = {
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
     PRINTED_FILM: PRINTED_WITH_SOLVED_FILM,
 }
-_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, Operation)
+_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
+_FLANKS = int(Operation.FLANKS)  # the groups follow in the order of `communication`
 _N_INPUTS = 3
 _N_CONTROL = count_floats(StepControl)
 _CONTROL_AT = N_STATE + _N_INPUTS
@@ -204,6 +195,7 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
     static_state, step_control = kernels.static_state, kernels.step_control
     step_without_outputs, write_outputs = kernels.step_without_outputs, kernels.outputs
     motion_outputs, event = kernels.motion_outputs, kernels.event
+    group_outputs = kernels.group_outputs
     continuous_rates = kernels.continuous_rates
 
     def entry(
@@ -277,6 +269,8 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
                 kept[_CONTROL_AT + i] = control[i]
         if operation == _MOTION and s[TIME_IN_STEP] > 0.0:  # before, powers are rates
             motion_outputs(s, mesh, packed, scratch, out)
+        elif operation >= _FLANKS:
+            group_outputs(operation - _FLANKS, s, last, mesh, packed, scratch, rollers, out)
         else:
             write_outputs(s, last, mesh, packed, scratch, rollers, out)
         return OK
@@ -388,12 +382,18 @@ def native_model(definition: Definition) -> NativeModel:
         ranges_at=int(_AT.ranges.torque_low),
         ranges=unnamed.ranges,
         refusals=REFUSALS,
-        motion=frozenset(MOTION_OUTPUTS),
+        motion=frozenset(output_names.MOTION_OUTPUTS),
+        groups={
+            Operation.DERIVATIVES: frozenset(output_names.RATE_OUTPUTS),
+            Operation.FLANKS: frozenset(output_names.FLANK_GROUP),
+            Operation.BEARINGS: frozenset(output_names.BEARING_GROUP),
+            Operation.RACEWAYS: frozenset(output_names.RACEWAY_GROUP),
+        },
         exchange=Exchange(
             states=STATE_NAMES,
             units=UNITS_OF_STATES,
             indicators=EVENT_INDICATORS,
             inputs_at=N_STATE,
-            of_states=frozenset(MOTION_OUTPUTS) - POWERS,
+            of_states=frozenset(output_names.MOTION_OUTPUTS) - output_names.POWERS,
         ),
     )

@@ -59,6 +59,9 @@ class Operation(IntEnum):
     MOTION = 4  # state after a step -> the outputs named in `motion`
     DERIVATIVES = 5  # state and its own inputs -> rates and event indicators, among the outputs
     EVENT = 6  # state -> state after what an event changes, if anything
+    FLANKS = 7  # state after a step -> the outputs of this group, see `groups`
+    BEARINGS = 8  # likewise
+    RACEWAYS = 9  # likewise
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,6 +101,9 @@ class NativeModel:
     motion : frozenset of str
         Outputs that cost next to nothing. With any, STEP writes no outputs: MOTION writes these and
         OUTPUTS all of them, when the host reads one.
+    groups : mapping of Operation to frozenset of str
+        Outputs that FLANKS, BEARINGS or RACEWAYS write alone after a step, and those that
+        DERIVATIVES writes besides rates and event indicators.
     exchange : Exchange, optional
         Without it the FMU is for co-simulation only, and the entry is never asked for
         DERIVATIVES and EVENT.
@@ -115,4 +121,5 @@ class NativeModel:
     entry: Callable[..., int] | None = None
     c_code: Mapping[str, str] = field(default_factory=dict)
     motion: frozenset[str] = frozenset()
+    groups: Mapping[Operation, frozenset[str]] = field(default_factory=dict)
     exchange: Exchange | None = None

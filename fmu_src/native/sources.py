@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from fmu_src.native.array_variables import array_variables
-from fmu_src.native.model import NativeModel
+from fmu_src.native.model import NativeModel, Operation
 from fmu_src.slave_base import LONGEST_STEP
 from fmu_src.variable import Variable
 from gearlube_core.arrays import Array
@@ -67,12 +67,23 @@ def _places(variables: Sequence[Variable], output_names: Sequence[str]) -> list[
     return places
 
 
+_BITS = {
+    Operation.DERIVATIVES: "GL_OF_RATES",
+    Operation.FLANKS: "GL_OF_FLANKS",
+    Operation.BEARINGS: "GL_OF_BEARINGS",
+    Operation.RACEWAYS: "GL_OF_RACEWAYS",
+}
+
+
 def _needs(variable: Variable, model: NativeModel) -> str:
     """Return what has to be computed before a variable is read."""
     if not variable.is_computed:
         return "GL_NOTHING"
     if variable.name in model.motion:
         return "GL_OF_MOTION"
+    for operation, names in model.groups.items():
+        if variable.name in names:
+            return _BITS[operation]
     is_rate = model.exchange and (variable.rate_of or variable.name in model.exchange.indicators)
     return "GL_OF_RATES" if is_rate else "GL_OF_OUTPUTS"
 

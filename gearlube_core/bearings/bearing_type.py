@@ -89,18 +89,18 @@ class ShaftBearings(Protocol):
     def shaft_energy(self, motion: ShaftMotion, oil: LubricantState) -> float:
         """Return the elastic energy of both bearings [J]."""
 
-    def roller_load_range(
+    def bearing_loads(
         self,
         motion: ShaftMotion,
         f_ref: float,
         oil: LubricantState,
         side: float,
         rollers: Array,
-    ) -> tuple[float, float, float]:
-        """Return the load of roller 0 and the largest and smallest load of one bearing [N].
+    ) -> tuple[float, float, float, float, float, float]:
+        """Return F_r1, F_r2, F_a of one bearing; load of roller 0, largest and smallest load [N].
 
         `side` is +1 for the first bearing and -1 for the second; `rollers` is work space of shape
-        (ROLLERS_MAX,). All 0 for a bearing without rollers.
+        (ROLLERS_MAX,). The loads are 0 for a bearing without rollers.
         """
 
     def shaft_drag(
@@ -147,7 +147,7 @@ expand_forces = by_class()(ShaftBearings.expand_forces)
 expanded_forces = by_class()(ShaftBearings.expanded_forces)
 shaft_forces = by_class()(ShaftBearings.shaft_forces)
 shaft_energy = by_class()(ShaftBearings.shaft_energy)
-roller_load_range = by_class()(ShaftBearings.roller_load_range)
+bearing_loads = by_class()(ShaftBearings.bearing_loads)
 shaft_drag = by_class()(ShaftBearings.shaft_drag)
 raceway_torque = by_class()(ShaftBearings.raceway_torque)
 solved_raceways = by_class()(ShaftBearings.solved_raceways)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import RollerFilms, ShaftMotion, SolvedRaceways
 from gearlube_core.bearings.losses.laws import SKF
 from gearlube_core.bearings.palmgren_1959 import drag_torque
-from gearlube_core.bearings.parameters import BearingParameters
+from gearlube_core.bearings.parameters import COS_TABLE, SIN_TABLE, BearingParameters
 from gearlube_core.bearings.raceway_drag import raceway_drag
 from gearlube_core.bearings.rib_drag import rib_drag
 from gearlube_core.bearings.roller_loads import roller_loads
@@ -77,30 +79,35 @@ class TaperedRollerParameters(BearingParameters):
         )
 
     @kernel
-    def roller_load_range(
+    def bearing_loads(
         self,
         motion: ShaftMotion,
         f_ref: float,
         oil: LubricantState,
         side: float,
         rollers: Array,
-    ) -> tuple[float, float, float]:
-        """Return the load of roller 0, the largest and the smallest load of one bearing [N]."""
-        roller_loads(
-            motion,
-            f_ref,
-            oil.eta0,
-            oil.alpha,
-            self,
-            side,
-            rollers,
+    ) -> tuple[float, float, float, float, float, float]:
+        """Return the forces of one bearing; load of roller 0, largest and smallest load [N]."""
+        roller_loads(motion, f_ref, oil.eta0, oil.alpha, self, side, rollers)
+        count = int(self.n_rollers)
+        largest = smallest = rollers[0]
+        sum_cos = sum_sin = sum_all = 0.0
+        for i in range(count):
+            w = rollers[i]
+            largest = max(largest, w)
+            smallest = min(smallest, w)
+            sum_cos += w * COS_TABLE[count, i]
+            sum_sin += w * SIN_TABLE[count, i]
+            sum_all += w
+        cos_c, sin_c = math.cos(motion.cage_angle), math.sin(motion.cage_angle)
+        return (
+            -self.cos_contact * (sum_cos * cos_c - sum_sin * sin_c),
+            -self.cos_contact * (sum_cos * sin_c + sum_sin * cos_c),
+            -side * self.sin_contact * sum_all,
+            rollers[0],
+            largest,
+            smallest,
         )
-        largest = rollers[0]
-        smallest = rollers[0]
-        for i in range(1, int(self.n_rollers)):
-            largest = max(largest, rollers[i])
-            smallest = min(smallest, rollers[i])
-        return rollers[0], largest, smallest
 
     @kernel
     def shaft_drag(

@@ -13,7 +13,7 @@ from lxml import etree
 
 from fmu_src.check import fmpy_problems, fmutool_problems
 from fmu_src.documentation import variables_markdown
-from tests.helpers.fmu_cases import Case
+from tests.helpers.fmu_cases import CASES, Case
 
 ROOT = Path(__file__).parents[2]
 
@@ -196,3 +196,5 @@ def test_no_path_of_the_building_machine_is_inside(fmu_path: Path) -> None:
 def test_the_page_about_the_fmu_shows_the_present_variables(case: Case) -> None:
     page = (ROOT / "docs" / "fmu.md").read_text()
     assert variables_markdown(case.definition).strip() in page
+    numbers = [str(sum(bool(v.rate_of) for v in c.definition.variables)) for c in CASES]
+    assert f"| continuous states | {' | '.join(numbers)} |" in page

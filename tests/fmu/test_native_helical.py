@@ -27,6 +27,7 @@ from fmu_src.native.helical_pair import (
 )
 from fmu_src.native.model import OK, NativeModel, Operation
 from gearlube_core.dynamics.helical_pair.march.integrate import (
+    MAX_STEPS,
     NOT_FINITE,
     TOO_FAST,
     TOO_MANY_STEPS,
@@ -295,6 +296,21 @@ def test_a_refused_step_changes_nothing(shipped: LoadedModel) -> None:
     assert native(Operation.STEP, STEP) == INPUT_OUT_OF_RANGE
     np.testing.assert_array_equal(native.state, before)
     assert "Shorten the communication step" in shipped.model.refusals[TOO_MANY_STEPS]
+
+
+def test_updates_of_the_friction_leave_fewer_steps(shipped: LoadedModel) -> None:
+    speed = 2000.0
+    often = {"solver__steps_per_mesh_period": 4096, "friction__updates_per_mesh_period": 4096}
+    for friction, expected in (("off", OK), ("film", TOO_MANY_STEPS)):
+        values = values_of(friction__model=friction, pinion__speed_start=speed, **often)
+        native = instance(shipped, values, INPUTS)
+        assert native(Operation.START) == OK
+        before = native.state.copy()
+        period = 2.0 * math.pi / (28 * speed)  # the teeth of He et al. 2007
+        # an update in each step costs as much as the step
+        assert native(Operation.STEP, 0.7 * MAX_STEPS * period / 4096.0) == expected
+        if expected != OK:
+            np.testing.assert_array_equal(native.state, before)
 
 
 def test_every_status_has_words(shipped: LoadedModel, tmp_path: Path) -> None:

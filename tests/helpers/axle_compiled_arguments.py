@@ -57,6 +57,16 @@ def compiled_cases(state, torques, table, both_sides, p, lossless, control, work
             COMPILED.motion_outputs,
             (state, tuple(table), flatten(p), work, zeros(N_OUTPUTS)),
         ),
+        *(
+            (
+                COMPILED.group_outputs,
+                (
+                    group, state, array([*torques, OIL]), tuple(table), flatten(p), work,
+                    zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
+                ),
+            )
+            for group in range(3)
+        ),
         (
             COMPILED.outputs,
             (

@@ -18,6 +18,7 @@ from gearlube_core.dynamics.hypoid_axle import (
     flanks,
     force_derivatives,
     integrate,
+    kept_drag,
     loss_outputs,
     mesh_at_load,
     mesh_force,
@@ -40,13 +41,16 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
     LOAD_TORQUE,
     N_CONTINUOUS,
+    N_DRAG,
     N_ODE,
     N_STATE,
     PHI_P,
     PINION_WORK,
     SIDE,
     TIME_IN_STEP,
+    U_P,
     W_G,
+    W_P,
     WORK_MARK,
     X,
 )
@@ -61,6 +65,26 @@ from tests.helpers.axle_raceway_arguments import raceway_cases
 
 def zeros(size):
     return np.zeros(size)
+
+
+def drag_cases(state, oil, p):
+    """The kernels of what is kept of the drag by Biboulet and Houpert's law."""
+    by_roller = p._replace(drag=float(bearing_drag.TORQUE_LOSSES.index("biboulet_houpert_2010")))
+    films, kept = bearing_type.RollerFilms(zeros(0), zeros(0), 0.0), zeros(N_DRAG)
+    kept_drag.renew_drag(state, oil, by_roller, films, kept, zeros(N_STATE))
+    moved = state.copy()
+    moved[U_P : U_P + 3] += 0.5
+    moved[W_P] *= 1.01
+    return [
+        *((kept_drag._change, (moved, kept, shaft, i)) for shaft in (0, 1) for i in (1, 3)),
+        *((kept_drag._moved, (state, i, zeros(N_STATE))) for i in (1, 3)),
+        *((kept_drag.drag_holds, (one, oil.temperature, kept)) for one in (state, moved)),
+        (kept_drag.drag_near, (moved, kept)),
+        *(
+            (kept_drag.renew_drag, (moved, oil, by_roller, films, one, zeros(N_STATE)))
+            for one in (kept, zeros(N_DRAG))
+        ),
+    ]
 
 
 @cache
@@ -321,7 +345,26 @@ def all_cases():
             for levels in (table, both_sides)
         ),
         (outputs.write_derivatives, (state, torques, OIL, table, p, work, zeros(N_OUTPUTS))),
-        (outputs._write_rates, (state, torques, OIL, table, p, work, zeros(N_OUTPUTS))),
+        *(
+            (
+                outputs._write_rates,
+                (
+                    *(one, torques, OIL, table, p, True, bearing_drag.AxleRaceways(), work),
+                    zeros(N_OUTPUTS),
+                ),
+            )
+            for one in (state, at_start)
+        ),
+        (outputs.raceways_of, (state, state_of_oil, p, zeros(0), scratch)),
+        (
+            outputs.write_flank_group,
+            (state, force, OIL, state_of_oil, mesh_data, p, scratch, zeros(N_OUTPUTS)),
+        ),
+        (
+            outputs.write_bearing_group,
+            (state, 5e8, state_of_oil, p, zeros(ROLLERS_MAX), zeros(N_OUTPUTS)),
+        ),
+        *drag_cases(state, state_of_oil, p),
         (outputs.stored_energy, (state, 5e8, state_of_oil, p)),
         *(
             (

@@ -48,8 +48,9 @@ class SpringBearings(NamedTuple):
         return 0.5 * self.stiffness * square
 
     @kernel
-    def roller_load_range(self, motion, f_ref, oil, side, rollers):
-        return 0.0, 0.0, 0.0
+    def bearing_loads(self, motion, f_ref, oil, side, rollers):
+        k = 0.5 * self.stiffness
+        return -k * motion.r1, -k * motion.r2, -k * motion.axial, 0.0, 0.0, 0.0
 
     @kernel
     def shaft_drag(self, speed, axial_load, radial_load, law, oil):

@@ -75,19 +75,30 @@ gl_status gl_take_inputs(gl_instance *instance)
     return GL_OK;
 }
 
-/* Does the operation that computes what is missing; in model exchange powers of the motion are
-   rates, which only the operation for all outputs computes. */
+/* Operations that compute a group alone. */
+static const struct { int group, operation; } alone[] = {{GL_OF_MOTION, GL_MOTION},
+                                                         {GL_OF_FLANKS, GL_FLANKS},
+                                                         {GL_OF_BEARINGS, GL_BEARINGS},
+                                                         {GL_OF_RATES, GL_DERIVATIVES},
+                                                         {GL_OF_RACEWAYS, GL_RACEWAYS}};
+
+/* Does an operation that computes some of what is missing: a group alone, or all outputs where
+   that costs less. In model exchange powers of the motion are rates, which only the operation for
+   all outputs computes. */
 static int64_t compute(gl_instance *instance, int missing, int *computed)
 {
     double inputs[GL_INPUTS] = {0.0}; /* those in the state count */
     int64_t operation = GL_WRITE_OUTPUTS;
+    int dear = GL_OF_FLANKS | GL_OF_BEARINGS | GL_OF_RATES;
+    int apart = instance->now.exchange ? missing == GL_OF_RATES
+                                       : !(missing & GL_OF_OUTPUTS) && (missing & dear) != dear;
     *computed = GL_ALL;
-    if (missing == GL_OF_RATES) {
-        operation = GL_DERIVATIVES;
-        *computed = GL_OF_RATES;
-    } else if (missing == GL_OF_MOTION && !instance->now.exchange) {
-        operation = GL_MOTION;
-        *computed = GL_OF_MOTION;
+    for (unsigned i = 0; apart && i < sizeof alone / sizeof *alone; i++) {
+        if (missing & alone[i].group) {
+            operation = alone[i].operation;
+            *computed = alone[i].group;
+            break;
+        }
     }
     return gearlube_entry(operation, 0.0, gl_data, instance->parameters, inputs,
                           instance->now.state, instance->work, instance->outputs);
@@ -95,7 +106,7 @@ static int64_t compute(gl_instance *instance, int missing, int *computed)
 
 gl_status gl_refresh(gl_instance *instance, int needed)
 {
-    int missing = needed & ~instance->fresh, computed;
+    int known = instance->fresh, missing = needed & ~known, computed;
     gl_status bad = instance->now.exchange ? GL_DISCARD : GL_ERROR;
     if (!missing) {
         return GL_OK;
@@ -120,10 +131,10 @@ gl_status gl_refresh(gl_instance *instance, int needed)
         }
     }
     gl_take_outputs(instance, computed);
-    if (computed == GL_ALL && !instance->now.exchange) {
+    if (computed & ~known & gl_variables[GL_EXCEEDED].needs && !instance->now.exchange) {
         gl_watch_ranges(instance);
     }
-    return GL_OK;
+    return gl_refresh(instance, needed);
 }
 
 gl_status gl_compute(gl_instance *instance, int needed)

@@ -10,7 +10,16 @@
 /* FMI 2 reads and sets an enumeration as an integer. */
 typedef enum { GL_REAL, GL_INTEGER, GL_BOOLEAN } gl_kind;
 /* What is computed before a variable is read, as bits; all that the model computes is all of them. */
-enum { GL_NOTHING = 0, GL_OF_MOTION = 1, GL_OF_RATES = 2, GL_OF_OUTPUTS = 4, GL_ALL = 7 };
+enum {
+    GL_NOTHING = 0,
+    GL_OF_MOTION = 1,
+    GL_OF_RATES = 2,
+    GL_OF_FLANKS = 4,
+    GL_OF_BEARINGS = 8,
+    GL_OF_RACEWAYS = 16,
+    GL_OF_OUTPUTS = 32,
+    GL_ALL = 63
+};
 typedef enum { GL_PARAMETER, GL_INPUT, GL_OUTPUT } gl_causality;
 
 typedef struct {
@@ -62,7 +71,18 @@ extern const gl_range gl_ranges[GL_RANGES];
 extern const double gl_data[]; /* what only a table or a gear decides */
 
 /* operations of the entry */
-enum { GL_START, GL_STEP, GL_WRITE_OUTPUTS, GL_RESUME, GL_MOTION, GL_DERIVATIVES, GL_EVENT };
+enum {
+    GL_START,
+    GL_STEP,
+    GL_WRITE_OUTPUTS,
+    GL_RESUME,
+    GL_MOTION,
+    GL_DERIVATIVES,
+    GL_EVENT,
+    GL_FLANKS,
+    GL_BEARINGS,
+    GL_RACEWAYS
+};
 
 /* The physics: compiled from the same kernels as the Python models. Returns 0 or the status of a
    refusal, with `state` unchanged. It allocates nothing and takes no lock. */

@@ -6,8 +6,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     ShaftBearings,
     ShaftMotion,
-    roller_load_range,
-    shaft_forces,
+    bearing_loads,
 )
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import AxleRaceways
 from gearlube_core.kernels.jit import kernel
@@ -67,20 +66,16 @@ def write_shaft(
     Their outputs begin at `first`. `axes` are the places (0, 1, 2) of r1, r2 and the shaft in
     x, y, z; `rollers` is work space of shape (ROLLERS_MAX,).
     """
-    F = shaft_forces(bearings, motion, f_ref, oil)
-    one = first + FORCE
-    out[one + axes[0]] = F[0]
-    out[one + axes[1]] = F[1]
-    out[one + axes[2]] = F[2]
-    two = one + N_BEARING_QUANTITIES
-    out[two + axes[0]] = F[3]
-    out[two + axes[1]] = F[4]
-    out[two + axes[2]] = F[5]
     first_roller = 0.0
     for k in range(2):
         side = 1.0 - 2.0 * k
-        load, largest, smallest = roller_load_range(bearings, motion, f_ref, oil, side, rollers)
+        F_r1, F_r2, F_a, load, largest, smallest = bearing_loads(
+            bearings, motion, f_ref, oil, side, rollers
+        )
         base = first + k * N_BEARING_QUANTITIES
+        out[base + FORCE + axes[0]] = F_r1
+        out[base + FORCE + axes[1]] = F_r2
+        out[base + FORCE + axes[2]] = F_a
         out[base + ROLLER_LOAD_MAX] = largest
         out[base + ROLLER_LOAD_MIN] = smallest
         if k == 0:

@@ -13,7 +13,10 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.dynamics.hypoid_axle.bearing_outputs import write_raceways
 from gearlube_core.dynamics.hypoid_axle.continuous import change_side
+from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
+from gearlube_core.dynamics.hypoid_axle.flanks import FILMS
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import force_derivatives
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     DIVERGED_UM,
@@ -24,23 +27,42 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
     advance,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields, MeshLevels
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+    MeshFields,
+    MeshLevels,
+    blend_mesh,
+    place_at_load,
+    series_size,
+)
+from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    BEARING_SHARE_OUTSIDE,
+    FIRST_BEARING_FILM,
+)
 from gearlube_core.dynamics.hypoid_axle.outputs import (
+    raceways_of,
+    write_bearing_group,
     write_derivatives,
+    write_flank_group,
     write_motion_after_step,
     write_outputs,
 )
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH
 from gearlube_core.dynamics.hypoid_axle.start import rest
 from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
     CAGE_P,
     DRAG_BOUND,
+    FILM_NODES,
     FRICTION_BOUND,
+    LOAD_TORQUE,
     N_ENERGIES,
+    N_ODE,
     N_STATE,
     PHI_G,
     PHI_P,
     PINION_WORK,
+    SIDE,
     TIME_IN_STEP,
     W_G,
     W_P,
@@ -53,6 +75,9 @@ from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import lubricant_state
+
+OF_FLANKS, OF_BEARINGS, OF_RACEWAYS = range(3)  # groups of outputs
 
 
 class AxleKernels(NamedTuple):
@@ -64,6 +89,7 @@ class AxleKernels(NamedTuple):
     communication_step: Callable[..., int]
     step_without_outputs: Callable[..., int]
     motion_outputs: Callable[..., None]
+    group_outputs: Callable[..., None]
     outputs: Callable[..., None]
     continuous_rates: Callable[..., None]
     event: Callable[..., None]
@@ -248,6 +274,42 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         write_motion_after_step(s, MeshLevels(*mesh), p, work, out)
 
     @kernel
+    def group_outputs(
+        group: int,
+        s: Array,
+        inputs: Array,
+        mesh: MeshFields,
+        parameters: Array,
+        work: Array,
+        rollers: Array,
+        out: Array,
+    ) -> None:
+        """Write group OF_FLANKS, OF_BEARINGS or OF_RACEWAYS of a state that a step has left.
+
+        Other arguments as in `outputs`.
+        """
+        table = MeshLevels(*mesh)
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        oil = lubricant_state(p.oil, inputs[2])
+        at_series = N_ODE + SCRATCH
+        at_window = at_series + series_size(table)
+        scratch = work[N_ODE:at_series]
+        if group == OF_RACEWAYS:
+            raceways = raceways_of(s, oil, p, table.roller_model, scratch)
+            write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
+            return
+        data = place_at_load(table, work[at_series:at_window], work[at_window:])
+        blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
+        force = mesh_force(s, data.series, data.n_orders, p.mesh)
+        if group == OF_BEARINGS:
+            write_bearing_group(s, force.stiffness, oil, p, rollers, out)
+            return
+        if data.film_model.size > 0:
+            for i in range(N_FILMS):
+                scratch[FILMS + i] = s[FILM_NODES + i]
+        write_flank_group(s, force.force, inputs[2], oil, data, p, scratch, out)
+
+    @kernel
     def continuous_rates(
         s: Array, inputs: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
     ) -> None:
@@ -269,6 +331,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         communication_step,
         step_without_outputs,
         motion_outputs,
+        group_outputs,
         outputs,
         continuous_rates,
         event,

@@ -15,7 +15,6 @@ from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
     PALMGREN,
     AxleRaceways,
     BearingDrag,
-    axle_raceways,
     bearing_drag,
 )
 from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
@@ -23,6 +22,7 @@ from gearlube_core.dynamics.hypoid_axle.flanks import (
     BOUND_POWER,
     FILMS,
 )
+from gearlube_core.dynamics.hypoid_axle.kept_drag import drag_holds, drag_near, renew_drag
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -45,8 +45,10 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     DRAG_BOUND,
     FILM_NODES,
     FRICTION_BOUND,
+    KEPT_DRAG,
     LOAD_TORQUE,
     MICRO,
+    N_CONTINUOUS,
     N_ENERGIES,
     N_ODE,
     N_STATE,
@@ -84,8 +86,8 @@ STEPS_PER_EXPANSION = 12  # integrator steps that share an expansion of the bear
 # 0.07 um at 17 steps. It falls with the square of the step, so that what is left out, of second
 # order in it, falls with the fourth power as the error of the integrator does.
 EXPANSION_REACH = 20.0
-# Relative change of the load level that the mesh data follow at once
-LOAD_REACH = 1e-4
+# Change of the load level that the mesh data follow at once, over load or torque
+LOAD_REACH = 4e-3
 # Parts of a step in which flanks meet or part: the slope of their force jumps there, and damping
 # builds up over half a micrometre. A step moves them by that much at 0.1 m/s.
 CONTACT_PARTS = 8
@@ -202,7 +204,7 @@ def largest_change(a: Displacements, b: Displacements) -> float:
 @kernel
 def place_ahead(s: Array, time: float, p: AxleParameters, ahead: Array) -> None:
     """Write the state `s` with shafts and cages where they are `time` [s] later into `ahead`."""
-    for i in range(N_STATE):
+    for i in range(N_CONTINUOUS):
         ahead[i] = s[i]
     moved = displacements(s, time)
     for i in range(3):
@@ -342,15 +344,19 @@ def advance(
     age = 0
     at_load = s[LOAD_TORQUE]
     rate = mesh_force(s, mesh.series, mesh.n_orders, p.mesh).x_rate * MICRO
-    rollers = RollerFilms(table.roller_model, s[ROLLER_NODES:N_STATE], 1.0)
-    drag = BearingDrag(0.0, 0.0, 0.0)
+    rollers = RollerFilms(table.roller_model, s[ROLLER_NODES:KEPT_DRAG], 1.0)
+    kept = s[KEPT_DRAG:N_STATE]
     cost = 0.0
     for k in range(steps):
-        if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + abs(at_load)):
+        if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + max(at_load, abs(torques[0]))):
             at_load = s[LOAD_TORQUE]
             blend_mesh(at_load, s[SIDE], table, mesh)
         if p.drag <= PALMGREN:
             drag = bearing_drag(s, oil, p, NO_AXLE_RACEWAYS)
+        else:  # dear
+            if not drag_holds(s, oil_temperature, kept):
+                cost += RACEWAY_COST * renew_drag(s, oil, p, rollers, kept, stages)
+            drag = drag_near(s, kept)
         if k == 0 or age == span or largest_change(displacements(s, h), expanded_at) > reach:
             # about where the shafts are half of the time later that the expansion will serve
             speed = largest_change(displacements(s, 1.0), displacements(s, 0.0))
@@ -359,10 +365,6 @@ def advance(
             expand_bearings(stages, oil, p, scratch)
             expanded_at = displacements(stages, 0.0)
             age = 0
-            # raceways are dear: anew where the bearing forces are
-            if p.drag > PALMGREN:
-                cost += RACEWAY_COST
-                drag = bearing_drag(stages, oil, p, axle_raceways(stages, oil, p, rollers))
         inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
         age += 1
         parts = contact_parts(s[X], h * rate, p.mesh.backlash * MICRO)

@@ -126,5 +126,24 @@ MOTION_OUTPUTS: tuple[str, ...] = (
     *_OTHER_STATES,
 )
 
-# of these, what an input changes at once while no step has been taken
+# what the right-hand side gives, besides what model exchange calls rates and event indicators
+RATE_OUTPUTS: tuple[str, ...] = (
+    OUTPUT_NAMES[PINION_ACCELERATION],
+    OUTPUT_NAMES[WHEEL_ACCELERATION],
+)
+# what follows from the flanks alone, from raceways alone, and from bearings and mesh
+FLANK_GROUP: tuple[str, ...] = (
+    *FLANK_OUTPUTS,
+    *FLANK_BOUNDS,
+    OUTPUT_NAMES[SHARE_OUTSIDE],
+    *RANGE_OUTPUTS,
+)
+RACEWAY_GROUP: tuple[str, ...] = (*BEARING_FILMS, OUTPUT_NAMES[BEARING_SHARE_OUTSIDE])
+BEARING_GROUP: tuple[str, ...] = (
+    *BEARING_OUTPUTS,
+    OUTPUT_NAMES[FIRST_ROLLER],
+    OUTPUT_NAMES[STORED_ENERGY],
+)
+
+# of motion, what an input changes at once while no step has been taken
 POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY_BOUND + 1])

@@ -7,9 +7,12 @@ import math
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import RollerFilms, shaft_energy
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
+    NO_AXLE_RACEWAYS,
+    PALMGREN,
     SOLVED_FILMS,
     AxleRaceways,
     axle_raceways,
+    bearing_drag,
     drag_bound_of,
 )
 from gearlube_core.dynamics.hypoid_axle.bearing_outputs import (
@@ -29,10 +32,12 @@ from gearlube_core.dynamics.hypoid_axle.flanks import (
     FILMS,
     N_FRICTION,
 )
-from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
+from gearlube_core.dynamics.hypoid_axle.integrate import inputs_with_drag
+from gearlube_core.dynamics.hypoid_axle.kept_drag import drag_near
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.loss_outputs import write_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+    MeshAtLoad,
     MeshLevels,
     blend_mesh,
     place_at_load,
@@ -89,10 +94,12 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
     CAGE_P,
     FILM_NODES,
+    KEPT_DRAG,
     LOAD_TORQUE,
     N_ENERGIES,
     N_ODE,
     N_ROLLERS,
+    N_STATE,
     PHI_G,
     PHI_P,
     PINION_WORK,
@@ -206,12 +213,25 @@ def write_derivatives(
     work: Array,
     out: Array,
 ) -> None:
-    """Write the rates of the continuous states and the event indicators.
+    """Write the rates of the continuous states, both accelerations and the event indicators.
 
     They are those among the outputs of `write_outputs`, with the same arguments: a function of the
     state alone, whatever was read before.
     """
-    _write_rates(s, torques, oil_temperature, table, p, work, out)
+    _write_rates(s, torques, oil_temperature, table, p, True, NO_AXLE_RACEWAYS, work, out)
+
+
+@kernel
+def raceways_of(
+    s: Array, oil: LubricantState, p: AxleParameters, film_model: Array, scratch: Array
+) -> AxleRaceways:
+    """Return the raceways in the state `s`; what is kept of their films stays as it is."""
+    rollers = scratch[AT_ROLLERS:SCRATCH]
+    if p.drag == SOLVED_FILMS:
+        for i in range(N_ROLLERS):
+            rollers[i] = s[ROLLER_NODES + i]
+    kept = 1.0 if films_asked(s) == BETWEEN_NODES else 0.0
+    return axle_raceways(s, oil, p, RollerFilms(film_model, rollers, kept))
 
 
 @kernel
@@ -231,9 +251,12 @@ def _write_rates(
     oil_temperature: float,
     table: MeshLevels,
     p: AxleParameters,
+    alone: bool,
+    raceways: AxleRaceways,
     work: Array,
     out: Array,
-) -> AxleRaceways:
+) -> None:
+    """Write what `write_derivatives` does; `alone`: raceways are not known yet."""
     asked = films_asked(s)
     at_series = N_ODE + SCRATCH
     at_window = at_series + series_size(table)
@@ -242,20 +265,78 @@ def _write_rates(
     oil = lubricant_state(p.oil, oil_temperature)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     scratch = work[N_ODE:at_series]
-    rollers = scratch[AT_ROLLERS:SCRATCH]
-    if p.drag == SOLVED_FILMS:
-        for i in range(N_ROLLERS):
-            rollers[i] = s[ROLLER_NODES + i]
-    kept = 1.0 if asked == BETWEEN_NODES else 0.0
-    raceways = axle_raceways(s, oil, p, RollerFilms(data.roller_model, rollers, kept))
-    inputs = step_inputs(s, torques[0], torques[1], oil, p, raceways)
+    if s[TIME_IN_STEP] > 0.0 and p.drag > PALMGREN:  # as the step has taken it
+        drag = drag_near(s, s[KEPT_DRAG:N_STATE])
+    else:
+        if alone:
+            raceways = raceways_of(s, oil, p, data.roller_model, scratch)
+        drag = bearing_drag(s, oil, p, raceways)
+    inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
     if data.film_model.size > 0:
         for i in range(N_FILMS):
             scratch[FILMS + i] = s[FILM_NODES + i]
     axle_rhs(s, inputs, data, oil, p, asked, 1.0, scratch, rates)
+    out[PINION_ACCELERATION] = rates[W_P]
+    out[WHEEL_ACCELERATION] = rates[W_G]
     write_rates(s, rates, torques[0], out[RATES:EVENTS])
     write_event_indicators(s, table, data, p.mesh, out[EVENTS:])
-    return raceways
+
+
+@kernel
+def write_flank_group(
+    s: Array,
+    force: float,
+    oil_temperature: float,
+    oil: LubricantState,
+    data: MeshAtLoad,
+    p: AxleParameters,
+    scratch: Array,
+    out: Array,
+) -> None:
+    """Write `FLANK_GROUP` under the mesh force `force` [N]; others as in `axle_rhs`."""
+    channels = scratch[N_FRICTION:AT_EXPANSION]
+    most_loaded = write_flanks(
+        s,
+        force,
+        data.window,
+        data.n_nodes,
+        oil_temperature,
+        oil,
+        p,
+        data.film_model,
+        films_asked(s),
+        scratch[FILMS:N_FRICTION],
+        FLANKS,
+        FIRST_FLANK_BOUND,
+        channels,
+        out,
+    )
+    out[SHARE_OUTSIDE] = most_loaded.outside
+    torque = max(abs(s[LOAD_TORQUE]), abs(force) * data.series[R_P])
+    write_ranges(
+        -torque if s[SIDE] < 0.0 else torque,
+        most_loaded.film_load,
+        most_loaded.film_material,
+        most_loaded.traction,
+        most_loaded.temperature,
+        most_loaded.pressure,
+        p.ranges,
+        RANGES,
+        out,
+    )
+
+
+@kernel
+def write_bearing_group(
+    s: Array, stiffness: float, oil: LubricantState, p: AxleParameters, rollers: Array, out: Array
+) -> None:
+    """Write `BEARING_GROUP` at a mesh stiffness [N/m]; `rollers` as in `write_outputs`."""
+    f_ref = reference_frequency(p.mesh, s[W_P])
+    out[FIRST_ROLLER] = write_shaft(
+        pinion_motion(s), f_ref, oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0), rollers, out
+    )
+    write_shaft(gear_motion(s), f_ref, oil, p.bearing_g, GEAR_BEARINGS, (0, 1, 2), rollers, out)
+    out[STORED_ENERGY] = stored_energy(s, stiffness, oil, p)
 
 
 @kernel
@@ -279,53 +360,11 @@ def write_outputs(
     scratch = work[N_ODE:at_series]
     data = place_at_load(table, work[at_series:at_window], work[at_window:])
     oil = lubricant_state(p.oil, oil_temperature)
-    raceways = _write_rates(s, torques, oil_temperature, table, p, work, out)
+    raceways = raceways_of(s, oil, p, data.roller_model, scratch)
     write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
-    mesh = write_motion(
-        s,
-        rates,
-        scratch[BOUND_POWER],
-        drag_bound_of(s, raceways),
-        data.series,
-        data.n_orders,
-        p,
-        out,
-    )
-    out[PINION_ACCELERATION] = rates[W_P]
-    out[WHEEL_ACCELERATION] = rates[W_G]
-    channels = scratch[N_FRICTION:AT_EXPANSION]
-    most_loaded = write_flanks(
-        s,
-        mesh.force,
-        data.window,
-        data.n_nodes,
-        oil_temperature,
-        oil,
-        p,
-        data.film_model,
-        films_asked(s),
-        scratch[FILMS:N_FRICTION],
-        FLANKS,
-        FIRST_FLANK_BOUND,
-        channels,
-        out,
-    )
-    out[SHARE_OUTSIDE] = most_loaded.outside
-    torque = max(abs(s[LOAD_TORQUE]), abs(mesh.force) * data.series[R_P])
-    write_ranges(
-        -torque if s[SIDE] < 0.0 else torque,
-        most_loaded.film_load,
-        most_loaded.film_material,
-        most_loaded.traction,
-        most_loaded.temperature,
-        most_loaded.pressure,
-        p.ranges,
-        RANGES,
-        out,
-    )
-    f_ref = reference_frequency(p.mesh, s[W_P])
-    out[FIRST_ROLLER] = write_shaft(
-        pinion_motion(s), f_ref, oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0), rollers, out
-    )
-    write_shaft(gear_motion(s), f_ref, oil, p.bearing_g, GEAR_BEARINGS, (0, 1, 2), rollers, out)
-    out[STORED_ENERGY] = stored_energy(s, mesh.stiffness, oil, p)
+    _write_rates(s, torques, oil_temperature, table, p, False, raceways, work, out)
+    bound = drag_bound_of(s, raceways)
+    at_bound = scratch[BOUND_POWER]
+    mesh = write_motion(s, rates, at_bound, bound, data.series, data.n_orders, p, out)
+    write_flank_group(s, mesh.force, oil_temperature, oil, data, p, scratch, out)
+    write_bearing_group(s, mesh.stiffness, oil, p, rollers, out)
