@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -43,6 +44,8 @@ class EllipticParaboloid:
     def __post_init__(self) -> None:
         check_positive("R_x", self.R_x, "m")
         check_positive("R_y", self.R_y, "m")
+
+    goes_on: ClassVar[bool] = True  # beyond any domain
 
     def __call__(self, x: Array, y: Array) -> Array:
         """Return the gap [m] at points (x, y) [m]."""
@@ -213,9 +216,28 @@ class PointContactProblem:
             y_limits=(y0 - dy, y1 + dy),
         )
 
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Return the relative radii along x and y [m]; infinite along a line."""
+        return self.hertz.R_x, math.inf if Sides(self.sides).closed else self.hertz.R_y
+
     def with_nodes(self, nx: int, ny: int) -> PointContactProblem:
         """Return the same problem on another grid."""
         return replace(self, nodes=(nx, ny))
+
+    def widened(self) -> PointContactProblem | None:
+        """Return the problem on twice the domain, of the same spacing; None: it may not go on."""
+        closed, (x, y) = Sides(self.sides).closed, (self.x_limits, self.y_limits)
+        inside = x[0] < 0.0 < x[1] and (closed or y[0] < 0.0 < y[1])
+        if not (inside and getattr(self.gap, "goes_on", False)) or self.inlet_layer is not None:
+            return None
+        nodes = [min(2 * n - 1, MOST_NODES) for n in self.nodes]
+        return replace(
+            self,
+            x_limits=(2.0 * x[0], 2.0 * x[1]),
+            y_limits=y if closed else (2.0 * y[0], 2.0 * y[1]),
+            nodes=(nodes[0], self.nodes[1] if closed else nodes[1]),
+        )
 
 
 def expected_film(problem: PointContactProblem) -> float:

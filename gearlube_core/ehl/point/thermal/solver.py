@@ -74,6 +74,7 @@ class ThermalPointSolution:
     outcome: str
     seconds: float
     coarser: tuple[ThermalPointSolution, ...] = ()  # the film on coarser grids, finest first
+    wider: ThermalPointSolution | None = None  # the last of them on twice the domain
 
     @property
     def nodes(self) -> tuple[int, ...]:
@@ -195,8 +196,8 @@ def solve_thermal_point(
     begin = time.perf_counter()
     check_thermal(problem, settings)
 
-    def on_grid(nodes: tuple[int, ...]) -> ThermalPointSolution:
-        return _on_grid(problem.with_nodes(*nodes), (solid_1, solid_2), settings, thermal)
+    def on_grid(nodes: tuple[int, ...], of: PointContactProblem = problem) -> ThermalPointSolution:
+        return _on_grid(of.with_nodes(*nodes), (solid_1, solid_2), settings, thermal)
 
     def on_coarser_grid(
         nodes: tuple[int, ...], _: ThermalPointSolution
@@ -218,6 +219,10 @@ def solve_thermal_point(
             most_nodes,
             lambda nodes, coarser: replace(on_grid(nodes), coarser=coarser),
         )
+    coarse = solution.coarser[-1] if solution.coarser else None
+    if coarse is not None and (twice := coarse.film.problem.widened()) is not None:
+        wide = on_grid(twice.nodes, twice)
+        solution = replace(solution, wider=wide if wide.converged else None)
     return replace(
         solution,
         outcome=solution.outcome + solution.error.sentence + searched,
