@@ -30,7 +30,7 @@ from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.ehl.thin_film import thin_film_sentence
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.oil.film_oil import viscosity_cooling
+from gearlube_core.oil.film_oil_data import check_warms
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,11 +164,7 @@ def solve_thermal_line(
             "In a thermal line contact both surfaces must move in the direction of entrainment, "
             f"got {problem.speed_1:g} and {problem.speed_2:g} m/s."
         )
-    if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
-        raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. Give "
-            "temperature_exponent and take law houpert."
-        )
+    check_warms(problem.lubricant)
     check_search(film_error, most_nodes, MOST_NODES)
     solids = solid_1, solid_2
 

@@ -28,7 +28,7 @@ from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.oil.film_oil import viscosity_cooling
+from gearlube_core.oil.film_oil_data import check_warms
 
 _FILM_SHARE = 0.3  # of the heat that is not balanced yet: what the film of a turn is solved to
 _FILM_STEPS = 1  # of Newton in a turn
@@ -287,11 +287,7 @@ def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -
             "A thermal film needs `sliding`: the velocity of body 2 relative to body 1, (0, 0) in "
             "pure rolling."
         )
-    if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
-        raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. Give "
-            "temperature_exponent and take law houpert."
-        )
+    check_warms(problem.lubricant)
 
 
 def _film_at_temperatures(
