@@ -242,6 +242,19 @@ def doubled(nodes: tuple[int, ...], closed: bool = False) -> tuple[int, ...]:
     return (finer[0], 2 * nodes[1]) if closed else finer
 
 
+def twice_as_wide(limits: tuple[float, float], nodes: int) -> tuple[tuple[float, float], int]:
+    """Return limits on both sides of 0 about twice as far away, and nodes: old ones are kept.
+
+    Examples
+    --------
+    >>> twice_as_wide((-1.0, 0.5), 4)
+    ((-2.0, 1.0), 7)
+    """
+    step = (limits[1] - limits[0]) / (nodes - 1)
+    more = [max(round(abs(limit) / step), 1) for limit in limits]
+    return (limits[0] - more[0] * step, limits[1] + more[1] * step), nodes + sum(more)
+
+
 def check_search(film_error: float | None, most_nodes: int, limit: int) -> None:
     """Refuse a goal or a largest grid that is out of range."""
     if film_error is not None:

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from gearlube_core.checks import check_finite, check_option, check_positive, check_within
+from gearlube_core.ehl.grid_error import twice_as_wide
 from gearlube_core.ehl.line.rows import STENCILS
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.groups import LineGroups, line_groups
@@ -162,12 +163,15 @@ class LineProblem:
             return -behind, ahead
         return -ahead, behind
 
-    def widened(self) -> LineProblem | None:
-        """Return the problem on twice the domain; None: gap or oil may not go on beyond it."""
+    def widened(self, nodes: int) -> tuple[LineProblem, int] | None:
+        """Return the problem on about twice the domain and nodes that keep those of its grid.
+
+        None: gap or oil may not go on beyond the domain.
+        """
         if self.gap is not None or self.inlet_fill < 1.0:
             return None
-        first, last = self.extent()
-        return replace(self, domain=(2.0 * first, 2.0 * last), oil_beyond=self.flooded_beyond)
+        limits, count = twice_as_wide(self.extent(), nodes)
+        return replace(self, domain=limits, oil_beyond=self.flooded_beyond), count
 
     def undeformed_gap(self, x: np.ndarray) -> np.ndarray:
         """Return h_u [m] at x [m]."""

@@ -141,10 +141,11 @@ def _on_coarser_grid(nodes: tuple[int, ...], fine: LineSolution) -> LineSolution
 
 def _on_wider_domain(film: LineSolution) -> LineSolution | None:
     """Return the film of the coarsest grid on twice the domain; None: there is none."""
-    if not film.coarser or (problem := film.problem.widened()) is None:
+    if not film.coarser:
         return None
     near = film.coarser[-1]
-    return _from_near(problem, (2 * near.nodes[0] - 1,), near)
+    wide = near.problem.widened(near.nodes[0])
+    return None if wide is None else _from_near(wide[0], (wide[1],), near)
 
 
 def _from_near(

@@ -191,8 +191,9 @@ def solve_thermal_line(
             most_nodes,
             lambda nodes, coarser: replace(on_grid(nodes), coarser=coarser),
         )
-    if solution.coarser and (twice := problem.widened()) is not None:
-        wide = on_grid((2 * solution.coarser[-1].nodes[0] - 1,), twice)
+    coarsest = solution.coarser[-1].nodes[0] if solution.coarser else 0
+    if coarsest and (twice := problem.widened(coarsest)) is not None:
+        wide = on_grid((twice[1],), twice[0])
         solution = replace(solution, wider=wide if wide.converged else None)
     return replace(solution, outcome=solution.outcome + solution.error.sentence + searched)
 

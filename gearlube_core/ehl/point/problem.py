@@ -12,6 +12,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.ehl.grid_error import twice_as_wide
 from gearlube_core.ehl.point.far_field import FarField
 from gearlube_core.ehl.point.line_scales import hertz_line, line_film
 from gearlube_core.ehl.point.sides import Sides
@@ -226,18 +227,15 @@ class PointContactProblem:
         return replace(self, nodes=(nx, ny))
 
     def widened(self) -> PointContactProblem | None:
-        """Return the problem on twice the domain, of the same spacing; None: it may not go on."""
+        """Return the problem on twice the domain, nodes kept; None: it may not go on."""
         closed, (x, y) = Sides(self.sides).closed, (self.x_limits, self.y_limits)
         inside = x[0] < 0.0 < x[1] and (closed or y[0] < 0.0 < y[1])
         if not (inside and getattr(self.gap, "goes_on", False)) or self.inlet_layer is not None:
             return None
-        nodes = [min(2 * n - 1, MOST_NODES) for n in self.nodes]
-        return replace(
-            self,
-            x_limits=(2.0 * x[0], 2.0 * x[1]),
-            y_limits=y if closed else (2.0 * y[0], 2.0 * y[1]),
-            nodes=(nodes[0], self.nodes[1] if closed else nodes[1]),
-        )
+        (x, nx), (ny, wide_y) = twice_as_wide(x, self.nodes[0]), (self.nodes[1], y)
+        if not closed:
+            wide_y, ny = twice_as_wide(y, ny)
+        return replace(self, x_limits=x, y_limits=wide_y, nodes=(nx, ny))
 
 
 def expected_film(problem: PointContactProblem) -> float:
