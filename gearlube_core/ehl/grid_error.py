@@ -1,4 +1,4 @@
-"""Error of a film's grid, estimated from the same film on coarser grids."""
+"""Errors of a film's grid and domain, from the same film on coarser grids and a wider domain."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ SAFETY_OTHERWISE = 3.0  # on two grids, or where the third turns back
 LARGE_ERROR = 0.05  # from where on an outcome warns [-]
 FEWEST_NODES = 17  # of a coarser grid along a side
 COARSER_GRIDS = 2
+SAFETY_DOMAIN = 2.0  # twice the size takes half of an error that falls with the first power
 
 
 class FilmNumbers(NamedTuple):
@@ -29,6 +30,10 @@ class FilmNumbers(NamedTuple):
     minimum_film: float  # [m]
     maximum_pressure: float  # [Pa]
     friction: float  # coefficient of friction [-]
+
+
+_UNKNOWN = FilmNumbers(*4 * (math.nan,))
+_NAMES = ("central film", "smallest film", "largest pressure", "friction")
 
 
 class OnGrid(Protocol):
@@ -61,6 +66,10 @@ class OnGrid(Protocol):
     @property
     def coarser(self) -> tuple[Self, ...]:
         """The same film on coarser grids, finest first."""
+
+    @property
+    def wider(self) -> Self | None:
+        """The last of these on a domain twice as wide, of the same spacing; None: not known."""
 
 
 def formal_order(wedge: str) -> float:
@@ -144,13 +153,17 @@ def peak_error(fine: OnGrid, coarse: OnGrid) -> float:
 
 @dataclass(frozen=True, slots=True)
 class FilmError:
-    """Estimated relative errors of the grid [-]; not a number: not known."""
+    """Estimated relative errors of grid and domain [-]; not a number: not known.
+
+    The domain's are twice the differences to a film on a domain twice as wide.
+    """
 
     central_film: float
     minimum_film: float
     maximum_pressure: float
     friction: float
     nodes: tuple[tuple[int, ...], ...]  # of the grids compared, the film's own first
+    domain: FilmNumbers = _UNKNOWN  # errors of the domain
 
     @classmethod
     def of(cls, solution: OnGrid) -> FilmError:
@@ -165,7 +178,11 @@ class FilmError:
         if solution.coarser:
             peak = max(errors.maximum_pressure, peak_error(solution, solution.coarser[0]))
             errors = errors._replace(maximum_pressure=peak)
-        return cls(*errors, nodes)
+        domain, wider = _UNKNOWN, solution.wider
+        if wider is not None:
+            pairs = zip(solution.coarser[-1].numbers, wider.numbers, strict=True)
+            domain = FilmNumbers(*(_off(own, wide) for own, wide in pairs))
+        return cls(*errors, nodes, domain)
 
     @property
     def film(self) -> float:
@@ -175,8 +192,12 @@ class FilmError:
     @property
     def largest(self) -> float:
         """Return the largest error that is known [-]; not a number: none is."""
-        known = [one for one in self._all() if math.isfinite(one)]
-        return max(known, default=math.nan)
+        return _largest(self._all())
+
+    @property
+    def largest_of_domain(self) -> float:
+        """Return the largest error of the domain [-]; not a number: not known."""
+        return _largest(self.domain)
 
     @property
     def sentence(self) -> str:
@@ -184,15 +205,14 @@ class FilmError:
         grids = ", ".join(" x ".join(map(str, nodes)) for nodes in self.nodes[1:])
         if not math.isfinite(self.film):
             return " The error of the grid is not known: no film on a coarser grid to compare with."
-        names = ("central film", "smallest film", "largest pressure", "friction")
-        told = ", ".join(
-            f"{name} {100.0 * error:.2g} %"
-            for name, error in zip(names, self._all(), strict=True)
-            if math.isfinite(error)
-        )
-        text = f" Estimated error of the grid, from {grids} nodes: {told}."
+        text = f" Estimated error of the grid, from {grids} nodes: {_told(self._all())}."
         if self.largest > LARGE_ERROR:
             text += f" That is above {100.0 * LARGE_ERROR:g} %: take more nodes."
+        if not math.isfinite(self.largest_of_domain):
+            return text + " The error of the domain is not known."
+        text += f" Of the domain, from one twice as wide: {_told(self.domain)}."
+        if self.largest_of_domain > LARGE_ERROR:
+            text += f" That is above {100.0 * LARGE_ERROR:g} %: take a wider domain."
         return text
 
     def _all(self) -> tuple[float, float, float, float]:
@@ -220,6 +240,19 @@ def doubled(nodes: tuple[int, ...], closed: bool = False) -> tuple[int, ...]:
     """Return the nodes of a grid of half the spacing; `closed` as in `halved`."""
     finer = tuple(2 * n - 1 for n in nodes)
     return (finer[0], 2 * nodes[1]) if closed else finer
+
+
+def twice_as_wide(limits: tuple[float, float], nodes: int) -> tuple[tuple[float, float], int]:
+    """Return limits on both sides of 0 about twice as far away, and nodes: old ones are kept.
+
+    Examples
+    --------
+    >>> twice_as_wide((-1.0, 0.5), 4)
+    ((-2.0, 1.0), 7)
+    """
+    step = (limits[1] - limits[0]) / (nodes - 1)
+    more = [max(round(abs(limit) / step), 1) for limit in limits]
+    return (limits[0] - more[0] * step, limits[1] + more[1] * step), nodes + sum(more)
 
 
 def check_search(film_error: float | None, most_nodes: int, limit: int) -> None:
@@ -306,6 +339,19 @@ def refined_film(
     if solution.nodes == first:
         return solution, ""
     return solution, f" Refined from {_words(first)} to {_words(solution.nodes)} nodes."
+
+
+def _off(own: float, wide: float) -> float:
+    return SAFETY_DOMAIN * abs(wide - own) / abs(wide) if wide else 0.0 if own == wide else math.nan
+
+
+def _largest(errors: Sequence[float]) -> float:
+    return max((one for one in errors if math.isfinite(one)), default=math.nan)
+
+
+def _told(errors: Sequence[float]) -> str:
+    told = zip(_NAMES, errors, strict=True)
+    return ", ".join(f"{name} {100.0 * one:.2g} %" for name, one in told if math.isfinite(one))
 
 
 def _words(nodes: tuple[int, ...]) -> str:

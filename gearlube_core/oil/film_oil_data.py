@@ -10,7 +10,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.oil.density_law import density_ratio
 from gearlube_core.oil.dowson_higginson_1966 import DOWSON_HIGGINSON_1966, INCOMPRESSIBLE
 from gearlube_core.oil.eyring_1936 import NEWTONIAN, Eyring
-from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_oil import FilmOil, viscosity_cooling
 from gearlube_core.oil.houpert_1985 import houpert_log_viscosity, houpert_parameters
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_heat import OilHeat
@@ -244,6 +244,16 @@ def film_oil_of(
             heat_capacity=lubricant.heat_capacity,
         ),
     )
+
+
+def check_warms(oil: FilmOil) -> None:
+    """Refuse an oil whose viscosity does not fall with temperature, for a solution with heat."""
+    if viscosity_cooling(oil, 0.0, oil.temperature) == 0.0:
+        raise ParameterError(
+            "The viscosity of the oil must fall with temperature in a thermal film, but its "
+            "temperature_exponent is 0. Take law houpert and give temperature_exponent; with an "
+            "oil of the library leave both out."
+        )
 
 
 def jamali_2015_oil(*, newtonian: bool = False) -> FilmOil:

@@ -81,6 +81,63 @@ def test_rigid_isoviscous_film_is_that_of_martin():
     assert errors[0] / errors[1] > 2.5
 
 
+def floating_cylinder(**changes) -> LineProblem:
+    # film 4.9e-4 R: thin, and the deflection is 1e-6 of it
+    given = {"lubricant": ISOVISCOUS, "radius": R, "line_load": 1e3, "reduced_modulus": 1e13}
+    return LineProblem(**given | {"speed_1": 1.0, "speed_2": 1.0} | changes)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_default_domain_has_the_film_and_the_rolling_force_of_an_endless_inlet(way):
+    film = solve_line(floating_cylinder(speed_1=way, speed_2=way))
+    e, load = martin(1e4)
+    error = film.error
+    exact = 24.0 * load * 0.1 * R / 1e3
+    off = abs(film.minimum_film / exact - 1.0)
+    # it was 1.3 % off; the errors that are told cover what is left, and are small themselves
+    assert off < error.minimum_film + error.domain.minimum_film < 2e-3
+    # int h dp/dx dx = 12 eta u (2 R/h0)^(1/2) int (xi^2 - e^2)/(1 + xi^2)^2 d xi on two surfaces
+    turned = quad(lambda xi: (xi * xi - e * e) / (1.0 + xi * xi) ** 2, -math.inf, e)[0]
+    force = 12.0 * 0.1 * math.sqrt(2.0 * R / exact) * turned
+    # of the grid, 1e-3, and of h* beyond the border, 1e-4
+    assert film.rolling_force == pytest.approx(0.5 * way * force, rel=1.5e-3)
+    assert film.friction == pytest.approx((-film.rolling_force, -film.rolling_force))
+
+
+def test_error_of_a_given_domain_covers_what_it_leaves_out():
+    problem = floating_cylinder()
+    given = solve_line(replace(problem, domain=problem.extent()))
+    exact = 24.0 * martin(1e4)[1] * 0.1 * R / 1e3
+    off = abs(given.minimum_film / exact - 1.0)
+    assert 0.01 < off < given.error.domain.minimum_film < 3.0 * off
+    assert "twice as wide" in given.outcome
+    wavy = replace(problem, gap=lambda x: x * x / (2.0 * R) + 1e-7 * np.cos(1e4 * x))
+    assert "error of the domain is not known" in solve_line(wavy).outcome
+
+
+@pytest.mark.parametrize(
+    ("line_load", "slide_roll"), [(2e3, 0.36), (2e4, 0.36), (360e3, 0.36), (360e3, 0.0)]
+)
+def test_film_and_forces_are_those_of_three_times_the_domain(line_load, slide_roll):
+    problem = thesis_line(line_load=line_load, slide_roll=slide_roll)
+    film = solve_line(problem, LineSettings(nodes=401))
+    first, last = problem.extent()
+    wide = replace(problem, domain=(3.0 * first, 3.0 * last), oil_beyond=True)
+    far = solve_line(wide, LineSettings(nodes=1201))
+    # the film breaks between other nodes, 2e-4 of thick ones; 1e-3 of the forces beyond
+    assert film.central_film == pytest.approx(far.central_film, rel=3e-4)
+    assert film.rolling_force == pytest.approx(far.rolling_force, rel=1e-3)
+    assert film.shear_force == pytest.approx(far.shear_force, rel=2e-3, abs=1e-9)
+
+
+def test_solution_says_where_thin_film_theory_has_ended():
+    assert "Thin-film" not in solve_line(floating_cylinder(), LineSettings(nodes=101)).outcome
+    thick = solve_line(floating_cylinder(line_load=30.0), LineSettings(nodes=101))
+    # 4.9 eta u R/w is 0.016 R
+    assert "smallest film is 0.016 of the radius, above 0.01" in thick.outcome
+    assert "of the radius along x, beyond 0.5" in thick.outcome
+
+
 def test_heavily_loaded_pressure_is_that_of_hertz():
     contact = thesis_line(lubricant=film_oil(eta0=1e-4, alpha=13.3e-9))
     film = solve_line(contact, LineSettings(nodes=1001))

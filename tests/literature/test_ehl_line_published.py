@@ -36,12 +36,14 @@ def steel_contact(U: float, G: float, W: float, **changes) -> LineProblem:
 def test_smooth_line_of_the_thesis():
     # Jamali 2015 chapter 7: 360 kN/m, R 14 mm, 6.71 m/s, slide-roll 0.36, p_max 0.95 GPa;
     # an independent Newton trial on 800 nodes: centre 0.239 um, least 0.208 um
-    film = solve_line(thesis_line())
+    b = thesis_line().half_width
+    # on the domain of the trial; with oil beyond it the film is 0.9 % thicker
+    film = solve_line(thesis_line(domain=(-2.5 * b, 1.5 * b)))
     # two printed digits and the 0.6 % by which steel of 207 GPa, not printed, may be off
     assert film.maximum_pressure == pytest.approx(0.95e9, rel=0.01)
-    # three printed digits, 0.2 %, and the grid of the trial: 800 nodes are up to 0.6 % too thin
-    assert film.central_film == pytest.approx(0.239e-6, rel=0.009)
-    assert film.minimum_film == pytest.approx(0.208e-6, rel=0.009)
+    # three printed digits, 0.2 %, and the grid error that either tells, 0.3 %
+    assert film.central_film == pytest.approx(0.239e-6, rel=0.005)
+    assert film.minimum_film == pytest.approx(0.208e-6, rel=0.005)
 
 
 def test_least_film_of_dowson_and_higginson():

@@ -6,6 +6,8 @@ import pytest
 
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil import thermal_viscosity
+from gearlube_core.oil.film_oil_data import check_warms
 from gearlube_core.oil.lubricant import Lubricant
 
 OIL = {"viscosity_pa_s": 0.02, "pressure_viscosity_per_gpa": 18.0}
@@ -83,6 +85,23 @@ def test_an_oil_of_the_library_comes_at_its_temperature():
     assert lubricant.shear.tau0 == 0.0
 
 
+@pytest.mark.parametrize("build", [line, point])
+def test_an_oil_of_the_library_warms_in_a_thermal_film(build):
+    oil = {"library": "karagiannis_2012", "temperature_degc": 60.0, "expansion_per_k": 7e-4}
+    warm = build(oil=oil, temperature="thermal").problem().lubricant
+    own = Lubricant.named("karagiannis_2012")
+    # Houpert's law through 40 and 100 degC is within 3 % of Walther's line
+    for T in (333.15, 353.15, 373.15):
+        eta = thermal_viscosity(warm, 0.0, T)
+        assert eta == pytest.approx(own.dynamic_viscosity(T), rel=0.03)
+    assert warm.expansion == 7e-4
+    check_warms(warm)
+    for cold in (build(oil=oil), build(oil=OIL | {"law": "houpert"})):
+        with pytest.raises(ParameterError, match="leave both out"):
+            check_warms(cold.problem().lubricant)
+    assert build(oil=OIL | {"temperature_exponent": 1.1}).problem().lubricant.viscosity.S0 == 1.1
+
+
 OWN_OIL = """
 name = "75W-90"
 base_oil = "pao"
@@ -133,6 +152,11 @@ def test_a_ratio_needs_a_mean_speed():
         (line, {"oil": {"viscosity_pa_s": 0.02}}, ["pressure_viscosity_per_gpa", "missing"]),
         (line, {"oil": {**OIL, "library": "karagiannis_2012"}}, ["viscosity_pa_s", "library"]),
         (line, {"oil": {"library": "no_such_oil"}}, ["no_such_oil"]),
+        (
+            line,
+            {"oil": {"library": "karagiannis_2012", "temperature_exponent": 1.1}},
+            ["temperature_exponent", "library"],
+        ),
         (line, {"oil": {**OIL, "law": "reynolds"}}, ["oil.law", "barus or roelands"]),
         (line, {"oil": {**OIL, "limiting_stress_slope": 0.05}}, ["limiting_stress_mpa"]),
         (line, {"solver": {"stencil": "galerkin", "cavitation": "mass_conserving"}}, ["galerkin"]),

@@ -62,7 +62,7 @@ class _Flat:
 
     def __init__(self, nodes, spike, coarser=()):
         self.nodes, self.coarser, self.converged = (nodes,), coarser, True
-        self.formal_order = 2.0
+        self.formal_order, self.wider = 2.0, None
         self.axes = (np.linspace(0.0, 1.0, nodes),)
         self.pressure = np.where(np.abs(self.axes[0] - 0.75) < 1e-9, spike, 0.5)
         self.pressure[nodes // 4] = 1.0
@@ -85,8 +85,23 @@ def test_the_errors_are_told_and_large_ones_warn():
     assert "friction" not in error.sentence
     small = FilmError(0.01, 0.04, 0.001, 0.0, ((65, 65), (33, 33)))
     assert "take more nodes" not in small.sentence
+    assert "The error of the domain is not known." in small.sentence
     unknown = FilmError(*4 * [math.nan], ((33, 33),))
     assert "not known" in unknown.sentence
+
+
+def test_the_error_of_the_domain_is_twice_what_twice_the_domain_changes():
+    film = _Flat(33, 0.9, (_Flat(17, 0.9),))
+    film.wider = _Flat(33, 0.9)
+    film.wider.numbers = FilmNumbers(1.25, 0.8, math.nan, 0.0)
+    error = FilmError.of(film)
+    # 2 (1.25 - 1)/1.25, and a friction that is zero on both
+    assert error.domain == pytest.approx((0.4, 0.0, math.nan, 0.0), nan_ok=True)
+    assert error.largest_of_domain == pytest.approx(0.4)
+    assert (
+        "from one twice as wide: central film 40 %, smallest film 0 %, friction" in error.sentence
+    )
+    assert "take a wider domain" in error.sentence
 
 
 def _advected(scheme, steps):

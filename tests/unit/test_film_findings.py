@@ -77,6 +77,18 @@ def hypoid():
     )
 
 
+def test_an_ended_theory_and_a_cut_domain_are_warned_of():
+    ended = " Thin-film theory has ended: the smallest film is 0.02 of the radius, above 0.01. More"
+    found = findings(line(outcome=f"Converged.{ended}", domain_error_central_film=0.06))
+    thin, domain = found[1], found[3]
+    assert (thin.level, domain.level) == (WARNING, WARNING)
+    assert "Thin-film theory has ended" in thin.headline
+    assert thin.detail.startswith("The smallest film is 0.02 of the radius, above 0.01. Take")
+    assert "The domain makes an error of about 6 % of the central film." in domain.headline
+    calm = findings(line(domain_error_central_film=0.001))
+    assert [one.level for one in calm[:3]] == [GOOD, GOOD, GOOD]
+
+
 def headline(dataset, words):
     (one,) = [one for one in findings(dataset) if words in one.headline]
     return one

@@ -251,3 +251,13 @@ def test_what_is_no_file_or_no_json_is_refused_in_words(tmp_path):
         FilmModel.read(tmp_path / "none.json")
     with pytest.raises(FileError, match=r"must be one of .*hypoid_flank"):
         FilmModel.named("no_such_model")
+
+
+def test_models_of_cut_domains_say_what_these_add_to_their_bounds():
+    rollers = FilmModel.named("roller_race")
+    # the inlet at 150 films: 24 eta0 u R/(x w) of the rolling force is missing, 6 to 11 %
+    assert rollers.domain_bounds[1] > 0.09
+    assert "without oil beyond" in rollers.words
+    whole = FilmModel(rollers.numbers, {**rollers.provenance, "oil_beyond": "the grid"})
+    assert whole.domain_bounds == (0.0, 0.0)
+    assert "beyond" not in whole.words

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.line import solution as module
-from gearlube_core.ehl.line.solution import LineSolution, build_solution
+from gearlube_core.ehl.line.oil_beyond import NOTHING
+from gearlube_core.ehl.line.solution import LineSolution, build_solution, void_behind_ruptures
 
 LOAD = 2e5  # N/m
 
@@ -17,10 +18,12 @@ LOAD = 2e5  # N/m
 def result(x: np.ndarray, **given) -> LineSolution:
     """Return a result that holds the fields given; others are not needed."""
     fields = dict.fromkeys(one.name for one in dataclasses.fields(LineSolution) if one.init)
-    for name in ("coarser", "time_error"):
+    for name in ("coarser", "wider", "time_error"):
         del fields[name]
+    fields |= {"beyond": NOTHING}
     fields |= {"mean_stress": np.zeros_like(x), "mass_flow": np.zeros(x.size - 1)}
-    fields |= {"problem": SimpleNamespace(line_load=LOAD), "records": (), "converged": True}
+    problem = SimpleNamespace(line_load=LOAD, entrainment_speed=3.0)
+    fields |= {"problem": problem, "records": (), "converged": True}
     return LineSolution(**fields | {"x": x} | given)
 
 
@@ -96,6 +99,15 @@ def test_mass_balance_is_told_of_full_nodes_only():
     assert still.mass_balance == 0.0
 
 
+@pytest.mark.parametrize("way", [1, -1])
+def test_streaks_behind_a_rupture_hold_the_oil_that_passed_it(way):
+    pressure = np.array([0.0, 2.0, 1.0, 0.0, 0.0, 3.0, 0.0])[::way]
+    mass = np.array([9.0, 4.0, 2.0, 4.0, 8.0, 1.0, 5.0])[::way]
+    # nothing is broken upstream; 2 of 4 and of 8, 1 of 5
+    expected = np.array([0.0, 0.0, 0.0, 0.5, 0.75, 0.0, 0.8])[::way]
+    assert void_behind_ruptures(pressure, mass, way * 2.0) == pytest.approx(expected)
+
+
 def record(converged: bool) -> SimpleNamespace:
     return SimpleNamespace(
         residual=[0.5, 3e-9], load_error=[0.1, 2e-10], converged=converged, reason="it swings"
@@ -114,10 +126,11 @@ def test_state_becomes_a_result_in_si(monkeypatch):
     system = SimpleNamespace(
         scales=scales, oil=SimpleNamespace(eta0=0.04, rho0=870.0), rows=rows, touching=touching,
         x=np.sort(rng.random(n)), H=rng.random(n) + 0.3, evaluate=evaluated.append,
-        load_error=lambda state: 0.25,
+        load_error=lambda state: 0.25, beyond=NOTHING,
     )  # fmt: skip
     state = SimpleNamespace(P=rng.random(n), H0=-0.7, void=rng.random(n))
-    problem = SimpleNamespace(speed_1=1.5, speed_2=4.0)
+    problem = SimpleNamespace(speed_1=1.5, speed_2=4.0, radius=9.0)
+    settings = SimpleNamespace(cavitation="mass_conserving")
 
     def stress(p, slope, h, void, eta, sliding, oil, tau):
         seen.update(p=p, slope=slope, h=h, void=void, eta=eta, sliding=sliding)
@@ -125,7 +138,7 @@ def test_state_becomes_a_result_in_si(monkeypatch):
 
     monkeypatch.setattr(module, "fill_mean_stress", stress)
     records = ((3, record(False)), (n, record(True)))
-    found = build_solution(system, state, None, records, problem)
+    found = build_solution(system, state, settings, records, problem)
     assert evaluated == [state]
     assert found.pressure == pytest.approx(1e9 * state.P)
     assert found.film == pytest.approx(2e-7 * system.H)
@@ -139,15 +152,16 @@ def test_state_becomes_a_result_in_si(monkeypatch):
     assert seen["sliding"] == 2.5
     assert seen["slope"] == pytest.approx(np.gradient(found.pressure, system.x))
     assert (seen["h"] == found.film).all()
+    assert (seen["void"] == state.void).all()
     assert (found.mean_stress == 7.0).all()
     assert found.outcome == (
         "Converged on 6 nodes: unbalanced flow 3.0e-09, load error 2.0e-10, solids touch at 3 "
         "nodes."
     )
-    failed = build_solution(system, state, None, ((n, record(False)),), problem)
+    failed = build_solution(system, state, settings, ((n, record(False)),), problem)
     assert f"it swings; unbalanced flow 3.0e-09, smallest film {2e-7 * system.H.min():.2e} m" in (
         failed.outcome
     )
     system.touching = np.zeros(n, dtype=bool)
-    apart = build_solution(system, state, None, records, problem)
+    apart = build_solution(system, state, settings, records, problem)
     assert apart.outcome == "Converged on 6 nodes: unbalanced flow 3.0e-09, load error 2.0e-10."

@@ -38,7 +38,8 @@ class Audit(NamedTuple):
     rows: tuple[AuditRow, ...]
     outside: int  # contacts drawn that lie outside the domain, not solved
     outside_load: float  # their share of the load drawn [-]
-    bounds: tuple[float, float]  # of film and friction [-]
+    bounds: tuple[float, float]  # of film and friction, what cut domains add included [-]
+    of_domain: tuple[float, float] = (0.0, 0.0)  # this part of them
 
     @property
     def judged(self) -> list[AuditRow]:
@@ -95,8 +96,8 @@ def audit(
 
     Notes
     -----
-    Each contact is solved on both grids of its kind, and led to the limit of fine grids.
-    Coarser solutions alone would err by more than the model.
+    Each contact is solved on both grids of its kind, with oil beyond them, and led to the limit of
+    fine grids. Coarser solutions alone would err by more than the model.
     """
     numbers = model.copied_numbers()
     films = [kind_of(one).predict(numbers, one) for one in contacts]
@@ -112,8 +113,9 @@ def audit(
         progress(done / len(inside), "contacts solved")
     load = np.array([one[0] for one in contacts])  # load, or load per length of a line
     share = 1.0 - float(load[inside].sum() / load.sum())
-    bounds = (model.film_bound, model.friction_bound)
-    return Audit(tuple(rows), len(contacts) - len(inside), share, bounds)
+    domain = model.domain_bounds
+    bounds = (model.film_bound + domain[0], model.friction_bound + domain[1])
+    return Audit(tuple(rows), len(contacts) - len(inside), share, bounds, domain)
 
 
 def _row(contact: Contact, film: SolvedFilm) -> AuditRow:
@@ -154,6 +156,11 @@ def audit_lines(found: Audit) -> list[str]:
             f"above the bound of {100.0 * found.bounds[n]:.2f} %: {over[n]} "
             f"(5 % would be {0.05 * len(errors):.1f})"
         )
+        if found.of_domain[n]:
+            lines[-1] += (
+                f"; {100.0 * found.of_domain[n]:.2g} % of the bound are for the model's training "
+                "on films without oil beyond their grid"
+            )
     if found.holds:
         lines.append("The bounds hold: no more contacts exceed them than 5 % explain.")
     else:

@@ -6,8 +6,6 @@ import math
 import time
 from collections.abc import Callable
 
-import numpy as np
-
 from gearlube.studies.film_model.solve import Solved, contact_oil, contact_solid
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.thermal import (
@@ -56,21 +54,21 @@ def solve_line_contact(contact: LineContact, nodes: tuple[int, int]) -> Solved:
 def solve_roller_contact(contact: RollerContact, nodes: tuple[int, int]) -> Solved:
     """Return the thermal film of a roller on its race; its friction is that of rolling, 2 F/w.
 
-    F = int h/2 dp/dx dx, the force of the film on either surface per length; the rest as in
-    `solve_line_contact`.
+    F = int h/2 dp/dx dx, the force of the film on either surface per length, from one relative
+    radius ahead of the contact on; the rest as in `solve_line_contact`.
     """
     return _solved(rolling_line(contact), nodes, _rolling_friction)
 
 
 def _sliding_friction(warm: ThermalLineSolution) -> float:
-    film = warm.film
-    return float(np.trapezoid(film.mean_stress, film.x)) / film.problem.line_load
+    return warm.film.friction_coefficient
 
 
 def _rolling_friction(warm: ThermalLineSolution) -> float:
-    film = warm.film
-    pumped = film.film * np.gradient(film.pressure, film.x)
-    return float(np.trapezoid(pumped, film.x)) / film.problem.line_load
+    # rollers and races end about one relative radius from the contact: no oil is rolled beyond it
+    film, problem = warm.film, warm.film.problem
+    beyond = 12.0 * problem.lubricant.eta0 * problem.entrainment_speed
+    return 2.0 * (film.rolling_force - beyond) / problem.line_load
 
 
 def _solved(

@@ -40,7 +40,7 @@ def model_lines(model: FilmModel) -> list[str]:
             lines.append(f"{key}: {_text(value)}")
     lines.append(
         f"bounds, 95 %: central film {100.0 * model.film_bound:.2f} %, friction "
-        f"{100.0 * model.friction_bound:.2f} %"
+        f"{100.0 * model.friction_bound:.2f} %{model.words_of_domain}"
     )
     lines.append("domain:")
     for group, (low, high) in model.domain.items():

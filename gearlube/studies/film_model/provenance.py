@@ -58,6 +58,7 @@ def provenance_of(
         f"oils_of_the_{kind.visited}": list(plan.oils),
         **_machines(plan),
         "grid": f"{_grid(kind.nodes)} led to the limit by {second} films on {_grid(kind.second)}",
+        "oil_beyond": "the grid, in closed form",
         "solves": counts,
         "fine_solves": second,
         "failed": sum(bool(row.failure) for row in rows),

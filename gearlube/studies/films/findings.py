@@ -40,7 +40,8 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     >>> findings(xr.load_dataset("gearlube_ehl_line/line.nc"))[0].headline  # doctest: +SKIP
     'The film converged.'
     """
-    found = [_converged(dataset), *_grid(largest_errors(dataset))]
+    found = [_converged(dataset), *_thin(dataset), *_grid(largest_errors(dataset))]
+    found += _domain(dataset)
     if dataset.attrs["contact"] in STEADY:
         of_films = _steady(dataset)
     elif dataset.attrs["contact"] == "hypoid":
@@ -97,6 +98,39 @@ def _grid(errors: dict[str, float]) -> list[Finding]:
             f"The grid makes an error of about {100.0 * errors[worst]:.2g} % of the {worst}.",
             f"Estimated from coarser grids: {listed}."
             + (" Take more nodes; --film-error 2% does so for lines and points." if large else ""),
+        )
+    ]
+
+
+def _domain(dataset: xr.Dataset) -> list[Finding]:
+    of = dataset.attrs
+    errors = {name: float(of.get(f"domain_{key}", math.nan)) for name, key in _ERRORS}
+    known = {name: one for name, one in errors.items() if math.isfinite(one)}
+    if not known:
+        return []
+    worst = max(known, key=lambda name: known[name])
+    large = known[worst] > LARGE_ERROR
+    listed = ", ".join(f"{name} {100.0 * one:.2g} %" for name, one in known.items())
+    return [
+        Finding(
+            WARNING if large else GOOD,
+            f"The domain makes an error of about {100.0 * known[worst]:.2g} % of the {worst}.",
+            f"Estimated from a domain twice as wide: {listed}."
+            + (" Take a wider domain, or leave the default one." if large else ""),
+        )
+    ]
+
+
+def _thin(dataset: xr.Dataset) -> list[Finding]:
+    _, ended, rest = str(dataset.attrs["outcome"]).partition("Thin-film theory has ended: ")
+    if not ended:
+        return []
+    reason = rest.partition(". ")[0].removesuffix(".")
+    return [
+        Finding(
+            WARNING,
+            "Thin-film theory has ended: do not use these numbers.",
+            f"{reason[0].upper()}{reason[1:]}. Take less speed or viscosity, or more load.",
         )
     ]
 

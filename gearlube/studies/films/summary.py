@@ -60,9 +60,10 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
         rows.append(_own("turns of film and energy", of["turns"], "1"))
     rows += [_own(f"group {key}", of[f"group_{key}"], "1") for key in "ML" if f"group_{key}" in of]
     rows += [
-        _own(f"estimated error, {name}", 100.0 * of[f"error_{key}"], "%")
+        _own(f"estimated error{part}, {name}", 100.0 * of[f"{prefix}error_{key}"], "%")
+        for prefix, part in (("", ""), ("domain_", " of the domain"))
         for name, key in _ERRORS.items()
-        if math.isfinite(of.get(f"error_{key}", math.nan))
+        if math.isfinite(of.get(f"{prefix}error_{key}", math.nan))
     ]
     return [
         *rows,

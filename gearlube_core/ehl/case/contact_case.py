@@ -190,7 +190,7 @@ class LineCase(ContactCase):
     def _smooth(self) -> LineProblem:
         d = self.domain
         return LineProblem(
-            lubricant=self.oil.film_oil(),
+            lubricant=self.oil.film_oil(self.temperature == "thermal"),
             radius=self.radius_mm * MILLIMETRE,
             line_load=self.load_n_per_mm / MILLIMETRE,
             reduced_modulus=self.modulus,
@@ -332,7 +332,7 @@ class PointCase(ContactCase):
             speed_1=self.speed_1_m_s,
             speed_2=self.speed_2_m_s,
             contact_modulus=0.5 * self.modulus,
-            lubricant=self.oil.film_oil(),
+            lubricant=self.oil.film_oil(self.temperature == "thermal"),
             nodes=(self.solver.nodes_x, self.solver.nodes_y),
             domain=(
                 DOMAIN[0] if d.inlet is None else -d.inlet,
@@ -342,7 +342,7 @@ class PointCase(ContactCase):
         )
 
     def _smooth(self) -> PointContactProblem:
-        oil = self.oil.film_oil()
+        oil = self.oil.film_oil(self.temperature == "thermal")
         if self.closed:
             beyond = bool(self.domain.oil_beyond) or self.inlet_layer_um is not None
             sides, across = Sides(self.side_conditions), self.entrainment[1]

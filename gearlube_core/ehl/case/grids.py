@@ -69,7 +69,7 @@ class PointDomain(Section):
     oil_beyond: bool | None = Field(
         default=None,
         description="true: there is oil beyond the domain too; false: ambient pressure on the "
-        "border; left out: true on the default domain if the oil beyond carries more than 2.5 % "
+        "border; left out: true on the default domain if the oil beyond carries more than 0.2 % "
         "of the load",
     )
 

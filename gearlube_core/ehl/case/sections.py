@@ -66,10 +66,11 @@ class Oil(Section):
         "at ambient pressure. Measured at 40 degC: polyalphaolefin 15, paraffinic mineral oil 21, "
         "naphthenic mineral oil 27 [arana_2019 Table 3]",
     )
-    law: Literal["barus", "roelands", "houpert"] = Field(
-        default="roelands",
-        description="Law of viscosity over pressure; houpert also over temperature, as thermal "
-        "solutions need",
+    law: Literal["barus", "roelands", "houpert"] | None = Field(
+        default=None,
+        description="Law of viscosity over pressure; houpert also over temperature. Left out: "
+        "houpert with a temperature exponent and for thermal solutions with an oil of the library, "
+        "which has its own exponent; else roelands",
     )
     density_law: Literal["dowson_higginson", "incompressible"] = Field(
         default="dowson_higginson", description="Law of density over pressure"
@@ -117,6 +118,11 @@ class Oil(Section):
                 f"{', '.join(numbers)} must be left out if library is given, because library = "
                 f"{self.library!r} has its own values"
             )
+        if self.library is not None and self.temperature_exponent > 0.0:
+            raise ValueError(
+                "temperature_exponent must be left out if library is given: the exponent of such "
+                "an oil follows from its viscosities"
+            )
         if self.library is None:
             for name in _OWN_DATA[:2]:
                 if getattr(self, name) is None:
@@ -132,23 +138,25 @@ class Oil(Section):
         """Whether the values come from an oil file."""
         return self.library is not None and self.library.endswith(".toml")
 
-    def film_oil(self) -> FilmOil:
-        """Return the film's data of the oil, in SI units."""
+    def film_oil(self, thermal: bool = False) -> FilmOil:
+        """Return the film's data of the oil, in SI units, for a solution with heat or without."""
         temperature = celsius_to_kelvin(self.temperature_degc)
+        warms = self.temperature_exponent > 0.0 or (thermal and self.library is not None)
+        law = self.law or ("houpert" if warms else "roelands")
         if self.library is not None:
             return film_oil_of(
                 read_oil(self.library).lubricant,
                 temperature,
-                law=self.law,
+                law=law,
                 density_law=self.density_law,
                 newtonian=self.shear == "newtonian",
                 limiting_shear=self.shear == "limited",
-            )
+            )._replace(expansion=self.expansion_per_k)
         eyring, limit = self.eyring_stress_mpa, self.limiting_stress_mpa
         return film_oil(
             eta0=self.viscosity_pa_s or 0.0,
             alpha=(self.pressure_viscosity_per_gpa or 0.0) / _GIGA,
-            law=self.law,
+            law=law,
             density_law=self.density_law,
             rho0=self.density_kg_m3,
             eyring_stress=None if eyring is None else eyring * _MEGA,

@@ -17,13 +17,17 @@ from gearlube_core.oil.film_oil import FilmOil
 
 FLOWS = ("eyring", "newtonian")
 
-# along the major axis, in its semi-axis: oil enters across the minor one, so that a domain of
-# 2.5 semi-axes changes no film of a slender ellipse by 1e-3
+# along the major axis, in its semi-axis: oil enters across the minor one. What is carried farther
+# out is that of the oil beyond
 _Y_REACH = (-1.5, 1.3)
 
 
 def flank_contact(
-    instant: FlankInstant, contact_modulus: float, lubricant: FilmOil, nodes: tuple[int, int]
+    instant: FlankInstant,
+    contact_modulus: float,
+    lubricant: FilmOil,
+    nodes: tuple[int, int],
+    oil_beyond: bool = True,
 ) -> PointContactProblem:
     """Return the steady contact of one instant on a domain of its own.
 
@@ -37,6 +41,8 @@ def flank_contact(
         As it flows.
     nodes
         Along the minor and along the major axis.
+    oil_beyond
+        As in `PointContactProblem`. False takes a larger inlet where films are thick.
     """
     problem = elliptical_contact(
         R_x=instant.R_x,
@@ -47,7 +53,7 @@ def flank_contact(
         lubricant=lubricant,
         nodes=nodes,
         sliding=instant.sliding,
-        oil_beyond=False,
+        oil_beyond=oil_beyond,
     )
     semi_axis = problem.hertz_contact[1]
     low, high = (reach * semi_axis for reach in _Y_REACH)
@@ -101,7 +107,8 @@ class HypoidFilm:
 
     def domain(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Return limits along x and y [m] that contain the contact of all instants."""
-        problems = [self.problem(instant) for instant in self.cycle.instants()]
+        contact = (self.contact_modulus, self._flowing(), self.nodes, False)
+        problems = [flank_contact(instant, *contact) for instant in self.cycle.instants()]
         limits = np.array([[*problem.x_limits, *problem.y_limits] for problem in problems])
         low, high = limits.min(axis=0), limits.max(axis=0)
         return (float(low[0]), float(high[1])), (float(low[2]), float(high[3]))

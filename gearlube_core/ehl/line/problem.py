@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
 
 from gearlube_core.checks import check_finite, check_option, check_positive, check_within
+from gearlube_core.ehl.grid_error import twice_as_wide
 from gearlube_core.ehl.line.rows import STENCILS
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.groups import LineGroups, line_groups
@@ -25,10 +26,15 @@ _INLET_GAP, _OUTLET_GAP = 150.0, 4.0
 _INLET_LEAST, _OUTLET_LEAST = 2.0, 1.3
 
 
+def hertz_gap(X: np.ndarray) -> np.ndarray:
+    """Return the gap h R/b^2 [-] beside a dry contact at distances X = x/b from 1 on."""
+    return np.asarray(0.5 * (X * np.sqrt(X * X - 1.0) - np.arccosh(X)))
+
+
 def _hertz_distance(gap: float) -> float:
-    # x/b where the gap h R/b^2 beside a dry contact, [X (X^2 - 1)^(1/2) - acosh X]/2, is `gap`
+    # x/b where `hertz_gap` is `gap`
     def excess(X: float) -> float:
-        return 0.5 * (X * math.sqrt(X * X - 1.0) - math.acosh(X)) - gap
+        return float(hertz_gap(np.array(X))) - gap
 
     return float(brentq(excess, 1.0, math.sqrt(2.0 * gap) + 3.0, rtol=1e-6))
 
@@ -57,6 +63,10 @@ class LineProblem:
     inlet_fill
         Share of the gap at the inlet that is filled with oil, above 0 to 1; below 1 needs
         mass-conserving cavitation.
+    oil_beyond
+        True: there is oil upstream of the domain, between the parabolas of `radius`; its pressure
+        acts on the border, and it carries its share of the load. False: ambient pressure on the
+        border. None: True on the default domain of two flooded parabolas.
 
     Notes
     -----
@@ -83,6 +93,7 @@ class LineProblem:
     gap: Gap | None = None
     domain: tuple[float, float] | None = None
     inlet_fill: float = 1.0
+    oil_beyond: bool | None = None
 
     def __post_init__(self) -> None:
         check_positive("radius", self.radius, "m", "Give metres, not millimetres.")
@@ -91,11 +102,23 @@ class LineProblem:
         check_finite("speed_1", self.speed_1, "m/s")
         check_finite("speed_2", self.speed_2, "m/s")
         check_within("inlet_fill", self.inlet_fill, 1e-6, 1.0)
+        if self.oil_beyond and self.inlet_fill < 1.0:
+            raise ParameterError(
+                f"inlet_fill is {self.inlet_fill:g}, but oil_beyond floods the inlet. Give one of "
+                "them."
+            )
         if self.domain is not None and not self.domain[0] < self.domain[1]:
             raise ParameterError(
                 f"domain must run from its smaller to its larger x, got {self.domain[0]:g} to "
                 f"{self.domain[1]:g} m."
             )
+
+    @property
+    def flooded_beyond(self) -> bool:
+        """Tell whether there is oil upstream of the domain."""
+        if self.oil_beyond is not None:
+            return self.oil_beyond
+        return self.domain is None and self.gap is None and self.inlet_fill == 1.0
 
     @property
     def entrainment_speed(self) -> float:
@@ -139,6 +162,16 @@ class LineProblem:
         if self.entrainment_speed < 0.0:
             return -behind, ahead
         return -ahead, behind
+
+    def widened(self, nodes: int) -> tuple[LineProblem, int] | None:
+        """Return the problem on about twice the domain and nodes that keep those of its grid.
+
+        None: gap or oil may not go on beyond the domain.
+        """
+        if self.gap is not None or self.inlet_fill < 1.0:
+            return None
+        limits, count = twice_as_wide(self.extent(), nodes)
+        return replace(self, domain=limits, oil_beyond=self.flooded_beyond), count
 
     def undeformed_gap(self, x: np.ndarray) -> np.ndarray:
         """Return h_u [m] at x [m]."""

@@ -9,9 +9,11 @@ import numpy as np
 
 from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, formal_order
 from gearlube_core.ehl.line.newton import NewtonRecord
+from gearlube_core.ehl.line.oil_beyond import OilBeyond
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.ehl.line.traction import fill_mean_stress
+from gearlube_core.ehl.thin_film import thin_film_sentence
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -27,13 +29,15 @@ class LineSolution:
     x: np.ndarray
     pressure: np.ndarray  # [Pa]
     film: np.ndarray  # [m]
-    void: np.ndarray  # share of the gap without oil [-]
+    void: np.ndarray  # share of the gap without oil [-]; 0 where cavitation conserves no mass
+    streaks: np.ndarray  # share of the gap that is sheared [-]: 1 but behind ruptures
     viscosity: np.ndarray  # [Pa s]
     density: np.ndarray  # [kg/m3]
     mean_stress: np.ndarray  # at mid-film [Pa]
     contact: np.ndarray  # True where solids touch
     contact_flow: float  # oil made where a touching film is held open [kg/(m s)]
     mass_flow: np.ndarray  # (n - 1,) between nodes [kg/(m s)]
+    beyond: OilBeyond  # oil outside the domain
     approach: float  # h - h_u - deflection [m], deflection up to a constant
     residual: float  # unbalanced flow over flow through the contact [-]
     load_error: float  # [-]
@@ -41,6 +45,7 @@ class LineSolution:
     converged: bool
     outcome: str
     coarser: tuple[LineSolution, ...] = ()  # the film on coarser grids, finest first
+    wider: LineSolution | None = None  # the last of them on twice the domain
     time_error: float = math.nan  # estimated, of the smallest film by time steps [-]; at rest: nan
 
     @property
@@ -66,7 +71,7 @@ class LineSolution:
 
     @property
     def error(self) -> FilmError:
-        """Estimated errors of the grid; not known after a step in time."""
+        """Estimated errors of grid and domain; not known after a step in time."""
         return FilmError.of(self)
 
     @property
@@ -98,14 +103,26 @@ class LineSolution:
         return -self.mean_stress - 0.5 * self.film * np.gradient(self.pressure, self.x)
 
     @property
+    def rolling_force(self) -> float:
+        """Force int h/2 dp/dx dx of either surface, oil upstream of the domain included [N/m]."""
+        inside = 0.5 * _integral(self.x, self.film * np.gradient(self.pressure, self.x))
+        return inside + math.copysign(self.beyond.rolling_force, self.problem.entrainment_speed)
+
+    @property
     def friction(self) -> tuple[float, float]:
         """Force of the film along x on body 1 and on body 2 per length of line [N/m]."""
-        return _integral(self.x, self.stress_1), _integral(self.x, self.stress_2)
+        shear, rolling = self.shear_force, self.rolling_force
+        return shear - rolling, -shear - rolling
+
+    @property
+    def shear_force(self) -> float:
+        """Mid-film shear force along x, with the sign of u2 - u1, oil beyond included [N/m]."""
+        return _integral(self.x, self.mean_stress) + self.beyond.shear_force
 
     @property
     def friction_coefficient(self) -> float:
         """Mid-film shear force over load, with the sign of u2 - u1 [-]."""
-        return _integral(self.x, self.mean_stress) / self.problem.line_load
+        return self.shear_force / self.problem.line_load
 
     @property
     def mass_balance(self) -> float:
@@ -129,6 +146,28 @@ def _parabola_lowest(x: np.ndarray, y: np.ndarray) -> float:
     return float(y[i] - 0.5 * slope * slope / bend) if bend > 0.0 else float(y[i])
 
 
+def void_behind_ruptures(p: np.ndarray, mass: np.ndarray, speed: float) -> np.ndarray:
+    """Return the share of the gap (n,) [-] that streaks of oil behind a rupture leave empty.
+
+    Parameters
+    ----------
+    p, mass
+        Pressure [Pa] and density times film [kg/m2], (n,).
+    speed
+        Of entrainment [m/s].
+
+    Notes
+    -----
+    A film that breaks by Reynolds' condition goes on with the oil that passed the rupture, in
+    streaks that fill a share of the gap ([jakobsson_floberg_1957]): only they are sheared.
+    """
+    way = slice(None, None, -1 if speed < 0.0 else 1)
+    loaded = p[way] > 0.0
+    last = np.maximum.accumulate(np.where(loaded, np.arange(p.size), -1))
+    carried = np.where(loaded | (last < 0), mass[way], mass[way][last])
+    return np.asarray(1.0 - np.minimum(carried / mass[way], 1.0)[way])
+
+
 def build_solution(
     system: LineSystem,
     state: LineState,
@@ -144,7 +183,10 @@ def build_solution(
     tau = np.empty(p.size)
     slope = np.gradient(p, system.x)
     sliding = problem.speed_2 - problem.speed_1
-    fill_mean_stress(p, slope, h, state.void, eta, sliding, oil, tau)
+    void = state.void.copy()
+    if settings.cavitation == "reynolds":
+        void = void_behind_ruptures(p, rho * h, problem.entrainment_speed)
+    fill_mean_stress(p, slope, h, void, eta, sliding, oil, tau)
     last = records[-1][1]
     made = float(system.rows.residual[system.touching].sum())
     return LineSolution(
@@ -154,18 +196,21 @@ def build_solution(
         pressure=p,
         film=h,
         void=state.void.copy(),
+        streaks=1.0 - void,
         viscosity=eta,
         density=rho,
         mean_stress=tau,
         contact=system.touching.copy(),
         contact_flow=made * oil.rho0 * scales.film * scales.speed,
         mass_flow=system.rows.flux * oil.rho0 * scales.film * scales.speed,
+        beyond=system.beyond,
         approach=state.H0 * scales.film,
         residual=last.residual[-1],
         load_error=system.load_error(state),
         records=records,
         converged=last.converged,
-        outcome=_outcome(last, system, state),
+        outcome=_outcome(last, system, state)
+        + thin_film_sentence(p, h, (system.x,), (problem.radius,)),
     )
 
 

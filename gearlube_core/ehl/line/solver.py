@@ -64,7 +64,7 @@ def solve_line(
     Notes
     -----
     The error by the grid is estimated from the same film on two grids with two and four times the
-    spacing; see `estimated_error`.
+    spacing, see `estimated_error`, and that by the domain from twice the domain on the coarsest.
 
     Examples
     --------
@@ -103,6 +103,7 @@ def solve_line(
                 _on_grid(problem, replace(settings, nodes=nodes[0]), None), coarser=coarser
             ),
         )
+    solution = replace(solution, wider=_on_wider_domain(solution))
     return replace(solution, outcome=solution.outcome + solution.error.sentence + searched)
 
 
@@ -135,7 +136,22 @@ def _on_grid(
 
 def _on_coarser_grid(nodes: tuple[int, ...], fine: LineSolution) -> LineSolution | None:
     """Return the film on fewer nodes, from that on more; None: it was not found."""
-    problem, settings = fine.problem, replace(fine.settings, nodes=nodes[0])
+    return _from_near(fine.problem, nodes, fine)
+
+
+def _on_wider_domain(film: LineSolution) -> LineSolution | None:
+    """Return the film of the coarsest grid on twice the domain; None: there is none."""
+    if not film.coarser:
+        return None
+    near = film.coarser[-1]
+    wide = near.problem.widened(near.nodes[0])
+    return None if wide is None else _from_near(wide[0], (wide[1],), near)
+
+
+def _from_near(
+    problem: LineProblem, nodes: tuple[int, ...], fine: LineSolution
+) -> LineSolution | None:
+    settings = replace(fine.settings, nodes=nodes[0])
     system = LineSystem(problem, nodes[0], settings.stencil, False)
     state, record = newton(
         system, _from_solution(system, fine), settings.tolerance, settings.max_iterations

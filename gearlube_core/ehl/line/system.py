@@ -8,6 +8,7 @@ import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs
 
 from gearlube_core.ehl.line.deflection import LineDeflection
+from gearlube_core.ehl.line.oil_beyond import NOTHING, oil_beyond
 from gearlube_core.ehl.line.problem import LineProblem
 from gearlube_core.ehl.line.rows import fill_jacobian, fill_rows, local_rows
 from gearlube_core.ehl.line.scaling import line_scales, row_coefficients
@@ -75,6 +76,8 @@ class LineSystem:
         self.source = np.zeros(nodes)
         self.load = LOAD
         self.H = np.zeros(nodes)
+        self._inlet = 0 if problem.entrainment_speed >= 0.0 else -1
+        self.set_beyond(problem)
         # film at which solids touch, and where they do; 0: nowhere
         self.least = 0.0
         self.touching = np.zeros(nodes, dtype=np.bool_)
@@ -84,12 +87,20 @@ class LineSystem:
         """Node spacing over the Hertz half width [-]."""
         return self.coefficients.step
 
+    def set_beyond(self, now: LineProblem) -> None:
+        """Set what the oil beyond the domain does at the surface speeds of a problem."""
+        self.beyond = NOTHING
+        if self.problem.flooded_beyond:
+            ends = float(self.x[0]), float(self.x[-1])
+            self.beyond = oil_beyond(self.problem, ends, now.speed_1, now.speed_2)
+
     def film(self, state: LineState) -> np.ndarray:
         """Return the film H (n,) [-]; [jamali_2015 (3.2)] [jamali_2015 (3.15)]."""
         return state.H0 + self.gap + self.deflection(state.P)
 
     def evaluate(self, state: LineState) -> None:
-        """Fill film and balances of a state."""
+        """Fill film and balances of a state, and its pressure on the upstream border."""
+        state.P[self._inlet] = self.beyond.pressure / self.scales.pressure
         self.H = self.film(state)
         fill_rows(
             state.P,
@@ -105,7 +116,10 @@ class LineSystem:
 
     def load_error(self, state: LineState) -> float:
         """Return the relative error of the load [-]; [jamali_2015 (4.5)]."""
-        return float(self.step * state.P.sum() / self.load - 1.0)
+        scales = self.scales
+        outside = self.beyond.load / (scales.pressure * scales.length)
+        inside = self.step * (state.P.sum() - 0.5 * state.P[self._inlet])
+        return float((inside + outside) / self.load - 1.0)
 
     def factorise(self, nodes: np.ndarray, voids: np.ndarray) -> Factors:
         """Return the factorised Jacobian of the last evaluated state."""

@@ -28,8 +28,9 @@ from gearlube_core.ehl.line.problem import MOST_NODES, LineProblem, LineSettings
 from gearlube_core.ehl.line.solution import LineSolution, build_solution
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
+from gearlube_core.ehl.thin_film import thin_film_sentence
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.oil.film_oil import viscosity_cooling
+from gearlube_core.oil.film_oil_data import check_warms
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,6 +73,7 @@ class ThermalLineSolution:
     converged: bool
     outcome: str
     coarser: tuple[ThermalLineSolution, ...] = ()  # the film on coarser grids, finest first
+    wider: ThermalLineSolution | None = None  # the last of them on twice the domain
 
     @property
     def nodes(self) -> tuple[int, ...]:
@@ -162,16 +164,12 @@ def solve_thermal_line(
             "In a thermal line contact both surfaces must move in the direction of entrainment, "
             f"got {problem.speed_1:g} and {problem.speed_2:g} m/s."
         )
-    if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
-        raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. Give "
-            "temperature_exponent and take law houpert."
-        )
+    check_warms(problem.lubricant)
     check_search(film_error, most_nodes, MOST_NODES)
     solids = solid_1, solid_2
 
-    def on_grid(nodes: tuple[int, ...]) -> ThermalLineSolution:
-        return thermal_line_on_grid(problem, solids, replace(settings, nodes=nodes[0]), thermal)
+    def on_grid(nodes: tuple[int, ...], of: LineProblem = problem) -> ThermalLineSolution:
+        return thermal_line_on_grid(of, solids, replace(settings, nodes=nodes[0]), thermal)
 
     def on_coarser_grid(
         nodes: tuple[int, ...], _: ThermalLineSolution
@@ -193,6 +191,10 @@ def solve_thermal_line(
             most_nodes,
             lambda nodes, coarser: replace(on_grid(nodes), coarser=coarser),
         )
+    coarsest = solution.coarser[-1].nodes[0] if solution.coarser else 0
+    if coarsest and (twice := problem.widened(coarsest)) is not None:
+        wide = on_grid((twice[1],), twice[0])
+        solution = replace(solution, wider=wide if wide.converged else None)
     return replace(solution, outcome=solution.outcome + solution.error.sentence + searched)
 
 
@@ -227,11 +229,12 @@ def thermal_line_on_grid(
             break
     else:
         reason = reason or f"temperature still changes by {changes[-1]:.2g} K a turn"
-    film = replace(film, mean_stress=energy.stress())
+    film = replace(film, mean_stress=energy.stress() * film.streaks)
     outcome = (
         f"Not converged: {reason}. Take a smaller relaxation or more turns."
         if reason
         else f"Converged in {len(changes)} turns, last change {changes[-1]:.1e} K."
+        + thin_film_sentence(film.pressure, film.film, film.axes, (problem.radius,))
     )
     return ThermalLineSolution(
         film=film,

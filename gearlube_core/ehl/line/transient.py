@@ -81,7 +81,9 @@ class LineMarch:
             raise ParameterError(f"The start of a march must have converged. {start.outcome}")
         settings = start.settings
         conserving = settings.cavitation == "mass_conserving"
-        problem = replace(start.problem, domain=(float(start.x[0]), float(start.x[-1])))
+        ends = float(start.x[0]), float(start.x[-1])
+        beyond = start.problem.flooded_beyond
+        problem = replace(start.problem, domain=ends, oil_beyond=beyond)
         self.settings: LineSettings = settings
         self.history, self.scheme, self.time, self.steps = history, scheme, 0.0, 0
         self._problem = problem
@@ -162,6 +164,7 @@ class LineMarch:
         if history.gap is not None:
             gap = np.asarray(history.gap(system.x, self.time), dtype=float)
             system.gap = gap / system.scales.film
+        system.set_beyond(problem)
         system.load = LOAD * problem.line_load / self._problem.line_load
         c = row_coefficients(
             problem,

@@ -100,14 +100,13 @@ def point_solution(
     )
 
 
-def film_on_coarser_grid(
-    nodes: tuple[int, ...], fine: PointSolution, settings: PointSolverSettings
+def film_from_near(
+    problem: PointContactProblem, fine: PointSolution, settings: PointSolverSettings
 ) -> PointSolution | None:
-    """Return the film on fewer nodes by the stencil of a finer one; None: it was not found.
+    """Return the film on a coarser grid or a wider domain by the stencil of a film near.
 
-    From the finer film where a full inlet allows it, else from a nest of its own.
+    From this film where a full inlet allows it, else from a nest of its own. None: not found.
     """
-    problem = fine.problem.with_nodes(*nodes)
     settings = replace(
         settings,
         wedge=fine.outcome.wedge,
@@ -125,7 +124,8 @@ def film_on_coarser_grid(
         )
         level = hierarchy.levels[-1]
         x, y = np.meshgrid(problem.x, problem.y, indexing="ij")
-        pressure = interpn((fine.problem.x, fine.problem.y), fine.pressure, (x, y))
+        near = (fine.problem.x, fine.problem.y)
+        pressure = interpn(near, fine.pressure, (x, y), bounds_error=False, fill_value=0.0)
         pressure = level.scales.inward(pressure / level.scales.pressure)
         start = level.state(
             zero_border(level.grid.sides.extended(pressure)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -32,6 +33,8 @@ class Cylinder:
 
     def __post_init__(self) -> None:
         check_positive("R_x", self.R_x, "m")
+
+    goes_on: ClassVar[bool] = True  # beyond any domain
 
     def __call__(self, x: Array, y: Array) -> Array:
         """Return the gap [m] at points (x, y) [m]."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.ehl.grid_error import twice_as_wide
 from gearlube_core.ehl.point.far_field import FarField
 from gearlube_core.ehl.point.line_scales import hertz_line, line_film
 from gearlube_core.ehl.point.sides import Sides
@@ -43,6 +45,8 @@ class EllipticParaboloid:
     def __post_init__(self) -> None:
         check_positive("R_x", self.R_x, "m")
         check_positive("R_y", self.R_y, "m")
+
+    goes_on: ClassVar[bool] = True  # beyond any domain
 
     def __call__(self, x: Array, y: Array) -> Array:
         """Return the gap [m] at points (x, y) [m]."""
@@ -213,9 +217,25 @@ class PointContactProblem:
             y_limits=(y0 - dy, y1 + dy),
         )
 
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Return the relative radii along x and y [m]; infinite along a line."""
+        return self.hertz.R_x, math.inf if Sides(self.sides).closed else self.hertz.R_y
+
     def with_nodes(self, nx: int, ny: int) -> PointContactProblem:
         """Return the same problem on another grid."""
         return replace(self, nodes=(nx, ny))
+
+    def widened(self) -> PointContactProblem | None:
+        """Return the problem on twice the domain, nodes kept; None: it may not go on."""
+        closed, (x, y) = Sides(self.sides).closed, (self.x_limits, self.y_limits)
+        inside = x[0] < 0.0 < x[1] and (closed or y[0] < 0.0 < y[1])
+        if not (inside and getattr(self.gap, "goes_on", False)) or self.inlet_layer is not None:
+            return None
+        (x, nx), (ny, wide_y) = twice_as_wide(x, self.nodes[0]), (self.nodes[1], y)
+        if not closed:
+            wide_y, ny = twice_as_wide(y, ny)
+        return replace(self, x_limits=x, y_limits=wide_y, nodes=(nx, ny))
 
 
 def expected_film(problem: PointContactProblem) -> float:

@@ -17,6 +17,7 @@ from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solid_contact import Touch
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.traction import point_traction
+from gearlube_core.ehl.thin_film import thin_film_sentence
 
 _CURE = "Take more nodes where the film is thin, upwind-1 to start from, or a lower load first."
 _LIMITED = 0.01  # share of first-order faces worth a word
@@ -43,7 +44,8 @@ class PointOutcome:
         Share of the faces under pressure where rho h falls by more than a factor of 2 in a cell
         or so and the stencil is limited to first order [-]; 0 on grids that resolve the inlet.
     sentence
-        What happened and what to do, also where the domain cuts the contact.
+        What happened and what to do, also where the domain cuts the contact or thin-film theory
+        has ended.
     touch
         How far the solids touch.
     beyond
@@ -108,7 +110,11 @@ class PointOutcome:
             if not failed
             else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
         )
+        inner = level.grid.sides.inner
+        pressure = scales.outward(inner(state.pressure))
+        film = scales.outward(inner(state.film)) * scales.film
         sentence += cut.sentence
+        sentence += thin_film_sentence(pressure, film, (problem.x, problem.y), problem.radii)
         return cls(
             not failed, residual, state.load_error, smallest, wedge, share, sentence, touch, outside
         )
@@ -128,6 +134,7 @@ class PointSolution:
     krylov_steps: int
     seconds: float
     coarser: tuple[PointSolution, ...] = ()  # the film on coarser grids, finest first
+    wider: PointSolution | None = None  # the last of them on twice the domain
 
     @property
     def converged(self) -> bool:
@@ -157,7 +164,7 @@ class PointSolution:
 
     @property
     def error(self) -> FilmError:
-        """Return the estimated errors of the grid."""
+        """Return the estimated errors of grid and domain."""
         return FilmError.of(self)
 
     def with_words(self, more: str, seconds: float) -> PointSolution:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.grid_error import twice_as_wide
 from gearlube_core.ehl.point.equations.mesh import Grading, x_nodes
 from gearlube_core.ehl.point.level import DISCRETE, PointLevel
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
@@ -111,6 +112,21 @@ class MovingFilm:
     def with_nodes(self, nx: int, ny: int) -> MovingFilm:
         """Return the same film on another grid."""
         return replace(self, nodes=(nx, ny))
+
+    def widened(self) -> MovingFilm | None:
+        """Return the film on twice the domain, nodes kept; None: it may not go on.
+
+        Along y no farther where the solids end, at films that are held open.
+        """
+        x, y = self.x_limits, self.y_limits
+        if self.grading is not None or Sides(self.sides).closed or not x[0] < 0.0 < x[1]:
+            return None
+        x, nx = twice_as_wide(x, self.nodes[0])
+        wide = replace(self, x_limits=x, nodes=(nx, self.nodes[1]))
+        if math.isfinite(self.open_film) or not y[0] < 0.0 < y[1]:
+            return wide
+        y, ny = twice_as_wide(y, self.nodes[1])
+        return replace(wide, y_limits=y, nodes=(nx, ny))
 
     @property
     def long(self) -> bool:

@@ -17,6 +17,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solid_contact import NO_TOUCH, Touch
 from gearlube_core.ehl.point.terms.state import FilmState
+from gearlube_core.ehl.thin_film import thin_film_sentence
 from gearlube_core.ehl.time_error import time_error_sentence
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.problem import MovingFilm
@@ -49,6 +50,7 @@ class FilmSolution:
     )  # estimated, of the smallest film by the time steps [-]; at rest: nan
     formal_order: float = SECOND_ORDER  # of its grid
     coarser: tuple[FilmSolution, ...] = ()  # a film at rest on coarser grids, finest first
+    wider: FilmSolution | None = None  # the last of them on twice the domain
     sides: str = "ambient"  # along y
 
     @property
@@ -76,7 +78,7 @@ class FilmSolution:
 
     @property
     def error(self) -> FilmError:
-        """Return the estimated errors of the grid; not known in motion."""
+        """Return the estimated errors of grid and domain; not known in motion."""
         return FilmError.of(self)
 
     @property
@@ -159,6 +161,7 @@ def film_solution(
     cells = level.grid.cells[:, None] * scales.length**2
     touch = Touch.of(film.solids, height, cells, load)
     cut = border_pressure(pressure, height, closed=sides.closed).sentence
+    cut += thin_film_sentence(pressure, height, (film.x, film.y), film.reference().radii)
     return FilmSolution(
         time=time,
         x=film.x,
@@ -225,6 +228,7 @@ def unpack_solutions(
             converged=not failed,
             outcome=_outcome(failed, newton_steps, touch)
             + border_pressure(pressure, height, closed=Sides(film.sides).closed).sentence
+            + thin_film_sentence(pressure, height, (film.x, film.y), film.reference().radii)
             + time_error_sentence(numbers["time_error"]),
             newton_steps=newton_steps,
             krylov_steps=int(krylov_steps),

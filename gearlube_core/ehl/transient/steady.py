@@ -113,8 +113,10 @@ def solve_steady_film(
     check_search(film_error, most_nodes, MOST_NODES)
     begin = clock.perf_counter()
 
-    def on_grid(nodes: tuple[int, ...], wedge: str) -> tuple[FilmSolution, str]:
-        return _on_grid(film.with_nodes(*nodes), time, replace(settings, wedge=wedge))
+    def on_grid(
+        nodes: tuple[int, ...], wedge: str, of: MovingFilm = film
+    ) -> tuple[FilmSolution, str]:
+        return _on_grid(of.with_nodes(*nodes), time, replace(settings, wedge=wedge))
 
     solution, wedge = on_grid(film.nodes, settings.wedge)
     if throw and not solution.converged:
@@ -137,6 +139,10 @@ def solve_steady_film(
             lambda nodes, coarser: replace(on_grid(nodes, settings.wedge)[0], coarser=coarser),
             closed,
         )
+    coarse = film.with_nodes(*solution.coarser[-1].nodes) if solution.coarser else None
+    if coarse is not None and (twice := coarse.widened()) is not None:
+        wide = on_grid(twice.nodes, wedge, twice)[0]
+        solution = replace(solution, wider=wide if wide.converged else None)
     return replace(
         solution,
         outcome=solution.outcome + solution.error.sentence + searched,

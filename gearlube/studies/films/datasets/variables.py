@@ -45,12 +45,14 @@ def heat_fluxes(dimensions: Dimensions, flux_1: Array, flux_2: Array) -> dict[st
 
 
 def error_attributes(error: FilmError) -> dict[str, float | str]:
-    """Return the estimated relative errors of the grid and the grids that they come from."""
+    """Return the estimated relative errors of grid and domain, and the grids compared."""
+    names = ("central_film", "minimum_film", "pressure_max", "friction")
     return {
         "error_central_film": error.central_film,
         "error_minimum_film": error.minimum_film,
         "error_pressure_max": error.maximum_pressure,
         "error_friction": error.friction,
+        **{f"domain_error_{name}": one for name, one in zip(names, error.domain, strict=True)},
         "error_grids": ", ".join("x".join(map(str, nodes)) for nodes in error.nodes),
     }
 

@@ -28,7 +28,7 @@ from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.oil.film_oil import viscosity_cooling
+from gearlube_core.oil.film_oil_data import check_warms
 
 _FILM_SHARE = 0.3  # of the heat that is not balanced yet: what the film of a turn is solved to
 _FILM_STEPS = 1  # of Newton in a turn
@@ -74,6 +74,7 @@ class ThermalPointSolution:
     outcome: str
     seconds: float
     coarser: tuple[ThermalPointSolution, ...] = ()  # the film on coarser grids, finest first
+    wider: ThermalPointSolution | None = None  # the last of them on twice the domain
 
     @property
     def nodes(self) -> tuple[int, ...]:
@@ -195,8 +196,8 @@ def solve_thermal_point(
     begin = time.perf_counter()
     check_thermal(problem, settings)
 
-    def on_grid(nodes: tuple[int, ...]) -> ThermalPointSolution:
-        return _on_grid(problem.with_nodes(*nodes), (solid_1, solid_2), settings, thermal)
+    def on_grid(nodes: tuple[int, ...], of: PointContactProblem = problem) -> ThermalPointSolution:
+        return _on_grid(of.with_nodes(*nodes), (solid_1, solid_2), settings, thermal)
 
     def on_coarser_grid(
         nodes: tuple[int, ...], _: ThermalPointSolution
@@ -218,6 +219,10 @@ def solve_thermal_point(
             most_nodes,
             lambda nodes, coarser: replace(on_grid(nodes), coarser=coarser),
         )
+    coarse = solution.coarser[-1] if solution.coarser else None
+    if coarse is not None and (twice := coarse.film.problem.widened()) is not None:
+        wide = on_grid(twice.nodes, twice)
+        solution = replace(solution, wider=wide if wide.converged else None)
     return replace(
         solution,
         outcome=solution.outcome + solution.error.sentence + searched,
@@ -282,11 +287,7 @@ def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -
             "A thermal film needs `sliding`: the velocity of body 2 relative to body 1, (0, 0) in "
             "pure rolling."
         )
-    if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
-        raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. Give "
-            "temperature_exponent and take law houpert."
-        )
+    check_warms(problem.lubricant)
 
 
 def _film_at_temperatures(
