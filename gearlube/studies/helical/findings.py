@@ -11,10 +11,10 @@ import xarray as xr
 from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.report.solved_films import model_of, solved_films
+from gearlube.report.solved_films import formulas_stand_in, model_of, solved_films
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 from gearlube_core.arrays import Array
-from gearlube_core.film_model.model import LINE
+from gearlube_core.film_model.model import LINE, MOST_OUTSIDE
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
 Datasets = Mapping[str, xr.Dataset]
@@ -57,6 +57,7 @@ def findings(datasets: Datasets) -> list[Finding]:
         ("contact", _edges),
         ("stability", _stability),
         ("film", _film),
+        ("losses", _losses),
     ):
         if name in datasets:
             found += of(datasets[name])
@@ -152,6 +153,9 @@ def _sweep(sweep: xr.Dataset) -> list[Finding]:
                 f"{float(sweep['speed'][-1]) / RPM:.0f} rpm, so that it shows the resonances.",
             )
         )
+    if "film_share_outside" in sweep:
+        outside, speeds = sweep["film_share_outside"].values, sweep["speed"].values / RPM
+        found += _beyond(outside, speeds, "Film and friction of the vibrating pair in good part")
     margin = float(sweep["stability_margin"].min())
     if margin <= 0.0:
         found.append(
@@ -290,6 +294,8 @@ def _solved(film: xr.Dataset) -> list[Finding]:
     if of.get("film_model") != "solved":
         return []
     share, loss = of["operating_share_outside"], of["operating_power_loss"]
+    if share > MOST_OUTSIDE:
+        return [formulas_stand_in("Film and friction", "at the operating point", share)]
     return [
         solved_films(
             of["operating_power_loss_bound"] / loss if loss > 0.0 else 0.0,
@@ -317,6 +323,47 @@ def _film(film: xr.Dataset) -> list[Finding]:
         ),
         *_solved(film),
     ]
+
+
+def _beyond(outside: Array, speed: Array, what: str) -> list[Finding]:
+    """Return where formulas stand in for solved films, over speeds [rpm] on the last axis."""
+    beyond = outside > MOST_OUTSIDE
+    if not beyond.any():
+        return []
+    at = speed[beyond.reshape(-1, speed.size).any(axis=0)]
+    where = f"at {beyond.sum()} of {beyond.size} points, at {at.min():.0f} to {at.max():.0f} rpm"
+    return [formulas_stand_in(what, where, float(outside.max()))]
+
+
+def _losses(losses: xr.Dataset) -> list[Finding]:
+    power = losses["loss"].sum("part")
+    worst = losses.isel(power.argmax(list(power.dims)))  # type: ignore[arg-type]
+    total, speed = float(worst["loss"].sum()), float(worst["speed"])
+    sliding = float(worst["loss"].sel(part="sliding"))
+    bar = ""
+    if "loss_torque_low" in worst:
+        low, high = (float(worst[f"loss_torque_{end}"]) * speed * RPM for end in ("low", "high"))
+        ends = f"{quantity_text(low, 'W')} and {quantity_text(high, 'W')}"
+        bar = f" 95 % of the draws lie between {ends}."
+    found = [
+        Finding(
+            NOTE,
+            f"The teeth lose at most {quantity_text(total, 'W')}, at "
+            f"{float(worst['torque']):.4g} N·m, {speed:.0f} rpm and "
+            f"{float(worst['temperature']):.4g} °C oil: sliding {100.0 * sliding / total:.0f} %.",
+            f"Static loads.{bar} Not modelled: {losses.attrs['not_modelled']}.",
+        )
+    ]
+    if "share_outside" not in losses:
+        return found
+    outside, bound = losses["share_outside"].values, losses["loss_bound"].values
+    solved = outside <= MOST_OUTSIDE
+    if solved.any():
+        share = np.nanmax(bound[solved] / losses["loss"].sel(part="sliding").values[solved])
+        most = float(outside[solved].max())
+        words = f"at most {100.0 * most:.1f} % of the load, where solved films count"
+        found.append(solved_films(float(share), most, words, model=model_of(losses, LINE)))
+    return found + _beyond(outside, losses["speed"].values, "Losses")
 
 
 def numbers(datasets: Datasets) -> list[Number]:

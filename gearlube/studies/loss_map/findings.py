@@ -15,6 +15,7 @@ from gearlube.report.solved_films import (
     efficiency_doubt,
     flank_friction,
     model_of,
+    points_beyond,
     solved_films,
     solved_rollers,
 )
@@ -23,6 +24,8 @@ from gearlube_core.film_model.model import FLANK, ROLLER
 
 _INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
 _LEAST_SWING = 5e-4  # mean share of the loss that an input moves, below which it has no effect
+_CHURNING_FACTOR = 3.0  # of the error bar
+_SLOW_EXPONENT = 1.6  # power of the speed with which churning grows in its slow regime
 _NAMED = 3  # sources of loss and uncertain inputs that are told one by one
 _LEAST_SHARE = 0.005  # of the loss, of a source that is told
 
@@ -47,6 +50,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_largest(dataset),
             not_modelled,
             *_drag(dataset),
+            *_churning(dataset),
             *_warmth(dataset),
             *_uncertainty(dataset),
             *_film(dataset),
@@ -150,9 +154,39 @@ def _drag(dataset: xr.Dataset) -> list[Finding]:
             NOTE,
             f"Turning without load takes {quantity_text(_least(idle), 'N·m')} to "
             f"{quantity_text(_most(idle), 'N·m')} at the pinion.",
-            f"Read at {float(idle['torque']):.3g} N·m, the torque of the map next to zero.",
+            f"Read at {float(idle['torque']):.3g} N·m, the torque of the map next to zero. Not in "
+            f"it: {dataset.attrs['not_modelled']}. Preload and seals decide it: give those of the "
+            "axle.",
         )
     ]
+
+
+def _churning(dataset: xr.Dataset) -> list[Finding]:
+    """Say where churning changes its formula, and by how much it rises there."""
+    if "churning_regime" not in dataset:
+        return []
+    power = dataset["loss"].sel(source="churning").max("torque")
+    for degc in dataset["temperature"].values[::-1]:  # hot oil comes first into the fast regime
+        regime = dataset["churning_regime"].sel(temperature=degc).values
+        slow, fast = np.flatnonzero(regime <= 0.0), np.flatnonzero(regime >= 1.0)
+        if not (slow.size and fast.size):
+            continue
+        one = power.sel(temperature=degc)
+        ends = one.isel(speed=[int(slow[-1]), int(fast[0])])
+        low, high = (float(at) for at in ends["speed"].values)
+        rise = float(ends[1] / ends[0])
+        return [
+            Finding(
+                WARNING if rise > _CHURNING_FACTOR * (high / low) ** _SLOW_EXPONENT else NOTE,
+                f"Churning changes its regime between {low:.0f} and {high:.0f} rpm with {degc:g} "
+                f"°C oil and rises from {quantity_text(float(ends[0]), 'W')} to "
+                f"{quantity_text(float(ends[1]), 'W')}.",
+                "The formulas of Changenet and Velex for low and for high speed differ that much "
+                "for this gear. The error bar of the churning, a factor of 3, does not cover where "
+                "the change happens: compare with another law, churning of [housing].",
+            )
+        ]
+    return []
 
 
 def _warmth(dataset: xr.Dataset) -> list[Finding]:
@@ -286,6 +320,7 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     worst = _at(dataset, outside)
     most = float(worst["share_outside"])
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
+    words += points_beyond(outside)
     doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
     return [solved_films(bound, most, words, doubt, model)]
 
@@ -298,6 +333,7 @@ def _rollers(dataset: xr.Dataset) -> list[Finding]:
     worst = _at(dataset, dataset["rollers_outside"])
     most = float(worst["rollers_outside"])
     words = f"at most {100.0 * most:.0f} % of the rollers' load, at {words_of(worst)}"
+    words += points_beyond(dataset["rollers_outside"])
     return [solved_rollers(bound, most, words, model=model_of(dataset, ROLLER))]
 
 
