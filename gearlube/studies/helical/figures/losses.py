@@ -52,12 +52,13 @@ def pair_losses(dataset: xr.Dataset) -> Any:
             handles, names, title="pinion torque", ncols=_MOST, loc="outside lower center"
         )
         bands = "; bands: 95 % of the draws" if "loss_torque_low" in dataset else ""
+        films = ""
         if "by_formulas" in dataset:
-            bands += (
-                f"; solved films, hollow: formulas, more than {MOST_OUTSIDE:.0%} of load outside"
+            films = (
+                f"Solved films; hollow: formulas, more than {MOST_OUTSIDE:.0%} of load outside.\n"
             )
         figure.suptitle(
-            f"Sliding and rolling of the teeth{bands}.\n"
+            f"Sliding and rolling of the teeth{bands}.\n{films}"
             f"Not modelled: {dataset.attrs['not_modelled']}.",
             fontsize=8.5,
         )
