@@ -27,7 +27,7 @@ from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
-from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN, changed_axle
+from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN, by_one_film, changed_axle
 from gearlube_core.errors import ParameterError
 
 AXLE = replace(
@@ -190,6 +190,22 @@ def test_preload_is_uncertain_and_ribs_are_where_their_law_counts_them():
         changed = changed_axle(ribbed[name], AXLE, 2.0, np.ones(len(LOSS_SOURCES)))
         for old, new in zip(AXLE.bearings, changed.bearings, strict=True):
             assert getattr(new, field) / getattr(old, field) == pytest.approx(ratio)
+
+
+def test_both_ends_of_a_datum_are_by_one_film():
+    """Solved 100 W, formulas 300 W, and alpha 10 % of it: the ratio is never one of the models."""
+    solved = replace(AXLE, film="solved")
+    ends = [replace(solved, oil=replace(AXLE.oil, alpha=by * AXLE.oil.alpha)) for by in (1.1, 0.9)]
+
+    def losses(axle):
+        own = axle.oil.alpha / AXLE.oil.alpha * np.ones((2, 3))
+        if axle.film == "formula":
+            return 300.0 * own, np.zeros(2)
+        return 100.0 * own, np.array([0.0, 0.2 if axle.oil.alpha > AXLE.oil.alpha else 0.04])
+
+    upper, lower = by_one_film(ends, losses)
+    assert upper[:, 0] == pytest.approx([110.0, 330.0])
+    assert lower[:, 0] == pytest.approx([90.0, 270.0])
 
 
 def test_every_law_of_the_axle_is_a_law_of_a_single_bearing():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.units import celsius_to_kelvin
 
 MOST_DRAWS = 10_000
@@ -218,6 +219,24 @@ def log_slope(upper: Array, lower: Array) -> Array:
     both = (upper > 0.0) & (lower > 0.0)
     ratio = np.divide(upper, lower, out=np.ones_like(upper), where=both)
     return np.asarray(np.log(ratio) / (2.0 * UPPER_END))
+
+
+def by_one_film(
+    ends: Sequence[HypoidAxleParameters],
+    losses: Callable[[HypoidAxleParameters], tuple[Array, Array]],
+) -> list[Array]:
+    """Return losses (..., sources) of axles that differ in a datum, by one film at each point.
+
+    `losses` returns them and the share of the flanks' load outside the film model (...). Where this
+    is too large for any of the axles, all are by the formulas.
+    """
+    found = [losses(one) for one in ends]
+    left = np.any([share > MOST_OUTSIDE for _, share in found], axis=0)[..., None]
+    if not left.any():
+        return [power for power, _ in found]
+    formulas = [losses(replace(one, film="formula"))[0] for one in ends]
+    pairs = zip(formulas, found, strict=True)
+    return [np.where(left, formula, power) for formula, (power, _) in pairs]
 
 
 def changed_axle(
