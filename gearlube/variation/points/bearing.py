@@ -45,7 +45,7 @@ class BearingPoint(FilePoint[BearingFile]):
     --------
     >>> study = BearingPoint(file=BearingFile.named("wingertszahn_2023"))
     >>> round(study.compute({"load.axial_n": 4000.0})[0], 2)  # N.m
-    2.35
+    1.98
     """
 
     name: ClassVar[str] = "bearing"
