@@ -68,7 +68,7 @@ READINGS_32008 = {
     55.0: ((0.62, 0.48, 0.63, 0.97, 1.03, 1.05, 1.07), (0.46, 0.45, 0.49, 0.58, 0.71, 0.85, 1.07)),
     65.0: ((0.83, 0.42, 0.45, 0.77, 0.82, 0.90, 0.95), (0.42, 0.43, 0.48, 0.55, 0.65, 0.77, 0.95)),
 }
-# rollers 6.846 to 6.131 mm thick; their apex gives the pitch diameter; the rib is not known
+# rollers 6.846 to 6.131 mm thick, whose apex gives the pitch diameter; no data of the rib
 BEARING_32008 = BearingGeometry(
     bore_diameter=40e-3,
     outside_diameter=68e-3,
@@ -148,8 +148,7 @@ def factors() -> str:
     """Return the table of the error bars and what they follow from."""
     rows = []
     for law in sorted(LAWS, key=wanted_factor):
-        both = ratios(law), ratios_32008(law)
-        spans = [f"{one.min():.2f} to {one.max():.2f}" for one in both]
+        spans = [f"{r.min():.2f} to {r.max():.2f}" for r in (ratios(law), ratios_32008(law))]
         rows.append([
             LAW_NAMES[law], *spans, f"{wanted_factor(law):.2f}", f"{UNCALIBRATED[law]:g}",
         ])  # fmt: skip

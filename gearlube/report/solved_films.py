@@ -9,6 +9,7 @@ import xarray as xr
 
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import NOTE, WARNING, Finding
+from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import MOST_OUTSIDE, FilmModel
 
 _RUBBING = ("friction_viscous", "friction_boundary")  # losses that the model bounds
@@ -65,26 +66,34 @@ def solved_rollers(
     return _finding(headline, share_outside, outside_words, effect, model)
 
 
-def formulas_stand_in(what: str, where: str, share_outside: float) -> Finding:
-    """Return the finding of points whose load lies too far outside the film model.
+def formulas_stand_in(what: str, outside: Array, speed: Array) -> list[Finding]:
+    """Return the finding of points whose load lies too far outside the film model; may be empty.
 
     Parameters
     ----------
     what
         What is by the formulas there, "Losses".
-    where
-        The points, "at 2 of 3 points, from 8000 rpm on".
-    share_outside
-        Largest share of the load outside the model's domain among them [-].
+    outside : ndarray of shape (..., speeds)
+        Share of the load outside the model's domain [-].
+    speed : ndarray of shape (speeds,)
+        [rpm]
     """
-    return Finding(
-        WARNING,
-        f"{what} are by formulas and not by solved films {where}: the film model covers "
-        f"only {_covered(share_outside)} of the load there, less than {_covered(MOST_OUTSIDE)}.",
-        "Formulas lose up to four times as much as solved films: a step of the numbers between "
-        "such points and others is one of the models. Train a film model for this oil and these "
-        "speeds, or take film.model formula for all points.",
-    )
+    beyond = outside > MOST_OUTSIDE
+    if not beyond.any():
+        return []
+    at = speed[beyond.reshape(-1, speed.size).any(axis=0)]
+    return [
+        Finding(
+            WARNING,
+            f"{what} are by formulas and not by solved films at {beyond.sum()} of {beyond.size} "
+            f"points, at {at.min():.0f} to {at.max():.0f} rpm: the film model covers only "
+            f"{_covered(float(outside.max()))} of the load there, less than "
+            f"{_covered(MOST_OUTSIDE)}.",
+            "Formulas lose up to four times as much as solved films: a step of the numbers between "
+            "such points and others is one of the models. Train a film model for this oil and "
+            "these speeds, or take film.model formula for all points.",
+        )
+    ]
 
 
 def points_beyond(outside: xr.DataArray) -> str:

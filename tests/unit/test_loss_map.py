@@ -19,7 +19,8 @@ import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.report.parts import WARNING
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
-from gearlube.studies.loss_map.findings import findings, moving_inputs
+from gearlube.studies.loss_map.findings import findings
+from gearlube.studies.loss_map.swings import moving_inputs
 from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
@@ -27,7 +28,7 @@ from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
-from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN, by_one_film, changed_axle
+from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 
 AXLE = replace(
@@ -171,41 +172,6 @@ def test_bearing_drag_is_as_uncertain_as_the_law_of_a_single_bearing(law, factor
     assert drag_of(law).factor == factor
     assert UNCALIBRATED[BEARING_LAWS[law]] == factor
     assert "no torque measured" in drag_of(law).why
-
-
-def test_preload_is_uncertain_and_ribs_are_where_their_law_counts_them():
-    def known(law, **options):
-        axle = replace(AXLE, bearing_torque_loss=law)
-        return {one.name: one for one in gl.LossMapSettings(axle=axle, **options).uncertain}
-
-    assert "rib_friction" not in known("palmgren")
-    assert "preload" not in known("palmgren", calibrated_bearings=True)
-    ribbed = known("zhou_hoeprich_1991")
-    for name, field, ratio in (
-        ("preload", "preload", 2.0),
-        ("rib_friction", "rib_boundary_friction", 1.4),
-        ("rib_roughness", "rib_roughness", 2.0),
-    ):
-        # two standard deviations are the factor
-        changed = changed_axle(ribbed[name], AXLE, 2.0, np.ones(len(LOSS_SOURCES)))
-        for old, new in zip(AXLE.bearings, changed.bearings, strict=True):
-            assert getattr(new, field) / getattr(old, field) == pytest.approx(ratio)
-
-
-def test_both_ends_of_a_datum_are_by_one_film():
-    """Solved 100 W, formulas 300 W, and alpha 10 % of it: the ratio is never one of the models."""
-    solved = replace(AXLE, film="solved")
-    ends = [replace(solved, oil=replace(AXLE.oil, alpha=by * AXLE.oil.alpha)) for by in (1.1, 0.9)]
-
-    def losses(axle):
-        own = axle.oil.alpha / AXLE.oil.alpha * np.ones((2, 3))
-        if axle.film == "formula":
-            return 300.0 * own, np.zeros(2)
-        return 100.0 * own, np.array([0.0, 0.2 if axle.oil.alpha > AXLE.oil.alpha else 0.04])
-
-    upper, lower = by_one_film(ends, losses)
-    assert upper[:, 0] == pytest.approx([110.0, 330.0])
-    assert lower[:, 0] == pytest.approx([90.0, 270.0])
 
 
 def test_every_law_of_the_axle_is_a_law_of_a_single_bearing():

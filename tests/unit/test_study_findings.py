@@ -1,15 +1,13 @@
 """Findings of loss map, drive cycle, bearing and variation against made datasets."""
 
 import json
-import logging
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube.cli.report_end import tell_findings
 from gearlube.report.page import report_html
-from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
+from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.bearing import findings as bearing
 from gearlube.studies.bearing.report import bearing_report
 from gearlube.studies.drive_cycle import findings as cycle
@@ -122,33 +120,6 @@ def test_loss_map_says_how_far_solved_films_are_to_be_trusted(a_map):
     assert "more than 5 % at 1 of 12 points" in said.detail
     little = loss_map.findings(solved.assign(share_outside=0.1 * outside))
     assert found(little, "solved films").level == NOTE
-
-
-def test_loss_map_says_where_churning_changes_its_formula(a_map):
-    loss = a_map["loss"].values.copy()
-    loss[..., 1] = np.array([2.0, 40.0])[None, :, None]
-    one = a_map.assign(loss=(a_map["loss"].dims, loss)).assign_coords(
-        source=["friction_viscous", "churning"]
-    )
-    one["churning_regime"] = (("temperature", "speed"), [[0.0, 0.0], [0.0, 1.0]])
-    said = found(loss_map.findings(one), "Churning")
-    assert "between 1000 and 2000 rpm with 80 °C oil" in said.headline
-    assert "from 2.00 W to 40.0 W" in said.headline
-    # twice the speed is 2^1.6 = 3 times the power in one regime, and the error bar is a factor of 3
-    assert said.level == WARNING
-    one["churning_regime"] *= 0.9
-    assert not [f for f in loss_map.findings(one) if "Churning" in f.headline]
-
-
-def test_the_console_has_every_finding_of_the_report(caplog, tmp_path):
-    told = [Finding(NOTE, f"Note {i}.", "More.") for i in range(9)]
-    with caplog.at_level(logging.INFO, "gearlube"):
-        tell_findings(
-            [*told, Finding(WARNING, "Look.", "Law A left its range at 3 rpm.")], tmp_path
-        )
-    lines = [record.getMessage() for record in caplog.records]
-    assert lines[0] == "Look. Law A left its range at 3 rpm."
-    assert lines[1:-1] == [f"Note {i}." for i in range(9)]
 
 
 def test_loss_map_says_how_far_solved_films_of_rollers_are_to_be_trusted(a_map):

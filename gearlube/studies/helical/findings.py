@@ -154,8 +154,8 @@ def _sweep(sweep: xr.Dataset) -> list[Finding]:
             )
         )
     if "film_share_outside" in sweep:
-        outside, speeds = sweep["film_share_outside"].values, sweep["speed"].values / RPM
-        found += _beyond(outside, speeds, "Film and friction of the vibrating pair in good part")
+        share, rpm = sweep["film_share_outside"].values, sweep["speed"].values / RPM
+        found += formulas_stand_in("Films of the vibrating pair, in part,", share, rpm)
     margin = float(sweep["stability_margin"].min())
     if margin <= 0.0:
         found.append(
@@ -295,7 +295,8 @@ def _solved(film: xr.Dataset) -> list[Finding]:
         return []
     share, loss = of["operating_share_outside"], of["operating_power_loss"]
     if share > MOST_OUTSIDE:
-        return [formulas_stand_in("Film and friction", "at the operating point", share)]
+        speed = np.array([of["pinion_speed"] / RPM])
+        return formulas_stand_in("Film and friction in operation", np.array([share]), speed)
     return [
         solved_films(
             of["operating_power_loss_bound"] / loss if loss > 0.0 else 0.0,
@@ -325,45 +326,27 @@ def _film(film: xr.Dataset) -> list[Finding]:
     ]
 
 
-def _beyond(outside: Array, speed: Array, what: str) -> list[Finding]:
-    """Return where formulas stand in for solved films, over speeds [rpm] on the last axis."""
-    beyond = outside > MOST_OUTSIDE
-    if not beyond.any():
-        return []
-    at = speed[beyond.reshape(-1, speed.size).any(axis=0)]
-    where = f"at {beyond.sum()} of {beyond.size} points, at {at.min():.0f} to {at.max():.0f} rpm"
-    return [formulas_stand_in(what, where, float(outside.max()))]
-
-
 def _losses(losses: xr.Dataset) -> list[Finding]:
     power = losses["loss"].sum("part")
     worst = losses.isel(power.argmax(list(power.dims)))  # type: ignore[arg-type]
-    total, speed = float(worst["loss"].sum()), float(worst["speed"])
-    sliding = float(worst["loss"].sel(part="sliding"))
-    bar = ""
-    if "loss_torque_low" in worst:
-        low, high = (float(worst[f"loss_torque_{end}"]) * speed * RPM for end in ("low", "high"))
-        ends = f"{quantity_text(low, 'W')} and {quantity_text(high, 'W')}"
-        bar = f" 95 % of the draws lie between {ends}."
+    total, sliding = float(worst["loss"].sum()), float(worst["loss"].sel(part="sliding"))
     found = [
         Finding(
             NOTE,
             f"The teeth lose at most {quantity_text(total, 'W')}, at "
-            f"{float(worst['torque']):.4g} N·m, {speed:.0f} rpm and "
+            f"{float(worst['torque']):.4g} N·m, {float(worst['speed']):.0f} rpm and "
             f"{float(worst['temperature']):.4g} °C oil: sliding {100.0 * sliding / total:.0f} %.",
-            f"Static loads.{bar} Not modelled: {losses.attrs['not_modelled']}.",
+            f"Static loads. Not modelled: {losses.attrs['not_modelled']}.",
         )
     ]
     if "share_outside" not in losses:
         return found
-    outside, bound = losses["share_outside"].values, losses["loss_bound"].values
-    solved = outside <= MOST_OUTSIDE
+    outside, solved = losses["share_outside"].values, losses["share_outside"].values <= MOST_OUTSIDE
     if solved.any():
-        share = np.nanmax(bound[solved] / losses["loss"].sel(part="sliding").values[solved])
-        most = float(outside[solved].max())
-        words = f"at most {100.0 * most:.1f} % of the load, where solved films count"
-        found.append(solved_films(float(share), most, words, model=model_of(losses, LINE)))
-    return found + _beyond(outside, losses["speed"].values, "Losses")
+        share = np.nanmax((losses["loss_bound"] / losses["loss"].sel(part="sliding")).values)
+        words = f"at most {100.0 * outside[solved].max():.1f} % of the load, where they count"
+        found.append(solved_films(float(share), 0.0, words, model=model_of(losses, LINE)))
+    return found + formulas_stand_in("Losses", outside, losses["speed"].values)
 
 
 def numbers(datasets: Datasets) -> list[Number]:

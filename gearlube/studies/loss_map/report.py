@@ -14,13 +14,8 @@ from gearlube.report.inputs import origin_of
 from gearlube.report.numbers import number_text
 from gearlube.report.parts import GIVEN, Column, Figure, Input, Report, Table
 from gearlube.studies.loss_map.figures import LEAST_SHARE, shown_speeds, some_temperatures
-from gearlube.studies.loss_map.findings import (
-    findings,
-    input_words,
-    mean_swings,
-    moving_inputs,
-    numbers,
-)
+from gearlube.studies.loss_map.findings import findings, numbers
+from gearlube.studies.loss_map.swings import input_words, mean_swings, moving_inputs
 from gearlube_core.arrays import Array
 
 SPEED, TORQUE = Axis("pinion speed", "rpm"), Axis("pinion torque", "N·m")
