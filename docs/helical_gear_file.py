@@ -18,7 +18,7 @@ SECTIONS = {
     "damping": "[damping]",
     "operation": "[operation]: default torque and speed",
     "meshing_steps": "[meshing_steps]: the source's steps of a contact line",
-    "oil": "[oil]: of the source, for films",
+    "oil": "[oil]: for films, friction and losses",
     "film": "[film]: film and friction of the oil, of `gearlube helical` and the marching model",
     "film_mesh": "[film_mesh]: nodes of films",
 }
@@ -65,6 +65,10 @@ Use the file in these commands:
 - `[film]` is on friction and losses in both. `oil_file` names your [oil](oil_file.md), `model` the
   formulas or solved films, and `line_model` a
   [film model of your own oil](film_model.md#a-model-of-your-own-oil). The FMU carries these files.
+- `[oil]` is the oil of films, friction, losses and the FMU where `oil_file` names none. It has the
+  viscosity at one temperature; at others it follows the slope of mohammadpour_2015, whose heat data
+  it takes too. An oil file beside `[oil]` must agree with it within 10 % there, or the file is
+  refused. `--oil` of a command replaces both.
 - `gearlube ehl helical my_pair.toml` solves the film on its contact lines. `[oil]` or `--oil` names
   the oil. `[film_mesh]` or `--nodes-across`, `--nodes-along` and `--spacing` set the mesh. A
   transient film on 129 x 257 nodes with `spacing = "exit"` is as accurate as on 182 x 857 uniform

@@ -14,7 +14,7 @@ from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
 from fmu_src.variable import Variable
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
-from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
+from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL, stated_oil
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     ReplacedBearings,
     helical_march_parameters,
@@ -250,7 +250,7 @@ def _pair_in(content: bytes, mesh: bytes, others: Mapping[str, bytes]) -> Embedd
     model, own = others.get(LINE_MODEL_FILE), None
     if text is not None:
         own = model_in(text, model, LINE, "film.line_model", LINE_MODEL_FILE)
-    lubricant = described_oil_of(oil, OIL_IN_FMU).lubricant if oil else None
+    lubricant = described_oil_of(oil, OIL_IN_FMU).lubricant if oil else stated_oil(gear)
     if own is not None:
         solid = STEEL_MOHAMMADPOUR_2015
         check_oil(own, lubricant or Lubricant.named(USUAL_OIL), solid, "film.line_model")

@@ -28,6 +28,7 @@ from fmu_src.variable_kinds import (
     parameter,
     rates,
 )
+from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.drag.churning import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
@@ -74,7 +75,7 @@ _PARAMETERS = (
     option("bearing.approach", "Formula of the roller deflection under shaft displacement",
            "full", "as_printed", start="full", argument="bearing_approach"),
     option("bearing.torque_loss", "Drag torque of the bearings",
-           *TORQUE_LOSSES, start="palmgren", argument="bearing_torque_loss"),
+           *TORQUE_LOSSES, start=DEFAULT_LAW, argument="bearing_torque_loss"),
     option("oil.name", "Lubricant",
            "mohammadpour_2015", "karagiannis_2012", start="mohammadpour_2015", argument="oil"),
     count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 56, 16, 4096,

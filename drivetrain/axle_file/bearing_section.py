@@ -40,6 +40,7 @@ LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
 
 RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
 RibFriction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+RibRoughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False)]
 
 PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]
 _RACES = ("inner_race_diameter_mm", "outer_race_diameter_mm")
@@ -59,6 +60,7 @@ class BearingSection(ModelSection):
         "film": "default of the model",
         "series": "default of the model",
         "rib_boundary_friction": "default of `gearlube bearing`",
+        "rib_roughness_um": "default of `gearlube bearing`",
     }
 
     bore_diameter_mm: Diameter | None = Field(
@@ -144,6 +146,9 @@ class BearingSection(ModelSection):
     rib_boundary_friction: RibFriction | None = Field(
         default=None,
         description="Friction coefficient of asperities between roller ends and rib",
+    )
+    rib_roughness_um: RibRoughness | None = Field(
+        default=None, description="Composite RMS roughness of roller ends and rib"
     )
 
     @model_validator(mode="after")

@@ -107,7 +107,8 @@ def _fields(given: list[str]) -> dict[str, Any]:
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _MEANING = {
-    "taken": "Taken:",
+    "taken": "Taken from the REXS file:",
+    "given": "Given by --set:",
     "inferred": "Follows from other numbers:",
     "lacking": "Not in the REXS file; these values were assumed:",
     "left out": "LEFT OUT, the written file cannot hold these data:",

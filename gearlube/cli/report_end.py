@@ -1,4 +1,4 @@
-"""The end of a study's command: its report, the first findings, and where the report is."""
+"""The end of a study's command: its report, the findings, and where the report is."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ if TYPE_CHECKING:
     from gearlube.report.parts import Report
 
 _LOGGER = logging.getLogger("gearlube")
-_MOST = 5
 
 
 def finish_with_report(report: Report, out: Path, seconds: float | None = None) -> Path:
-    """Write OUT/report.html with the command and the seconds it took; log the first findings."""
+    """Write OUT/report.html with the command and the seconds it took; log the findings."""
     from gearlube.report.page import write_report
 
     facts = [("command", command_line()), *report.facts]
@@ -37,13 +36,11 @@ def command_line() -> str:
 
 
 def tell_findings(findings: Sequence[Finding], report: Path) -> None:
-    """Log the first findings and the path of the report.
-
-    Warnings are all logged, as warnings.
-    """
+    """Log all findings, warnings first and with their details, and the path of the report."""
     read = ranked(findings)
-    for one in [one for one in read if one.level == WARNING]:
-        _LOGGER.warning("%s", one.headline)
-    for one in [one for one in read if one.level != WARNING][:_MOST]:
-        _LOGGER.info("%s", one.headline)
+    for one in read:
+        if one.level == WARNING:
+            _LOGGER.warning("%s", f"{one.headline} {one.detail}".strip())
+        else:
+            _LOGGER.info("%s", one.headline)
     _LOGGER.info("Report: %s", report)

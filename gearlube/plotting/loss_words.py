@@ -17,7 +17,7 @@ SOURCE_WORDS = {
     "friction_rolling": "rolling of the flanks",
 }
 SOURCE_COLOURS = dict(zip(SOURCE_WORDS, PARTS, strict=True))  # the same in every figure
-_NEVER = ("windage",)
+NEVER_MODELLED = ("bearings and grease of the wheel ends", "windage")
 _SAID = (
     "bearing_torque",
     "churning",
@@ -50,4 +50,4 @@ def not_modelled(losing: Collection[str]) -> tuple[str, ...]:
     >>> not_modelled({"friction_viscous", "bearing_torque"})[:2]
     ('churning', 'seals')
     """
-    return (*(source_words(one) for one in _SAID if one not in losing), *_NEVER)
+    return (*(source_words(one) for one in _SAID if one not in losing), *NEVER_MODELLED)

@@ -39,4 +39,4 @@ def range_text(message: str) -> str:
         return f"within {low:.4g} to {high:.4g} °C, got {value:.4g} °C"
 
     text = re.sub(r"within ([\d.]+) to ([\d.]+) K, got ([\d.]+) K", celsius, message)
-    return re.sub(r"range\.\w+: (\w)", lambda found: found[1].upper(), text)
+    return re.sub(r"(?:range|film|bearing)\.\w+: (\w)", lambda found: found[1].upper(), text)

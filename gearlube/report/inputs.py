@@ -7,9 +7,15 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from gearlube.report.parts import ASSUMED, GIVEN, Input
+from gearlube.report.numbers import unit_words
+from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, Input
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_note import InputNote
+
+try:  # newer versions of typer have a click of their own
+    from typer._click.globals import get_current_context
+except ImportError:
+    from click import get_current_context  # type: ignore[no-redef, assignment]
 
 
 def noted_inputs(notes: Sequence[InputNote]) -> list[Input]:
@@ -27,7 +33,8 @@ def noted_inputs(notes: Sequence[InputNote]) -> list[Input]:
 def file_inputs(file: BaseModel) -> list[Input]:
     """Return the fields of an input file: what it gives, and the defaults of what it does not.
 
-    Fields that are empty or lists of tables are left out.
+    Fields that are empty, lists of tables or about the file itself are left out. A gear file tells
+    itself which fields are inferred or completed.
 
     Examples
     --------
@@ -39,22 +46,35 @@ def file_inputs(file: BaseModel) -> list[Input]:
     notes = field_notes(type(file))
     given = dict(_flat(file.model_dump(exclude_unset=True)))
     found = []
-    for name, value in _flat(file.model_dump(exclude_none=True)):
-        note = notes.get(name)
+    for name, value in _flat(file.model_dump(exclude_none=True, exclude=_OF_THE_FILE)):
         text = _text(value)
         if not text:
             continue
-        is_given = name in given
-        found.append(
-            Input(
-                name,
-                text,
-                "" if note is None else note.unit,
-                GIVEN if is_given else ASSUMED,
-                "" if is_given else "default",
-            )
-        )
+        origin, why = (GIVEN, "") if name in given else (ASSUMED, "default")
+        for kind, field in ((INFERRED, "inferred"), (ASSUMED, "completed")):
+            reasons = getattr(file, field, {})
+            for one in reasons:
+                if name == one or name.startswith(f"{one}."):
+                    origin, why = kind, reasons[one] if isinstance(reasons, Mapping) else ""
+        unit = unit_words(notes[name].unit) if name in notes else ""
+        found.append(Input(name, text, unit, origin, why))
     return found
+
+
+_OF_THE_FILE = {"name", "source", "compared_with", "inferred", "completed", "tolerances"}
+
+
+def origin_of(option: str, otherwise: tuple[str, str] = (ASSUMED, "default")) -> tuple[str, str]:
+    """Return origin and reason of an input that an option of the running command sets.
+
+    `option` is the name of its parameter, `otherwise` holds where the option was not typed. Without
+    a command all settings count as given, by the call.
+    """
+    context = get_current_context(silent=True)
+    if context is None:
+        return GIVEN, "setting"
+    source = context.get_parameter_source(option)
+    return (GIVEN, "option") if source and source.name == "COMMANDLINE" else otherwise
 
 
 def _flat(values: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

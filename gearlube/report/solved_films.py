@@ -9,11 +9,11 @@ import xarray as xr
 
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import NOTE, WARNING, Finding
-from gearlube_core.film_model.model import FilmModel
+from gearlube_core.arrays import Array
+from gearlube_core.film_model.model import MOST_OUTSIDE, FilmModel
 
 _RUBBING = ("friction_viscous", "friction_boundary")  # losses that the model bounds
 _ATTRIBUTE = "film_model_"  # of a dataset, with the kind of contact
-_LITTLE_OUTSIDE = 0.05  # share of load outside the model's domain that needs no warning
 
 
 def film_model_attributes(models: Mapping[str, FilmModel]) -> dict[str, str]:
@@ -66,6 +66,49 @@ def solved_rollers(
     return _finding(headline, share_outside, outside_words, effect, model)
 
 
+def formulas_stand_in(what: str, outside: Array, speed: Array) -> list[Finding]:
+    """Return the finding of points whose load lies too far outside the film model; may be empty.
+
+    Parameters
+    ----------
+    what
+        What is by the formulas there, "Losses".
+    outside : ndarray of shape (..., speeds)
+        Share of the load outside the model's domain [-].
+    speed : ndarray of shape (speeds,)
+        [rpm]
+    """
+    beyond = outside > MOST_OUTSIDE
+    if not beyond.any():
+        return []
+    at = speed[beyond.reshape(-1, speed.size).any(axis=0)]
+    return [
+        Finding(
+            WARNING,
+            f"{what} are by formulas and not by solved films at {beyond.sum()} of {beyond.size} "
+            f"points, at {at.min():.0f} to {at.max():.0f} rpm: the film model covers only "
+            f"{_covered(float(outside.max()))} of the load there, less than "
+            f"{_covered(MOST_OUTSIDE)}.",
+            "Formulas lose up to four times as much as solved films: a step of the numbers between "
+            "such points and others is one of the models. Train a film model for this oil and "
+            "these speeds, or take film.model formula for all points.",
+        )
+    ]
+
+
+def points_beyond(outside: xr.DataArray) -> str:
+    """Return at how many points more load is outside than counts as solved films; may be empty."""
+    beyond, known = int((outside > MOST_OUTSIDE).sum()), int(outside.notnull().sum())
+    if not beyond:
+        return ""
+    where = f"; more than {100.0 * MOST_OUTSIDE:g} % at {beyond} of {known} points"
+    return f"{where}, whose losses are in part those of formulas"
+
+
+def _covered(share_outside: float) -> str:
+    return f"{100.0 * (1.0 - share_outside):.3g} %"
+
+
 def _finding(
     headline: str, share_outside: float, outside_words: str, effect: str, model: str
 ) -> Finding:
@@ -76,7 +119,7 @@ def _finding(
         f"Model: {model}." if model else "",
     ]
     return Finding(
-        NOTE if share_outside <= _LITTLE_OUTSIDE else WARNING,
+        NOTE if share_outside <= MOST_OUTSIDE else WARNING,
         headline,
         " ".join(one for one in detail if one),
     )

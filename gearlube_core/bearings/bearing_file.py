@@ -12,7 +12,14 @@ from gearlube_core.bearings.losses.geometry import (
     Rib,
     closing_inner_angle,
 )
-from gearlube_core.bearings.losses.rib import RIB_HEIGHT
+from gearlube_core.bearings.losses.rib import (
+    RIB_BOUNDARY_FRICTION,
+    RIB_END_RADIUS,
+    RIB_HEIGHT,
+    RIB_ROUGHNESS,
+    RIB_SHARE_B,
+    RIB_SHARE_C,
+)
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import chosen_model, file_of_model
@@ -101,20 +108,21 @@ class RibSection(Section):
         "left out: 0.15 roller diameters, assumed",
     )
     end_radius_ratio: EndRadius = Field(
-        default=0.9,
+        default=RIB_END_RADIUS,
         description="Radius of the spherical roller end divided by its distance from the apex",
     )
     roughness_um: Roughness = Field(
-        default=0.24, description="Composite RMS roughness of rib and roller end"
+        default=RIB_ROUGHNESS / _MICROMETRE,
+        description="Composite RMS roughness of rib and roller end",
     )
     share_b: ShareB = Field(
-        default=1.90,
+        default=RIB_SHARE_B,
         description="B in the share of the load on asperities, exp(-B Lambda^C), with Lambda "
         "the film ratio",
     )
-    share_c: ShareC = Field(default=0.99, description="C in the same formula")
+    share_c: ShareC = Field(default=RIB_SHARE_C, description="C in the same formula")
     boundary_friction: Friction = Field(
-        default=0.12, description="Friction coefficient of the asperities"
+        default=RIB_BOUNDARY_FRICTION, description="Friction coefficient of the asperities"
     )
 
 

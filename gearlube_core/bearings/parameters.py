@@ -53,6 +53,7 @@ class BearingParameters(NamedTuple):
     reduced_modulus: float  # E' = 2 E* of rollers and races [Pa]
     rib_height: float  # of the contact of roller end and rib above the inner race [m]; 0: no rib
     rib_friction: float  # of the asperities there [-]
+    rib_roughness: float  # composite rms there [m]
     conductivity: float  # of rollers and races [W/(m K)]
     density: float  # of theirs [kg/m3]
     heat_capacity: float  # [J/(kg K)]

@@ -9,7 +9,6 @@ from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.losses.liebrecht_drag import liebrecht_drag
 from gearlube_core.bearings.losses.rib import (
     RIB_END_RADIUS,
-    RIB_ROUGHNESS,
     RIB_SHARE_B,
     RIB_SHARE_C,
     RibParameters,
@@ -89,7 +88,7 @@ def rib_contact(p: BearingParameters) -> tuple[RibParameters, float]:
         along,
         R_e,
         side_flow,
-        RIB_ROUGHNESS,
+        p.rib_roughness,
         RIB_SHARE_B,
         RIB_SHARE_C,
         p.rib_friction,

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
-from gearlube_core.bearings.losses.rib import RIB_BOUNDARY_FRICTION, RIB_HEIGHT
+from gearlube_core.bearings.losses.rib import RIB_BOUNDARY_FRICTION, RIB_HEIGHT, RIB_ROUGHNESS
 from gearlube_core.bearings.losses.skf_2013 import OTHER_SERIES, SERIES, SERIES_NAMES
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.parameters import (
@@ -80,6 +80,8 @@ class TaperedRollerBearing:
         from rolling; None: 0.15 roller diameters, assumed; 0: no rib.
     rib_boundary_friction : float
         Friction coefficient of the asperities between roller ends and rib [-].
+    rib_roughness : float
+        Composite rms roughness of roller ends and rib [m].
 
     Examples
     --------
@@ -109,6 +111,7 @@ class TaperedRollerBearing:
     series: str = "other"
     rib_height: float | None = None
     rib_boundary_friction: float = RIB_BOUNDARY_FRICTION
+    rib_roughness: float = RIB_ROUGHNESS
 
     def __post_init__(self) -> None:
         check_option("approach", self.approach, get_args(Approach))
@@ -137,6 +140,8 @@ class TaperedRollerBearing:
         if self.rib_height is not None:
             check_within("rib_height", self.rib_height, 0.0, self.roller_diameter, "m", cure)
         check_within("rib_boundary_friction", self.rib_boundary_friction, 0.0, 0.5)
+        cure = "0.24 um is 2.4e-7 m."
+        check_within("rib_roughness", self.rib_roughness, 1e-9, 1e-5, "m", cure)
         self._check_fit()
 
     def _check_fit(self) -> None:
@@ -288,6 +293,7 @@ class TaperedRollerBearing:
                 RIB_HEIGHT * self.roller_diameter if self.rib_height is None else self.rib_height
             ),
             rib_friction=float(self.rib_boundary_friction),
+            rib_roughness=float(self.rib_roughness),
             conductivity=float(self.solid.conductivity),
             density=float(self.solid.density),
             heat_capacity=float(self.solid.heat_capacity),

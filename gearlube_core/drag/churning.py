@@ -13,7 +13,8 @@ _NONE, _CHANGENET_VELEX, _BONESS, _ISO = (float(i) for i in range(4))
 
 STANDARD_GRAVITY = 9.80665  # m/s2
 SMOOTHING_SPEED = 1.0  # rad/s, below which the torque falls to zero; choice of this library
-_LOW, _HIGH = 6000.0, 9000.0  # of Changenet and Velex' Reynolds number, between two regimes
+# of Changenet and Velex' Reynolds number w R b/nu, between two regimes; second hand
+_LOW, _HIGH = 6000.0, 9000.0
 
 
 class ChurningConstants(NamedTuple):
@@ -27,13 +28,24 @@ class ChurningConstants(NamedTuple):
 
 
 @kernel
+def fast_regime(speed: float, nu: float, p: ChurningConstants) -> float:
+    """Return how far Changenet and Velex' law is in its fast regime at a speed [rad/s] above 0 [-].
+
+    3 s^2 - 2 s^3,  s = ln(Re_c/6000)/ln(9000/6000) within 0 to 1,  Re_c = w R b/nu
+    """
+    critical = speed * 0.5 * p.ring_diameter * p.ring_width / nu
+    s = math.log(max(critical, 1e-12) / _LOW) / math.log(_HIGH / _LOW)
+    s = min(1.0, max(0.0, s))
+    return s * s * (3.0 - 2.0 * s)
+
+
+@kernel
 def changenet_velex_factor(speed: float, nu: float, p: ChurningConstants) -> float:
     """Return the dimensionless torque C_m of Changenet and Velex at a speed [rad/s] above 0."""
     radius = 0.5 * p.ring_diameter
     depth = min(1.0, p.immersion / p.ring_diameter)
     volume = p.oil_volume / p.ring_diameter**3
     froude = speed * speed * radius / STANDARD_GRAVITY
-    critical = speed * radius * p.ring_width / nu
     reynolds = speed * radius * radius / nu
     slow = (
         1.366
@@ -49,8 +61,7 @@ def changenet_velex_factor(speed: float, nu: float, p: ChurningConstants) -> flo
         * math.pow(froude, -0.88)
         * math.pow(p.ring_width / p.ring_diameter, 0.85)
     )
-    share = min(1.0, max(0.0, (critical - _LOW) / (_HIGH - _LOW)))
-    return slow + share * (fast - slow)
+    return slow * math.pow(fast / slow, fast_regime(speed, nu, p))
 
 
 @kernel
@@ -98,8 +109,10 @@ def churning_torque(speed: float, nu: float, density: float, p: ChurningConstant
     Made for spur and helical gears, speeds to about 25 m/s at the rim; laws differ by a factor of
     three among each other, and oil that is thrown off lowers the immersion. The constants are
     those that reviews quote; they were not compared with the printed sources. The law of Changenet
-    and Velex has two regimes, joined by a line in the Reynolds number between 6000 and 9000. The
-    factor w/sqrt(w^2 + w0^2), w0 = 1 rad/s, makes all smooth through rest.
+    and Velex has two regimes below 6000 and above 9000 of its Reynolds number. Reviews quote a
+    straight line between them; here C_m goes over as slow (fast/slow)^`fast_regime`, without a
+    kink. In axles the fast regime is several times the slow one, so that the torque rises steeply
+    there. The factor w/sqrt(w^2 + w0^2), w0 = 1 rad/s, makes all smooth through rest.
 
     References
     ----------

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
+from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.kernels.jit import kernel
 
 # Outputs of every model. A value of zero: not in use now, for instance no flank carries load.
@@ -53,6 +54,17 @@ class Range(NamedTuple):
             f"{self.output}: {self.what} should be within {self.low:g} to {self.high:g}{unit}, "
             f"got {value:.4g}{unit}. {self.beyond}"
         )
+
+
+# of outputs that only models of solved films give; not in `range.exceeded`
+FILM_SHARES = tuple(
+    Range(output, f"share of the {whose} load outside their film model", 0.0, MOST_OUTSIDE, "1",
+          "Formulas stand in there, which may lose several times as much.")
+    for output, whose in (
+        ("film.share_outside", "flanks'"),
+        ("bearing.share_outside", "rollers'"),
+    )
+)  # fmt: skip
 
 
 class RangeLimits(NamedTuple):

@@ -12,6 +12,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_within
 from gearlube_core.dynamics.ranges import (
+    FILM_SHARES,
     MAX_ANGLE,
     MAX_SPEED,
     RANGE_EXCEEDED,
@@ -251,9 +252,12 @@ class SteppedModel(ABC, Generic[Control]):
     def exceeded(self) -> dict[str, str]:
         """Return what the last step left the range of: a sentence for each, by its output.
 
-        Tables and formulas are extrapolated there. docs/fmu.md lists the ranges.
+        Tables and formulas are extrapolated there. docs/fmu.md lists the ranges. Shares of load
+        outside a film model are among them.
         """
+        shares = [one for one in FILM_SHARES if one.output in self.output_names]
         left = left_ranges(self._ranges, self.output(RANGE_EXCEEDED))
+        left += [one for one in shares if self.output(one.output) > one.high]
         return {one.output: one.sentence(self.output(one.output)) for one in left}
 
     def get_state(self) -> Array:

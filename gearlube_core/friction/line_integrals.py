@@ -13,6 +13,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
+from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.friction.line_friction import LINE_LOAD_FLOOR
 from gearlube_core.friction.line_points import LinePoints
 from gearlube_core.friction.solved_line import bounded_line_friction
@@ -100,6 +101,11 @@ class LineFrictionCycle:
         return float(
             self._sum(self.outside * self.line_load).sum() / self._sum(self.line_load).sum()
         )
+
+    @property
+    def by_formulas(self) -> bool:
+        """Whether too much load is outside the film model, so that formulas have to stand in."""
+        return self.share_outside > MOST_OUTSIDE
 
     @property
     def efficiency(self) -> float:

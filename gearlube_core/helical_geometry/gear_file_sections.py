@@ -41,6 +41,7 @@ Viscosity = Annotated[float, Field(ge=1e-4, le=10.0, allow_inf_nan=False)]
 PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
 Text = Annotated[str, Field(min_length=1)]
 Modulus = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
+OilTemperature = Annotated[float, Field(ge=20.0, le=120.0, allow_inf_nan=False)]
 Stress = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
 
 
@@ -308,7 +309,7 @@ class Film(Section):
     oil_file: Text | None = Field(
         default=None,
         description="Oil file (.toml) of friction, losses and HelicalPair.fmu, its path relative "
-        "to the gear file; left out: mohammadpour_2015, or the oil that the command names",
+        "to the gear file; left out: [oil], or mohammadpour_2015 without it",
     )
     line_model: Text | None = Field(
         default=None,
@@ -328,7 +329,7 @@ class Film(Section):
 
 
 class Oil(Section):
-    """The lubricant that the source names."""
+    """The lubricant that the source names; films, friction and losses take it."""
 
     viscosity_pa_s: Viscosity = Field(
         description="eta_0: dynamic viscosity at ambient pressure and bulk temperature"
@@ -340,4 +341,9 @@ class Oil(Section):
         default=None,
         description="tau_0: shear stress at which shear thinning begins (Eyring); left out: "
         "Newtonian",
+    )
+    viscosity_temperature_degc: OilTemperature = Field(
+        default=80.0,
+        description="Temperature of this viscosity; friction and losses at others take the slope "
+        "of mohammadpour_2015",
     )

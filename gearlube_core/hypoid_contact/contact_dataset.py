@@ -135,7 +135,7 @@ def contact_dataset(
             "pinion_teeth": file.pinion.teeth,
             "gear_teeth": file.gear.teeth,
             "face_width": file.gear.face_width_mm * 1e-3,
-            "gear_file": file.model_dump_json(exclude_none=True),
+            "gear_file": file.model_dump_json(exclude_none=True, exclude_unset=True),
         },
     )
 

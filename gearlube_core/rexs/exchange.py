@@ -79,8 +79,11 @@ def read_rexs(
     cylindrical = chosen.stage.kind == "cylindrical_stage"
     data = helical_data(chosen, own) if cylindrical else blank_data(chosen, own)
     data |= own
-    for name in own:
-        chosen.note("taken", name, "as given")
+    replaced = {note.what: note.why for note in chosen.notes if note.what in own}
+    chosen.notes = [note for note in chosen.notes if note.what not in own]
+    for name, value in own.items():
+        instead = f", instead of {replaced[name]}" if name in replaced else ""
+        chosen.note("given", name, f"{value:g}{instead}")
     file: HelicalGearFile | BlankFile
     if cylindrical:
         file = HelicalGearFile.from_data(nested(data), str(path))

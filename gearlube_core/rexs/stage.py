@@ -13,14 +13,15 @@ _STAGES = ("cylindrical_stage", "bevel_stage")
 _OTHERS = ("worm_stage", "planetary_stage")
 _GEARS = {"cylindrical_stage": "cylindrical_gear", "bevel_stage": "bevel_gear"}
 
-Kind = Literal["taken", "inferred", "lacking", "left out"]
+Kind = Literal["taken", "given", "inferred", "lacking", "left out"]
 
 
 class ExchangeNote(NamedTuple):
     """What became of one number on its way from one file to the other.
 
-    `kind` is "taken" (the same quantity in both), "inferred" (follows from others), "lacking" (the
-    file that is written has it, the one that is read does not) or "left out" (the other way round).
+    `kind` is "taken" (the same quantity in both), "given" (by the user), "inferred" (follows
+    from others), "lacking" (the file that is written has it, the one that is read does not) or
+    "left out" (the other way round).
     """
 
     kind: Kind

@@ -9,7 +9,12 @@ import numpy as np
 import pytest
 
 from drivetrain.axle_file.axle_file import AxleFile
-from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, churning_torque
+from gearlube_core.drag.churning import (
+    CHURNING_LAWS,
+    ChurningConstants,
+    changenet_velex_factor,
+    churning_torque,
+)
 from gearlube_core.drag.seals import seal_torque
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
@@ -64,13 +69,31 @@ def test_the_torque_opposes_either_way_and_ends_at_rest(law):
     assert (forward > 0.0) == (law != "none")
 
 
-def test_the_regimes_of_changenet_and_velex_meet():
-    """Linear between Re 6000 and 9000: no jump at either end."""
+def test_the_regimes_of_changenet_and_velex_meet_without_a_kink():
+    """Below Re 6000 one printed formula, above 9000 the other, between them steadily upwards."""
     p = ring("changenet_velex_2007")
-    for reynolds in (6000.0, 9000.0):
-        nu = SPEED * 0.0825 * 0.03 / reynolds
-        below, above = (churning_torque(SPEED, nu * f, 870.0, p) for f in (1 + 1e-9, 1 - 1e-9))
-        assert below == pytest.approx(above, rel=1e-7)
+    R, b, depth, volume = 0.0825, 0.03, 0.04 / 0.165, 1.2e-3 / 0.165**3
+    froude = SPEED**2 * R / 9.80665
+    slow = 1.366 * depth**0.45 * volume**0.1 * froude**-0.6
+    fast = 3.644 * depth**0.1 * volume**-0.35 * froude**-0.88 * (b / 0.165) ** 0.85
+
+    def factor(reynolds: float) -> float:
+        return changenet_velex_factor(SPEED, SPEED * R * b / reynolds, p)
+
+    def printed(reynolds: float) -> float:
+        return slow * (reynolds * R / b) ** -0.21
+
+    assert factor(5999.0) == pytest.approx(printed(5999.0), rel=1e-12)
+    assert factor(9001.0) == pytest.approx(fast, rel=1e-12)
+    middle = math.sqrt(6000.0 * 9000.0)
+    assert factor(middle) == pytest.approx(math.sqrt(printed(middle) * fast), rel=1e-12)
+    between = [factor(one) for one in np.linspace(6000.0, 9000.0, 40)]
+    assert np.all(np.diff(between) > 0.0)
+    for end in (6000.0, 9000.0):
+        h = 1e-4 * end
+        before, after = factor(end) - factor(end - h), factor(end + h) - factor(end)
+        # a straight line between the regimes has steps of (fast - slow) h/3000 on one side
+        assert abs(after - before) < 0.01 * (fast - printed(6000.0)) * h / 3000.0
 
 
 def test_seals_are_proportional_to_the_shaft():

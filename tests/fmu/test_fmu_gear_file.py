@@ -121,6 +121,7 @@ def test_the_shipped_pairs_are_still_inside(folder: Path, host_of: Callable[[Pat
             gear__name=1,
             mesh__stiffness_model=1,
             mesh__backlash=100e-6,
+            oil__name=plain["oil.name"],  # the file has an oil of its own
             oil__temperature=333.15,
             pinion__torque=plain["pinion.torque"],
             wheel__torque=plain["wheel.torque"],

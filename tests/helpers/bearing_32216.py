@@ -43,11 +43,11 @@ def loss_at(
     changes: dict[str, Any] | None = None,
     **model: Any,
 ) -> BearingLoss:
-    """Return the loss of the bearing, with fields of its geometry changed."""
+    """Return the loss of the bearing, with fields of its geometry changed; by Zhou and Hoeprich."""
     return bearing_loss(
         replace(BEARING, **(changes or {})),
         Lubricant.named("fva_3"),
-        LossModel(**model),
+        LossModel(**({"law": "zhou_hoeprich"} | model)),
         speed=rpm * RPM,
         axial_load=axial_load,
         radial_load=radial_load,

@@ -52,7 +52,8 @@ def test_the_error_bar_covers_every_measured_torque(law):
         ratio = _ratios(law)
         assert (ratio < factor).all()
         assert (ratio > 1.0 / factor).all()
-        assert loss_at(1000, law=law).factor == factor
+        # with 1 % of the torque at the rib, whose data widen the bar
+        assert loss_at(1000, law=law).factor == pytest.approx(factor, rel=0.01)
 
 
 def test_a_flooded_film_loses_about_twice_what_was_measured():

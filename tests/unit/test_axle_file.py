@@ -159,6 +159,7 @@ BEARING = {
     "series": ("303", "series", "303"),
     "rib_height_mm": (2.5, "rib_height", 0.0025),
     "rib_boundary_friction": (0.1, "rib_boundary_friction", 0.1),
+    "rib_roughness_um": (0.1, "rib_roughness", 1e-7),
 }
 for _role, _place in (("pinion", "bearing"), ("gear", "gear_bearing")):
     for _key, (_value, _name, _si) in BEARING.items():

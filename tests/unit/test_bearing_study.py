@@ -73,9 +73,10 @@ def test_parts_add_up_and_the_error_bar_encloses_the_torque():
 
 def test_error_bar_and_range_are_said_in_words():
     found = run_bearing(FILE, SMALL)
-    first, *_, last = error_sentences(found)
+    first, second, last = error_sentences(found)
     assert "factor of 2, k = 2, by zhou_hoeprich" in first
-    assert "factor of 3, k = 2, by biboulet_houpert" in last
+    assert "factor of 5, k = 2, by biboulet_houpert" in second
+    assert "factor of 5.5, k = 2, by skf" in last
     (warning,) = bearing_warnings(found)
     assert "biboulet_houpert: raceway contacts leave the range" in warning
     assert "4000 rpm" in warning
@@ -131,7 +132,8 @@ def test_command_writes_each_part_on_its_own_line(tmp_path, caplog):
     assert [row["part"] for row in rows[:5]] == ["rolling", "rib", "drag", "hysteresis", "total"]
     torque = [float(row["torque_n_m"]) for row in rows[:5]]
     assert sum(torque[:4]) == pytest.approx(torque[4], rel=1e-5)  # six digits are written
-    assert float(rows[4]["torque_high_n_m"]) == pytest.approx(2.0 * torque[4], rel=1e-5)
+    # the rib, here with a thin oil, widens the factor of 2
+    assert 2.0 < float(rows[4]["torque_high_n_m"]) / torque[4] < 2.1
     assert float(rows[4]["power_w"]) == pytest.approx(torque[4] * 500 * RPM, rel=1e-5)
     with xr.open_dataset(out / "bearing.nc") as stored:
         assert stored.attrs["name"] == "my_wingertszahn_2023"

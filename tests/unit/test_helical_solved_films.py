@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube.studies.helical import pair_losses
 from gearlube.studies.helical.film_friction import film_dataset
 from gearlube.studies.helical.findings import findings
-from gearlube.studies.helical.pair_losses import losses_csv, losses_dataset
+from gearlube.studies.helical.pair_losses import PairFactor, losses_csv, losses_dataset
 from gearlube.studies.helical.settings import HelicalSettings
-from gearlube.studies.helical.summary import _film
+from gearlube.studies.helical.summary import _film, _losses
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.errors import ParameterError
@@ -58,8 +59,12 @@ def test_findings_and_summary_tell_the_bound_of_solved_films_alone():
 def test_losses_have_a_bound_and_the_share_outside():
     one = replace(SOLVED, torques=(20.0, 226.0), speeds=(104.7,), oil_temperatures=(313.15, 353.15))
     found = losses_dataset(one, one.constant_mesh())
-    bound = found["loss_bound"].values
-    assert np.all((bound > 0.0) & (bound < 2.0 * found["loss"].sel(part="sliding").values))
+    bound, outside = found["loss_bound"].values, found["share_outside"].values
+    by_formulas = outside > 0.05
+    assert np.array_equal(found["by_formulas"].values, by_formulas)
+    assert np.array_equal(np.isnan(bound), by_formulas)  # the model bounds its own loss alone
+    sliding = found["loss"].sel(part="sliding").values
+    assert np.all((bound > 0.0) & (bound < 2.0 * sliding), where=~by_formulas)
     np.testing.assert_allclose(
         found["efficiency_bound"].values[0, :, 0],
         bound[0, :, 0] / (np.array(one.torques) * one.speeds[0]),
@@ -69,6 +74,47 @@ def test_losses_have_a_bound_and_the_share_outside():
     assert np.all(share[:, 0] >= share[:, 1])
     assert "loss_bound_w" in losses_csv(found)
     assert "loss_bound" not in losses_dataset(FORMULA, FORMULA.constant_mesh())
+
+
+def test_points_that_the_film_model_does_not_cover_are_those_of_the_formulas():
+    """The pair of the command `helical --parts losses --film-model solved`, beyond its films."""
+    fast = {"pinion_torque": 200.0, "pinion_speed": 628.3, "torques": (200.0,), "draws": 8}
+    speeds = (628.3, 837.8, 1047.2)  # 6000, 8000, 10000 rpm
+    one = settings(**fast, speeds=speeds, film_model="solved")
+    solved = losses_dataset(one, one.constant_mesh()).squeeze()
+    plain = settings(**fast, speeds=speeds)
+    formula = losses_dataset(plain, plain.constant_mesh()).squeeze()
+    assert solved["by_formulas"].values.tolist() == [0.0, 1.0, 1.0]
+    assert np.all(np.diff(solved["share_outside"]) > 0.0)
+    for name in ("loss", "loss_torque_low", "loss_torque_high", "film_ratio"):
+        beyond = solved[name].isel(speed=slice(1, None)).values
+        np.testing.assert_array_equal(beyond, formula[name].isel(speed=slice(1, None)).values)
+    covered = float(solved["loss"].sel(part="sliding")[0])
+    assert covered < 0.8 * float(formula["loss"].sel(part="sliding")[0])
+    # a draw beyond the film model moves the loss by the formulas' ratio, not to the formulas' loss
+    bars = [
+        [float(one[f"loss_torque_{end}"][0] / one["loss_torque"][0]) for end in ("low", "high")]
+        for one in (solved, formula)
+    ]
+    assert bars[0] == pytest.approx(bars[1], rel=0.25)
+    told = " ".join(f.headline for f in findings({"losses": solved.expand_dims("temperature")}))
+    assert "by formulas and not by solved films at 2 of 3 points, at 8000 to 10000 rpm" in told
+    assert all("solved films (" in row.quantity or "formulas (" in row.quantity
+               for row in _losses(solved.expand_dims(["temperature", "torque"])))  # fmt: skip
+
+
+def test_a_draw_that_leaves_the_film_model_does_not_mix_the_models(monkeypatch):
+    """Alpha known to a factor of 20: most draws leave the domain, the bar stays continuous."""
+    one = settings(film_model="solved", torques=(226.0,), speeds=(104.7,), draws=12)
+    names = ("viscosity", "eyring_stress", "roughness", "sliding", "rolling")
+    wide = (*(PairFactor(name, 1.0, "test") for name in names), PairFactor("alpha", 20.0, "test"))
+    monkeypatch.setattr(pair_losses, "UNCERTAIN", wide)
+    found = losses_dataset(one, one.constant_mesh()).squeeze()
+    plain = replace(one, film_model="formula")
+    formula = losses_dataset(plain, plain.constant_mesh()).squeeze()
+    high, other = (float(x["loss_torque_high"] / x["loss_torque"]) for x in (found, formula))
+    # without the ratio, the formulas' loss over the solved one adds its factor of 1.2 to 2.5
+    assert high == pytest.approx(other, rel=0.05)
 
 
 def test_periodic_response_has_the_friction_of_the_model():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from dataclasses import replace
 
@@ -18,7 +19,8 @@ import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.report.parts import WARNING
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
-from gearlube.studies.loss_map.findings import findings, moving_inputs
+from gearlube.studies.loss_map.findings import findings
+from gearlube.studies.loss_map.swings import moving_inputs
 from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
@@ -139,8 +141,9 @@ def test_one_law_alone_spreads_the_loss_by_its_own_factor():
     spread = drag.factor ** (0.5 * norm.ppf(0.975))
     for name, factor in (("loss_torque_low", 1.0 / spread), ("loss_torque_high", spread)):
         expected = (other + factor * lost["bearing_torque"]) / 200.0
-        # 2000 draws: a percentile at 2.5 % is 0.06 standard deviations off, that is 0.7 %
-        assert float(one[name]) == pytest.approx(expected, rel=0.01)
+        # 2000 draws: a percentile at 2.5 % is 0.06 standard deviations off, that is 3.3 % of drag
+        off = 0.06 * 0.5 * math.log(drag.factor) * factor * lost["bearing_torque"] / 200.0
+        assert float(one[name]) == pytest.approx(expected, abs=2.0 * off)
     swing = 0.5 * (drag.factor - 1.0 / drag.factor) * lost["bearing_torque"] / 200.0
     # flanks at 8 angles in place of 32 cancel in the difference
     assert float(one["swing"]) == pytest.approx(swing, rel=1e-9)
@@ -152,17 +155,17 @@ def drag_of(law, **options):
     return next(one for one in known if one.name == "bearing_drag")
 
 
-# docs/bearing.md states these a priori, from one measured bearing
+# docs/bearing.md: 2 a priori, more from two measured bearings
 @pytest.mark.parametrize(
     ("law", "factor"),
     [
-        ("palmgren", 2.0),
+        ("palmgren", 3.0),
         ("zhou_hoeprich_1991", 2.0),
-        ("biboulet_houpert_2010", 3.0),
-        ("aihara_1987", 2.0),
-        ("palmgren_loaded", 2.0),
-        ("skf_2013", 2.5),
-        ("solved_films", 3.0),
+        ("biboulet_houpert_2010", 5.0),
+        ("aihara_1987", 3.0),
+        ("palmgren_loaded", 3.0),
+        ("skf_2013", 5.5),
+        ("solved_films", 5.0),
     ],
 )
 def test_bearing_drag_is_as_uncertain_as_the_law_of_a_single_bearing(law, factor):
@@ -187,7 +190,7 @@ def test_measured_torques_narrow_the_bar_of_palmgrens_law_alone():
 def test_the_command_tells_a_calibrated_map_from_another(tmp_path):
     words = ["map", "--torques", "80", "--speeds", "1000", "2000", "--temperatures", "60"]
     width = {}
-    for name, more, factor in (("usual", [], 2), ("measured", ["--calibrated-bearings"], 1.25)):
+    for name, more, factor in (("usual", [], 3), ("measured", ["--calibrated-bearings"], 1.25)):
         out = tmp_path / name
         ended = CliRunner().invoke(command_line(COMMANDS), [*words, *more, "--out", str(out)])
         assert ended.exit_code == 0, ended.output
@@ -195,8 +198,8 @@ def test_the_command_tells_a_calibrated_map_from_another(tmp_path):
             one = read.isel(speed=0).squeeze()
             width[name] = float(one["swing"].sel(input="bearing_drag"))
             assert f"bearing_drag: factor {factor:g} (k" in one.attrs["uncertain"]
-    # half of f - 1/f: 0.75 and 0.225 of the drag
-    assert width["measured"] / width["usual"] == pytest.approx(0.3, rel=1e-6)
+    # half of f - 1/f: 4/3 and 0.225 of the drag
+    assert width["measured"] / width["usual"] == pytest.approx(0.225 * 0.75, rel=1e-6)
 
 
 def test_the_same_seed_gives_the_same_bars(found):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +19,7 @@ from gearlube.studies.helical import pair_losses
 from gearlube.studies.helical.film_friction import film_dataset
 from gearlube.studies.helical.pair_losses import PairFactor, losses_csv, losses_dataset
 from gearlube.studies.helical.settings import HelicalSettings
+from gearlube_core.dynamics.helical_pair.gear_file_pair import gear_file_oil
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.line_points import line_points, table_line_load
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -32,6 +34,7 @@ SETTINGS = HelicalSettings(
     speeds=(60.0, 235.6),
     oil_temperatures=(313.15, 363.15),
     draws=0,
+    oil="mohammadpour_2015",
 )
 MESH = SETTINGS.constant_mesh()
 
@@ -135,6 +138,49 @@ def test_the_table_has_all_points(found):
     assert float(row["loss_rolling_w"]) == pytest.approx(
         float(one["loss"].sel(part="rolling")), rel=1e-6
     )
+
+
+def test_the_oil_of_the_gear_file_is_the_oil_of_its_losses(tmp_path):
+    """6.25 mPa s at 90 degC and 13.3 1/GPa of the section [oil], on the slope of the usual oil."""
+    oil, usual = replace(SETTINGS, oil=None).film().oil, SETTINGS.film().oil
+    assert oil.dynamic_viscosity(363.15) == pytest.approx(0.00625, rel=1e-9)
+    assert (oil.alpha, oil.eyring_stress) == pytest.approx((13.3e-9, 10e6))
+    slopes = [one.dynamic_viscosity(363.15) / one.dynamic_viscosity(383.15) for one in (oil, usual)]
+    assert slopes[0] == pytest.approx(slopes[1], rel=1e-9)
+    path = tmp_path / "other.toml"
+    path.write_text(
+        'name = "other"\nbase_oil = "mineral"\ndensity_kg_m3 = 870.0\n'
+        "viscosity_40_degc_mm2_s = 220.0\nviscosity_100_degc_mm2_s = 19.0\n"
+    )
+    both = FILE.model_copy(update={"film": FILE.film.model_copy(update={"oil_file": str(path)})})
+    with pytest.raises(ParameterError, match=r"one oil, got two.*at 90 degC.*0.00625.*10 %"):
+        gear_file_oil(both)
+    assert gear_file_oil(HelicalGearFile.named("he_2007")).name == "mohammadpour_2015"
+
+
+def test_the_report_says_what_was_given_and_what_is_a_default(tmp_path):
+    out = tmp_path / "out"
+    words = ["helical", "jamali_2015_a", "--parts", "losses", "--draws", "0", "--out", str(out)]
+    words += ["--roughness-um", "0.5", "--torques", "300", "--speeds-rpm", "500"]
+    origins = {}
+    for extra in ([], ["--oil", "fva_3", "--overwrite"]):
+        ended = CliRunner().invoke(command_line(COMMANDS), [*words, *extra])
+        assert ended.exit_code == 0, ended.output
+        html = re.sub(r"<[^>]+>", "|", (out / "report.html").read_text(encoding="utf-8"))
+        for name in (
+            "composite roughness",
+            "oil temperature",
+            "pinion torque",
+            "oil.viscosity_pa_s",
+        ):
+            row = re.search(rf"\|{name}\|+[^|]*\|+(\w+)\|+([\w ]*)", html)
+            origins.setdefault(name, []).append(row and row.groups())
+    # typed, though it is the default; a default; of the file; not used with another oil
+    assert origins["composite roughness"] == [("given", "option")] * 2
+    assert origins["oil temperature"] == [("assumed", "default")] * 2
+    assert origins["pinion torque"] == [("given", "gear file")] * 2
+    assert origins["oil.viscosity_pa_s"][0][0] == "given"
+    assert origins["oil.viscosity_pa_s"][1] is None
 
 
 def test_temperatures_outside_the_oil_are_refused():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -75,6 +76,18 @@ def test_films_under_heavy_load_and_hot_films_have_names():
     assert list(slow.exceeded()) == ["range.film_load"]
     hot = axle_at(200.0, oil=313.15, speed=400.0)
     assert "range.temperature" in hot.exceeded()
+
+
+def test_load_outside_a_film_model_is_named():
+    axle = HypoidAxle(replace(mohammadpour_2015_axle(), film="solved"))
+    axle.initialise(
+        pinion_speed=20.0, pinion_torque=390.0, wheel_torque=RATIO * 390.0, oil_temperature=HOT
+    )
+    share = axle.output("film.share_outside")
+    assert share > 0.05
+    said = axle.exceeded()["film.share_outside"]
+    assert "share of the flanks' load outside their film model should be within 0 to 0.05" in said
+    assert f"got {share:.4g}" in said
 
 
 def test_at_rest_no_film_formula_is_in_use():

@@ -2,12 +2,14 @@
 
 import base64
 import gzip
+import logging
 import re
 
 import numpy as np
 import pytest
 from lxml import html as lxml_html
 
+from gearlube.cli.report_end import tell_findings
 from gearlube.report.charts import (
     Axis,
     Line,
@@ -21,7 +23,17 @@ from gearlube.report.charts import (
     stack_chart,
 )
 from gearlube.report.page import report_html, write_report
-from gearlube.report.parts import Column, Figure, Finding, Input, Number, Report, Table
+from gearlube.report.parts import (
+    NOTE,
+    WARNING,
+    Column,
+    Figure,
+    Finding,
+    Input,
+    Number,
+    Report,
+    Table,
+)
 from gearlube.report.stored import read_report
 from gearlube_core.errors import ParameterError
 
@@ -202,3 +214,14 @@ def test_wrong_parts_are_refused():
         Table(title="T", columns=[Column("a")], rows=[[1.0, 2.0]])
     with pytest.raises(ParameterError, match="must have a chart or a picture"):
         Figure(name="f", title="F", caption="c")
+
+
+def test_the_console_has_every_finding_of_the_report(caplog, tmp_path):
+    told = [Finding(NOTE, f"Note {i}.", "More.") for i in range(9)]
+    with caplog.at_level(logging.INFO, "gearlube"):
+        tell_findings(
+            [*told, Finding(WARNING, "Look.", "Law A left its range at 3 rpm.")], tmp_path
+        )
+    lines = [record.getMessage() for record in caplog.records]
+    assert lines[0] == "Look. Law A left its range at 3 rpm."
+    assert lines[1:-1] == [f"Note {i}." for i in range(9)]

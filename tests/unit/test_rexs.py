@@ -283,5 +283,11 @@ def test_numbers_that_the_file_lacks_can_be_given(tmp_path, written, monkeypatch
     assert run.invoke(app, ["convert", path]).exit_code == 2
     assert not (tmp_path / "pair.toml").exists()
     given = f"gear.tip_diameter_mm={TIPS[1]}"
-    assert run.invoke(app, ["convert", path, "--set", given, "pair.backlash_mm=0.1"]).exit_code == 0
+    ended = run.invoke(app, ["convert", path, "--set", given, "pair.backlash_mm=0.1"])
+    assert ended.exit_code == 0
+    taken, _, by_set = ended.output.partition("Given by --set:")
+    assert "Taken from the REXS file:" in taken
+    assert "gear.tip_diameter_mm" not in taken
+    assert f"gear.tip_diameter_mm: {TIPS[1]:g}" in by_set
+    assert "pair.backlash_mm: 0.1" in by_set
     assert HelicalGearFile.from_toml("pair.toml").pair.backlash_mm == 0.1

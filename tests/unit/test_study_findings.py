@@ -117,6 +117,7 @@ def test_loss_map_says_how_far_solved_films_are_to_be_trusted(a_map):
     assert said.level == WARNING
     torque, speed = (float(a_map[name][k]) for name, k in (("torque", 2), ("speed", 0)))
     assert f"at most 30 % of the flanks' load, at {torque:.4g} N·m, {speed:.4g} rpm" in said.detail
+    assert "more than 5 % at 1 of 12 points" in said.detail
     little = loss_map.findings(solved.assign(share_outside=0.1 * outside))
     assert found(little, "solved films").level == NOTE
 

@@ -105,7 +105,8 @@ def test_a_wrong_point_is_refused_by_its_check(study, point, said):
 def test_what_a_study_does_not_read_cannot_be_varied():
     keys = point_study("helical").keys
     assert "pinion.flank.crown_um" in keys
-    assert "oil.viscosity_pa_s" not in keys
+    assert "oil.viscosity_pa_s" in keys  # of friction and losses
+    assert "meshing_steps.step_mm" not in keys
     assert "operation.axial_n" not in point_study("bearing").keys
 
 

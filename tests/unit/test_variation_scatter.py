@@ -104,7 +104,7 @@ def test_scatter_without_tolerances_or_values_is_refused():
 @pytest.mark.parametrize(
     ("study", "field", "unread"),
     [
-        ("helical", "pair.backlash_mm", "oil.viscosity_pa_s"),
+        ("helical", "pair.backlash_mm", "meshing_steps.step_mm"),
         ("contact", "gear.cutter.point_radius_mm", None),
         ("bearing", "rib.roughness_um", None),
     ],

@@ -54,7 +54,7 @@ def bearing(
         typer.Option(
             help="Repeat it for several: zhou_hoeprich, biboulet_houpert, goksem_hargreaves, "
             "aihara, solved_films, palmgren, skf, timken, or all that the file has numbers for. "
-            "Default: zhou_hoeprich and palmgren.",
+            "Default: palmgren and zhou_hoeprich.",
             metavar="LAW",
         ),
     ] = None,

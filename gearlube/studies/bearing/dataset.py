@@ -95,11 +95,12 @@ def bearing_rows(dataset: xr.Dataset) -> str:
     head = (
         "law", "speed_rpm", "axial_load_n", "radial_load_n", "temperature_degc", "part",
         "torque_n_m", "torque_low_n_m", "torque_high_n_m", "power_w", "power_low_w", "power_high_w",
+        "out_of_range",
     )  # fmt: skip
     parts = [str(part) for part in dataset["part"].values]
     part_torque = dataset["part_torque"].values
     ends = [dataset[name].values for name in ("torque", "torque_low", "torque_high")]
-    axes = [dataset[name].values for name in CONDITIONS]
+    axes, outside = [dataset[name].values for name in CONDITIONS], dataset["out_of_range"].values
     rows = []
     for place in np.ndindex(*ends[0].shape):
         law, speed, *rest = (axis[i] for axis, i in zip(axes, place, strict=True))
@@ -111,9 +112,9 @@ def bearing_rows(dataset: xr.Dataset) -> str:
             torque = float(torques[place])
             if np.isfinite(torque):
                 rows.append(
-                    (*where, part, f"{torque:.6g}", "", "", f"{torque * speed:.6g}", "", "")
+                    (*where, part, f"{torque:.6g}", "", "", f"{torque * speed:.6g}", "", "", "")
                 )
         whole = [float(one[place]) for one in ends]
-        both = [*whole, *(t * speed for t in whole)]
+        both = [*whole, *(t * speed for t in whole), float(outside[place])]
         rows.append((*where, "total", *(f"{t:.6g}" for t in both)))
     return csv_text(head, rows)

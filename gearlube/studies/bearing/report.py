@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from gearlube.report.charts import Axis, Line, add_line, panels
-from gearlube.report.parts import Column, Figure, Input, Report, Table
+from gearlube.report.inputs import origin_of
+from gearlube.report.parts import GIVEN, Column, Figure, Input, Report, Table
 from gearlube.studies.bearing.figures import LAW_NAMES, axis_values, drawn_places, place_words
 from gearlube.studies.bearing.findings import findings, numbers
 from gearlube.studies.bearing.summary import bearing_summary
@@ -22,6 +23,13 @@ _AXES = {
     "radial_load": Axis("radial load", "N"),
     "temperature": Axis("oil temperature", "°C"),
 }
+_FIELDS = {
+    "speed_rpm": "speed_rpm",
+    "axial_load": "axial_load_n",
+    "radial_load": "radial_load_n",
+    "temperature": "temperature_degc",
+}  # options and fields of [operation], in the order of the axes
+_GIVEN = GIVEN, "setting"
 _LIMITS = (
     "Unless the bearing file has a measured torque, the torque is only known within the error "
     "bar, because it is not known how much oil reaches the contacts and how warm it is there.",
@@ -57,7 +65,11 @@ def bearing_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
             ),
         ],
         tables=[_table(dataset)],
-        inputs=[*_conditions(dataset), *inputs],
+        # conditions and oil stand once, as they were taken
+        inputs=[
+            *_conditions(dataset, {one.name: (one.origin, one.why) for one in inputs}),
+            *(one for one in inputs if one.name != "oil" and not one.name.startswith("operation.")),
+        ],
         limits=_LIMITS,
         facts=[("source of the bearing", str(attributes["source"]))],
         files=("bearing.nc", "bearing.csv", "figures/"),
@@ -129,7 +141,7 @@ def _table(dataset: xr.Dataset) -> Table:
     )
 
 
-def _conditions(dataset: xr.Dataset) -> list[Input]:
+def _conditions(dataset: xr.Dataset, of_file: Mapping[str, tuple[str, str]]) -> list[Input]:
     found = [
         Input(
             f"bearing: {axis.name}",
@@ -137,17 +149,22 @@ def _conditions(dataset: xr.Dataset) -> list[Input]:
                 f"{one:.4g}" for one in np.atleast_1d(axis_values(name, dataset[name].values))
             ),
             axis.unit,
+            *origin_of(option, of_file.get(f"operation.{field}", _GIVEN)),
         )
-        for name, axis in _AXES.items()
+        for (name, axis), (option, field) in zip(_AXES.items(), _FIELDS.items(), strict=True)
     ]
-    attributes = dataset.attrs
+    attributes, layer = dataset.attrs, origin_of("inlet_layer_um")
+    rise = f"{attributes['temperature_rise_k']:g}"
     return [
         *found,
-        Input("bearing: oil", str(attributes["oil"])),
-        Input("bearing: oil at the inlet of the raceways", _layer(attributes), "", "given"),
         Input(
-            "bearing: oil in the contacts warmer by", f"{attributes['temperature_rise_k']:g}", "K"
+            "bearing: oil",
+            str(attributes["oil"]),
+            "",
+            *origin_of("oil", of_file.get("oil", _GIVEN)),
         ),
+        Input("bearing: oil at the inlet of the raceways", _layer(attributes), "", *layer),
+        Input("bearing: oil in the contacts warmer by", rise, "K", *origin_of("temperature_rise")),
     ]
 
 

@@ -7,14 +7,15 @@ from itertools import product
 
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.geometry import BearingGeometry
-from gearlube_core.bearings.losses.loss import DEFAULT_LAW, LossModel, check_condition
+from gearlube_core.bearings.losses.laws import DEFAULT_LAW
+from gearlube_core.bearings.losses.loss import LossModel, check_condition
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import check_oil
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
-DEFAULT_LAWS = (DEFAULT_LAW, "palmgren")
+DEFAULT_LAWS = (DEFAULT_LAW, "zhou_hoeprich")  # the second tells rolling and rib apart
 MOST_POINTS = 50_000  # conditions times laws
 
 

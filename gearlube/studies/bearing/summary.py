@@ -30,12 +30,13 @@ def error_sentences(dataset: xr.Dataset) -> list[str]:
     """Return what the error bar of each law is and why."""
     groups: dict[float, list[str]] = {}
     for law in dataset["law"].values:
-        groups.setdefault(float(dataset["factor"].sel(law=law).max()), []).append(str(law))
+        factor = round(20.0 * float(dataset["factor"].sel(law=law).max())) / 20.0
+        groups.setdefault(factor, []).append(str(law))
     return [
         f"Error bar: torque within a factor of {factor:g}, k = 2, by {', '.join(laws)}, "
         + (
             "calibrated with a measured torque of this bearing."
-            if factor < 2.0
+            if dataset.attrs.get("calibrated") and laws[0] not in CATALOGUE_LAWS
             else "not calibrated: it is not known how much oil reaches the contacts and how warm "
             "it is."
         )

@@ -7,7 +7,7 @@ from typing import Any
 
 import xarray as xr
 
-from gearlube.report.file_inputs import file_inputs
+from gearlube.report.inputs import file_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Report, Table
 from gearlube.report.pictures import pictured

@@ -92,7 +92,7 @@ def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
         },
         attrs={
             "name": design.file.name,
-            "gear_file": design.file.model_dump_json(exclude_none=True),
+            "gear_file": design.file.model_dump_json(exclude_none=True, exclude_unset=True),
             "method": design.designed.file.design_method,
             "cut": design.designed.file.machine.gear,
             "relief_torque": design.relief.torque,

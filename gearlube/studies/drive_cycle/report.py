@@ -11,21 +11,26 @@ import xarray as xr
 from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.plotting.range_words import range_words
 from gearlube.report.charts import Axis, Line, add_line, line_chart, mark_level, panels, stack_chart
-from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Report, Table
+from gearlube.report.inputs import origin_of
+from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
 from gearlube.studies.drive_cycle.figures import LEAST_SHARE
 from gearlube.studies.drive_cycle.findings import findings, numbers
 
 TIME = Axis("time", "s")
 _NOTHING = 1e-6  # kJ
 _SETTINGS = {
-    "start_temperature_degc": ("temperature of oil and housing at the start", "°C", GIVEN),
-    "air_temperature_degc": ("air temperature", "°C", GIVEN),
-    "regeneration": ("share of the braking through the axle", "", GIVEN),
-    "coast_torque_n_m": ("drag of engine and gearbox at the pinion", "N·m", ASSUMED),
-    "capacity_j_k": ("heat capacity of oil and housing", "J/K", ASSUMED),
-    "conductance_at_rest_w_k": ("conductance of the housing at rest", "W/K", ASSUMED),
-    "conductance_at_100_kmh_w_k": ("conductance of the housing at 100 km/h", "W/K", ASSUMED),
+    "start_temperature_degc": ("temperature of oil and housing at the start", "°C"),
+    "air_temperature_degc": ("air temperature", "°C"),
+    "regeneration": ("share of the braking through the axle", ""),
+    "coast_torque_n_m": ("drag of engine and gearbox at the pinion", "N·m"),
+    "capacity_j_k": ("heat capacity of oil and housing", "J/K"),
+    "conductance_at_rest_w_k": ("conductance of the housing at rest", "W/K"),
+    "conductance_at_100_kmh_w_k": ("conductance of the housing at 100 km/h", "W/K"),
 }
+_OPTIONS = (
+    "start_temperature", "air_temperature", "regeneration", "coast_torque", "heat_capacity",
+    "conductance_at_rest", "conductance_at_100",
+)  # fmt: skip
 _LIMITS = (
     "The loss in each step is that of steady running at the torque, speed and oil temperature in "
     "the middle of the step. At standstill nothing is lost.",
@@ -51,8 +56,8 @@ def cycle_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
         inputs=[
             Input("cycle: name", str(attributes["cycle"])),
             *(
-                Input(f"cycle: {words}", f"{attributes[name]:g}", unit, origin, "setting")
-                for name, (words, unit, origin) in _SETTINGS.items()
+                Input(f"cycle: {words}", f"{attributes[name]:g}", unit, *origin_of(option))
+                for option, (name, (words, unit)) in zip(_OPTIONS, _SETTINGS.items(), strict=True)
             ),
             *inputs,
         ],

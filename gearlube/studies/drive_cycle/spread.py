@@ -12,9 +12,11 @@ from gearlube.studies.drive_cycle.loss_field import LossesAlong, at_temperatures
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings, LossGrid
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.uncertain import (
     UPPER_END,
     Uncertain,
+    by_one_film,
     changed_axle,
     log_slope,
     uncertain_of,
@@ -119,19 +121,21 @@ def _slopes(
         speeds=max(3, grid.speeds // 2),
         temperature_step=grid.temperature_step,
     )
+
+    def losses(axle: HypoidAxleParameters) -> tuple[Array, Array]:
+        changed = replace(settings, car=replace(settings.car, axle=axle), grid=coarse)
+        found = losses_along(changed, demand)
+        return found.power, found.film[..., 1]
+
     slopes = []
     for i, one in enumerate(inputs):
         progress(i / len(inputs), f"error bars, {one.words}")
-        ends = []
-        for normal in (UPPER_END, -UPPER_END):
-            scale = np.ones(len(LOSS_SOURCES))
-            axle = changed_axle(one, settings.car.axle, normal, scale)
-            if one.changed is None:
-                ends.append(scale)
-                continue
-            changed = replace(settings, car=replace(settings.car, axle=axle), grid=coarse)
-            ends.append(losses_along(changed, demand).power)
-        slopes.append(log_slope(*ends))
+        scales = [np.ones(len(LOSS_SOURCES)) for _ in range(2)]
+        ends = [
+            changed_axle(one, settings.car.axle, normal, scale)
+            for normal, scale in zip((UPPER_END, -UPPER_END), scales, strict=True)
+        ]
+        slopes.append(log_slope(*(scales if one.changed is None else by_one_film(ends, losses))))
     return slopes
 
 

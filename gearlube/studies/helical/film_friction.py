@@ -11,11 +11,12 @@ from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.helical.labels import Variables
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
-from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
+from gearlube_core.friction.line_integrals import LineFrictionCycle
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
 PHASES, NODES = 96, 16
+_FEW = 16, 4  # phases and nodes where only a share is asked for
 SPEED_STEPS = (0.1, 4.0, 17)  # of the operating point's speed, geometric
 
 # name: attribute of the cycle, unit, long name
@@ -107,6 +108,12 @@ def film_dataset(
             "m",
             "smallest film, Dowson 1968",
         ),
+        (
+            "film_share_outside",
+            [c.share_outside for c in swept],
+            "1",
+            "load outside the domain of the film model; above 0.05 all is by formulas",
+        ),
     ):
         variables[name] = (("film_speed",), np.array(means), {"units": unit, "long_name": words})
     dataset = xr.Dataset(
@@ -146,19 +153,15 @@ def film_dataset(
     return dataset
 
 
+def share_outside(settings: HelicalSettings, mesh: LineMesh, speeds: Array) -> Array:
+    """Return the share of the static load outside the film model at pinion speeds [rad/s]."""
+    points = line_points(settings.file.helical_pair(), *_FEW)
+    load = table_line_load(points, mesh, settings.pinion_torque)
+    film, torque = settings.film(), settings.pinion_torque
+    return np.array([film.cycle(points, load, float(one), torque).share_outside for one in speeds])
+
+
 def _cycle(
     settings: HelicalSettings, points: LinePoints, load: Array, speed: float
 ) -> LineFrictionCycle:
-    film = settings.film()
-    constants = film.constants()
-    return friction_along_lines(
-        points,
-        load,
-        pinion_speed=speed,
-        pinion_torque=settings.pinion_torque,
-        lubricant=film.oil,
-        oil_temperature=film.oil_temperature,
-        surface=constants.surface,
-        solid=constants.solid,
-        film_model=constants.film_model,
-    )
+    return settings.film().covered_cycle(points, load, speed, settings.pinion_torque)

@@ -11,10 +11,10 @@ import xarray as xr
 from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.report.solved_films import model_of, solved_films
+from gearlube.report.solved_films import formulas_stand_in, model_of, solved_films
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 from gearlube_core.arrays import Array
-from gearlube_core.film_model.model import LINE
+from gearlube_core.film_model.model import LINE, MOST_OUTSIDE
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
 Datasets = Mapping[str, xr.Dataset]
@@ -57,6 +57,7 @@ def findings(datasets: Datasets) -> list[Finding]:
         ("contact", _edges),
         ("stability", _stability),
         ("film", _film),
+        ("losses", _losses),
     ):
         if name in datasets:
             found += of(datasets[name])
@@ -162,6 +163,9 @@ def _sweep(sweep: xr.Dataset) -> list[Finding]:
                 f"{float(sweep['speed'][-1]) / RPM:.0f} rpm, so that it shows the resonances.",
             )
         )
+    if "film_share_outside" in sweep:
+        share, rpm = sweep["film_share_outside"].values, sweep["speed"].values / RPM
+        found += formulas_stand_in("Films of the vibrating pair, in part,", share, rpm)
     margin = float(sweep["stability_margin"].min())
     if margin <= 0.0:
         found.append(
@@ -300,6 +304,9 @@ def _solved(film: xr.Dataset) -> list[Finding]:
     if of.get("film_model") != "solved":
         return []
     share, loss = of["operating_share_outside"], of["operating_power_loss"]
+    if share > MOST_OUTSIDE:
+        speed = np.array([of["pinion_speed"] / RPM])
+        return formulas_stand_in("Film and friction in operation", np.array([share]), speed)
     return [
         solved_films(
             of["operating_power_loss_bound"] / loss if loss > 0.0 else 0.0,
@@ -327,6 +334,29 @@ def _film(film: xr.Dataset) -> list[Finding]:
         ),
         *_solved(film),
     ]
+
+
+def _losses(losses: xr.Dataset) -> list[Finding]:
+    power = losses["loss"].sum("part")
+    worst = losses.isel(power.argmax(list(power.dims)))  # type: ignore[arg-type]
+    total, sliding = float(worst["loss"].sum()), float(worst["loss"].sel(part="sliding"))
+    found = [
+        Finding(
+            NOTE,
+            f"The teeth lose at most {quantity_text(total, 'W')}, at "
+            f"{float(worst['torque']):.4g} N·m, {float(worst['speed']):.0f} rpm and "
+            f"{float(worst['temperature']):.4g} °C oil: sliding {100.0 * sliding / total:.0f} %.",
+            f"Static loads. Not modelled: {losses.attrs['not_modelled']}.",
+        )
+    ]
+    if "share_outside" not in losses:
+        return found
+    outside, solved = losses["share_outside"].values, losses["share_outside"].values <= MOST_OUTSIDE
+    if solved.any():
+        share = np.nanmax((losses["loss_bound"] / losses["loss"].sel(part="sliding")).values)
+        words = f"at most {100.0 * outside[solved].max():.1f} % of the load, where they count"
+        found.append(solved_films(float(share), 0.0, words, model=model_of(losses, LINE)))
+    return found + formulas_stand_in("Losses", outside, losses["speed"].values)
 
 
 def numbers(datasets: Datasets) -> list[Number]:

@@ -9,7 +9,6 @@ import numpy as np
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import check_oil
 from gearlube_core.film_model.model import LINE
-from gearlube_core.friction.line_integrals import friction_along_lines
 from gearlube_core.friction.line_points import line_points, uniform_line_load
 
 if TYPE_CHECKING:
@@ -32,18 +31,8 @@ def check_film_model(settings: HelicalSettings) -> None:
     if film.line_film_model is not None:
         check_oil(film.line_film_model, film.oil, film.solid, "The film model")
     points = line_points(settings.file.helical_pair(), _PHASES, _NODES)
-    constants = film.constants()
-    cycle = friction_along_lines(
-        points,
-        np.asarray(uniform_line_load(points, settings.pinion_torque)),
-        pinion_speed=settings.pinion_speed,
-        pinion_torque=settings.pinion_torque,
-        lubricant=film.oil,
-        oil_temperature=film.oil_temperature,
-        surface=constants.surface,
-        solid=constants.solid,
-        film_model=constants.film_model,
-    )
+    load = np.asarray(uniform_line_load(points, settings.pinion_torque))
+    cycle = film.cycle(points, load, settings.pinion_speed, settings.pinion_torque)
     if cycle.share_outside > _NONE:
         raise ParameterError(
             "film.model solved must have an oil and an operating point within the domain of the "

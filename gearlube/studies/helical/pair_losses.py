@@ -18,7 +18,8 @@ from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
-from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
+from gearlube_core.film_model.model import MOST_OUTSIDE
+from gearlube_core.friction.line_integrals import LineFrictionCycle
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
@@ -123,6 +124,9 @@ def losses_dataset(
     -----
     Sliding: `line_friction` at every point, or the film model. Rolling: 2 F u per length by
     [biboulet_houpert_2010], flooded, lowered by inlet heating [zhu_cheng_1989]. Loads are static.
+    A point with more than `MOST_OUTSIDE` of its load outside the film model is by the formulas,
+    with their error bar and no `loss_bound`; `by_formulas` marks it. A draw that leaves the film
+    model changes the loss by the ratio that the formulas give.
     """
     torques = np.array(settings.load_steps)
     speeds = np.array(settings.speeds)
@@ -145,20 +149,15 @@ def losses_dataset(
             base = replace(settings.film(), oil_temperature=float(temperature))
             for k, speed in enumerate(speeds):
                 point = float(torque), float(speed)
-                cycle, loss[i, j, k] = _losses(fine, loads[0], *point, base)
+                cycle, loss[i, j, k] = _losses(fine, loads[0], point, base)
                 film[i, j, k] = cycle.film_ratio[cycle.line_load > 0.0].min()
                 doubt[i, j, k], outside[i, j, k] = cycle.power_loss_bound, cycle.share_outside
                 thinnest[i, j, k] = cycle.smallest_film.thickness
                 heat[i, j, k] = cycle.temperature_rise[cycle.line_load > 0.0].max()
                 if settings.draws:
-                    rough = _losses(coarse, loads[1], *point, base)[1].sum()
-                    drawn = [
-                        _drawn(row, uncertain, coarse, loads[1], point, base) for row in normals
-                    ]
-                    # bounds from a coarse mesh period, as shares of its own value
-                    low[i, j, k], high[i, j, k] = (
-                        np.percentile(drawn, _BOUNDS) / rough * loss[i, j, k].sum()
-                    )
+                    used = base.formulas if cycle.by_formulas else base
+                    ends = _spread(normals, uncertain, coarse, loads[1], point, used)
+                    low[i, j, k], high[i, j, k] = ends * loss[i, j, k].sum()
     total = loss.sum(axis=-1)
     variables = {
         "loss": ((*GRID, "part"), loss, "W", "mean power lost"),
@@ -183,6 +182,12 @@ def losses_dataset(
                 "the same of the efficiency",
             ),
             "share_outside": (GRID, outside, "1", "load outside the domain of the film model"),
+            "by_formulas": (
+                GRID,
+                1.0 * (outside > MOST_OUTSIDE),
+                "1",
+                f"1: by formulas, as more than {MOST_OUTSIDE:g} is outside; 0: solved films",
+            ),
         }
     if settings.draws:
         variables |= {
@@ -224,21 +229,19 @@ def losses_dataset(
 
 
 def _losses(
-    points: LinePoints, load: Array, torque: float, speed: float, film: FilmFriction
+    points: LinePoints,
+    load: Array,
+    point: tuple[float, float],
+    film: FilmFriction,
+    raw: bool = False,
 ) -> tuple[LineFrictionCycle, Array]:
-    """Return the friction of a mesh period and its mean powers, sliding and rolling [W]."""
+    """Return the friction of a mesh period and its mean powers, sliding and rolling [W].
+
+    `point` is torque [N.m] and speed [rad/s]; `raw` without formulas standing in for solved films.
+    """
+    torque, speed = point
     constants = film.constants()
-    cycle = friction_along_lines(
-        points,
-        load,
-        pinion_speed=speed,
-        pinion_torque=torque,
-        lubricant=film.oil,
-        oil_temperature=film.oil_temperature,
-        surface=constants.surface,
-        solid=constants.solid,
-        film_model=constants.film_model,
-    )
+    cycle = (film.cycle if raw else film.covered_cycle)(points, load, speed, torque)
     powers = np.empty(load.size)
     _rolling_powers(
         points.x.ravel(),
@@ -253,15 +256,31 @@ def _losses(
     return cycle, np.array([cycle.mean_power_loss, rolling])
 
 
-def _drawn(
+def _spread(
     normals: Array,
     uncertain: tuple[PairFactor, ...],
     points: LinePoints,
     load: Array,
     point: tuple[float, float],
     film: FilmFriction,
-) -> float:
-    """Return the total loss with the uncertain data at these standard normals [W]."""
+) -> Array:
+    """Return the ends of 95 % of the draws over the loss itself, on coarse points [-]."""
+    own = _losses(points, load, point, film, raw=True)[1]
+    formulas = _losses(points, load, point, film.formulas)[1]
+    totals = []
+    for row in normals:
+        changed, by = _drawn(row, uncertain, film)
+        cycle, powers = _losses(points, load, point, changed, raw=True)
+        if cycle.by_formulas:
+            powers = own * _losses(points, load, point, changed.formulas)[1] / formulas
+        totals.append(by["sliding"] * powers[0] + by["rolling"] * powers[1])
+    return np.asarray(np.percentile(totals, _BOUNDS) / own.sum())
+
+
+def _drawn(
+    normals: Array, uncertain: tuple[PairFactor, ...], film: FilmFriction
+) -> tuple[FilmFriction, dict[str, float]]:
+    """Return the film with the uncertain data at these standard normals, and all multipliers."""
     by = {
         one.name: one.multiplier(float(normal))
         for one, normal in zip(uncertain, normals, strict=True)
@@ -274,9 +293,7 @@ def _drawn(
         eyring_stress=oil.eyring_stress * by["eyring_stress"],
         alpha=oil.alpha * by["alpha"],
     )
-    changed = replace(film, oil=oil, roughness_rms=film.roughness_rms * by["roughness"])
-    sliding, rolling = _losses(points, load, *point, changed)[1]
-    return float(by["sliding"] * sliding + by["rolling"] * rolling)
+    return replace(film, oil=oil, roughness_rms=film.roughness_rms * by["roughness"]), by
 
 
 def losses_csv(dataset: xr.Dataset) -> str:
@@ -289,6 +306,7 @@ def losses_csv(dataset: xr.Dataset) -> str:
         "efficiency_bound": "efficiency_bound",
         "loss_bound": "loss_bound_w",
         "share_outside": "share_outside",
+        "by_formulas": "by_formulas",
         "film_ratio": "film_ratio",
         "temperature_rise": "temperature_rise_k",
     }

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
-from gearlube.report.file_inputs import file_inputs
+from gearlube.report.inputs import file_inputs, origin_of
 from gearlube.report.page import write_report
-from gearlube.report.parts import ASSUMED, Cell, Column, Figure, Input, Report, Table
+from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
 from gearlube.studies.helical.figures.charts import (
@@ -21,8 +22,11 @@ from gearlube.studies.helical.figures.layout import distinct
 from gearlube.studies.helical.findings import ORDERS, findings, numbers
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM
+from gearlube.studies.helical.summary import loss_model, losses_rows
+from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL, gear_file_oil
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 
+_DEFAULT = ASSUMED, "default"
 _LIMITS = (
     "Response and sweep are linear with a stiffness that varies over the mesh: they are valid "
     "while the teeth stay in contact. For separating teeth see tooth separation.",
@@ -57,8 +61,11 @@ def helical_report(results: HelicalResults, figures: Path) -> Report:
         findings=findings(found),
         numbers=numbers(found),
         figures=[*first, *pictured(HELICAL_CATALOGUE, figures, charts)],
-        tables=[_critical_speeds(results)] if "sweep" in found else [],
-        inputs=[*_operation(results), *file_inputs(settings.file)],
+        tables=[
+            *([_critical_speeds(results)] if "sweep" in found else []),
+            *([_losses(found["losses"])] if "losses" in found else []),
+        ],
+        inputs=_inputs(results),
         limits=[*_LIMITS, *(f"{name} failed: {why}" for name, why in results.failures.items())],
         facts=[
             (name, str(attributes[key]))
@@ -99,23 +106,51 @@ def _critical_speeds(results: HelicalResults) -> Table:
     )
 
 
-def _operation(results: HelicalResults) -> list[Input]:
-    settings = results.settings
+def _losses(losses: xr.Dataset) -> Table:
+    bars = "loss_torque_low" in losses
+    names = ["loss_torque", *(f"loss_torque_{end}" for end in ("low", "high") if bars)]
+    return Table(
+        title="Losses of the pair",
+        columns=[
+            Column("oil", "°C"),
+            Column("torque", "N·m", 4),
+            Column("speed", "rpm", 4),
+            *(Column(name.replace("_", " "), "N·m") for name in names),
+            Column("sliding", "W"),
+            Column("rolling", "W"),
+            Column("sliding by"),
+        ],
+        rows=[
+            [
+                *(float(one[name]) for name in ("temperature", "torque", "speed", *names)),
+                *(float(power) for power in one["loss"].values),
+                loss_model(one),
+            ]
+            for one in losses_rows(losses)
+        ],
+        caption="Some points; losses.csv has all. Low and high: between them lie 95 % of the draws "
+        "of the uncertain data, by the model of the point.",
+    )
+
+
+def _inputs(results: HelicalResults) -> list[Input]:
+    """Return what was used; a section [oil] of the gear file only where its oil was taken."""
+    settings, file, film = results.settings, results.settings.file, results.settings.film()
     mu = np.asarray(settings.mu)
+    own = GIVEN, "gear file"
+    speed = origin_of("speed_rpm", own)
+    named = film.oil == gear_file_oil(file) and film.oil.name != USUAL_OIL
+    model = own if "model" in file.film.model_fields_set else _DEFAULT
+    kelvin, rough = settings.oil_temperature - 273.15, 1e6 * settings.roughness_rms
     return [
-        Input("pinion torque", f"{settings.pinion_torque:.5g}", "N·m"),
-        Input("pinion speed", f"{settings.pinion_speed / RPM:.5g}", "rpm"),
-        Input("coefficients of friction", f"{mu.min():g} to {mu.max():g}"),
-        Input("stiffness of the mesh", settings.mesh),
-        Input("oil", settings.film().oil.name),
-        Input("film of the oil", settings.film().film),
-        *(Input("film model", one.words) for one in settings.film().film_models.values()),
-        Input("oil temperature", f"{settings.oil_temperature - 273.15:.4g}", "°C"),
-        Input(
-            "composite roughness",
-            f"{1e6 * settings.roughness_rms:.3g}",
-            "µm",
-            ASSUMED,
-            "default 0.5 µm unless --roughness-um is given",
-        ),
+        Input("pinion torque", f"{settings.pinion_torque:.5g}", "N·m", *origin_of("torque", own)),
+        Input("pinion speed", f"{settings.pinion_speed / RPM:.5g}", "rpm", *speed),
+        Input("coefficients of friction", f"{mu.min():g} to {mu.max():g}", "", *origin_of("mu")),
+        Input("stiffness of the mesh", settings.mesh, "", *origin_of("mesh")),
+        Input("oil", film.oil.name, "", *origin_of("oil", own if named else _DEFAULT)),
+        Input("film of the oil", film.film, "", *origin_of("film_model", model)),
+        *(Input("film model", one.words) for one in film.film_models.values()),
+        Input("oil temperature", f"{kelvin:.4g}", "°C", *origin_of("oil_temperature")),
+        Input("composite roughness", f"{rough:.3g}", "µm", *origin_of("roughness_um")),
+        *(one for one in file_inputs(file) if named or not one.name.startswith("oil.")),
     ]

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.helical.film_friction import film_dataset
+from gearlube.studies.helical.film_friction import film_dataset, share_outside
 from gearlube.studies.helical.geometry_dataset import gear_file_geometry
 from gearlube.studies.helical.labels import pair_attributes
 from gearlube.studies.helical.loaded import analyse_loaded_contact, constant_density_stiffness
@@ -145,6 +145,10 @@ def _sweep(study: RunningStudy, report: StageReport) -> None:
         jobs=study.processes(_POINT * speeds.size * len(settings.mu)),
         observe=report,
     )
+    if parameters.film is not None and parameters.film.film == "solved":
+        shares = share_outside(settings, parameters.mesh, speeds)
+        words = {"units": "1", "long_name": "static load outside the domain of the film model"}
+        sweep["film_share_outside"] = (("speed",), shares, words)
     sweep.attrs |= pair_attributes(parameters)
     study.datasets["sweep"] = sweep
 

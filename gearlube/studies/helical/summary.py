@@ -12,6 +12,7 @@ from gearlube.output.csv_text import csv_text
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 
+MOST_POINTS = 12  # of the losses
 _MOTIONS = ("delta_z", "u_xp", "u_yp", "u_zp")
 _FORCES = ("F_xp", "F_yp", "F_zp")
 
@@ -40,6 +41,7 @@ def summary_rows(results: HelicalResults) -> list[Row]:
         ("stability", _stability),
         ("separation", _separation),
         ("film", _film),
+        ("losses", _losses),
     ):
         if name in found:
             rows += of(found[name])
@@ -191,6 +193,34 @@ def _film(film: xr.Dataset) -> list[Row]:
         Row("oil film", "power loss, static loads", film.attrs["operating_power_loss"], "W"),
         Row("oil film", "loss factor H_V", film.attrs["loss_factor"], "1"),
         *_solved(film),
+    ]
+
+
+def losses_rows(losses: xr.Dataset) -> list[xr.Dataset]:
+    """Return up to MOST_POINTS points of the losses, spread over all."""
+    points = losses.stack(point=("temperature", "torque", "speed"))
+    kept = np.unique(np.linspace(0, points.sizes["point"] - 1, MOST_POINTS).round().astype(int))
+    return [points.isel(point=int(i)) for i in kept]
+
+
+def loss_model(one: xr.Dataset) -> str:
+    """Return by what the loss of a point is, with the share of load that solved films cover."""
+    if "share_outside" not in one:
+        return "formulas"
+    model = "formulas" if float(one["by_formulas"]) else "solved films"
+    return f"{model} ({100.0 * (1.0 - float(one['share_outside'])):.3g} % of the load covered)"
+
+
+def _losses(losses: xr.Dataset) -> list[Row]:
+    return [
+        Row(
+            "losses",
+            f"power lost at {float(one['torque']):.4g} N.m, {float(one['speed']):.0f} rpm, "
+            f"{float(one['temperature']):.4g} degC, by {loss_model(one)}",
+            float(one["loss"].sum()),
+            "W",
+        )
+        for one in losses_rows(losses)
     ]
 
 

@@ -11,7 +11,7 @@ import xarray as xr
 from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.plotting.style import SERIES, house_style, new_figure
-from gearlube.studies.loss_map.findings import input_words, moving_inputs
+from gearlube.studies.loss_map.swings import input_words, moving_inputs
 
 _BAND = "between these lines: 95 % of the draws of uncertain data"
 _MOST_PANELS = 6

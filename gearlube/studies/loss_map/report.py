@@ -10,25 +10,25 @@ import xarray as xr
 
 from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, add_map, add_stack, bar_chart, panels
+from gearlube.report.inputs import origin_of
 from gearlube.report.numbers import number_text
-from gearlube.report.parts import ASSUMED, Column, Figure, Input, Report, Table
+from gearlube.report.parts import GIVEN, Column, Figure, Input, Report, Table
 from gearlube.studies.loss_map.figures import LEAST_SHARE, shown_speeds, some_temperatures
-from gearlube.studies.loss_map.findings import (
-    findings,
-    input_words,
-    mean_swings,
-    moving_inputs,
-    numbers,
-)
+from gearlube.studies.loss_map.findings import findings, numbers
+from gearlube.studies.loss_map.swings import input_words, mean_swings, moving_inputs
 from gearlube_core.arrays import Array
 
 SPEED, TORQUE = Axis("pinion speed", "rpm"), Axis("pinion torque", "N·m")
 _POWER = Axis("power lost", "W")
 _ROWS = 8  # torques and speeds of a table
 _COOLING = {
-    "air_temperature_degc": ("air temperature", "°C"),
-    "conductance_at_rest_w_k": ("conductance of the housing at rest", "W/K"),
-    "conductance_at_100_kmh_w_k": ("conductance of the housing at 100 km/h", "W/K"),
+    "air_temperature_degc": ("air temperature", "°C", "air_temperature"),
+    "conductance_at_rest_w_k": ("conductance of the housing at rest", "W/K", "conductance_at_rest"),
+    "conductance_at_100_kmh_w_k": (
+        "conductance of the housing at 100 km/h",
+        "W/K",
+        "conductance_at_100",
+    ),
 }
 _LIMITS = (
     "Steady running: torque, speed and oil temperature are constant at each point. Vibration adds "
@@ -226,18 +226,22 @@ def _uncertain(dataset: xr.Dataset) -> list[tuple[str, str, str]]:
 
 
 def _settings(dataset: xr.Dataset) -> list[Input]:
-    attributes = dataset.attrs
+    attributes, oil = dataset.attrs, str(dataset.attrs["oil"])
+    draws = f"{attributes['draws']}"
+    torques, speeds, temperatures = (
+        _span(dataset[name].values) for name in ("torque", "speed", "temperature")
+    )
     lines = [
-        Input("map: oil", str(attributes["oil"])),
-        Input("map: torques", _span(dataset["torque"].values), "N·m"),
-        Input("map: pinion speeds", _span(dataset["speed"].values), "rpm"),
-        Input("map: oil temperatures", _span(dataset["temperature"].values), "°C"),
-        Input("map: draws of the uncertain data", f"{attributes['draws']}"),
-        Input("map: seed of the draws", f"{attributes['seed']}"),
+        Input("map: oil", oil, "", *origin_of("oil", (GIVEN, "axle file or its default"))),
+        Input("map: torques", torques, "N·m", *origin_of("torques")),
+        Input("map: pinion speeds", speeds, "rpm", *origin_of("speeds")),
+        Input("map: oil temperatures", temperatures, "°C", *origin_of("temperatures")),
+        Input("map: draws of the uncertain data", draws, "", *origin_of("draws")),
+        Input("map: seed of the draws", f"{attributes['seed']}", "", *origin_of("seed")),
     ]
     return lines + [
-        Input(f"map: {words}", f"{attributes[name]:g}", unit, ASSUMED, "for the steady temperature")
-        for name, (words, unit) in _COOLING.items()
+        Input(f"map: {words}", f"{attributes[name]:g}", unit, *origin_of(option))
+        for name, (words, unit, option) in _COOLING.items()
         if name in attributes
     ]
 

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gearlube.studies.loss_map.settings import LossMapSettings
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.uncertain import UPPER_END, changed_axle
+from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.progress import Progress, no_progress
 
 _ANGLES = 8  # within 4e-4 of 256, far below any spread
@@ -38,15 +39,25 @@ class Spread:
 def spread_of(settings: LossMapSettings, progress: Progress = no_progress) -> Spread:
     """Return the spread of the total loss by the uncertain data of the settings.
 
-    Each draw holds for the whole map: a wrong viscosity is wrong everywhere.
+    Each draw holds for the whole map: a wrong viscosity is wrong everywhere. Where a draw leaves
+    the film model of the flanks and the axle itself does not, it changes the losses by the ratio
+    that the formulas give.
     """
     rows, count = _rows(settings), len(settings.uncertain)
-    usual = _power(settings, settings.axle)
+    usual, inside = _power(settings, settings.axle)
+    formulas = (
+        _power(settings, replace(settings.axle, film="formula"))[0] if inside.any() else usual
+    )
     totals = np.empty((len(rows), *settings.shape))
     for k, row in enumerate(rows):
         progress(k / len(rows), f"error bars, {k + 1} of {len(rows)}")
         axle, scale = _drawn(settings, row)
-        power = usual if axle is settings.axle else _power(settings, axle)
+        power, still = (usual, inside) if axle is settings.axle else _power(settings, axle)
+        left = inside & ~still
+        if left.any():
+            by = _power(settings, replace(axle, film="formula"))[0][left]
+            ratio = np.divide(by, formulas[left], out=np.ones_like(by), where=formulas[left] > 0.0)
+            power[left] = usual[left] * ratio
         totals[k] = power @ scale
     swing = 0.5 * np.abs(totals[:count] - totals[count : 2 * count])
     low, high = np.percentile(totals[2 * count :], _BOUNDS, axis=0)
@@ -82,8 +93,12 @@ def _drawn(settings: LossMapSettings, row: Array) -> tuple[HypoidAxleParameters,
     return axle, scale
 
 
-def _power(settings: LossMapSettings, axle: HypoidAxleParameters) -> Array:
-    """Return the losses by source of an axle on the grid of the settings [W]."""
+def _power(settings: LossMapSettings, axle: HypoidAxleParameters) -> tuple[Array, Flags]:
+    """Return the losses by source of an axle on the grid of the settings [W].
+
+    And where solved films of the flanks cover enough of the load; nowhere with the formulas.
+    """
+    solved = axle.film == "solved"
     torques, speeds, temperatures = settings.grid
     found = axle_losses(
         axle,
@@ -91,6 +106,9 @@ def _power(settings: LossMapSettings, axle: HypoidAxleParameters) -> Array:
         speeds=speeds,
         temperatures=temperatures,
         angles=_ANGLES,
-        extremes=False,
+        extremes=solved,
     )
-    return found.power
+    inside = np.zeros(settings.shape, dtype=bool)
+    if solved:
+        inside = np.asarray(found.share_outside <= MOST_OUTSIDE)
+    return found.power, inside

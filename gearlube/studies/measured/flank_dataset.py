@@ -53,7 +53,7 @@ def flank_dataset(flanks: MeasuredFlanks, fits: Sequence[SettingsFit] = ()) -> x
             "source": flanks.file.source,
             "degree": flanks.file.degree,
             "single_teeth": int(not flanks.errors.is_none),
-            "gear_file": flanks.gear_file().model_dump_json(exclude_none=True),
+            "gear_file": flanks.gear_file().model_dump_json(exclude_none=True, exclude_unset=True),
         },
     )
 

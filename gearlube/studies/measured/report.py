@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.report.charts import COLOURS, Axis, Line, heat_map, line_chart, panels
-from gearlube.report.file_inputs import file_inputs
+from gearlube.report.inputs import file_inputs
 from gearlube.report.parts import Column, Figure, Input, Report, Table
 from gearlube.studies.measured.findings import (
     flank_findings,

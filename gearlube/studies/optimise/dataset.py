@@ -86,7 +86,7 @@ def optimise_dataset(found: Optimised) -> xr.Dataset:
         },
         attrs={
             "name": given.name,
-            "gear_file": found.better.file.model_dump_json(exclude_none=True),
+            "gear_file": found.better.file.model_dump_json(exclude_none=True, exclude_unset=True),
             "pair": problem.file.name,
             "kind": "hypoid" if problem.is_hypoid else "helical",
             "aim": given.aim,

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.report.charts import COLOURS, Axis, Line, add_line, line_chart, panels
-from gearlube.report.file_inputs import file_inputs
+from gearlube.report.inputs import file_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
 from gearlube.studies.optimise.dataset import measures_of

@@ -236,17 +236,13 @@ def _march(
     slow = max(1, round(_SLOW / h))
     values = np.empty((length, columns.size))
     kept = np.empty((math.ceil(length / slow), energies.size))
-    exceeded = _column(axle, "range.exceeded")
     out, step, held = axle.outputs, axle.step, driver.step
     for i in range(length):
         out.take(columns, out=values[i])
         if i % slow == 0:
             kept[i // slow] = out[energies]
-            if out[exceeded]:
-                for name, sentence in axle.exceeded().items():
-                    warned.setdefault(
-                        name, f"{sentence} First at t = {max(0.0, driver.time):.3g} s."
-                    )
+            for name, sentence in axle.exceeded().items():
+                warned.setdefault(name, f"{sentence} First at t = {max(0.0, driver.time):.3g} s.")
         row = values[i]
         torques = held(h, *row[:_SHAFTS].tolist())
         step(h, *torques, oil_temperature)

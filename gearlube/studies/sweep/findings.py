@@ -14,6 +14,7 @@ from gearlube.report.solved_films import (
     efficiency_doubt,
     flank_friction,
     model_of,
+    points_beyond,
     solved_films,
     solved_rollers,
 )
@@ -270,7 +271,7 @@ def _outside(share: xr.DataArray, whose: str) -> tuple[float, str]:
     most = float(point)
     return most, (
         f"at most {100.0 * most:.0f} % of the {whose}' load, at {float(point['speed_kmh']):g} km/h "
-        f"and preload {float(point['preload']):g} N"
+        f"and preload {float(point['preload']):g} N{points_beyond(share)}"
     )
 
 

@@ -10,6 +10,7 @@ from drivetrain.driveline.model import COMMUNICATION_STEP
 from drivetrain.sump_heat import SumpHeat
 from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.variables import HYPOID_AXLE
+from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin
@@ -97,7 +98,7 @@ class SweepSettings:
     modal_loss_factor: float = 0.06
     friction: str = "consistent"
     bearing_approach: str = "full"
-    bearing_torque_loss: str = "palmgren"
+    bearing_torque_loss: str = DEFAULT_LAW
     steps_per_mesh_period: int = 56
     steps_per_highest_period: int = 17
     communication_step: float = COMMUNICATION_STEP

@@ -11,7 +11,7 @@ import xarray as xr
 
 from gearlube.plotting.parameter_words import parameter_words, tolerance_words
 from gearlube.report.charts import Axis, Line, heat_map, line_chart
-from gearlube.report.file_inputs import file_inputs
+from gearlube.report.inputs import file_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Column, Figure, Input, Report, Table
 from gearlube.studies.whine.figures import most_moving, order_changes

@@ -297,6 +297,6 @@ def _dataset(
             "pinion_teeth": file.pinion.teeth,
             "kind": "hypoid" if isinstance(file, HypoidGearFile) else "helical",
             "natural_frequency": model.natural_frequency,
-            "gear_file": file.model_dump_json(exclude_none=True),
+            "gear_file": file.model_dump_json(exclude_none=True, exclude_unset=True),
         },
     )

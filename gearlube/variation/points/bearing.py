@@ -12,13 +12,8 @@ from gearlube.variation.point_study import Quantity
 from gearlube.variation.points.of_file import FilePoint
 from gearlube.variation.points.operands import operand, value
 from gearlube_core.bearings.bearing_file import BearingFile
-from gearlube_core.bearings.losses.loss import (
-    DEFAULT_LAW,
-    PARTS,
-    LossModel,
-    bearing_loss,
-    check_condition,
-)
+from gearlube_core.bearings.losses.laws import DEFAULT_LAW
+from gearlube_core.bearings.losses.loss import PARTS, LossModel, bearing_loss, check_condition
 from gearlube_core.film_model.model import ROLLER
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
@@ -50,7 +45,7 @@ class BearingPoint(FilePoint[BearingFile]):
     --------
     >>> study = BearingPoint(file=BearingFile.named("wingertszahn_2023"))
     >>> round(study.compute({"load.axial_n": 4000.0})[0], 2)  # N.m
-    2.35
+    1.98
     """
 
     name: ClassVar[str] = "bearing"

@@ -53,6 +53,7 @@ _QUANTITIES = (
     Quantity("film_min", "m", "smallest film thickness, Dowson 1968"),
     Quantity("film_ratio", "1", "least central film over roughness"),
     Quantity("film_temperature_rise", "K", "largest mean rise of the film over the oil"),
+    Quantity("share_outside", "1", "load outside the film model; above 0.05 all is by formulas"),
     *order_quantities("te", "m", "transmission error under load, without vibration"),
     *order_quantities("dte", "m", "dynamic transmission error"),
     *(one for name in _FORCES for one in order_quantities(name, "N", f"bearing force {name}")),
@@ -81,12 +82,12 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
     quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
     film_field: ClassVar[str] = "film.line_model"
     film_kind: ClassVar[str] = LINE
-    unused: ClassVar[tuple[str, ...]] = ("oil.", "film_mesh.", "meshing_steps.", "compared_with")
+    unused: ClassVar[tuple[str, ...]] = ("film_mesh.", "meshing_steps.", "compared_with")
 
     @property
     def usual_oils(self) -> tuple[str, ...]:
-        """The oil of the gear file, or the usual one."""
-        return (_usual_oil(self.file),)
+        """The oil file of the gear file; without it [oil] or the usual oil."""
+        return () if self.file.film.oil_file is None else (self.file.film.oil_file,)
 
     def check(self, point: Point) -> None:
         """Raise ParameterError where pair, oil or operating point are out of range."""
@@ -110,6 +111,7 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
             *map(float, powers),
             *(float(lost[one]) for one in ("efficiency", "film_min", "film_ratio")),
             float(lost["temperature_rise"]),
+            float(lost["share_outside"]) if "share_outside" in lost else 0.0,
             *order_values(loaded["transmission_error"].values),
             *order_values(moving["delta_z"].values),
             *(one for name in _FORCES for one in order_values(moving[name].values)),
@@ -132,6 +134,7 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
             )
         torque = file.operation.pinion_torque_n_m
         speed = rpm_to_rads(file.operation.pinion_speed_rpm)
+        oil = point.get(OIL.name) or file.film.oil_file
         settings = HelicalSettings(
             file=file,
             pinion_torque=torque,
@@ -141,7 +144,7 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
             positions=value(point, POSITIONS),
             mesh=value(point, MESH),
             friction=value(point, FRICTION),
-            oil=self.oil(str(point.get(OIL.name) or _usual_oil(file))),
+            oil=None if oil is None else self.oil(str(oil)),
             oil_temperature=celsius_to_kelvin(value(point, TEMPERATURE)),
             roughness_rms=1e-6 * value(point, ROUGHNESS),
             draws=0,
@@ -149,11 +152,6 @@ class HelicalPoint(FilePoint[HelicalGearFile]):
             parts="dynamics",
         )
         return quick_settings(settings) if self.quick else settings
-
-
-def _usual_oil(file: HelicalGearFile) -> str:
-    """Return the oil where none is asked for: that of the gear file, or the one of `OIL`."""
-    return file.film.oil_file or str(OIL.usual)
 
 
 @lru_cache(maxsize=2)

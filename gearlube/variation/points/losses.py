@@ -31,6 +31,8 @@ _QUANTITIES = (
     *(Quantity(f"loss_{name}", "W", f"power lost by {name}") for name in LOSS_SOURCES),
     Quantity("film_ratio", "1", "least film ratio of a flank"),
     Quantity("flank_temperature", "degC", "hottest flank film"),
+    Quantity("share_outside", "1", "flanks' load outside their film model; 0 with formulas"),
+    Quantity("rollers_outside", "1", "rollers' load outside theirs"),
     Quantity("range_exceeded", "1", "sum of 1, 2, 4, ... for each range left; 0: none"),
 )
 
@@ -86,5 +88,7 @@ class LossPoint(AxlePoint):
             *map(float, powers),
             ratio if np.isfinite(ratio) else float("nan"),
             float(found.flank_temperature[0, 0, 0]) - ZERO_CELSIUS,
+            float(found.share_outside[0, 0, 0]),
+            float(found.rollers_outside[0, 0, 0]),
             float(found.exceeded[0, 0, 0]),
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from gearlube_core.bearings.losses.aihara_1987 import aihara_force, aihara_heating
 from gearlube_core.bearings.losses.goksem_hargreaves_1978 import goksem_hargreaves_force
 from gearlube_core.bearings.losses.zhou_hoeprich_1991 import zhou_hoeprich_force
@@ -23,6 +25,8 @@ MATERIAL_LIMIT_WORDS = "M 0.2 to 200, L 4 to 16"  # range of biboulet_houpert_20
 CATALOGUE_LAWS = ("palmgren", "skf", "timken")
 PALMGREN, SKF = 0, 1  # of them, for kernels
 LAWS = (*RACE_LAWS, *CATALOGUE_LAWS)
+# of `gearlube bearing`, of axles and of their FMU: it needs no more than a catalogue has
+DEFAULT_LAW: Final = "palmgren"
 
 NO_HEATING, AIHARA_HEATING, ZHU_CHENG_HEATING = 0, 1, 2
 HEATINGS = {"none": NO_HEATING, "aihara": AIHARA_HEATING, "zhu_cheng": ZHU_CHENG_HEATING}

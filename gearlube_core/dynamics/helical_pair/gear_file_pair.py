@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
@@ -19,8 +20,12 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import read_oil_file
+from gearlube_core.units import celsius_to_kelvin
 
 USUAL_OIL = "mohammadpour_2015"  # of the library, where a gear file names none
+_ALIKE = 0.1  # relative, of the viscosities of one oil in two places
+_APART = 20.0  # K, between the two points of a viscosity line
+_NEWTONIAN = 1e9  # Pa, Eyring stress that no film reaches
 
 
 def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
@@ -43,15 +48,52 @@ def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
 
 
 def gear_file_oil(file: HelicalGearFile) -> Lubricant:
-    """Return the oil of a gear file's friction: that of its oil file, or by default `USUAL_OIL`.
+    """Return the oil of a gear file's friction: of its oil file, of [oil], or `USUAL_OIL`.
 
     Raises
     ------
     ParameterError
-        The oil file is missing or wrong.
+        The oil file is missing or wrong, or says another viscosity than [oil].
     """
     named = file.film.oil_file
-    return Lubricant.named(USUAL_OIL) if named is None else read_oil_file(Path(named)).lubricant
+    if named is None:
+        return stated_oil(file) or Lubricant.named(USUAL_OIL)
+    oil = read_oil_file(Path(named)).lubricant
+    own = file.oil
+    if own is not None:
+        degc, eta0 = own.viscosity_temperature_degc, own.viscosity_pa_s
+        found = oil.dynamic_viscosity(celsius_to_kelvin(degc))
+        if abs(found / eta0 - 1.0) > _ALIKE:
+            raise ParameterError(
+                f"The gear file must name one oil, got two: film.oil_file {named} has {found:.4g} "
+                f"Pa s at {degc:g} degC, [oil] has viscosity_pa_s = {eta0:g} there. Leave one out, "
+                f"or make them agree within {100.0 * _ALIKE:g} %."
+            )
+    return oil
+
+
+def stated_oil(file: HelicalGearFile) -> Lubricant | None:
+    """Return the oil that the section [oil] of a gear file states; None without it.
+
+    Viscosity at one temperature, pressure coefficient and Eyring stress are the section's; the
+    slope of the viscosity and all else are those of `USUAL_OIL`.
+    """
+    own = file.oil
+    if own is None:
+        return None
+    usual, at = Lubricant.named(USUAL_OIL), celsius_to_kelvin(own.viscosity_temperature_degc)
+    ends = at, at + _APART
+    by = own.viscosity_pa_s / usual.dynamic_viscosity(at)
+    nu = [by * usual.dynamic_viscosity(end) / usual.density for end in ends]
+    oil = usual.with_two_viscosities(nu[0], ends[0], nu[1], ends[1], name=f"[oil] of {file.name}")
+    stress = own.eyring_stress_mpa
+    return replace(
+        oil,
+        source=file.source,
+        alpha=1e-9 * own.pressure_viscosity_per_gpa,
+        alpha_temperature=at,
+        eyring_stress=_NEWTONIAN if stress is None else 1e6 * stress,
+    )
 
 
 def named_oil(oil: str | Lubricant) -> Lubricant:

@@ -9,6 +9,7 @@ from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.uncertain import (
     UPPER_END,
+    by_one_film,
     changed_axle,
     log_slope,
     uncertain_of,
@@ -50,24 +51,27 @@ def drawn_losses(
     ParameterError
         A datum leaves its limits, or the point those of the axle.
     """
+
+    def losses(changed: HypoidAxleParameters) -> tuple[Array, Array]:
+        solved = changed.film == "solved"
+        found = axle_losses(
+            changed,
+            torques=np.array([torque]),
+            speeds=np.array([speed]),
+            temperatures=np.array([temperature]),
+            angles=8,
+            extremes=solved,
+        )
+        return found.power[0, 0, 0], found.share_outside[0, 0, 0] if solved else np.zeros(())
+
     inputs = uncertain_of(axle)
     slopes: list[Array] = []
     for one in inputs:
-        ends = []
-        for normal in (UPPER_END, -UPPER_END):
-            scale = np.ones(len(LOSS_SOURCES))
-            changed = changed_axle(one, axle, normal, scale)
-            if changed is not axle:
-                found = axle_losses(
-                    changed,
-                    torques=np.array([torque]),
-                    speeds=np.array([speed]),
-                    temperatures=np.array([temperature]),
-                    angles=8,
-                    extremes=False,
-                )
-                scale = found.power[0, 0, 0]
-            ends.append(scale)
-        slopes.append(log_slope(*ends))
+        scales = [np.ones(len(LOSS_SOURCES)) for _ in range(2)]
+        ends = [
+            changed_axle(one, axle, normal, scale)
+            for normal, scale in zip((UPPER_END, -UPPER_END), scales, strict=True)
+        ]
+        slopes.append(log_slope(*(scales if one.changed is None else by_one_film(ends, losses))))
     normals = np.random.default_rng(seed).standard_normal((draws, len(inputs)))
     return np.asarray(np.exp(normals @ np.array(slopes)) @ power)

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, get_args
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
+from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.checks import check_option
 from gearlube_core.contact.greenwood_tripp_1971 import (
@@ -188,7 +189,7 @@ class HypoidAxleParameters(AxleScalars):
     film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
     flank_bulk_resistance: Annotated[float, Within(0.0, 10.0, "K/W", "Try 0.03 K/W.")] = 0.0
     rolling: FlankRolling = "none"
-    bearing_torque_loss: TorqueLoss = "palmgren"
+    bearing_torque_loss: TorqueLoss = DEFAULT_LAW
     churning: ChurningLaw = "none"
     ring_diameter: Annotated[float, Within(0.01, 3.0, "m", "165 mm is 0.165 m.")] = 0.165
     ring_width: Annotated[float, Within(1e-3, 1.0, "m", "30 mm is 0.03 m.")] = 0.030

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.losses.laws import DEFAULT_LAW, RACE_LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
+from gearlube_core.bearings.losses.rib import RIB_FRICTION_FACTOR, RIB_ROUGHNESS_FACTOR
+from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.units import celsius_to_kelvin
 
 MOST_DRAWS = 10_000
@@ -75,6 +79,21 @@ def _roughness(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
     return replace(axle, roughness_rms=axle.roughness_rms * by)
 
 
+def _of_bearings(name: str) -> Callable[[HypoidAxleParameters, float], HypoidAxleParameters]:
+    """Return the change of an attribute of all tapered roller bearings, times a number."""
+
+    def changed(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
+        pair = [
+            replace(one, **{name: by * getattr(one, name)})
+            if isinstance(one, TaperedRollerBearing) and getattr(one, name)
+            else one
+            for one in axle.bearings
+        ]
+        return replace(axle, bearing=pair[0], gear_bearing=axle.gear_bearing and pair[1])
+
+    return changed
+
+
 _NOT_MEASURED = "state of lubrication not known, no torque measured"
 _MEASURED = "drag calibrated with measured torques of the bearings"
 
@@ -94,10 +113,17 @@ UNCERTAIN = (
     Uncertain(
         "bearing_drag",
         "law of bearing drag",
-        UNCALIBRATED["palmgren"],
+        UNCALIBRATED[DEFAULT_LAW],
         _NOT_MEASURED,
         None,
         ("bearing_torque",),
+    ),
+    Uncertain(
+        "preload",
+        "preload of the bearings",
+        2.0,
+        "assumed, 2500 and 6000 N in one paper",
+        _of_bearings("preload"),
     ),
     Uncertain(
         "churning",
@@ -117,6 +143,23 @@ UNCERTAIN = (
         ("friction_rolling",),
     ),
 )
+
+RIBS = (
+    Uncertain(
+        "rib_friction",
+        "friction of asperities at the ribs",
+        RIB_FRICTION_FACTOR,
+        "0.1 to 0.2",
+        _of_bearings("rib_boundary_friction"),
+    ),
+    Uncertain(
+        "rib_roughness",
+        "roughness of the ribs",
+        RIB_ROUGHNESS_FACTOR,
+        "assumed, run in against new",
+        _of_bearings("rib_roughness"),
+    ),
+)  # with a law of the bearings that counts ribs
 
 
 def uncertain_of(
@@ -143,7 +186,7 @@ def uncertain_of(
     >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> axle = replace(mohammadpour_2015_axle(), bearing_torque_loss="biboulet_houpert_2010")
     >>> {one.name: one.factor for one in uncertain_of(axle)}["bearing_drag"]
-    3.0
+    5.0
     """
     oil, law = axle.oil, axle.bearing_torque_loss
     if calibrated_bearings and law not in ("palmgren", "palmgren_loaded"):
@@ -159,8 +202,11 @@ def uncertain_of(
     elif law in BEARING_LAWS:
         own["bearing_drag"] = (UNCALIBRATED[BEARING_LAWS[law]], _NOT_MEASURED)
     found = []
-    for one in UNCERTAIN:
+    ribbed = BEARING_LAWS.get(law) in RACE_LAWS
+    for one in UNCERTAIN + RIBS * ribbed:
         factor, why = own.get(one.name, (None, ""))
+        if one.name == "preload" and calibrated_bearings:
+            continue  # it is in the measured torque
         found.append(one if factor is None else replace(one, factor=factor, why=why))
     return tuple(found)
 
@@ -173,6 +219,24 @@ def log_slope(upper: Array, lower: Array) -> Array:
     both = (upper > 0.0) & (lower > 0.0)
     ratio = np.divide(upper, lower, out=np.ones_like(upper), where=both)
     return np.asarray(np.log(ratio) / (2.0 * UPPER_END))
+
+
+def by_one_film(
+    ends: Sequence[HypoidAxleParameters],
+    losses: Callable[[HypoidAxleParameters], tuple[Array, Array]],
+) -> list[Array]:
+    """Return losses (..., sources) of axles that differ in a datum, by one film at each point.
+
+    `losses` returns them and the share of the flanks' load outside the film model (...). Where this
+    is too large for any of the axles, all are by the formulas.
+    """
+    found = [losses(one) for one in ends]
+    left = np.any([share > MOST_OUTSIDE for _, share in found], axis=0)[..., None]
+    if not left.any():
+        return [power for power, _ in found]
+    formulas = [losses(replace(one, film="formula"))[0] for one in ends]
+    pairs = zip(formulas, found, strict=True)
+    return [np.where(left, formula, power) for formula, (power, _) in pairs]
 
 
 def changed_axle(

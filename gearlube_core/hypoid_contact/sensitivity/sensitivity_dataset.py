@@ -98,7 +98,7 @@ def sensitivity_dataset(
         attrs={
             "name": file.name,
             "torque": torque,
-            "gear_file": file.model_dump_json(exclude_none=True),
+            "gear_file": file.model_dump_json(exclude_none=True, exclude_unset=True),
         },
     )
 

@@ -9,6 +9,7 @@ import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 from gearlube.studies.helical.figures.layout import PERIODS, RPM, closed, title
+from gearlube_core.film_model.model import MOST_OUTSIDE
 
 _SHOWN = 3.0  # per cent of the points that lie beyond each end of a colour scale
 
@@ -85,6 +86,8 @@ def film_over_mesh(film: xr.Dataset) -> Any:
         loss.plot(*closed(phase, film["power_loss"].values), color=GREEN, label="oil film")
         loss.set(xlim=(0.0, 2.0), xlabel=PERIODS, ylabel="friction power [W]", ylim=(0.0, None))
         mean.plot(speed, film["mean_coefficient"].values, color=GREEN, marker=".")
+        by = film["film_share_outside"].values > MOST_OUTSIDE
+        mean.plot(speed[by], film["mean_coefficient"].values[by], "o", mec=GREEN, mfc="white")
         mean.set(xlabel="pinion speed [rpm]", ylabel="mean coefficient of friction [-]")
         mean.set(ylim=(0.0, None), xscale="log")
         thin.plot(speed, 1e6 * film["smallest_film"].values, color=BLUE, marker=".")
@@ -95,7 +98,8 @@ def film_over_mesh(film: xr.Dataset) -> Any:
         thin.yaxis.set_major_formatter("{x:g}")
         thin.yaxis.set_minor_formatter(NullFormatter())
         thin.set_title("dashed: composite roughness; dotted: operating speed", fontsize=9)
-        mean.set_title("dotted: operating speed", fontsize=9)
+        hollow = "; hollow: formulas, beyond the film model" if by.any() else ""
+        mean.set_title(f"dotted: operating speed{hollow}", fontsize=9)
         for ax in (mean, thin):
             ax.axvline(film.attrs["pinion_speed"] / RPM, color=GREY, ls=":", lw=1.0)
         figure.legend(*force.get_legend_handles_labels(), ncols=2, loc="outside lower center")

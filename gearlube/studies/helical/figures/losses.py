@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import MARKERS, SERIES, house_style, new_figure
+from gearlube_core.film_model.model import MOST_OUTSIDE
 
 _MOST = 4
 
@@ -30,6 +31,10 @@ def pair_losses(dataset: xr.Dataset) -> Any:
                     marker=MARKERS[row % len(MARKERS)],
                     label=f"{torque:.4g} N·m",
                 )
+                if "by_formulas" in one:
+                    by = one.where(one["by_formulas"] > 0)
+                    hollow = {"color": "white", "marker": MARKERS[row % len(MARKERS)], "ls": ""}
+                    ax.plot(by["speed"], by["loss_torque"], mec=colour, zorder=3, **hollow)
                 if "loss_torque_low" in one:
                     ax.fill_between(
                         one["speed"],
@@ -47,8 +52,13 @@ def pair_losses(dataset: xr.Dataset) -> Any:
             handles, names, title="pinion torque", ncols=_MOST, loc="outside lower center"
         )
         bands = "; bands: 95 % of the draws" if "loss_torque_low" in dataset else ""
+        films = ""
+        if "by_formulas" in dataset:
+            films = (
+                f"Solved films; hollow: formulas, more than {MOST_OUTSIDE:.0%} of load outside.\n"
+            )
         figure.suptitle(
-            f"Sliding and rolling of the teeth{bands}.\n"
+            f"Sliding and rolling of the teeth{bands}.\n{films}"
             f"Not modelled: {dataset.attrs['not_modelled']}.",
             fontsize=8.5,
         )

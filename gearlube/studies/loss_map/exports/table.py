@@ -17,6 +17,8 @@ _COLUMNS = {
     "wheel_torque": "wheel_torque_n_m",
     "film_ratio": "film_ratio",
     "flank_temperature": "flank_temperature_degc",
+    "share_outside": "share_outside",
+    "rollers_outside": "rollers_outside",
     "range_exceeded": "range_exceeded",
 }
 _STEADY = {

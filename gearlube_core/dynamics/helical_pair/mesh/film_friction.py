@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -24,6 +24,8 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import point_moments
 from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
 from gearlube_core.friction.flank_laws import FILM_MODELS
+from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
+from gearlube_core.friction.line_points import LinePoints
 from gearlube_core.friction.solved_line import bounded_line_friction
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
@@ -82,6 +84,42 @@ class FilmFriction:
             solid_parameters(self.solid, self.solid),
             self.film_models[LINE].copied_numbers() if self.film == "solved" else np.empty(0),
         )
+
+    @property
+    def formulas(self) -> FilmFriction:
+        """The same by the formulas."""
+        return replace(self, film="formula", line_film_model=None)
+
+    def cycle(
+        self, points: LinePoints, line_load: Array, pinion_speed: float, pinion_torque: float
+    ) -> LineFrictionCycle:
+        """Return friction on the lines of a mesh period, see `friction_along_lines`."""
+        constants = self.constants()
+        return friction_along_lines(
+            points,
+            line_load,
+            pinion_speed=pinion_speed,
+            pinion_torque=pinion_torque,
+            lubricant=self.oil,
+            oil_temperature=self.oil_temperature,
+            surface=constants.surface,
+            solid=constants.solid,
+            film_model=constants.film_model,
+        )
+
+    def covered_cycle(
+        self, points: LinePoints, line_load: Array, pinion_speed: float, pinion_torque: float
+    ) -> LineFrictionCycle:
+        """Return `cycle`, all by the formulas where the film model covers too little of the load.
+
+        There `by_formulas` is true, `outside` says how much is outside, and no bound is known.
+        """
+        found = self.cycle(points, line_load, pinion_speed, pinion_torque)
+        if not found.by_formulas:
+            return found
+        formulas = self.formulas.cycle(points, line_load, pinion_speed, pinion_torque)
+        unknown = np.full_like(found.coefficient_bound, np.nan)
+        return replace(formulas, outside=found.outside, coefficient_bound=unknown)
 
     @property
     def film_models(self) -> dict[str, FilmModel]:
