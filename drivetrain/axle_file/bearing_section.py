@@ -21,24 +21,27 @@ from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_note import InputNote
 
 LARGEST_PRELOAD = 1e5  # N
 
-Diameter = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
-RollerSize = Annotated[float, Field(ge=2.0, le=200.0, allow_inf_nan=False)]
+Diameter = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False), Usual(12.0, 400.0)]
+RollerSize = Annotated[float, Field(ge=2.0, le=200.0, allow_inf_nan=False), Usual(3.0, 80.0)]
 Rollers = Annotated[int, Field(ge=3, le=40)]
-Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False)]
+Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False), Usual(1e7, 1e11)]
 Exponent = Annotated[float, Field(ge=1.0, le=2.0, allow_inf_nan=False)]
-Rating = Annotated[float, Field(ge=1.0, le=20000.0, allow_inf_nan=False)]
-Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False)]
+Rating = Annotated[float, Field(ge=1.0, le=20000.0, allow_inf_nan=False), Usual(10.0, 2000.0)]
+Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False), Usual(8.0, 36.0)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Preload = Annotated[float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False)]
-Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
+Preload = Annotated[
+    float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False), Usual(100.0, 50000.0)
+]
+Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.5, 50.0)]
 ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
 LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
 
-RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
+RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.2, 20.0)]
 RibFriction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 
 PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]

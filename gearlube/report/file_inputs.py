@@ -22,9 +22,9 @@ def file_inputs(file: HypoidGearFile | HelicalGearFile) -> list[Input]:
     >>> found[0].name, found[0].value, found[0].unit
     ('pair.offset_mm', '24', 'mm')
     """
-    found = []
+    found, doubtful = [], file.doubts()
     for field, value in _numbers(file.model_dump(exclude_none=True)):
-        origin, why = GIVEN, ""
+        origin, why = GIVEN, doubtful.get(field, "")
         for kind, reasons in ((INFERRED, file.inferred), (ASSUMED, file.completed)):
             if field in reasons:
                 origin = kind

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from pydantic import BaseModel
-
 from gearlube.report.parts import ASSUMED, GIVEN, Input
 from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
 
 
@@ -24,7 +23,7 @@ def noted_inputs(notes: Sequence[InputNote]) -> list[Input]:
     return [Input(n.field, n.value_text, n.unit, n.origin, n.why) for n in notes]
 
 
-def file_inputs(file: BaseModel) -> list[Input]:
+def file_inputs(file: InputFile) -> list[Input]:
     """Return the fields of an input file: what it gives, and the defaults of what it does not.
 
     Fields that are empty or lists of tables are left out.
@@ -37,6 +36,7 @@ def file_inputs(file: BaseModel) -> list[Input]:
     'given'
     """
     notes = field_notes(type(file))
+    doubtful = file.doubts()
     given = dict(_flat(file.model_dump(exclude_unset=True)))
     found = []
     for name, value in _flat(file.model_dump(exclude_none=True)):
@@ -51,7 +51,7 @@ def file_inputs(file: BaseModel) -> list[Input]:
                 text,
                 "" if note is None else note.unit,
                 GIVEN if is_given else ASSUMED,
-                "" if is_given else "default",
+                doubtful.get(name, "") if is_given else "default",
             )
         )
     return found

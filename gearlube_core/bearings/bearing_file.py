@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -15,31 +14,36 @@ from gearlube_core.bearings.losses.geometry import (
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.errors import ParameterError
-from gearlube_core.film_model.chosen_model import chosen_model, file_of_model
+from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import ROLLER, FilmModel
-from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.field_notes import Usual, field_notes
 from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
-Diameter = Annotated[float, Field(ge=5.0, le=2000.0, allow_inf_nan=False)]
-RollerSize = Annotated[float, Field(ge=2.0, le=500.0, allow_inf_nan=False)]
+Diameter = Annotated[float, Field(ge=5.0, le=2000.0, allow_inf_nan=False), Usual(10.0, 800.0)]
+RollerSize = Annotated[float, Field(ge=2.0, le=500.0, allow_inf_nan=False), Usual(2.5, 120.0)]
 Rollers = Annotated[int, Field(ge=3, le=40)]
 Rows = Annotated[int, Field(ge=1, le=4)]
-Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False)]
-InnerAngle = Annotated[float, Field(ge=0.1, le=45.0, allow_inf_nan=False)]
-Roughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False), Usual(8.0, 36.0)]
+InnerAngle = Annotated[float, Field(ge=0.1, le=45.0, allow_inf_nan=False), Usual(2.0, 36.0)]
+Roughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False), Usual(0.02, 2.0)]
 ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
 LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
 TimkenFactor = Annotated[float, Field(ge=0.1, le=10000.0, allow_inf_nan=False)]
 Scale = Annotated[float, Field(ge=0.05, le=5.0, allow_inf_nan=False)]
-Height = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
+Height = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False), Usual(0.2, 20.0)]
 EndRadius = Annotated[float, Field(ge=0.5, le=0.99, allow_inf_nan=False)]
 ShareB = Annotated[float, Field(ge=0.1, le=10.0, allow_inf_nan=False)]
 ShareC = Annotated[float, Field(ge=0.1, le=3.0, allow_inf_nan=False)]
 Friction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-Speeds = Annotated[tuple[float, ...], Field(strict=False, min_length=1)]
+ShaftSpeed = Annotated[float, Field(ge=0.0, le=1e5, allow_inf_nan=False), Usual(10.0, 3e4)]
+Load = Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False), Usual(20.0, 1e6)]
+Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False), Usual(-55.0, 200.0)]
+Speeds = Annotated[tuple[ShaftSpeed, ...], Field(strict=False, min_length=1)]
+Loads = Annotated[tuple[Load, ...], Field(strict=False, min_length=1)]
+Temperatures = Annotated[tuple[Temperature, ...], Field(strict=False, min_length=1)]
 _MICROMETRE = 1e-6  # m
 
 
@@ -124,9 +128,9 @@ class OperationSection(Section):
     speed_rpm: Speeds = Field(
         default=(500.0, 1000.0, 2000.0, 4000.0), description="Speeds of the shaft"
     )
-    axial_load_n: Speeds = Field(default=(1000.0,), description="Axial loads of the bearing")
-    radial_load_n: Speeds = Field(default=(0.0,), description="Radial loads of the bearing")
-    temperature_degc: Speeds = Field(
+    axial_load_n: Loads = Field(default=(1000.0,), description="Axial loads of the bearing")
+    radial_load_n: Loads = Field(default=(0.0,), description="Radial loads of the bearing")
+    temperature_degc: Temperatures = Field(
         default=(60.0,), description="Temperatures of the oil in the bearing"
     )
 
@@ -145,11 +149,14 @@ class BearingFile(InputFile):
 
     package: ClassVar[str] = "gearlube_core.bearings"
     title: ClassVar[str] = "bearing file"
+    files: ClassVar[tuple[str, ...]] = ("oil", "film_model")
 
     name: Text = Field(description="Name of the bearing in results and figures")
     source: Text | None = Field(default=None, description="Where the numbers come from")
     oil: Text = Field(
-        default="fva_3", description="Name of a shipped oil; the command can take another one"
+        default="fva_3",
+        description="Name of a shipped oil, or an oil file (.toml), its path relative to the "
+        "bearing file; the command can take another one",
     )
     film_model: Text | None = Field(
         default=None,
@@ -177,11 +184,6 @@ class BearingFile(InputFile):
         except ParameterError as reason:
             raise ValueError(str(reason).removesuffix(".")) from None
         return self
-
-    def placed(self, folder: Path) -> BearingFile:
-        """Return the file with the path of its film model as it holds from here on."""
-        path = None if self.film_model is None else file_of_model(self.film_model, folder)
-        return self if path is None else self.model_copy(update={"film_model": str(path)})
 
     def own_film_model(self) -> FilmModel | None:
         """Return the film model that the file names; None: the one in the package.

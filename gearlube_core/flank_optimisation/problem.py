@@ -207,9 +207,9 @@ def read_gear_file(name: str) -> GearFile:
     if not (name.endswith(".toml") or Path(name).is_file()):
         known = ", ".join((*HypoidGearFile.shipped(), *HelicalGearFile.shipped()))
         raise ParameterError(f"No gear file is called {name!r}. Shipped: {known}. Or give a path.")
-    data = read_toml(name)
-    kind = HypoidGearFile if "offset_mm" in data.get("pair", {}) else HelicalGearFile
-    return kind.from_data(data, name)
+    pair = read_toml(name, "gear file").get("pair")
+    hypoid = isinstance(pair, dict) and "offset_mm" in pair
+    return (HypoidGearFile if hypoid else HelicalGearFile).from_toml(name)
 
 
 def with_error(file: GearFile, scenario: Scenario) -> GearFile:
