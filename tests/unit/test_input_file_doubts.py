@@ -209,3 +209,33 @@ WRONG = [
 def test_a_value_of_the_wrong_type_is_refused_with_a_cure(more, said):
     with pytest.raises(ParameterError, match=said):
         AxleFile.from_data({**AXLE, **more}, "my.toml")
+
+
+def test_a_catalogue_serves_bearing_files_and_axle_files_alike():
+    # 32216 with its 16 rollers of 17 mm; catalogues print C = 187 kN, and a length of 22.7 mm has
+    # 179 kN by ISO 281, where C goes with L^(7/9): 24.0 mm, to the digits of 179
+    catalogue = {
+        "bore_diameter_mm": 80.0, "outside_diameter_mm": 140.0, "pitch_diameter_mm": 108.5,
+        "rollers": 16, "roller_diameter_mm": 17.0, "contact_angle_deg": 15.64,
+        "dynamic_load_rating_kn": 187.0,
+    }  # fmt: skip
+    file = BearingFile.from_data({"name": "32216", "bearing": catalogue}, "bearing.toml")
+    length = file.geometry().roller_length
+    assert length == pytest.approx(22.7e-3 * (187.0 / 179.0) ** (9 / 7), rel=0.005)
+    assert [note.field for note in file.inferred()] == ["bearing.roller_length_mm"]
+    bearing = {"bearing": {**catalogue, "rollers": 16}}
+    axle = AxleFile.from_data({**AXLE, "gear": bearing}, "axle.toml").car_axle().axle
+    assert axle.bearings[1].roller_length == pytest.approx(length, rel=1e-12)  # same law
+
+
+def test_bore_outside_diameter_and_angle_are_enough_for_a_bearing_file():
+    sizes = {"bore_diameter_mm": 80.0, "outside_diameter_mm": 140.0, "contact_angle_deg": 15.64}
+    file = BearingFile.from_data({"name": "32216", "bearing": sizes}, "bearing.toml")
+    notes = {note.field: note.value for note in file.inferred()}
+    # 0.57 of half of 60 mm; rollers fill 0.8 of the circle of 110 mm; 1.5 diameters long
+    assert notes == {
+        "bearing.pitch_diameter_mm": pytest.approx(110.0),
+        "bearing.rollers": 16,
+        "bearing.roller_diameter_mm": pytest.approx(17.1),
+        "bearing.roller_length_mm": pytest.approx(25.65),
+    }
