@@ -114,7 +114,9 @@ class InputFile(Section):
     @classmethod
     def given(cls, name: str) -> Self:
         """Return the file at a path, where the name is one or ends in .toml, or a shipped one."""
-        is_file = name.endswith(".toml") or Path(name).is_file()
+        path = Path(name)
+        is_file = name.endswith(".toml") or path.is_file()
+        is_file = is_file or (path.is_dir() and name not in cls.shipped())
         return cls.from_toml(name) if is_file else cls.named(name)
 
     @classmethod
