@@ -10,12 +10,13 @@ import pytest
 
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.output.toml_text import toml_text
+from gearlube.variation.keys import file_keys
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_optimisation.problem import read_gear_file
+from gearlube_core.flank_optimisation.problem import Problem, read_gear_file
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_design.blank_file import BlankFile
@@ -239,3 +240,14 @@ def test_bore_outside_diameter_and_angle_are_enough_for_a_bearing_file():
         "bearing.roller_diameter_mm": pytest.approx(17.1),
         "bearing.roller_length_mm": pytest.approx(25.65),
     }
+
+
+def test_bounds_of_a_problem_and_values_of_a_variation_are_asked_about(caplog):
+    given = OptimisationFile.named("helical").model_dump(exclude_defaults=True)
+    given["parameters"] = {"gear.flank.crown_um": {"low": 0.0, "high": 0.02, "start": 0.01}}
+    Problem.of(OptimisationFile.from_data(given, "p"))
+    assert "gear.flank.crown_um = 0.02 um is unusual" in caplog.text
+    assert "Is it in mm? 0.02 mm is 20 um." in caplog.text
+    key = file_keys(field_notes(BearingFile))["bearing.contact_angle_deg"]
+    assert key.note is not None
+    assert "Is it in rad? 0.26 rad is 14.8969 deg." in key.note.doubt((15.0, 0.26))
