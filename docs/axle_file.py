@@ -172,6 +172,9 @@ for note in paper.assumed:
 - All wrong fields of a file are reported together, before anything is compiled. Each message gives
   the value, its limits and its unit. If the value would be within the limits in another unit, the
   message names that unit.
+- A number within its limits but outside its usual range is taken, with a warning that names the
+  unit in which it would be usual.
+- A relative path in a file counts from the folder of that file.
 
 ## Fields
 """

@@ -98,7 +98,7 @@ Every number has an origin: `given` in the file, `assumed` because the file does
 
 ```
 gearlube design --example > my_blank.toml         # a blank file to start from
-gearlube design my_blank.toml --out my_design     # half a minute
+gearlube design my_blank.toml --out my_design     # a minute
 gearlube contact my_design/hypoid_13_42.toml --out my_design/contact   # under load
 gearlube map my_design/axle.toml                  # losses; also sweep, cycle, build-fmu --axle
 gearlube design my_blank.toml --out my_design --optimise   # and a quieter pair, some minutes

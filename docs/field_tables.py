@@ -31,6 +31,8 @@ def _table(title: str, notes: list[FieldNote]) -> str:
     ]
     for note in notes:
         value = f"{note.kind}, {note.limits}" if note.limits else note.kind
+        if note.usual is not None:
+            value += f"; usual {note.usual[0]:g} to {note.usual[1]:g}"
         field = note.name.rpartition(".")[2]
         without = note.default or "required"
         lines.append(f"| `{field}` | {note.unit or '-'} | {value} | {without} | {note.meaning} |")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cache, partial
@@ -13,6 +12,7 @@ from fmu_src.definition import Definition, Value
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
 from fmu_src.variable import Variable
+from gearlube_core.checks import read_content
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL, stated_oil
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
@@ -26,8 +26,13 @@ from gearlube_core.errors import FileError, GearLubeError, ParameterError, Table
 from gearlube_core.film_model.chosen_model import check_oil, file_of_model, model_in
 from gearlube_core.film_model.model import LINE, FilmModel, read_model_content, shipped_model
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.input_file.input_file import toml_data
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes, named_line_mesh
+from gearlube_core.mesh_table.line_mesh_file import (
+    line_mesh_from_bytes,
+    named_line_mesh,
+    read_line_mesh_content,
+)
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
 from gearlube_core.oil.oil_file import described_oil_of, read_oil_content
@@ -185,8 +190,8 @@ def definition_with(
                 "--line-mesh needs --gear: give the gear file of the same pair too."
             )
         return DEFINITION
-    content = _read(gear, "gear file")
-    mesh = b"" if line_mesh is None else _read(line_mesh, "line mesh")
+    content = read_content(gear, "gear file")
+    mesh = b"" if line_mesh is None else read_line_mesh_content(line_mesh)
     try:
         return _definition_with(content, mesh, _named_files(content, Path(gear).parent, named))
     except TableError as error:
@@ -213,14 +218,6 @@ def _named_files(
     )
 
 
-def _read(path: str | Path, what: str) -> bytes:
-    try:
-        return Path(path).read_bytes()
-    except OSError as reason:
-        text = f"No {what} can be read at {path}: {reason.strerror or reason}."
-        raise (ParameterError if what == "gear file" else TableError)(text) from None
-
-
 def embedded_pair(resources: Mapping[str, bytes]) -> EmbeddedPair | None:
     """Return the gear pair whose files are among the resources of an FMU, if there is one.
 
@@ -236,11 +233,7 @@ def embedded_pair(resources: Mapping[str, bytes]) -> EmbeddedPair | None:
 
 def _gear_file(content: bytes) -> HelicalGearFile:
     """Return the gear file in the content of a file."""
-    try:
-        data = tomllib.loads(content.decode())
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
-        raise ParameterError(f"It is not a readable TOML file: {reason}.") from None
-    return HelicalGearFile.from_data(data, "The gear file")
+    return HelicalGearFile.from_data(toml_data(content, "The gear file"), "The gear file")
 
 
 def _pair_in(content: bytes, mesh: bytes, others: Mapping[str, bytes]) -> EmbeddedPair:

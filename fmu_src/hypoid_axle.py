@@ -14,12 +14,13 @@ from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
 from fmu_src.variable import Variable
 from fmu_src.variables import HYPOID_AXLE
+from gearlube_core.checks import read_content
 from gearlube_core.dynamics import hypoid_axle
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import file_of_model, model_in
 from gearlube_core.film_model.model import FLANK, ROLLER, read_model_content
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_content
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_table_content
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
@@ -83,7 +84,7 @@ DEFINITION = Definition(
 
 def definition_with_table(path: str | Path) -> Definition:
     """Return the definition of the FMU with the mesh table at `path`."""
-    content = read_content(path)
+    content = read_table_content(path)
     try:
         return _definition_with(None, content)
     except TableError as error:
@@ -127,7 +128,7 @@ def definition_with_axle(
             (name, read(Path(path).parent / text if named is None else named / name))
             for name, read, text in _named_files(file)
         )
-        of_gears = None if table is None else read_content(table)
+        of_gears = None if table is None else read_table_content(table)
         return _definition_with(content, of_gears, others)
     except GearLubeError as error:
         raise type(error)(f"{path}: {error}") from None
@@ -159,12 +160,7 @@ def check_one_table(mesh_table: str | Path | None) -> None:
 def _axle_content(path: str | Path) -> bytes:
     if not str(path).endswith(".toml") and not Path(path).is_file():
         return AxleFile.shipped_text(str(path)).encode()
-    try:
-        return Path(path).read_bytes().replace(b"\r\n", b"\n")
-    except OSError as reason:
-        raise ParameterError(
-            f"No axle file can be read at {path}: {reason.strerror or reason}."
-        ) from None
+    return read_content(path, "axle file").replace(b"\r\n", b"\n")
 
 
 def mesh_table_in(resources: Mapping[str, bytes]) -> MeshTable:

@@ -217,6 +217,20 @@ def _common(
 app = command_line(COMMANDS)
 
 
+class _WarningsOnce(logging.Filter):
+    """Lets each warning pass once; a command may read the same file several times."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._shown: set[str] = set()
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        text = record.getMessage()
+        known = record.levelno == logging.WARNING and text in self._shown
+        self._shown.add(text)
+        return not known
+
+
 def main() -> None:
     """Entry point of the command `gearlube`."""
     from rich.logging import RichHandler
@@ -224,5 +238,6 @@ def main() -> None:
     from gearlube.cli.console import console
 
     handler = RichHandler(console=console, show_path=False, show_time=False, markup=False)
+    handler.addFilter(_WarningsOnce())
     logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler])
     app()

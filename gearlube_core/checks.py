@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
+from pathlib import Path
 
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import GearLubeError, ParameterError, unread
 
 
 def _quantity(value: float, unit: str) -> str:
@@ -55,6 +56,28 @@ def check_option(name: str, value: str, options: Iterable[str]) -> str:
     if value not in allowed:
         raise ParameterError(f"{name} must be one of {', '.join(allowed)}; got {value!r}.")
     return value
+
+
+def read_content(
+    path: str | Path, what: str, error: type[GearLubeError] = ParameterError, cure: str = ""
+) -> bytes:
+    """Return the bytes of a file; raise `error` where it cannot be read, with its folder.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    what
+        Kind of file in errors, such as "mesh table".
+    error
+        Class of the error.
+    cure
+        Sentence at the end of the error, on what to do.
+    """
+    try:
+        return Path(path).read_bytes()
+    except OSError as reason:
+        raise error(f"{unread(what, path, reason)}. {cure}".strip()) from None
 
 
 def check_address(scheduler: str, name: str = "--scheduler") -> str:

@@ -1,5 +1,9 @@
 """Exceptions raised by gearlube. Kernels never raise; they return a status."""
 
+from __future__ import annotations
+
+from pathlib import Path
+
 
 class GearLubeError(Exception):
     """Base class of all errors that gearlube raises on purpose; catch it to catch them all.
@@ -51,14 +55,37 @@ def why(error: Exception) -> str:
 
     Examples
     --------
-    >>> why(FileNotFoundError(2, "No such file or directory", "my_axle.toml"))
-    'there is no such file'
+    >>> why(PermissionError(13, "Permission denied", "my_axle.toml"))
+    'its permissions forbid reading it'
     """
-    for kind, words in (
-        (FileNotFoundError, "there is no such file"),
-        (IsADirectoryError, "it is a folder"),
-        (PermissionError, "its permissions forbid reading it"),
-    ):
-        if isinstance(error, kind):
-            return words
+    name = getattr(error, "filename", None)
+    if isinstance(error, FileNotFoundError):
+        return "there is no such file" + (f" in {_folder(name)}" if name else "")
+    # Windows forbids to read a folder
+    if isinstance(error, IsADirectoryError) or (isinstance(error, OSError) and _is_folder(name)):
+        return "it is a folder"
+    if isinstance(error, PermissionError):
+        return "its permissions forbid reading it"
     return (getattr(error, "strerror", None) or str(error)).rstrip(".")
+
+
+def unread(what: str, path: str | Path, error: Exception) -> str:
+    """Return why a file cannot be read, as a sentence without its full stop.
+
+    Examples
+    --------
+    >>> unread("axle file", "/cars/my_axle.toml", FileNotFoundError(2, "No such file"))
+    'The axle file my_axle.toml was not found in /cars, which is no folder'
+    """
+    if isinstance(error, FileNotFoundError):
+        return f"The {what} {Path(path).name} was not found in {_folder(path)}"
+    return f"The {what} {path} cannot be read: {why(error)}"
+
+
+def _folder(path: str | Path) -> str:
+    folder = Path(path).absolute().parent
+    return str(folder) if folder.is_dir() else f"{folder}, which is no folder"
+
+
+def _is_folder(path: object) -> bool:
+    return isinstance(path, str) and Path(path).is_dir()

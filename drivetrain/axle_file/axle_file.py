@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
@@ -34,7 +33,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_notes
-from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.input_file.input_file import InputFile, toml_data
 from gearlube_core.input_file.input_note import InputNote
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.mesh_table.netcdf import read_mesh_table
@@ -103,6 +102,15 @@ class AxleFile(InputFile):
 
     package: ClassVar[str] = "drivetrain.axle_file"
     title: ClassVar[str] = "axle file"
+    files: ClassVar[tuple[str, ...]] = (
+        "gear_set.mesh_table",
+        "gear_set.gear_file",
+        "gear_set.asperity_table",
+        "oil.file",
+        "film.flank_model",
+        "film.roller_model",
+    )
+    absolute_files: ClassVar[bool] = False  # methods that read them take the folder
 
     name: Text = Field(default="axle", description="Name of the axle in reports")
     source: Text | None = Field(default=None, description="Where the numbers come from")
@@ -310,9 +318,6 @@ class AxleFile(InputFile):
     ) -> list[InputNote]:
         of_table = {} if fit is None else {"roughness_rms_um": "asperity_table"}
         notes = self.gear_set.notes("gear_set.", axle, _MODEL, of_table)
-        if doubt := self.gear_set.doubt:
-            doubtful = [note.field for note in notes].index("gear_set.backlash_um")
-            notes[doubtful] = notes[doubtful]._replace(why=doubt)
         if self.gear_set.gear_file is not None:
             notes += self._gear_file_notes(axle.mesh)
         if fit is not None:
@@ -342,7 +347,8 @@ class AxleFile(InputFile):
         notes += self.gearbox.gearbox_notes("gearbox.", car.gearbox)
         notes += self.engine.engine_notes("engine.", car.engine)
         notes += self.driveline.notes("driveline.", car, _CAR)
-        return notes
+        doubtful = self.doubts()
+        return [note._replace(why=doubtful.get(note.field, note.why)) for note in notes]
 
 
 def _fit_notes(fit: GreenwoodTrippFit) -> list[InputNote]:
@@ -361,8 +367,4 @@ def _fit_notes(fit: GreenwoodTrippFit) -> list[InputNote]:
 
 def parsed_axle_file(content: bytes) -> AxleFile:
     """Return the axle file in bytes, e.g. in those of an FMU's resource."""
-    try:
-        data = tomllib.loads(content.decode())
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
-        raise ParameterError(f"It is not a readable TOML file: {reason}.") from None
-    return AxleFile.from_data(data, "The axle file")
+    return AxleFile.from_data(toml_data(content, "The axle file"), "The axle file")

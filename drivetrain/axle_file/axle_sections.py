@@ -14,24 +14,29 @@ from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.parameters import Film, Friction, HypoidAxleParameters
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import FLANK, ROLLER, SHIPPED, FilmModel
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_note import InputNote
 
 Text = Annotated[str, Field(min_length=1)]
-Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False)]
+Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False), Usual(1.0, 20000.0)]
 Torques = Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)]
-Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False)]
-LEAST_BACKLASH = 10.0  # um; the runout of cut gears alone is more, so that they would jam
-Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
+# um; the runout of cut gears alone is more than 10 um, so that they would jam
+Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False), Usual(10.0, 1000.0)]
+Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False), Usual(0.02, 5.0)]
 LossFactor = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Hysteresis = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-Floor = Annotated[float, Field(ge=1.0, le=1e4, allow_inf_nan=False)]
-Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False)]
+Floor = Annotated[float, Field(ge=1.0, le=1e4, allow_inf_nan=False), Usual(1.0, 1000.0)]
+Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False), Usual(50.0, 700.0)]
 Poisson = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-Density = Annotated[float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False)]
-Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False)]
-BulkResistance = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False)]
+Density = Annotated[
+    float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False), Usual(2000.0, 20000.0)
+]
+Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False), Usual(5.0, 500.0)]
+BulkResistance = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False), Usual(0.001, 2.0)]
 LimitingSlope = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-HeatCapacity = Annotated[float, Field(ge=50.0, le=5000.0, allow_inf_nan=False)]
+HeatCapacity = Annotated[
+    float, Field(ge=50.0, le=5000.0, allow_inf_nan=False), Usual(100.0, 2000.0)
+]
 
 
 class GearSet(ModelSection):
@@ -90,17 +95,6 @@ class GearSet(ModelSection):
     frequency_floor_hz: Floor | None = Field(
         default=None, description="Lowest mesh frequency used in the law of the hysteretic damping"
     )
-
-    @property
-    def doubt(self) -> str:
-        """What is allowed here but hardly meant, as a sentence; "" for nothing."""
-        backlash = self.backlash_um
-        if backlash is None or not 0.0 < backlash < LEAST_BACKLASH:
-            return ""
-        return (
-            f"gear_set.backlash_um = {backlash:g} um is far below that of axle gears, some 100 um. "
-            f"Is it in mm? {backlash:g} mm is {1e3 * backlash:g} um."
-        )
 
     @model_validator(mode="after")
     def _check_gears(self) -> GearSet:

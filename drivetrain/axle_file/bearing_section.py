@@ -11,43 +11,35 @@ from pydantic import Field, model_validator
 
 from drivetrain.axle_file.field_units import field_value
 from drivetrain.axle_file.model_section import ModelSection
-from gearlube_core.bearings.catalogue_rollers import (
-    roller_length_of_rating,
-    usual_roller_count,
-    usual_roller_diameter,
-    usual_roller_length,
-)
+from gearlube_core.bearings.bearing_fields import BearingFields, Diameter
+from gearlube_core.bearings.catalogue_rollers import add_catalogue_rollers
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_note import InputNote
 
 LARGEST_PRELOAD = 1e5  # N
 
-Diameter = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
-RollerSize = Annotated[float, Field(ge=2.0, le=200.0, allow_inf_nan=False)]
-Rollers = Annotated[int, Field(ge=3, le=40)]
-Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False)]
+Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False), Usual(1e7, 1e11)]
 Exponent = Annotated[float, Field(ge=1.0, le=2.0, allow_inf_nan=False)]
-Rating = Annotated[float, Field(ge=1.0, le=20000.0, allow_inf_nan=False)]
-Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Preload = Annotated[float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False)]
-Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
-ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
-LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
+Preload = Annotated[
+    float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False), Usual(100.0, 50000.0)
+]
+Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.5, 50.0)]
 
-RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
+RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.2, 20.0)]
 RibFriction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-RibRoughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False)]
+RibRoughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False), Usual(0.02, 3.0)]
 
 PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]
 _RACES = ("inner_race_diameter_mm", "outer_race_diameter_mm")
 _BOUNDARY = ("bore_diameter_mm", "outside_diameter_mm")
 
 
-class BearingSection(ModelSection):
+class BearingSection(ModelSection, BearingFields):
     """The two opposed tapered roller bearings of one shaft."""
 
     renamed: ClassVar[Mapping[str, str]] = {"rollers": "n_rollers"}
@@ -63,17 +55,6 @@ class BearingSection(ModelSection):
         "rib_roughness_um": "default of `gearlube bearing`",
     }
 
-    bore_diameter_mm: Diameter | None = Field(
-        default=None, description="Bore diameter of the inner ring"
-    )
-    outside_diameter_mm: Diameter | None = Field(
-        default=None, description="Outside diameter of the outer ring"
-    )
-    pitch_diameter_mm: Diameter | None = Field(
-        default=None,
-        description="Diameter of the circle through the roller centres; left out: the mean of "
-        "the race diameters, or of bore and outside diameter if one of these is given",
-    )
     inner_race_diameter_mm: Diameter | None = Field(
         default=None,
         description="Diameter of the inner race at the middle of the rollers; left out: pitch "
@@ -83,29 +64,6 @@ class BearingSection(ModelSection):
         default=None,
         description="Diameter of the outer race at the middle of the rollers; left out: pitch "
         "diameter plus roller diameter times the cosine of the contact angle",
-    )
-    dynamic_load_rating_kn: Rating | None = Field(
-        default=None,
-        description="Basic dynamic load rating C of the catalogue, only to find the roller length",
-    )
-    rollers: Rollers | None = Field(
-        default=None,
-        description="Number of rollers; left out beside bore and outside diameter: as many as "
-        "fill 0.8 of the pitch circle",
-    )
-    roller_diameter_mm: RollerSize | None = Field(
-        default=None,
-        description="Mean roller diameter, at mid-length; left out beside bore and outside "
-        "diameter: 0.57 of half their difference",
-    )
-    roller_length_mm: RollerSize | None = Field(
-        default=None,
-        description="Effective roller length: without chamfers and undercuts; left out: from the "
-        "load rating, or 1.5 roller diameters beside bore and outside diameter",
-    )
-    contact_angle_deg: Angle | None = Field(
-        default=None,
-        description="Contact angle of the outer race: half the included angle of the cup",
     )
     stiffness_constant: Stiffness | None = Field(
         default=None,
@@ -130,14 +88,6 @@ class BearingSection(ModelSection):
         default=None,
         description="Oil film of the rollers: with squeeze factor, without it, or no film at all",
     )
-    f0: ViscousFactor | None = Field(
-        default=None, description="Viscous factor of Palmgren's drag torque"
-    )
-    f1: LoadFactor | None = Field(default=None, description="Load factor of Palmgren's drag torque")
-    series: Literal["302", "303", "313", "320X", "322", "other"] | None = Field(
-        default=None, description="Series in the catalogue, for the drag torque by skf_2013"
-    )
-
     rib_height_mm: RibHeight | None = Field(
         default=None,
         description="Height of the contact between roller ends and rib above the inner race, "
@@ -238,8 +188,14 @@ class BearingSection(ModelSection):
         interference = changes.pop("interference", None)
         changes.setdefault("preload", PRELOAD)
         pitch = self._pitch
-        if pitch is not None or self.has("dynamic_load_rating_kn"):
-            inferred |= self._rollers_by_catalogue(changes, base, pitch)
+        rating = self.dynamic_load_rating_kn
+        if pitch is not None or rating is not None:
+            inferred |= add_catalogue_rollers(
+                changes,
+                pitch[0] if pitch else 0.5 * (base.inner_race_diameter + base.outer_race_diameter),
+                None if rating is None else self.si("dynamic_load_rating_kn"),
+                base,
+            )
         if "roller_length" in changes and not self.has("stiffness_constant"):
             changes["stiffness_constant"] = palmgren_roller_stiffness(changes["roller_length"])
             inferred["stiffness_constant"] = "Palmgren's, from the roller length"
@@ -254,38 +210,6 @@ class BearingSection(ModelSection):
             changes["preload"] = fitted.preload_force()
             inferred["preload_n"] = "interference"
         return changes, inferred
-
-    def _rollers_by_catalogue(
-        self,
-        changes: dict[str, Any],
-        base: TaperedRollerBearing,
-        pitch: tuple[float, str] | None,
-    ) -> dict[str, str]:
-        """Add the rollers that the file leaves out to `changes`; return how they follow."""
-        how = {}
-        between = pitch[0] if pitch else 0.5 * (base.inner_race_diameter + base.outer_race_diameter)
-        if all(self.has(key) for key in _BOUNDARY):
-            if not self.has("roller_diameter_mm"):
-                bore, outside = (self.si(key) for key in _BOUNDARY)
-                changes["roller_diameter"] = usual_roller_diameter(bore, outside)
-                how["roller_diameter_mm"] = "usual in this section: 0.57 of its height"
-            diameter = changes["roller_diameter"]
-            if not self.has("rollers"):
-                changes["n_rollers"] = usual_roller_count(between, diameter)
-                how["rollers"] = "usual: they fill 0.8 of the pitch circle"
-            if not self.has("roller_length_mm"):
-                changes["roller_length"] = usual_roller_length(diameter)
-                how["roller_length_mm"] = "1.5 roller diameters; give dynamic_load_rating_kn"
-        if self.has("dynamic_load_rating_kn") and not self.has("roller_length_mm"):
-            changes["roller_length"] = roller_length_of_rating(
-                self.si("dynamic_load_rating_kn"),
-                rollers=changes.get("n_rollers", base.n_rollers),
-                diameter=changes.get("roller_diameter", base.roller_diameter),
-                contact_angle=changes.get("contact_angle", base.contact_angle),
-                pitch=between,
-            )
-            how["roller_length_mm"] = "load rating, ISO 281"
-        return how
 
     def bearing(self, preload: float | None = None) -> TaperedRollerBearing:
         """Return the bearing with its preload.

@@ -12,23 +12,25 @@ from drivetrain.axle_file.model_section import ModelSection
 from drivetrain.tyre import CIRCUMFERENCE_FACTOR, Tyre
 from drivetrain.vehicle import Vehicle, mohammadpour_2015_vehicle
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_note import InputNote
 
 Text = Annotated[str, Field(min_length=1)]
-Mass = Annotated[float, Field(ge=100.0, le=1e5, allow_inf_nan=False)]
-Area = Annotated[float, Field(ge=0.1, le=20.0, allow_inf_nan=False)]
+Mass = Annotated[float, Field(ge=100.0, le=1e5, allow_inf_nan=False), Usual(500.0, 50000.0)]
+Area = Annotated[float, Field(ge=0.1, le=20.0, allow_inf_nan=False), Usual(0.2, 12.0)]
 Drag = Annotated[float, Field(ge=0.01, le=2.0, allow_inf_nan=False)]
 Rolling = Annotated[float, Field(ge=0.0, le=0.2, allow_inf_nan=False)]
-AirDensity = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False)]
+AirDensity = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False), Usual(0.7, 1.6)]
 Grade = Annotated[float, Field(ge=-0.5, le=0.5, allow_inf_nan=False)]
-Gravity = Annotated[float, Field(ge=1.0, le=30.0, allow_inf_nan=False)]
-Radius = Annotated[float, Field(ge=100.0, le=1000.0, allow_inf_nan=False)]
-Inertia = Annotated[float, Field(ge=1e-4, le=100.0, allow_inf_nan=False)]
-Stiffness = Annotated[float, Field(ge=1.0, le=1e8, allow_inf_nan=False)]
-Damping = Annotated[float, Field(ge=0.0, le=1e4, allow_inf_nan=False)]
-SlipStiffness = Annotated[float, Field(ge=1e3, le=1e8, allow_inf_nan=False)]
-Relaxation = Annotated[float, Field(ge=10.0, le=5000.0, allow_inf_nan=False)]
-Bandwidth = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+Gravity = Annotated[float, Field(ge=1.0, le=30.0, allow_inf_nan=False), Usual(9.0, 10.5)]
+Radius = Annotated[float, Field(ge=100.0, le=1000.0, allow_inf_nan=False), Usual(200.0, 650.0)]
+Inertia = Annotated[float, Field(ge=1e-4, le=100.0, allow_inf_nan=False), Usual(0.001, 20.0)]
+Stiffness = Annotated[float, Field(ge=1.0, le=1e8, allow_inf_nan=False), Usual(100.0, 1e7)]
+ShaftStiffness = Annotated[Stiffness, Usual(2e3, 1e6)]
+Damping = Annotated[float, Field(ge=0.0, le=1e4, allow_inf_nan=False), Usual(0.01, 1000.0)]
+SlipStiffness = Annotated[float, Field(ge=1e3, le=1e8, allow_inf_nan=False), Usual(10000.0, 1e7)]
+Relaxation = Annotated[float, Field(ge=10.0, le=5000.0, allow_inf_nan=False), Usual(50.0, 2000.0)]
+Bandwidth = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False), Usual(0.001, 0.5)]
 
 TYRE_SIZE = "195/65R16"  # [mohammadpour_2015 Table A3]
 _PAPER = "Mohammadpour et al. 2015, Table A3"
@@ -148,13 +150,13 @@ class DrivelineSection(ModelSection):
     propshaft_inertia_kg_m2: Inertia | None = Field(
         default=None, description="Moment of inertia of gearbox output shaft and propshaft"
     )
-    propshaft_stiffness_n_m_per_rad: Stiffness | None = Field(
+    propshaft_stiffness_n_m_per_rad: ShaftStiffness | None = Field(
         default=None, description="Torsional stiffness between gearbox output and pinion flange"
     )
     propshaft_damping_n_m_s_per_rad: Damping | None = Field(
         default=None, description="Torsional damping between gearbox output and pinion flange"
     )
-    half_shaft_stiffness_n_m_per_rad: Stiffness | None = Field(
+    half_shaft_stiffness_n_m_per_rad: ShaftStiffness | None = Field(
         default=None,
         description="Torsional stiffness of both half-shafts together, ring gear to hubs",
     )

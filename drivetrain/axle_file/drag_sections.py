@@ -10,14 +10,15 @@ from pydantic import Field, model_validator
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.drag.seals import SealMaterial, seal_torque
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_note import InputNote
 
-Size = Annotated[float, Field(ge=10.0, le=3000.0, allow_inf_nan=False)]
-Width = Annotated[float, Field(ge=1.0, le=1000.0, allow_inf_nan=False)]
-Depth = Annotated[float, Field(ge=0.0, le=3000.0, allow_inf_nan=False)]
-Litres = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False)]
-ShaftSize = Annotated[float, Field(ge=5.0, le=500.0, allow_inf_nan=False)]
-Torque = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
+Size = Annotated[float, Field(ge=10.0, le=3000.0, allow_inf_nan=False), Usual(50.0, 1000.0)]
+Width = Annotated[float, Field(ge=1.0, le=1000.0, allow_inf_nan=False), Usual(5.0, 200.0)]
+Depth = Annotated[float, Field(ge=0.0, le=3000.0, allow_inf_nan=False), Usual(2.0, 500.0)]
+Litres = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False), Usual(0.2, 50.0)]
+ShaftSize = Annotated[float, Field(ge=5.0, le=500.0, allow_inf_nan=False), Usual(10.0, 200.0)]
+Torque = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.01, 20.0)]
 
 DEFAULT_LAW = "changenet_velex_2007"
 _NO_SOURCE = "size found in passenger cars; no source"

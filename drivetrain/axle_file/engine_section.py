@@ -12,11 +12,13 @@ from drivetrain.axle_file.car_sections import Damping, Inertia, Stiffness, or_pr
 from drivetrain.axle_file.field_units import field_value, si_value
 from drivetrain.axle_file.model_section import ModelSection
 from drivetrain.engine import LARGEST_ORDER, Engine, EngineKind, Gearbox, TorqueOrder
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_note import InputNote
 
 Ratio = Annotated[float, Field(ge=0.3, le=20.0, allow_inf_nan=False)]
 Ratios = Annotated[tuple[Ratio, ...], Field(strict=False, min_length=1)]
-Speed = Annotated[float, Field(gt=0.0, le=2e4, allow_inf_nan=False)]
+Speed = Annotated[float, Field(gt=0.0, le=2e4, allow_inf_nan=False), Usual(300.0, 20000.0)]
+HighestSpeed = Annotated[Speed, Usual(1e3, 2e4)]
 Orders = Annotated[tuple[Annotated[int, Field(ge=1, le=LARGEST_ORDER)], ...], Field(strict=False)]
 Amplitude = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False)]
 Amplitudes = Annotated[tuple[Amplitude, ...], Field(strict=False)]
@@ -100,7 +102,7 @@ class EngineSection(ModelSection):
     idle_speed_rpm: Speed | None = Field(
         default=None, description="Lowest speed of crankshaft or rotor"
     )
-    highest_speed_rpm: Speed | None = Field(
+    highest_speed_rpm: HighestSpeed | None = Field(
         default=None, description="Highest speed of crankshaft or rotor"
     )
 

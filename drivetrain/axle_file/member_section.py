@@ -10,13 +10,14 @@ from pydantic import Field, model_validator
 from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.field_units import field_value, unit_of
 from drivetrain.axle_file.model_section import ModelSection
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_note import InputNote, Origin
 
-Mass = Annotated[float, Field(ge=0.05, le=2000.0, allow_inf_nan=False)]
-Inertia = Annotated[float, Field(ge=1e-6, le=500.0, allow_inf_nan=False)]
-Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
-Diameter = Annotated[float, Field(gt=0.0, le=3000.0, allow_inf_nan=False)]
-Bore = Annotated[float, Field(ge=0.0, le=3000.0, allow_inf_nan=False)]
+Mass = Annotated[float, Field(ge=0.05, le=2000.0, allow_inf_nan=False), Usual(0.5, 500.0)]
+Inertia = Annotated[float, Field(ge=1e-6, le=500.0, allow_inf_nan=False), Usual(0.0001, 20.0)]
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(1.0, 500.0)]
+Diameter = Annotated[float, Field(gt=0.0, le=3000.0, allow_inf_nan=False), Usual(3.0, 1000.0)]
+Bore = Annotated[float, Field(ge=0.0, le=3000.0, allow_inf_nan=False), Usual(1.0, 500.0)]
 Frusta = Annotated[tuple[Length, ...], Field(strict=False, min_length=1, max_length=40)]
 Diameters = Annotated[tuple[Diameter, ...], Field(strict=False, min_length=1, max_length=40)]
 Bores = Annotated[tuple[Bore, ...], Field(strict=False, min_length=1, max_length=40)]

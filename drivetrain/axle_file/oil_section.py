@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 from drivetrain.axle_file.field_units import field_value, unit_of
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_note import InputNote, Origin
 from gearlube_core.oil.field_limits import (
     Conductivity,
@@ -30,7 +31,7 @@ from gearlube_core.units import celsius_to_kelvin
 
 WaltherA = Annotated[float, Field(ge=1.0, le=30.0, allow_inf_nan=False)]
 WaltherB = Annotated[float, Field(ge=0.3, le=10.0, allow_inf_nan=False)]
-Slope = Annotated[float, Field(ge=-1e-2, le=1e-2, allow_inf_nan=False)]
+Slope = Annotated[float, Field(ge=-1e-2, le=1e-2, allow_inf_nan=False), Usual(-0.001, 0.001)]
 
 OIL = "mohammadpour_2015"
 _SHEET = ("viscosity_40_degc_mm2_s", "viscosity_100_degc_mm2_s")

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterable
 from pathlib import Path
 
 from gearlube.cli.console import console
 from gearlube.cli.progress_report import progress_on
 
-logger = logging.getLogger("gearlube")
-
 
 def bring_gears_up_to_date(
     axle: str | Path | None, others: Iterable[str] = (), *, jobs: int | None = None
 ) -> None:
     """Analyse the gear file of an axle file where its mesh table is missing or out of date.
-
-    Also warns of a value of the axle file that is hardly meant.
 
     All that reads the axle file afterwards finds the table.
 
@@ -41,8 +36,6 @@ def bring_gears_up_to_date(
     from drivetrain.axle_file.read_axle import kept_table, table_file
 
     file = AxleFile.given(str(axle))
-    if file.gear_set.doubt:
-        logger.warning("%s", file.gear_set.doubt)
     folder = Path(axle).parent
     for one in [file, *(file.varied({"gear_set.gear_file": other}) for other in others)]:
         if one.gear_set.gear_file is None or kept_table(one, folder).current() is not None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from pydantic import BaseModel
-
 from gearlube.report.numbers import unit_words
 from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, Input
 from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
 
 try:  # newer versions of typer have a click of their own
@@ -30,7 +29,7 @@ def noted_inputs(notes: Sequence[InputNote]) -> list[Input]:
     return [Input(n.field, n.value_text, n.unit, n.origin, n.why) for n in notes]
 
 
-def file_inputs(file: BaseModel) -> list[Input]:
+def file_inputs(file: InputFile) -> list[Input]:
     """Return the fields of an input file: what it gives, and the defaults of what it does not.
 
     Fields that are empty, lists of tables or about the file itself are left out. A gear file tells
@@ -44,13 +43,14 @@ def file_inputs(file: BaseModel) -> list[Input]:
     'given'
     """
     notes = field_notes(type(file))
+    doubtful = file.doubts()
     given = dict(_flat(file.model_dump(exclude_unset=True)))
     found = []
     for name, value in _flat(file.model_dump(exclude_none=True, exclude=_OF_THE_FILE)):
         text = _text(value)
         if not text:
             continue
-        origin, why = (GIVEN, "") if name in given else (ASSUMED, "default")
+        origin, why = (GIVEN, doubtful.get(name, "")) if name in given else (ASSUMED, "default")
         for kind, field in ((INFERRED, "inferred"), (ASSUMED, "completed")):
             reasons = getattr(file, field, {})
             for one in reasons:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gearlube.report.parts import Figure, Report
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import ParameterError, unread
 
 FORMAT = 1
 PAGE = "report.html"
@@ -65,6 +65,8 @@ def read_report(folder: Path | str) -> dict[str, Any]:
     path = Path(folder)
     page = path / PAGE if path.is_dir() else path
     cure = "Give a folder of results; run the command of its study again to write the report."
+    if not path.exists():
+        raise ParameterError(f"{unread('folder', path, FileNotFoundError())}. {cure}")
     if not page.is_file():
         raise ParameterError(f"{path} must hold a {PAGE}, got none. {cure}")
     found = _DATA.search(page.read_text(encoding="utf-8", errors="replace"))

@@ -131,6 +131,10 @@ def vary(
             typer.echo(_listed(chosen), nl=False)
             return
         given = varied_from(vary or [], chosen.keys)
+        for axis in given.axes:
+            note = chosen.keys[axis.key].note
+            if note is not None and (doubt := note.doubt(axis.values)):
+                logger.warning("--vary: %s", doubt)
         limits = limits_from(limit or [], [one.name for one in chosen.quantities])
         if block is not None:
             check_within("--block", block, 1, MOST_BLOCK, "", "Leave it out for the default.")

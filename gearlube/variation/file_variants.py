@@ -24,14 +24,6 @@ from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.rough_patch.table import GreenwoodTrippFit
 
 GEAR_FILE = "gear_set.gear_file"
-_NAMES_OF_FILES = (
-    "gear_set.mesh_table",
-    GEAR_FILE,
-    "gear_set.asperity_table",
-    "oil.file",
-    "film.flank_model",
-    "film.roller_model",
-)
 _START_SPEED = "pinion.speed_start"  # the operating point has it
 
 
@@ -179,4 +171,4 @@ def content_hash(name: str | Path) -> str:
 
 def files_named(point_values: Mapping[str, Iterable[Any]]) -> list[tuple[str, str]]:
     """Return the files that axes name: field and text."""
-    return [(key, str(text)) for key in _NAMES_OF_FILES for text in point_values.get(key, ())]
+    return [(key, str(text)) for key in AxleFile.files for text in point_values.get(key, ())]

@@ -29,6 +29,7 @@ class Key(NamedTuple):
     usual: float | str | None = None
     low: float = float("-inf")
     high: float = float("inf")
+    note: FieldNote | None = None  # of a field of the file
 
 
 Keys = Mapping[str, Key]
@@ -38,7 +39,7 @@ def file_keys(notes: Mapping[str, FieldNote]) -> dict[str, Key]:
     """Return the fields of an input file that are numbers or texts."""
     kinds = {kind: kind for kind in _KINDS}
     return {
-        name: Key(name, kinds[note.kind], note.unit, note.meaning, "file")  # type: ignore[index]
+        name: Key(name, kinds[note.kind], note.unit, note.meaning, "file", note=note)  # type: ignore[index]
         for name, note in notes.items()
         if note.kind in kinds and name not in ("name", "source")
     }

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
+from gearlube_core.bearings.bearing_fields import (
+    Angle,
+    BearingFields,
+    Diameter,
+    LoadFactor,
+    Series,
+    ViscousFactor,
+)
+from gearlube_core.bearings.catalogue_rollers import add_catalogue_rollers
 from gearlube_core.bearings.losses.geometry import (
     BearingGeometry,
     Rib,
@@ -22,54 +30,49 @@ from gearlube_core.bearings.losses.rib import (
 )
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.errors import ParameterError
-from gearlube_core.film_model.chosen_model import chosen_model, file_of_model
+from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import ROLLER, FilmModel
-from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.field_notes import Usual, field_notes
 from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.input_file.input_note import InputNote
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
-Diameter = Annotated[float, Field(ge=5.0, le=2000.0, allow_inf_nan=False)]
-RollerSize = Annotated[float, Field(ge=2.0, le=500.0, allow_inf_nan=False)]
-Rollers = Annotated[int, Field(ge=3, le=40)]
 Rows = Annotated[int, Field(ge=1, le=4)]
-Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False)]
-InnerAngle = Annotated[float, Field(ge=0.1, le=45.0, allow_inf_nan=False)]
-Roughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False)]
-ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
-LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
+InnerAngle = Annotated[float, Field(ge=0.1, le=45.0, allow_inf_nan=False), Usual(2.0, 36.0)]
+Roughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False), Usual(0.02, 2.0)]
 TimkenFactor = Annotated[float, Field(ge=0.1, le=10000.0, allow_inf_nan=False)]
 Scale = Annotated[float, Field(ge=0.05, le=5.0, allow_inf_nan=False)]
-Height = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
+Height = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False), Usual(0.2, 20.0)]
 EndRadius = Annotated[float, Field(ge=0.5, le=0.99, allow_inf_nan=False)]
 ShareB = Annotated[float, Field(ge=0.1, le=10.0, allow_inf_nan=False)]
 ShareC = Annotated[float, Field(ge=0.1, le=3.0, allow_inf_nan=False)]
 Friction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-Speeds = Annotated[tuple[float, ...], Field(strict=False, min_length=1)]
+ShaftSpeed = Annotated[float, Field(ge=0.0, le=1e5, allow_inf_nan=False), Usual(10.0, 3e4)]
+Load = Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False), Usual(20.0, 1e6)]
+Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False), Usual(-55.0, 200.0)]
+Speeds = Annotated[tuple[ShaftSpeed, ...], Field(strict=False, min_length=1)]
+Loads = Annotated[tuple[Load, ...], Field(strict=False, min_length=1)]
+Temperatures = Annotated[tuple[Temperature, ...], Field(strict=False, min_length=1)]
 _MICROMETRE = 1e-6  # m
 
 
-class LossBearingSection(Section):
-    """Rings, races and rollers."""
+class LossBearingSection(BearingFields):
+    """Rings, races and rollers; these fields of a bearing have no default here."""
 
-    series: Literal["302", "303", "313", "320X", "322", "other"] = Field(
+    series: Series = Field(
         default="other", description="Series in the catalogue, for the friction law of SKF"
     )
     bore_diameter_mm: Diameter = Field(description="Bore diameter of the inner ring")
     outside_diameter_mm: Diameter = Field(description="Outside diameter of the outer ring")
-    pitch_diameter_mm: Diameter = Field(
-        description="Diameter of the circle through the middles of the rollers"
+    pitch_diameter_mm: Diameter | None = Field(
+        default=None,
+        description="Diameter of the circle through the middles of the rollers; left out: the "
+        "mean of bore and outside diameter",
     )
-    rollers: Rollers = Field(description="Number of rollers in one row")
     rows: Rows = Field(
         default=1, description="Number of rows; each row carries the same share of the load"
-    )
-    roller_diameter_mm: RollerSize = Field(
-        description="Mean diameter of the rollers, at mid-length"
-    )
-    roller_length_mm: RollerSize = Field(
-        description="Effective length of the rollers, without chamfers and undercuts"
     )
     contact_angle_deg: Angle = Field(
         description="Contact angle of the outer race: half the included angle of the cup"
@@ -97,6 +100,27 @@ class LossBearingSection(Section):
         description="Measured rolling torque of this bearing divided by the computed one; if "
         "given, the error bar is 25 % instead of a factor of 2",
     )
+
+    def rollers_and_pitch(self) -> tuple[dict[str, Any], dict[str, str]]:
+        """Return pitch and rollers in SI units, and how those left out follow, by field."""
+        given = {
+            "bore_diameter": self.bore_diameter_mm * MILLIMETRE,
+            "outside_diameter": self.outside_diameter_mm * MILLIMETRE,
+            "contact_angle": self.contact_angle_deg * DEGREE,
+        }
+        for name in ("pitch_diameter", "roller_diameter", "roller_length"):
+            size = getattr(self, f"{name}_mm")
+            if size is not None:
+                given[name] = size * MILLIMETRE
+        if self.rollers is not None:
+            given["n_rollers"] = self.rollers
+        how = {}
+        if "pitch_diameter" not in given:
+            given["pitch_diameter"] = 0.5 * (given["bore_diameter"] + given["outside_diameter"])
+            how["pitch_diameter_mm"] = "mean of bore and outside diameter"
+        rating = self.dynamic_load_rating_kn
+        force = None if rating is None else 1e3 * rating
+        return given, how | add_catalogue_rollers(given, given["pitch_diameter"], force, None)
 
 
 class RibSection(Section):
@@ -132,9 +156,9 @@ class OperationSection(Section):
     speed_rpm: Speeds = Field(
         default=(500.0, 1000.0, 2000.0, 4000.0), description="Speeds of the shaft"
     )
-    axial_load_n: Speeds = Field(default=(1000.0,), description="Axial loads of the bearing")
-    radial_load_n: Speeds = Field(default=(0.0,), description="Radial loads of the bearing")
-    temperature_degc: Speeds = Field(
+    axial_load_n: Loads = Field(default=(1000.0,), description="Axial loads of the bearing")
+    radial_load_n: Loads = Field(default=(0.0,), description="Radial loads of the bearing")
+    temperature_degc: Temperatures = Field(
         default=(60.0,), description="Temperatures of the oil in the bearing"
     )
 
@@ -153,11 +177,14 @@ class BearingFile(InputFile):
 
     package: ClassVar[str] = "gearlube_core.bearings"
     title: ClassVar[str] = "bearing file"
+    files: ClassVar[tuple[str, ...]] = ("oil", "film_model")
 
     name: Text = Field(description="Name of the bearing in results and figures")
     source: Text | None = Field(default=None, description="Where the numbers come from")
     oil: Text = Field(
-        default="fva_3", description="Name of a shipped oil; the command can take another one"
+        default="fva_3",
+        description="Name of a shipped oil, or an oil file (.toml), its path relative to the "
+        "bearing file; the command can take another one",
     )
     film_model: Text | None = Field(
         default=None,
@@ -186,11 +213,6 @@ class BearingFile(InputFile):
             raise ValueError(str(reason).removesuffix(".")) from None
         return self
 
-    def placed(self, folder: Path) -> BearingFile:
-        """Return the file with the path of its film model as it holds from here on."""
-        path = None if self.film_model is None else file_of_model(self.film_model, folder)
-        return self if path is None else self.model_copy(update={"film_model": str(path)})
-
     def own_film_model(self) -> FilmModel | None:
         """Return the film model that the file names; None: the one in the package.
 
@@ -202,20 +224,36 @@ class BearingFile(InputFile):
         named = self.film_model
         return None if named is None else chosen_model(named, ROLLER, "film_model")
 
+    def inferred(self) -> list[InputNote]:
+        """Return what follows for the rollers that the file leaves out."""
+        found, how = self.bearing.rollers_and_pitch()
+        return [
+            InputNote(f"bearing.{key}", value, unit, "inferred", how[key])
+            for key, value, unit in (
+                ("pitch_diameter_mm", found["pitch_diameter"] / MILLIMETRE, "mm"),
+                ("rollers", found["n_rollers"], ""),
+                ("roller_diameter_mm", found["roller_diameter"] / MILLIMETRE, "mm"),
+                ("roller_length_mm", found["roller_length"] / MILLIMETRE, "mm"),
+            )
+            if key in how
+        ]
+
     def geometry(self) -> BearingGeometry:
         """Return the bearing in SI units."""
         of, rib, mm = self.bearing, self.rib, MILLIMETRE
-        outer = of.contact_angle_deg * DEGREE
-        pitch, roller = of.pitch_diameter_mm * mm, of.roller_diameter_mm * mm
+        found, _ = of.rollers_and_pitch()
+        pitch, roller, outer = (
+            found[name] for name in ("pitch_diameter", "roller_diameter", "contact_angle")
+        )
         given = of.inner_angle_deg
         height = rib.contact_height_mm
         return BearingGeometry(
-            bore_diameter=of.bore_diameter_mm * mm,
-            outside_diameter=of.outside_diameter_mm * mm,
+            bore_diameter=found["bore_diameter"],
+            outside_diameter=found["outside_diameter"],
             pitch_diameter=pitch,
             roller_diameter=roller,
-            roller_length=of.roller_length_mm * mm,
-            n_rollers=of.rollers,
+            roller_length=found["roller_length"],
+            n_rollers=found["n_rollers"],
             outer_angle=outer,
             inner_angle=(
                 closing_inner_angle(pitch, roller, outer) if given is None else given * DEGREE

@@ -7,6 +7,7 @@ bearings whose rollers are known: 32216 in [wingertszahn_2023], and that of [moh
 from __future__ import annotations
 
 import math
+from typing import Any
 
 _OF_SECTION = 0.57  # roller diameter over half the difference of outside diameter and bore
 _OF_CIRCLE = 0.8  # roller diameters over the circumference of the pitch circle
@@ -79,6 +80,47 @@ def roller_length_of_rating(
 def usual_roller_length(diameter: float) -> float:
     """Return 1.5 roller diameters [m]; the two bearings have 1.34 and 1.73."""
     return _LENGTH * diameter
+
+
+def add_catalogue_rollers(
+    given: dict[str, Any], pitch: float, rating: float | None, usual: object
+) -> dict[str, str]:
+    """Add the rollers that a file leaves out; return how they follow, by field of the file.
+
+    Parameters
+    ----------
+    given : dict
+        What the file gives, in SI units: bore_diameter, outside_diameter, n_rollers,
+        roller_diameter, roller_length, contact_angle. Rollers are added to it.
+    pitch : float
+        Pitch diameter [m].
+    rating : float, optional
+        Basic dynamic load rating [N].
+    usual : object
+        Has n_rollers, roller_diameter and contact_angle where they do not follow.
+    """
+    how = {}
+    if "bore_diameter" in given and "outside_diameter" in given:
+        if "roller_diameter" not in given:
+            bore, outside = given["bore_diameter"], given["outside_diameter"]
+            given["roller_diameter"] = usual_roller_diameter(bore, outside)
+            how["roller_diameter_mm"] = "usual in this section: 0.57 of its height"
+        if "n_rollers" not in given:
+            given["n_rollers"] = usual_roller_count(pitch, given["roller_diameter"])
+            how["rollers"] = "usual: they fill 0.8 of the pitch circle"
+        if "roller_length" not in given and rating is None:
+            given["roller_length"] = usual_roller_length(given["roller_diameter"])
+            how["roller_length_mm"] = "1.5 roller diameters; give dynamic_load_rating_kn"
+    if rating is not None and "roller_length" not in given:
+        rollers, diameter, angle = (
+            given[name] if name in given else getattr(usual, name)
+            for name in ("n_rollers", "roller_diameter", "contact_angle")
+        )
+        given["roller_length"] = roller_length_of_rating(
+            rating, rollers=rollers, diameter=diameter, contact_angle=angle, pitch=pitch
+        )
+        how["roller_length_mm"] = "load rating, ISO 281"
+    return how
 
 
 def rating_factor(gamma: float) -> float:

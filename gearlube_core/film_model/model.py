@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import FileError, ParameterError, why
+from gearlube_core.checks import read_content
+from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.film_model import net
 from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.storage.atomic_file import write_text
@@ -293,10 +294,7 @@ def read_model_content(path: Path | str) -> bytes:
     FileError
         There is no file that can be read.
     """
-    try:
-        return Path(path).read_bytes().replace(b"\r\n", b"\n")
-    except OSError as error:
-        raise FileError(f"Film model {path} cannot be read: {why(error)}. {_CURE}") from error
+    return read_content(path, "film model", FileError, _CURE).replace(b"\r\n", b"\n")
 
 
 @cache

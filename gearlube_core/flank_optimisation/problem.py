@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -25,6 +26,8 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.gear_file_sections import FlankRelief
 from gearlube_core.input_file.field_notes import field_notes, field_unit
 from gearlube_core.input_file.input_file import read_toml
+
+logger = logging.getLogger(__name__)
 
 GearFile = HypoidGearFile | HelicalGearFile
 _MISALIGNMENTS = {
@@ -128,6 +131,9 @@ class Problem:
         names = tuple(allowed)
         for name in names:
             _check_parameter(file, name, given)
+        for name, one in given.parameters.items():
+            if doubt := field_notes(type(file))[name].doubt(max(abs(one.low), abs(one.high))):
+                logger.warning("[parameters]: %s", doubt)
         ranges = list(allowed.values())
         values = [_start(file, name, one) for name, one in allowed.items()]
         problem = cls(
@@ -207,9 +213,9 @@ def read_gear_file(name: str) -> GearFile:
     if not (name.endswith(".toml") or Path(name).is_file()):
         known = ", ".join((*HypoidGearFile.shipped(), *HelicalGearFile.shipped()))
         raise ParameterError(f"No gear file is called {name!r}. Shipped: {known}. Or give a path.")
-    data = read_toml(name)
-    kind = HypoidGearFile if "offset_mm" in data.get("pair", {}) else HelicalGearFile
-    return kind.from_data(data, name)
+    pair = read_toml(name, "gear file").get("pair")
+    hypoid = isinstance(pair, dict) and "offset_mm" in pair
+    return (HypoidGearFile if hypoid else HelicalGearFile).from_toml(name)
 
 
 def with_error(file: GearFile, scenario: Scenario) -> GearFile:

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
-from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import InputFile, Section
 
 Text = Annotated[str, Field(min_length=1)]
 Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
-Torque = Annotated[float, Field(ge=1e-2, le=1e6, allow_inf_nan=False)]
-Length = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
-Angle = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
+Torque = Annotated[float, Field(ge=1e-2, le=1e6, allow_inf_nan=False), Usual(1.0, 100000.0)]
+Length = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False), Usual(1.0, 300.0)]
+Angle = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False), Usual(0.05, 5.0)]
 Times = Annotated[float, Field(ge=0.1, le=10.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
 Band = Annotated[float, Field(gt=0.0, le=0.3, allow_inf_nan=False)]
-Span = Annotated[float, Field(gt=0.0, le=10.0, allow_inf_nan=False)]
+Span = Annotated[float, Field(gt=0.0, le=10.0, allow_inf_nan=False), Usual(0.01, 5.0)]
 Ratio = Annotated[float, Field(gt=0.0, le=0.2, allow_inf_nan=False)]
 Order = Annotated[int, Field(ge=1, le=20)]
 _RANGE = ("low", "high", "start")
@@ -180,11 +180,12 @@ class OptimisationFile(InputFile):
 
     package: ClassVar[str] = "gearlube_core.flank_optimisation"
     title: ClassVar[str] = "problem file"
+    files: ClassVar[tuple[str, ...]] = ("gear",)
 
     name: Text = Field(description="Name of the optimised pair")
     gear: Text = Field(
-        description="Name of a shipped gear pair, or a gear file (.toml); a path is relative to "
-        "this file, or else to the working folder"
+        description="Name of a shipped gear pair, or a gear file (.toml), its path relative to "
+        "this file"
     )
     torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)] = Field(
         description="Operating torques of the pinion, all with the same weight"
@@ -211,13 +212,6 @@ class OptimisationFile(InputFile):
     settings: Settings | None = None
     errors: Errors = Errors()
     limits: Limits = Limits()
-
-    @classmethod
-    def from_toml(cls, path: str | Path) -> Self:
-        """Return the file at a path; its gear file may lie beside it."""
-        found = super().from_toml(path)
-        beside = Path(path).parent / found.gear
-        return found.model_copy(update={"gear": str(beside)}) if beside.is_file() else found
 
     @model_validator(mode="after")
     def _check_relations(self) -> OptimisationFile:

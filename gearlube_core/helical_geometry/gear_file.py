@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -66,6 +65,7 @@ class HelicalGearFile(InputFile):
     """
 
     package: ClassVar[str] = "gearlube_core.helical_geometry"
+    files: ClassVar[tuple[str, ...]] = ("film.oil_file", "film.line_model")
 
     name: Text = Field(description="Name of the pair in reports and figures")
     source: Text = Field(description="Where the numbers come from")
@@ -125,21 +125,6 @@ class HelicalGearFile(InputFile):
         except ParameterError as reason:
             raise ValueError(f"In SI units: {str(reason).removesuffix('.')}") from None
         return self
-
-    def placed(self, folder: Path) -> HelicalGearFile:
-        """Return the file with the paths of its oil and its film model as they hold from here."""
-        named = {
-            "oil_file": (self.film.oil_file, ".toml"),
-            "line_model": (self.film.line_model, ".json"),
-        }
-        paths = {
-            key: str(folder / text)
-            for key, (text, suffix) in named.items()
-            if text is not None and text.endswith(suffix)
-        }
-        if not paths:
-            return self
-        return self.model_copy(update={"film": self.film.model_copy(update=paths)})
 
     def helical_pair(self) -> HelicalPair:
         """Return the macro geometry, in SI units."""

@@ -8,41 +8,44 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from gearlube_core.helical_geometry.tooth_limits import USUAL_FILLET
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 
 Nodes = Annotated[int, Field(ge=17, le=2049)]
 Steps = Annotated[int, Field(ge=1, le=1_000_000)]
 ShownSteps = Annotated[tuple[Annotated[int, Field(ge=0)], ...], Field(strict=False)]
-Position = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+Position = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.0, 200.0)]
 Teeth = Annotated[int, Field(ge=5, le=1000)]
-Module = Annotated[float, Field(ge=0.1, le=100.0, allow_inf_nan=False)]
-PressureAngle = Annotated[float, Field(ge=10.0, le=35.0, allow_inf_nan=False)]
-HelixAngle = Annotated[float, Field(ge=0.0, le=45.0, allow_inf_nan=False)]
-Length = Annotated[float, Field(gt=0.0, le=10000.0, allow_inf_nan=False)]
-Width = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
-Backlash = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False)]
-Removal = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
-Slope = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+Module = Annotated[float, Field(ge=0.1, le=100.0, allow_inf_nan=False), Usual(0.5, 30.0)]
+PressureAngle = Annotated[float, Field(ge=10.0, le=35.0, allow_inf_nan=False), Usual(12.0, 30.0)]
+HelixAngle = Annotated[float, Field(ge=0.0, le=45.0, allow_inf_nan=False), Usual(3.0, 45.0)]
+Length = Annotated[float, Field(gt=0.0, le=10000.0, allow_inf_nan=False), Usual(5.0, 2000.0)]
+Width = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(2.0, 600.0)]
+Depth = Annotated[Width, Usual(0.05, 30.0)]
+Step = Annotated[Width, Usual(1e-3, 20.0)]
+Backlash = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False), Usual(1e-3, 1.5)]
+Removal = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False), Usual(0.5, 300.0)]
+Slope = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.5, 300.0)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Exponent = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
-Start = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
+Start = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False), Usual(0.1, 300.0)]
 Facets = Annotated[int, Field(ge=0, le=10000)]
 Shift = Annotated[float, Field(ge=-2.0, le=2.0, allow_inf_nan=False)]
 Fillet = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Mass = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
-Inertia = Annotated[float, Field(gt=0.0, le=1e13, allow_inf_nan=False)]
-Stiffness = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
-Tilt = Annotated[float, Field(ge=0.0, le=1e9, allow_inf_nan=False)]
-Coupling = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
+Mass = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False), Usual(0.02, 5000.0)]
+Inertia = Annotated[float, Field(gt=0.0, le=1e13, allow_inf_nan=False), Usual(1.0, 1e9)]
+Stiffness = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False), Usual(5.0, 20000.0)]
+Tilt = Annotated[float, Field(ge=0.0, le=1e9, allow_inf_nan=False), Usual(1.0, 1e6)]
+Coupling = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False), Usual(1.0, 1e7)]
 Damping = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Torque = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
-Speed = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
-Viscosity = Annotated[float, Field(ge=1e-4, le=10.0, allow_inf_nan=False)]
-PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
+Torque = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False), Usual(0.5, 200000.0)]
+Speed = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False), Usual(10.0, 50000.0)]
+Viscosity = Annotated[float, Field(ge=1e-4, le=10.0, allow_inf_nan=False), Usual(0.001, 2.0)]
+PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False), Usual(5.0, 50.0)]
 Text = Annotated[str, Field(min_length=1)]
-Modulus = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
-OilTemperature = Annotated[float, Field(ge=20.0, le=120.0, allow_inf_nan=False)]
-Stress = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
+Modulus = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False), Usual(20.0, 600.0)]
+OilTemperature = Annotated[float, Field(ge=20.0, le=120.0, allow_inf_nan=False), Usual(20.0, 120.0)]
+Stress = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False), Usual(0.5, 50.0)]
 
 
 class Pair(Section):
@@ -105,7 +108,7 @@ class Flank(Section):
     tip_relief_um: Removal = Field(
         default=0.0, description="Material removed at the tip; 0: no tip relief"
     )
-    tip_relief_depth_mm: Width | None = Field(
+    tip_relief_depth_mm: Depth | None = Field(
         default=None, description="Radial distance from the start of the tip relief to the tip"
     )
     tip_relief_form: Literal["blended", "power"] = Field(
@@ -265,7 +268,7 @@ class LineSteps(Section):
         description="s_0: position of the line's end on the face z = -W/2 at step 0, measured "
         "from the pitch line along the line of action"
     )
-    step_mm: Width = Field(
+    step_mm: Step = Field(
         description="Distance along the line of action that the contact line moves in one step"
     )
     count: Steps = Field(description="Number of the last step")

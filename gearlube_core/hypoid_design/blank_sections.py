@@ -6,20 +6,21 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 
-Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
-Offset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
-SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
-PressureAngle = Annotated[float, Field(ge=10.0, le=30.0, allow_inf_nan=False)]
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(5.0, 1000.0)]
+Offset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(1.0, 150.0)]
+SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False), Usual(3.0, 60.0)]
+PressureAngle = Annotated[float, Field(ge=10.0, le=30.0, allow_inf_nan=False), Usual(12.0, 28.0)]
 Depth = Annotated[float, Field(ge=1.0, le=3.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Error = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
-PathAngle = Annotated[float, Field(ge=1.0, le=179.0, allow_inf_nan=False)]
+PathAngle = Annotated[float, Field(ge=1.0, le=179.0, allow_inf_nan=False), Usual(5.0, 175.0)]
 Place = Annotated[float, Field(ge=0.2, le=0.8, allow_inf_nan=False)]
-EllipseLength = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False)]
-Removal = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
-Torque = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
+EllipseLength = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False), Usual(2.0, 100.0)]
+Removal = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False), Usual(1.0, 150.0)]
+Torque = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False), Usual(1.0, 20000.0)]
 Clearance = Annotated[float, Field(gt=0.0, le=0.5, allow_inf_nan=False)]
 
 

@@ -11,28 +11,31 @@ from pydantic import Field, model_validator
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.correction import surface_degree
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 
-Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
-Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
-EdgeRadius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
+Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.0, 500.0)]
+CutterSetting = Annotated[Millimetres, Usual(2.0, 500.0)]
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(5.0, 800.0)]
+EdgeRadius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False), Usual(10.0, 100000.0)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
-ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False)]
-SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
+ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False), Usual(3.0, 88.0)]
+SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False), Usual(3.0, 60.0)]
 Slant = Annotated[float, Field(ge=-90.0, le=90.0, allow_inf_nan=False)]
-TiltAngle = Annotated[float, Field(ge=0.0, le=80.0, allow_inf_nan=False)]
+TiltAngle = Annotated[float, Field(ge=0.0, le=80.0, allow_inf_nan=False), Usual(1.0, 45.0)]
 ModifiedRoll = Annotated[float, Field(ge=-1.0, le=1.0, allow_inf_nan=False)]
-HelicalMotion = Annotated[float, Field(ge=-50.0, le=50.0, allow_inf_nan=False)]
+HelicalMotion = Annotated[float, Field(ge=-50.0, le=50.0, allow_inf_nan=False), Usual(0.0, 30.0)]
 RollRatio = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
-PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
-Clearance = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
-BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False)]
-Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False)]
-Removal = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
-Crown = Annotated[float, Field(ge=-500.0, le=500.0, allow_inf_nan=False)]
-Coefficients = Annotated[tuple[Crown, ...], Field(strict=False)]
-Extent = Annotated[float, Field(gt=0.0, le=200.0, allow_inf_nan=False)]
-Rounding = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False)]
+PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(1.0, 150.0)]
+Clearance = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False), Usual(0.1, 8.0)]
+BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False), Usual(5.0, 40.0)]
+Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False), Usual(0.0, 3.0)]
+Removal = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(1.0, 200.0)]
+Crown = Annotated[float, Field(ge=-500.0, le=500.0, allow_inf_nan=False), Usual(0.5, 200.0)]
+# terms of a polynomial may be as small as they come
+Coefficients = Annotated[tuple[Annotated[Crown, Usual(0.0, 200.0)], ...], Field(strict=False)]
+Extent = Annotated[float, Field(gt=0.0, le=200.0, allow_inf_nan=False), Usual(0.1, 60.0)]
+Rounding = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False), Usual(0.02, 1.5)]
 
 RELIEFS = (  # amount and extent of the relief of each edge
     ("tip_relief_um", "tip_relief_depth_mm"),
@@ -127,11 +130,11 @@ class GearMachine(Section):
         description="Distance from the crossing point to the apex of the reference plane (the "
         "machine centre), along the gear axis; positive beyond the crossing point"
     )
-    horizontal_setting_mm: Millimetres = Field(
+    horizontal_setting_mm: CutterSetting = Field(
         description="Distance of the cutter centre from the machine centre along the root line; "
         "positive towards the heel"
     )
-    vertical_setting_mm: Millimetres = Field(
+    vertical_setting_mm: CutterSetting = Field(
         description="Distance of the cutter centre from the machine centre, parallel to the "
         "offset; positive on the side of the pinion axis"
     )

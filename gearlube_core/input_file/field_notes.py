@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
+from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
+
+from gearlube_core.units import ZERO_CELSIUS
 
 _UNITS = {  # of names' endings; the longest that fits counts
     "_rpm": "rpm",
@@ -50,20 +53,34 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_w_m_k2": "W/(m.K2)",
     "_j_kg_k": "J/(kg.K)",
 }
-# what a number is likely in that leaves its limits: unit, times so many of the field's unit
+# what a number is likely in that is far off: unit, times so many of the field's unit
 _SLIPS: dict[str, tuple[tuple[str, float], ...]] = {
-    "mm": (("m", 1e3), ("um", 1e-3), ("inch", 25.4)),
+    "mm": (("m", 1e3), ("um", 1e-3), ("inch", 25.4), ("nm", 1e-6)),
     "um": (("mm", 1e3), ("m", 1e6), ("nm", 1e-3)),
     "kg": (("t", 1e3), ("g", 1e-3)),
     "l": (("m3", 1e3), ("ml", 1e-3)),
-    "kg.m2": (("kg.mm2", 1e-6), ("kg.cm2", 1e-4)),
+    "kg.m2": (("kg.mm2", 1e-6), ("kg.cm2", 1e-4), ("g.m2", 1e-3)),
+    "kg.mm2": (("kg.m2", 1e6), ("kg.cm2", 1e2)),
     "kg/m3": (("g/cm3", 1e3),),
     "m2": (("cm2", 1e-4), ("mm2", 1e-6)),
-    "deg": (("rad", 180.0 / math.pi),),
+    "deg": (("rad", 180.0 / math.pi), ("arcmin", 1.0 / 60.0)),
+    "mrad": (("rad", 1e3), ("deg", 1e3 * math.pi / 180.0), ("arcmin", math.pi / 10.8)),
     "rpm": (("rad/s", 30.0 / math.pi), ("1/s", 60.0)),
-    "N": (("kN", 1e3),),
-    "N.m/rad": (("N.m/deg", 180.0 / math.pi), ("kN.m/rad", 1e3)),
-    "MPa": (("Pa", 1e-6), ("GPa", 1e3)),
+    "N": (("kN", 1e3), ("mN", 1e-3)),
+    "kN": (("N", 1e-3), ("MN", 1e3)),
+    "N.m": (("kN.m", 1e3), ("N.mm", 1e-3)),
+    "N/mm": (("N/m", 1e-3), ("kN/mm", 1e3)),
+    "N/um": (("N/m", 1e-6), ("N/mm", 1e-3), ("kN/um", 1e3)),
+    "N.m/rad": (("N.m/deg", 180.0 / math.pi), ("kN.m/rad", 1e3), ("N.mm/rad", 1e-3)),
+    "N.m.s/rad": (("N.m.s/deg", 180.0 / math.pi), ("N.mm.s/rad", 1e-3)),
+    "kN.m/rad": (("N.m/rad", 1e-3), ("MN.m/rad", 1e3)),
+    "kN/rad": (("N/rad", 1e-3), ("MN/rad", 1e3)),
+    "Hz": (("kHz", 1e3), ("1/min", 1.0 / 60.0)),
+    "m/s": (("mm/s", 1e-3), ("km/h", 1.0 / 3.6)),
+    "Pa.s": (("mPa.s", 1e-3), ("kPa.s", 1e3)),
+    "J/(kg.K)": (("kJ/(kg.K)", 1e3),),
+    "W/(m.K)": (("mW/(m.K)", 1e-3), ("kW/(m.K)", 1e3)),
+    "MPa": (("Pa", 1e-6), ("GPa", 1e3), ("kPa", 1e-3)),
     "GPa": (("Pa", 1e-9), ("MPa", 1e-3)),
     "1/GPa": (("1/Pa", 1e9), ("1/MPa", 1e3)),
     "mm2/s": (("m2/s", 1e6),),
@@ -79,6 +96,21 @@ _KINDS = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class Usual:
+    """Mark of a field's type: between which values the field usually lies, in its unit.
+
+    Outside them a number is allowed, but doubtful. 0 and signs are never doubtful, unless `low` is
+    below 0.
+    """
+
+    low: float
+    high: float
+
+    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> Any:
+        return handler(core) | {"usual": (self.low, self.high)}
+
+
 class FieldNote(NamedTuple):
     """One field of a data model, all as text.
 
@@ -91,6 +123,29 @@ class FieldNote(NamedTuple):
     limits: str
     default: str
     meaning: str
+    usual: tuple[float, float] | None = None
+
+    def doubt(self, value: object) -> str:
+        """Return why a number of the field is hardly meant, as a sentence; "" for nothing."""
+        if isinstance(value, tuple | list):
+            return next((said for one in value if (said := self.doubt(one))), "")
+        if self.usual is None or not isinstance(value, float | int) or not value:
+            return ""
+        low, high = self.usual
+
+        def is_usual(number: float) -> bool:
+            return low <= (number if low < 0.0 else abs(number)) <= high
+
+        if is_usual(value):
+            return ""
+        meant = next((one for one in _in_other_units(self.unit, value) if is_usual(one[1])), None)
+        question = (
+            _question(value, *meant, self.unit) if meant else " Check the number and its unit."
+        )
+        return (
+            f"{self.name} = {value:g} {self.unit} is unusual; {low:g} to {high:g} {self.unit} is "
+            f"usual.{question}"
+        )
 
 
 @cache
@@ -98,6 +153,20 @@ def field_notes(model: type[BaseModel]) -> dict[str, FieldNote]:
     """Return the notes of all fields of a model and its sections, by dotted name, in order."""
     schema = model.model_json_schema()
     return dict(_walk(schema, schema.get("$defs", {}), ""))
+
+
+def doubts(
+    data: Mapping[str, Any], notes: Mapping[str, FieldNote], prefix: str = ""
+) -> dict[str, str]:
+    """Return the numbers in the data of a file that are hardly meant: sentences by dotted name."""
+    found: dict[str, str] = {}
+    for key, value in data.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, Mapping):
+            found |= doubts(value, notes, f"{name}.")
+        elif name in notes and (doubt := notes[name].doubt(value)):
+            found[name] = doubt
+    return found
 
 
 def sentence(
@@ -125,12 +194,15 @@ def sentence(
                 return f"{field} is not a field of this file: {why}."
         near = _meant(field, notes)
         return f"{field} is not a field of this file" + (f"; is it {near}?" if near else ".")
+    cure = _rewritten(kind, error["input"])
+    if kind == "model_type":
+        return f"{field} must be a section [{field}], got {error['input']!r}.{cure}"
     if note is None:
-        return f"{field or 'The file'}: {error['msg'].lower()}, got {error['input']!r}."
+        return f"{field or 'The file'}: {error['msg'].lower()}, got {error['input']!r}.{cure}"
     limits = f", {note.limits}" if note.limits else ""
     unit = f" {note.unit}" if note.unit else ""
     what = note.kind if note.kind == _KINDS["boolean"] else f"a {note.kind}"
-    hint = _likely_unit(note.unit, error)
+    hint = _likely_unit(note.unit, error) or cure
     return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}.{hint}"
 
 
@@ -163,6 +235,37 @@ def as_meant(
     return changed if unknown else None
 
 
+def _rewritten(kind: str, value: object) -> str:
+    """Return how a value of the wrong type is to be written; "" where that is not clear."""
+    if kind in ("float_type", "int_type"):
+        if isinstance(value, str):
+            return " Write numbers without quotes, with a point as decimal mark."
+        if isinstance(value, list | tuple):
+            return " Give one number, without brackets."
+        if isinstance(value, float) and value.is_integer():
+            return f" Write {value:.0f}, without a point."
+    if kind in ("tuple_type", "list_type") and not isinstance(value, dict):
+        return " Write a list in brackets, such as [1.0, 2.0]."
+    if kind == "string_type" and isinstance(value, bool | int | float):
+        return ' Write a text in quotes, such as "name".'
+    if kind == "bool_type":
+        return " Write true or false, without quotes."
+    if kind == "model_type" and isinstance(value, list):
+        return " Write its name in single brackets."
+    return ""
+
+
+def _in_other_units(unit: str, value: float) -> list[tuple[str, float]]:
+    """Return the units that a number may be in, each with the number in the field's unit."""
+    if unit == "degC":
+        return [("K", value - ZERO_CELSIUS)]
+    return [(other, factor * value) for other, factor in _SLIPS.get(unit, ())]
+
+
+def _question(value: float, other: str, converted: float, unit: str) -> str:
+    return f" Is it in {other}? {value:g} {other} is {converted:.6g} {unit}."
+
+
 def _likely_unit(unit: str, error: Any) -> str:
     """Return in which unit a number out of range would be within it."""
     value, context = error["input"], error.get("ctx", {})
@@ -171,9 +274,9 @@ def _likely_unit(unit: str, error: Any) -> str:
         return ""
     bound = next(float(one) for one in bounds if one is not None)
     rises = error["type"].startswith("greater")
-    for other, factor in _SLIPS.get(unit, ()):
-        if (factor > 1.0) == rises and (factor * value > bound) == rises:
-            return f" Is it in {other}? {value:g} {other} is {factor * value:.6g} {unit}."
+    for other, converted in _in_other_units(unit, value):
+        if (converted > value) == rises and (converted > bound) == rises:
+            return _question(value, other, converted, unit)
     return ""
 
 
@@ -194,6 +297,7 @@ def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]
             limits=_limits(value),
             default=_default(entry),
             meaning=entry.get("description", ""),
+            usual=_usual(value),
         )
         notes.append((name, note))
     return notes
@@ -228,6 +332,11 @@ def _limits(value: Any) -> str:
     if high is None:
         return ""
     return f"above {above:g} to {high:g}" if low is None else f"{low:g} to {high:g}"
+
+
+def _usual(value: Any) -> tuple[float, float] | None:
+    items = value.get("items")
+    return value.get("usual") or (items.get("usual") if isinstance(items, dict) else None)
 
 
 def _default(entry: Any) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import codecs
+import logging
 import re
 import tomllib
 from collections.abc import Mapping
@@ -11,9 +13,12 @@ from typing import Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from gearlube_core.errors import ParameterError, why
-from gearlube_core.input_file.field_notes import as_meant, field_notes, sentence
+from gearlube_core.checks import read_content
+from gearlube_core.errors import ParameterError, unread
+from gearlube_core.input_file.field_notes import as_meant, doubts, field_notes, sentence
 from gearlube_core.input_file.file_kind import other_kind
+
+logger = logging.getLogger(__name__)
 
 # a line whose value is a number with a comma
 _DECIMAL_COMMA = re.compile(r"^[^#\n=]*=[ \t]*(-?\d+),(\d+)[ \t]*(?:#.*)?$", re.MULTILINE)
@@ -32,15 +37,56 @@ class InputFile(Section):
     title: ClassVar[str] = "gear file"  # what errors call such a file
     unmodelled: ClassVar[Mapping[str, str]] = {}  # words in unknown fields, and what to say of them
     prefix: ClassVar[str] = ""  # of the shipped files of this kind, not part of their names
+    files: ClassVar[tuple[str, ...]] = ()  # dotted fields that name a file, or what ships
+    absolute_files: ClassVar[bool] = True  # whether `from_toml` makes their paths absolute
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Read a file; raise ParameterError that names every field that is wrong."""
-        return cls.from_data(read_toml(path), str(path)).placed(Path(path).parent)
+        """Read a file; what it names counts from its folder, and has absolute paths thereafter.
 
-    def placed(self, folder: Path) -> Self:
-        """Return the file with paths that hold from here on; `folder` is where the file lies."""
-        return self
+        A number that is allowed but hardly meant is logged as a warning.
+
+        Raises
+        ------
+        ParameterError
+            Names every field that is wrong, or the file that is missing and who names it.
+        """
+        data = read_toml(path, cls.title)
+        places = cls._places(data, Path(path).parent.absolute())
+        found = cls.from_data(data, str(path))
+        for field, place in places.items():
+            if not place.is_file():
+                reason = IsADirectoryError() if place.is_dir() else FileNotFoundError()
+                raise ParameterError(
+                    f"{unread('file', place, reason)}. {path} names it in {field}; a relative "
+                    "path in a file counts from the folder of that file."
+                )
+        for doubt in found.doubts().values():
+            logger.warning("%s: %s", path, doubt)
+        return found
+
+    def doubts(self) -> dict[str, str]:
+        """Return the numbers that the file gives and hardly means: sentences by dotted name."""
+        return doubts(self.model_dump(exclude_unset=True), field_notes(type(self)))
+
+    @classmethod
+    def _places(cls, data: dict[str, Any], folder: Path) -> dict[str, Path]:
+        """Return the paths of files that data name, by field; write them into the data."""
+        places = {}
+        for field in cls.files:
+            *sections, key = field.split(".")
+            section: Any = data
+            for part in sections:
+                section = section.get(part) if isinstance(section, dict) else None
+            text = section.get(key) if isinstance(section, dict) else None
+            if not isinstance(text, str) or not text:
+                continue
+            place = folder / text
+            if place.is_file() or Path(text).suffix or len(Path(text).parts) > 1:
+                places[field] = place
+                if cls.absolute_files:
+                    section[key] = str(place)
+        return places
 
     @classmethod
     def shipped(cls) -> tuple[str, ...]:
@@ -68,7 +114,9 @@ class InputFile(Section):
     @classmethod
     def given(cls, name: str) -> Self:
         """Return the file at a path, where the name is one or ends in .toml, or a shipped one."""
-        is_file = name.endswith(".toml") or Path(name).is_file()
+        path = Path(name)
+        is_file = name.endswith(".toml") or path.is_file()
+        is_file = is_file or (path.is_dir() and name not in cls.shipped())
         return cls.from_toml(name) if is_file else cls.named(name)
 
     @classmethod
@@ -86,8 +134,10 @@ class InputFile(Section):
                 ) from None
             errors = [*reason.errors(), *cls._behind(data, reason)]
             lines = [sentence(error, notes, cls.unmodelled) for error in errors]
+            known = {".".join(str(part) for part in error["loc"]) for error in errors}
+            asked = [said for name, said in doubts(data, notes).items() if name not in known]
             raise ParameterError(
-                f"{where} has {len(lines)} wrong field(s). " + " ".join(lines)
+                f"{where} has {len(lines)} wrong field(s). " + " ".join([*lines, *asked])
             ) from None
 
     @classmethod
@@ -120,16 +170,35 @@ class InputFile(Section):
         return self.from_data(data, f"{data.get('name', 'The file')} varied")
 
 
-def read_toml(path: str | Path) -> dict[str, Any]:
-    """Return the data of a TOML file; raise ParameterError where it cannot be read."""
+def read_toml(path: str | Path, what: str = "file") -> dict[str, Any]:
+    """Return the data of a TOML file; raise ParameterError where it cannot be read.
+
+    `what` is the kind of file in errors.
+    """
+    return toml_data(read_content(path, what), str(path))
+
+
+def toml_data(content: bytes, where: str) -> dict[str, Any]:
+    """Return the data in the bytes of a TOML file, which `where` names in errors."""
+    head = f"{where} is not a readable TOML file:"
+    if b"\0" in content:
+        wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+        got = "it is in UTF-16" if wide else "it holds bytes that are no text"
+        raise ParameterError(f"{head} {got}. Save it as text in UTF-8.")
     text = ""
     try:
-        text = Path(path).read_text(encoding="utf-8")
-        return tomllib.loads(text)
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
-        cure = ""
-        if isinstance(reason, FileNotFoundError):
-            cure = " A path inside a file counts from the folder of that file."
-        elif (comma := _DECIMAL_COMMA.search(text)) is not None:
-            cure = f" Write {comma[1]}.{comma[2]}, with a point."
-        raise ParameterError(f"{path} is not a readable TOML file: {why(reason)}.{cure}") from None
+        text = content.decode("utf-8-sig")
+        data = tomllib.loads(text)
+    except UnicodeDecodeError as reason:
+        line = content.count(b"\n", 0, reason.start) + 1
+        raise ParameterError(
+            f"{head} line {line} holds the byte 0x{content[reason.start]:02x}, which is not "
+            "UTF-8; it may be cp1252 (ANSI of Windows). Save it as text in UTF-8."
+        ) from None
+    except tomllib.TOMLDecodeError as reason:
+        comma = _DECIMAL_COMMA.search(text)
+        cure = f" Write {comma[1]}.{comma[2]}, with a point." if comma else ""
+        raise ParameterError(f"{head} {reason}.{cure}") from None
+    if not data:
+        raise ParameterError(f"{where} is empty: it has no field. Write the fields into it.")
+    return data

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from gearlube_core.checks import read_content
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
@@ -53,14 +54,13 @@ def write_line_mesh(mesh: LineMesh, path: str | Path) -> Path:
 
 def read_line_mesh(path: str | Path) -> LineMesh:
     """Read a mesh written by `write_line_mesh`; raise TableError for any other file."""
-    try:
-        content = Path(path).read_bytes()
-    except OSError as reason:
-        raise TableError(
-            f"No line mesh can be read at {path}: {reason.strerror or reason}. "
-            "Give the file that write_line_mesh wrote."
-        ) from None
-    return line_mesh_from_bytes(content, str(path))
+    return line_mesh_from_bytes(read_line_mesh_content(path), str(path))
+
+
+def read_line_mesh_content(path: str | Path) -> bytes:
+    """Return the bytes of a line mesh's file; raise TableError when there is none."""
+    cure = "Give the file that write_line_mesh wrote."
+    return read_content(path, "line mesh", TableError, cure)
 
 
 def named_line_mesh(name: str) -> LineMesh:

@@ -12,6 +12,7 @@ from typing import cast
 import numpy as np
 import xarray as xr
 
+from gearlube_core.checks import read_content
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
 from gearlube_core.mesh_table.table import (
@@ -96,18 +97,13 @@ def read_mesh_table(path: str | Path) -> MeshTable:
     >>> table.gear_teeth
     36
     """
-    return mesh_table_from_bytes(read_content(path), str(path))
+    return mesh_table_from_bytes(read_table_content(path), str(path))
 
 
-def read_content(path: str | Path) -> bytes:
+def read_table_content(path: str | Path) -> bytes:
     """Return the bytes of a mesh table's file; raise TableError when there is none."""
-    try:
-        return Path(path).read_bytes()
-    except OSError as reason:
-        raise TableError(
-            f"No mesh table can be read at {path}: {reason.strerror or reason}. "
-            "Give the file that `gearlube contact` or write_mesh_table wrote."
-        ) from None
+    cure = "Give the file that `gearlube contact` or write_mesh_table wrote."
+    return read_content(path, "mesh table", TableError, cure)
 
 
 def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from gearlube_core.errors import ParameterError, why
-from gearlube_core.input_file.field_notes import field_unit
-from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.checks import read_content
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import Usual, field_unit
+from gearlube_core.input_file.input_file import InputFile, toml_data
 from gearlube_core.input_file.input_note import InputNote, Origin
 from gearlube_core.oil.field_limits import (
     Conductivity,
@@ -32,7 +32,7 @@ from gearlube_core.oil.sheet_values import SheetValues, sheet_values
 FILE_IN_FMU = "oil.toml"  # among the resources of an FMU
 
 Index = Annotated[float, Field(ge=0.0, le=400.0, allow_inf_nan=False)]
-DensitySlope = Annotated[float, Field(ge=-2.0, le=0.0, allow_inf_nan=False)]
+DensitySlope = Annotated[float, Field(ge=-2.0, le=0.0, allow_inf_nan=False), Usual(-1.2, -0.3)]
 Factor = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
 Limit = Annotated[float, Field(ge=0.005, le=0.3, allow_inf_nan=False)]
 
@@ -266,16 +266,9 @@ def read_oil_file(path: Path) -> DescribedOil:
 
 def read_oil_content(path: str | Path) -> bytes:
     """Return an oil file's bytes, with the ends of lines of all platforms alike."""
-    try:
-        return Path(path).read_bytes().replace(b"\r\n", b"\n")
-    except OSError as reason:
-        raise ParameterError(f"No oil file can be read at {path}: {why(reason)}.") from None
+    return read_content(path, "oil file").replace(b"\r\n", b"\n")
 
 
 def described_oil_of(content: bytes, where: str) -> DescribedOil:
     """Return the oil of a file's bytes, e.g. in those of an FMU's resource."""
-    try:
-        data = tomllib.loads(content.decode())
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
-        raise ParameterError(f"{where} is not a readable TOML file: {reason}.") from None
-    return OilFile.from_data(data, where).described()
+    return OilFile.from_data(toml_data(content, where), where).described()

@@ -164,11 +164,12 @@ def pair_file(name: str) -> PairFile:
         raise ParameterError(f"No gear file is called {name!r}. Shipped: {shipped}")
     from gearlube_core.input_file.input_file import read_toml
 
-    data = read_toml(name)
+    data = read_toml(name, "gear file")
     if "cutter" in data:
-        return BlankFile.from_data(data, name)
-    hypoid = "machine" in data.get("pinion", {}) or "machine" in data.get("gear", {})
-    return (HypoidGearFile if hypoid else HelicalGearFile).from_data(data, name)
+        return BlankFile.from_toml(name)
+    members = [one for role in ("pinion", "gear") if isinstance(one := data.get(role), dict)]
+    hypoid = any("machine" in one for one in members)
+    return (HypoidGearFile if hypoid else HelicalGearFile).from_toml(name)
 
 
 def flat(data: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
 from gearlube_core.rough_patch.table import GreenwoodTrippFit, greenwood_tripp_fit
@@ -17,13 +18,8 @@ _WRITER = "gearlube roughness flow-factors"
 
 def read_asperity_content(path: str | Path) -> bytes:
     """Return the bytes of an asperity table's file; raise TableError when there is none."""
-    try:
-        return Path(path).read_bytes()
-    except OSError as reason:
-        raise TableError(
-            f"No asperity table can be read at {path}: {reason.strerror or reason}. "
-            f"Give flow_factors.nc, which `{_WRITER}` wrote."
-        ) from None
+    cure = f"Give flow_factors.nc, which `{_WRITER}` wrote."
+    return read_content(path, "asperity table", TableError, cure)
 
 
 def asperities_from_bytes(content: bytes, name: str) -> GreenwoodTrippFit:

@@ -232,7 +232,7 @@ def test_options_reach_the_settings_in_si_units(asked):
     ("options", "words"),
     [
         (("nothing",), ("nothing", "he_2007")),
-        (("missing.toml",), ("missing.toml", "readable")),
+        (("missing.toml",), ("gear file missing.toml was not found in",)),
         (("--torque", "-5"), ("--torque", "-5 N.m", "magnitude")),
         (("--speed-rpm", "0"), ("--speed-rpm", "rpm")),
         (("--mu", "0:0.3"), ("--mu", "'0:0.3'", "first:last:step")),

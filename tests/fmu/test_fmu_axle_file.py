@@ -316,7 +316,7 @@ def test_a_wrong_file_is_refused_before_any_work(
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "wrong.toml"
     cases = {
-        '[gear_set]\nmesh_table = "x.nc"\n': "No mesh table can be read at",
+        '[gear_set]\nmesh_table = "x.nc"\n': "x.nc was not found in",
         '[gear_set]\nmesh_table = "x"\n[gear]\nmass_kg = -1.0\n': "gear.mass_kg must be a number",
         "[gear_set\n": "not a readable TOML file",
     }

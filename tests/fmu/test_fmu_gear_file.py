@@ -182,7 +182,7 @@ def test_wrong_files_are_named(gear_file: Path, line_mesh: Path, tmp_path: Path)
     bad = tmp_path / "bad.toml"
     bad.write_text("name = 3")
     for path, message in (
-        (tmp_path / "absent.toml", "No gear file can be read at"),
+        (tmp_path / "absent.toml", "gear file absent.toml was not found in"),
         (bad, r"bad\.toml: The gear file has"),
         (line_mesh, "not a readable TOML file"),
     ):

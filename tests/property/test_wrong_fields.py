@@ -179,7 +179,7 @@ def test_a_file_that_is_no_toml_is_refused(tmp_path, content):
     path.write_bytes(content)
     with pytest.raises(ParameterError, match=r"wrong\.toml is not a readable TOML file"):
         read_toml(path)
-    with pytest.raises(ParameterError, match="is not a readable TOML file"):
+    with pytest.raises(ParameterError, match="cannot be read: it is a folder"):
         read_toml(tmp_path)
 
 

@@ -20,7 +20,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
 )
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
-from gearlube_core.errors import TableError
+from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import CONSISTENT, contact_geometry
@@ -154,7 +154,7 @@ def test_tables_without_asperities_are_refused(tmp_path, changes, words):
 
 
 def test_a_missing_or_damaged_table_is_refused_with_its_place(tmp_path):
-    with pytest.raises(TableError, match=r"No asperity table can be read at .*own\.nc"):
+    with pytest.raises(ParameterError, match=r"own\.nc was not found in .* it in gear_set\.asp"):
         read_axle(axle_file(tmp_path))
     (tmp_path / "own.nc").write_bytes(b"no table")
     with pytest.raises(TableError, match=r"own\.nc is not a readable NetCDF 3 file"):

@@ -15,7 +15,7 @@ from drivetrain.axle_file.read_axle import read_axle
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
-from gearlube_core.errors import TableError
+from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.netcdf import write_mesh_table
@@ -379,7 +379,7 @@ def test_a_mesh_table_lies_beside_the_file_and_gives_the_final_drive(tmp_path, m
     made = read_axle(path)
     assert (made.axle.mesh.name, made.driveline.axle_ratio) == ("own", 43 / 11)
     path.write_text('[gear_set]\nmesh_table = "gears/none.nc"\n')
-    with pytest.raises(TableError, match=r"No mesh table can be read at .*none\.nc"):
+    with pytest.raises(ParameterError, match=r"none\.nc was not found in .*gears\. .*my\.toml na"):
         read_axle(path)
     path.write_text('[gear_set]\nmesh_table = "none"\n')
     with pytest.raises(TableError, match=r"No mesh table is called 'none'.*ends in \.nc"):

@@ -25,7 +25,7 @@ def refusal(changes):
             ["pinion.bearing: the rollers overlap: 20", "9.808 mm", "12.7 mm", "at most 15 fit"],
         ),
         ({"pinion.bearing.pitch_diameter_mm": 0.0627}, ["Is it in m? 0.0627 m is 62.7 mm"]),
-        ({"pinion.bearing.pitch_diameter_mm": -60.0}, ["5 to 1000 mm, got -60.0"]),
+        ({"pinion.bearing.pitch_diameter_mm": -60.0}, ["5 to 2000 mm, got -60.0"]),
         ({"pinion.bearing.pitch_diameter_mm": 200.0}, ["between bore and outside diameter"]),
         (
             # pitch diameter 71.85 mm, the mean; less 12.7 mm cos 15 deg: inside the bore

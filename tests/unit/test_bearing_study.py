@@ -49,7 +49,7 @@ def test_an_inner_angle_that_is_left_out_closes_the_apex():
         ({"bearing.inner_angle_deg": 16.0}, ["wrong side", "leave the inner angle out"]),
         ({"bearing.inner_angle_deg": 9.0}, ["share their apex", "11.44 deg"]),
         ({"bearing.pitch_diameter_mm": 0.1085}, ["pitch_diameter_mm", "0.1085 m is 108.5 mm"]),
-        ({"bearing.roller_length_mm": None}, ["roller_length_mm is missing"]),
+        ({"bearing.contact_angle_deg": None}, ["contact_angle_deg is missing"]),
         ({"bearing.cage": 1.0}, ["bearing.cage is not a field"]),
     ],
 )

@@ -75,7 +75,7 @@ def test_a_decimal_comma_and_a_missing_file_have_a_cure(tmp_path):
     with pytest.raises(ParameterError) as told:
         read_toml(path)
     assert "point" not in str(told.value)
-    with pytest.raises(ParameterError, match="counts from the folder of that file"):
+    with pytest.raises(ParameterError, match=rf"file none\.toml was not found in {tmp_path}\."):
         read_toml(tmp_path / "none.toml")
 
 

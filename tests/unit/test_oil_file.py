@@ -162,7 +162,7 @@ def test_the_oil_file_comes_alone(tmp_path):
 
 
 def test_a_missing_oil_file_is_named(tmp_path):
-    with pytest.raises(ParameterError, match=r"none\.toml is not a readable TOML file"):
+    with pytest.raises(ParameterError, match=r"none\.toml was not found in .* it in oil\.file"):
         read_axle(axle_with(tmp_path, 'file = "none.toml"'))
 
 

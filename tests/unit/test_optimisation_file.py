@@ -114,7 +114,7 @@ def test_amounts_that_a_gear_file_does_not_take_are_tried_but_not_written():
             "at most 10 % of tip_relief_depth_mm",
         ),
         ("no_such_pair", {}, "Or give a path"),
-        ("missing.toml", {}, "there is no such file"),
+        ("missing.toml", {}, "gear file missing.toml was not found in"),
     ],
 )
 def test_wrong_problems_are_refused_with_a_sentence(gear, more, said):

@@ -23,7 +23,7 @@ from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube.studies.sweep.oil_in_axle import axle_with_oil
 from gearlube.variation.file_variants import AxleVariants
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
-from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.friction.flank_film import flank_film_model
 from tests.helpers.own_film_models import OIL_FILE, altered, copy_of
@@ -161,8 +161,8 @@ def test_a_file_says_which_models_its_axle_takes(copies):
         ),
         (
             '[film]\nmodel = "solved"\nflank_model = "no.json"',
-            FileError,
-            r"no\.json cannot be read: there is no such file",
+            ParameterError,
+            r"no\.json was not found in .*names it in film\.flank_model",
         ),
         (
             '[film]\nmodel = "solved"\nflank_model = "models/flank.json"\n'

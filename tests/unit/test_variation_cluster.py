@@ -2,6 +2,9 @@
 
 import signal
 import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from importlib import metadata
 
 import pytest
 
@@ -9,6 +12,7 @@ from gearlube.variation.design import Axis, Design
 from gearlube.variation.run import run_variation
 from gearlube.variation.store import open_variation
 from gearlube_core.errors import GearLubeError
+from gearlube_core.storage import dask_pool
 from tests.helpers.dask_cluster import dask_cluster
 from tests.helpers.variation_stand_in import AreaStudy
 
@@ -49,3 +53,60 @@ def test_a_scheduler_that_is_not_there_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr("gearlube_core.storage.dask_pool._CONNECT_TIMEOUT", 0.5)
     with pytest.raises(GearLubeError, match=r"No Dask scheduler answered at tcp://127\.0\.0\.1:1"):
         run_variation(AreaStudy(), DESIGN, out=tmp_path, scheduler="tcp://127.0.0.1:1")
+
+
+class StandInClient:
+    """A client whose cluster has its worker, of a version of the package, after a time."""
+
+    version: object = "0.1.0"
+    worker_from = 0.0
+
+    def __init__(self, address, **_):
+        self.began = time.monotonic()
+
+    def scheduler_info(self):
+        late = time.monotonic() - self.began < self.worker_from
+        return {"workers": {} if late else {"tcp://worker:1": {}}}
+
+    def run(self, function, *arguments, on_error):
+        assert (function, arguments) == (metadata.version, ("gearlube",))
+        return {"tcp://worker:1": self.version}
+
+    def get_executor(self, **_):
+        return ThreadPoolExecutor(1)
+
+    def register_plugin(self, plugin, name):
+        pass
+
+    unregister_worker_plugin = close = lambda self, *_: None
+
+
+@pytest.fixture
+def pool(monkeypatch):
+    plugin = dask_pool.NamedPlugin()
+    plugin.name = "none"
+    monkeypatch.setattr(dask_pool, "_POLL", 0.01)
+    monkeypatch.setattr(dask_pool, "_PATIENCE", 0.05)
+    monkeypatch.setattr(dask_pool, "__version__", "0.1.0")
+    monkeypatch.setattr(dask_pool, "Client", StandInClient)
+    return dask_pool.DaskPool("tcp://host:8786", plugin)
+
+
+@pytest.mark.parametrize(("worker_from", "said"), [(0.0, 0), (0.3, 1)])
+def test_a_cluster_without_workers_is_said_once_and_waited_for(
+    pool, monkeypatch, caplog, worker_from, said
+):
+    monkeypatch.setattr(StandInClient, "worker_from", worker_from)
+    with pool.open(1) as executor:
+        assert executor.submit(int, "3").result() == 3
+    assert caplog.text.count("tcp://host:8786 has no workers. Start one with") == said
+
+
+@pytest.mark.parametrize(
+    ("version", "got"), [(metadata.PackageNotFoundError("gearlube"), "none"), ("0.0.9", "0.0.9")]
+)
+def test_a_worker_without_this_package_is_refused_with_the_cure(pool, monkeypatch, version, got):
+    monkeypatch.setattr(StandInClient, "version", version)
+    words = rf"gearlube 0\.1\.0, got {got} at tcp://worker:1\. Install it .*`pip install gearlube`"
+    with pytest.raises(GearLubeError, match=words), pool.open(1):
+        pass

@@ -105,7 +105,7 @@ def bearing(
         print_example("gearlube_core.bearings.bearing_file:BearingFile", "wingertszahn_2023")
         return
     from gearlube.cli.report_end import finish_with_report
-    from gearlube.report.inputs import file_inputs
+    from gearlube.report.inputs import file_inputs, noted_inputs
     from gearlube.studies.bearing.report import bearing_report
     from gearlube.studies.bearing.run import run_bearing
     from gearlube.studies.bearing.settings import DEFAULT_LAWS, BearingSettings
@@ -183,7 +183,8 @@ def bearing(
         seconds = time.monotonic() - began
         logger.info("Computed in %.1f s.", seconds)
         logger.info("Results: %s, %s, %s", out / "bearing.nc", out / "bearing.csv", out / "figures")
-        finish_with_report(bearing_report(dataset, file_inputs(given)), out, seconds)
+        inputs = [*file_inputs(given), *noted_inputs(given.inferred())]
+        finish_with_report(bearing_report(dataset, inputs), out, seconds)
 
 
 def _table(name: str, law: str, rows: list[BearingRow]) -> Table:

@@ -47,8 +47,8 @@ def design(
     """Design a hypoid or bevel pair: from blank data and a wanted contact to machine settings.
 
     Writes the gear file (`gearlube contact` takes it), an axle file to complete, report.html,
-    design.nc and figures. Takes seconds. --optimise adds a quieter pair with a report of its own,
-    and takes minutes.
+    design.nc and figures. Takes a minute of one processor, the first time more. --optimise adds a
+    quieter pair with a report of its own, and takes some minutes more.
     """
     if example:
         print_example("gearlube_core.hypoid_design.blank_file:BlankFile", "hypoid_13_42")

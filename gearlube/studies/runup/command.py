@@ -182,7 +182,7 @@ def runup(
                 )
             )
         animated_speed = _animated_speed(ramps, animate_rpm)
-        logger.info("Preparing the axle. The first time it is compiled, half a minute.")
+        logger.info("Preparing the axle. The first time it is compiled: a minute or more.")
         with (
             results_folder(out, "runup", overwrite=overwrite),
             progress_on(console, "runup") as progress,

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import FileError, ParameterError, why
+from gearlube_core.errors import FileError, ParameterError, unread
 
 FORCE, TIME, SPEED = "bearing_force", "time", "pinion_speed"
 _UNITS = {
@@ -93,8 +93,10 @@ def _opened(file: Path) -> xr.Dataset:
     try:
         return xr.open_dataset(file, decode_times=False)
     except (OSError, ValueError) as reason:
-        words = why(reason) if isinstance(reason, OSError) else "it is no NetCDF file"
-        raise FileError(f"The run {file} cannot be read: {words}. {_CURE}") from None
+        words = unread("run", file, reason)
+        if not isinstance(reason, OSError):
+            words = f"The run {file} cannot be read: it is no NetCDF file"
+        raise FileError(f"{words}. {_CURE}") from None
 
 
 def _file_in(folder: Path) -> Path:

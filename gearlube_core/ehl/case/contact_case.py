@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
@@ -19,7 +18,6 @@ from gearlube_core.ehl.case.surfaces import (
     ProfileFile,
     RidgeShape,
     WavinessShape,
-    with_places,
 )
 from gearlube_core.ehl.gap.micro_geometry import RoughGap
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
@@ -31,18 +29,18 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.thermal.solver import check_thermal
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.input_file import read_toml
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.units import MILLIMETRE
 
 _GIGA, _MICRO = 1e9, 1e-6
 
-Radius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
-Speed = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
-PartLength = Annotated[float, Field(ge=0.01, le=100.0, allow_inf_nan=False)]
-LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
-Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
-Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]
-Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
+Radius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False), Usual(0.5, 10000.0)]
+Speed = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.001, 200.0)]
+PartLength = Annotated[float, Field(ge=0.01, le=100.0, allow_inf_nan=False), Usual(0.02, 50.0)]
+LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False), Usual(1.0, 5000.0)]
+Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False), Usual(0.1, 100000.0)]
+Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False), Usual(0.001, 100.0)]
+Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False), Usual(0.005, 5.0)]
 Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
 
 
@@ -54,6 +52,14 @@ _ROUGHNESS = (
 
 class ContactCase(FilmCase):
     """What line and point contacts share: speeds along x, solids, oil."""
+
+    files: ClassVar[tuple[str, ...]] = (
+        "profile.file",
+        "height_map.file",
+        "surface_1.file",
+        "surface_2.file",
+        "oil.library",
+    )
 
     speed_1_m_s: Speed = Field(
         description="Speed of the surface of body 1 (below the film) along x, relative to the "
@@ -71,11 +77,6 @@ class ContactCase(FilmCase):
     oil: Oil
     body_1: Body = Body()
     body_2: Body = Body()
-
-    @classmethod
-    def from_toml(cls, path: str | Path) -> Self:
-        """Read a file, what it names counted from its own folder; see `InputFile`."""
-        return cls.from_data(with_places(read_toml(path), Path(path).parent), str(path))
 
     @property
     def modulus(self) -> float:

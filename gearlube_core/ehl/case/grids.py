@@ -7,9 +7,10 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from gearlube_core.ehl.case.film_case import Wedge
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 
-Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.0, 50.0)]
 Reach = Annotated[float, Field(ge=1.05, le=1000.0, allow_inf_nan=False)]
 Tolerance = Annotated[float, Field(gt=0.0, le=1e-2, allow_inf_nan=False)]
 LineNodes = Annotated[int, Field(ge=17, le=20001)]

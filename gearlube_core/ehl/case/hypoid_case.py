@@ -9,16 +9,17 @@ from pydantic import Field
 
 from gearlube_core.ehl.case.film_case import FilmCase, Heat, Text, Wedge
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
-Speed = Annotated[float, Field(ge=1.0, le=47000.0, allow_inf_nan=False)]
-Torque = Annotated[float, Field(ge=-10000.0, le=10000.0, allow_inf_nan=False)]
-Temperature = Annotated[float, Field(ge=-60.0, le=200.0, allow_inf_nan=False)]
-Roughness = Annotated[float, Field(ge=0.01, le=10.0, allow_inf_nan=False)]
+Speed = Annotated[float, Field(ge=1.0, le=47000.0, allow_inf_nan=False), Usual(10.0, 20000.0)]
+Torque = Annotated[float, Field(ge=-10000.0, le=10000.0, allow_inf_nan=False), Usual(1.0, 5000.0)]
+Temperature = Annotated[float, Field(ge=-60.0, le=200.0, allow_inf_nan=False), Usual(-50.0, 180.0)]
+Roughness = Annotated[float, Field(ge=0.01, le=10.0, allow_inf_nan=False), Usual(0.02, 5.0)]
 Share = Annotated[float, Field(ge=0.01, le=0.9, allow_inf_nan=False)]
 Phase = Annotated[float, Field(ge=-1.5, le=1.5, allow_inf_nan=False)]
 Nodes = Annotated[int, Field(ge=17, le=1025)]
@@ -60,15 +61,17 @@ class HypoidCase(FilmCase):
 
     title: ClassVar[str] = "hypoid flank"
     prefix: ClassVar[str] = "hypoid_"
+    files: ClassVar[tuple[str, ...]] = ("mesh_table", "gear_file")
 
     mesh_table: Text = Field(
         default="mohammadpour_2015",
-        description="Name of a shipped mesh table, or a mesh table file (.nc)",
+        description="Name of a shipped mesh table, or a mesh table file (.nc), its path relative "
+        "to the case file",
     )
     gear_file: Text | None = Field(
         default=None,
-        description="Gear file that belongs to the mesh table, shipped or .toml; only needed "
-        "for the motion of the contact point",
+        description="Gear file that belongs to the mesh table, shipped or .toml, its path "
+        "relative to the case file; only needed for the motion of the contact point",
     )
     pinion_speed_rpm: Speed = Field(description="Mean speed of the pinion")
     pinion_torque_n_m: Torque = Field(

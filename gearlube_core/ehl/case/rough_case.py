@@ -20,6 +20,7 @@ from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.history import check_scheme
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.section import moving_section
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.surface.moving import (
     FedFromInlet,
@@ -40,8 +41,8 @@ Moment = Annotated[int, Field(ge=0, le=1_000_000)]
 Columns = Annotated[int, Field(ge=17, le=2049)]
 Rows = Annotated[int, Field(ge=FEWEST_ROWS, le=MOST_ROWS)]
 Reach = Annotated[float, Field(ge=1.05, le=100.0, allow_inf_nan=False)]
-Layer = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Pressure = Annotated[float, Field(ge=1e-3, le=1000.0, allow_inf_nan=False)]
+Layer = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False), Usual(0.0001, 0.2)]
+Pressure = Annotated[float, Field(ge=1e-3, le=1000.0, allow_inf_nan=False), Usual(0.05, 50.0)]
 Friction = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False)]
 
 

@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 
 from gearlube_core.ehl.case.surfaces import FileName
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.surface.extrusion import Lay, periodic_section
 from gearlube_core.surface.files import read_surface
@@ -29,9 +30,9 @@ _POINTS = 10.0  # of the shortest generated wave
 _SPACING = 1e-6  # m, of generated heights without a shortest wave
 _SOURCES = ("file", "stand_in", "ra_um", "amplitude_um")
 
-Length = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
-Period = Annotated[float, Field(ge=1.0, le=1e5, allow_inf_nan=False)]
-Height = Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False)]
+Length = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False), Usual(0.5, 20000.0)]
+Period = Annotated[float, Field(ge=1.0, le=1e5, allow_inf_nan=False), Usual(2.0, 20000.0)]
+Height = Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False), Usual(0.005, 20.0)]
 Angle = Annotated[float, Field(gt=-89.0, lt=89.0, allow_inf_nan=False)]
 Turns = Annotated[int, Field(ge=-1000, le=1000)]
 Moment = Annotated[float, Field(ge=-10.0, le=150.0, allow_inf_nan=False)]

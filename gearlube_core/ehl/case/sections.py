@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
@@ -17,18 +18,23 @@ from gearlube_core.units import celsius_to_kelvin
 _GIGA, _MEGA = 1e9, 1e6
 _STEEL = STEEL_MOHAMMADPOUR_2015
 
-Viscosity = Annotated[float, Field(ge=1e-4, le=1e4, allow_inf_nan=False)]
-PressureViscosity = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
-Stress = Annotated[float, Field(ge=0.01, le=1e6, allow_inf_nan=False)]
+Viscosity = Annotated[float, Field(ge=1e-4, le=1e4, allow_inf_nan=False), Usual(0.001, 10.0)]
+PressureViscosity = Annotated[
+    float, Field(ge=0.0, le=1000.0, allow_inf_nan=False), Usual(1.0, 60.0)
+]
+Stress = Annotated[float, Field(ge=0.01, le=1e6, allow_inf_nan=False), Usual(0.5, 1000.0)]
 Slope = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Density = Annotated[float, Field(ge=100.0, le=30000.0, allow_inf_nan=False)]
-OilDensity = Annotated[float, Field(ge=100.0, le=3000.0, allow_inf_nan=False)]
-Temperature = Annotated[float, Field(ge=-60.0, le=500.0, allow_inf_nan=False)]
+Density = Annotated[float, Field(ge=100.0, le=30000.0, allow_inf_nan=False), Usual(900.0, 20000.0)]
+OilDensity = Annotated[float, Field(ge=100.0, le=3000.0, allow_inf_nan=False), Usual(700.0, 1300.0)]
+Temperature = Annotated[float, Field(ge=-60.0, le=500.0, allow_inf_nan=False), Usual(-55.0, 250.0)]
 TemperatureExponent = Annotated[float, Field(ge=0.0, le=5.0, allow_inf_nan=False)]
-Expansion = Annotated[float, Field(ge=0.0, le=1e-2, allow_inf_nan=False)]
-Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False)]
-HeatCapacity = Annotated[float, Field(ge=50.0, le=10000.0, allow_inf_nan=False)]
-Modulus = Annotated[float, Field(ge=1e-3, le=2000.0, allow_inf_nan=False)]
+Expansion = Annotated[float, Field(ge=0.0, le=1e-2, allow_inf_nan=False), Usual(0.0003, 0.0012)]
+Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False), Usual(0.1, 500.0)]
+OilConductivity = Annotated[Conductivity, Usual(0.08, 0.3)]
+HeatCapacity = Annotated[
+    float, Field(ge=50.0, le=10000.0, allow_inf_nan=False), Usual(300.0, 4500.0)
+]
+Modulus = Annotated[float, Field(ge=1e-3, le=2000.0, allow_inf_nan=False), Usual(0.5, 1300.0)]
 PoissonRatio = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 
 # what an oil of the library brings along
@@ -103,7 +109,7 @@ class Oil(Section):
         description="Thermal expansion of the oil's volume; only for thermal solutions. FVA 3, a "
         "mineral oil, has 7e-4 [wingertszahn_2023]",
     )
-    conductivity_w_m_k: Conductivity = Field(
+    conductivity_w_m_k: OilConductivity = Field(
         default=0.14, description="Thermal conductivity of the oil; only for thermal solutions"
     )
     heat_capacity_j_kg_k: HeatCapacity = Field(

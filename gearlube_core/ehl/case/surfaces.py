@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from gearlube_core.ehl.gap.micro_geometry import Dent, Ridge, Waviness
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.surface.measured_heights import (
     MeasuredMap,
@@ -18,13 +18,12 @@ from gearlube_core.surface.measured_heights import (
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 _MICROMETRE = 1e-6  # m
-FILES = ("profile", "height_map", "surface_1", "surface_2")  # sections that name a file
 
 FileName = Annotated[str, Field(min_length=1)]
-Size = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
-Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
-Height = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
-Amplitude = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
+Size = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False), Usual(0.001, 20.0)]
+Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.0, 20.0)]
+Height = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.01, 50.0)]
+Amplitude = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False), Usual(0.005, 50.0)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
 Meaning = Literal["heights", "gap"]
 
@@ -124,16 +123,3 @@ class WavinessShape(Section):
             direction=self.direction_deg * DEGREE,
             phase=self.phase_deg * DEGREE,
         )
-
-
-def with_places(data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Return the data of a case file with its files' names counted from `folder`."""
-    placed = dict(data)
-    for name in FILES:
-        section = placed.get(name)
-        if isinstance(section, dict) and isinstance(section.get("file"), str):
-            placed[name] = {**section, "file": str(folder / section["file"])}
-    oil = placed.get("oil")
-    if isinstance(oil, dict) and str(oil.get("library", "")).endswith(".toml"):
-        placed["oil"] = {**oil, "library": str(folder / oil["library"])}
-    return placed

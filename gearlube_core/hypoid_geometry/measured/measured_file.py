@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
@@ -38,6 +37,13 @@ class MeasuredFile(InputFile):
     package: ClassVar[str] = "gearlube_core.hypoid_geometry"
     title: ClassVar[str] = "measured-gear file"
     prefix: ClassVar[str] = "measured_"
+    files: ClassVar[tuple[str, ...]] = (
+        "gear_file",
+        "deviations",
+        "nominal_points",
+        "pitch",
+        "waviness",
+    )
 
     name: Text = Field(description="Name of the measured pair in reports and figures")
     source: Text = Field(description="Who measured what; say so if the data are made up")
@@ -74,10 +80,9 @@ class MeasuredFile(InputFile):
     pinion: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
     gear: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
 
-    def nominal(self, folder: Path) -> HypoidGearFile:
-        """Return the gear file of the nominal flanks; `folder` is that of this file."""
-        beside = folder / self.gear_file
-        return HypoidGearFile.given(str(beside) if beside.is_file() else self.gear_file)
+    def nominal(self) -> HypoidGearFile:
+        """Return the gear file of the nominal flanks."""
+        return HypoidGearFile.given(self.gear_file)
 
     def places(self, blank: HypoidBlank) -> dict[tuple[Role, Side], GridPlaces]:
         """Return where the grid points of each described grid lie on its flanks."""
@@ -106,16 +111,16 @@ class MeasuredFile(InputFile):
             found[role, "drive"] = found[role, "coast"] = places
         return found
 
-    def tooth_errors(self, folder: Path, blank: HypoidBlank) -> ToothErrors:
-        """Return the errors of single teeth; `folder` is that of this file."""
+    def tooth_errors(self, blank: HypoidBlank) -> ToothErrors:
+        """Return the errors of single teeth."""
         members = {"pinion": (self.pinion, blank.pinion), "gear": (self.gear, blank.gear)}
         pitch: dict[tuple[Role, Side], Array] = {}
         waves: dict[tuple[Role, Side], tuple[Wave, ...]] = {}
         if self.pitch is not None:
             teeth: dict[Role, int] = {"pinion": blank.pinion.teeth, "gear": blank.gear.teeth}
-            pitch = read_pitch(folder / self.pitch, teeth, self.pitch_kind)
+            pitch = read_pitch(self.pitch, teeth, self.pitch_kind)
         if self.waviness is not None:
-            waves = read_waves(folder / self.waviness)
+            waves = read_waves(self.waviness)
         found = {}
         for role, (member, part) in members.items():
             radius = part.mean_pitch_radius

@@ -66,20 +66,19 @@ def read_measured_flanks(path: str | Path) -> MeasuredFlanks:
         A file is missing or wrong; the sentence names the line.
     """
     file = MeasuredFile.from_toml(path)
-    folder = Path(path).parent
-    nominal = file.nominal(folder)
+    nominal = file.nominal()
     grids: dict[tuple[Role, Side], DeviationGrid] = {}
     if file.deviations is not None:
         places = file.places(nominal.blank())
         if file.nominal_points is not None:
-            places |= check_nominal_points(folder / file.nominal_points, nominal)
+            places |= check_nominal_points(file.nominal_points, nominal)
         if not places:
             raise ParameterError(
                 f"{path}: deviations are given, so a grid must be described. Add the section "
                 "[pinion.grid] or [gear.grid], or nominal_points."
             )
         grids = read_deviation_grids(
-            folder / file.deviations, places, middle_is_zero=file.middle_point == "zero"
+            file.deviations, places, middle_is_zero=file.middle_point == "zero"
         )
     surfaces = {key: smooth_surface(grid, file.degree) for key, grid in grids.items()}
     return MeasuredFlanks(
@@ -87,5 +86,5 @@ def read_measured_flanks(path: str | Path) -> MeasuredFlanks:
         nominal=nominal,
         grids=grids,
         surfaces=surfaces,
-        errors=file.tooth_errors(folder, nominal.blank()),
+        errors=file.tooth_errors(nominal.blank()),
     )

@@ -7,12 +7,13 @@ from typing import Annotated
 from pydantic import Field
 
 from gearlube_core.hypoid_geometry.measured.deviation_grid import MOST_POINTS
+from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 
 Points = Annotated[int, Field(ge=2, le=MOST_POINTS)]
-Inset = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
-Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
-Eccentricity = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
+Inset = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False), Usual(0.05, 20.0)]
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(5.0, 500.0)]
+Eccentricity = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(0.5, 200.0)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
 
 
