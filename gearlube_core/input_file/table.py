@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError, why
+from gearlube_core.errors import ParameterError, unread
 
 TABLES = (".csv", ".txt", ".tsv")  # endings of names of tables
 COMMENTS = ("#", "%", "//")  # a line that begins with one of them is no row
@@ -208,7 +208,7 @@ def _text(path: str | Path, cure: str) -> str:
         with Path(path).open("rb") as file:
             content = file.read(LARGEST + 1)
     except OSError as reason:
-        raise ParameterError(f"{path} is not a readable table: {why(reason)}. {cure}") from None
+        raise ParameterError(f"{unread('table', path, reason)}. {cure}".rstrip()) from None
     if len(content) > LARGEST:
         raise ParameterError(
             f"{path} must be a table of at most {LARGEST / 1e6:g} MB, got more. Leave out rows "

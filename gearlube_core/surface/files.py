@@ -1,4 +1,4 @@
-"""Files of surfaces: CSV, npz and NetCDF as case files take them, SDF and X3P of instruments."""
+"""Files of surfaces: tables, npz and NetCDF as case files take them, and those of instruments."""
 
 from __future__ import annotations
 
@@ -10,26 +10,28 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError, why
+from gearlube_core.input_file.table import TABLES
 from gearlube_core.storage.atomic_file import write_arrays, write_text
 from gearlube_core.surface.heights import MICROMETRE, HeightMap, Profile, Surface, evenly_spaced
-from gearlube_core.surface.measured_heights import read_map, read_profile
+from gearlube_core.surface.measured_heights import filled, read_map, read_profile
 from gearlube_core.units import MILLIMETRE
 
-SUFFIXES = (".csv", ".npz", ".nc", ".sdf", ".x3p")
+SUFFIXES = (*TABLES, ".npz", ".nc", ".sdf", ".x3p", ".sur", ".al3d")
 
 
 def read_surface(path: str | Path) -> Surface:
     """Return a surface profile or map from a file; the ending of its name tells its kind.
 
-    .csv: a profile, columns x_mm and height_um; .npz, .nc: a map, x and y in mm and height in um;
-    .sdf: [iso_25178_71], .x3p: [iso_25178_72], which need the extra `gearlube[surfaces]`. An .sdf
-    or .x3p file with one row gives a profile.
+    .csv, .txt, .tsv: a profile, columns x_mm and height_um; .npz, .nc: a map, x and y in mm and
+    height in um; .sdf: [iso_25178_71], .x3p: [iso_25178_72], .sur: Digital Surf, .al3d: Alicona,
+    which need the extra `gearlube[surfaces]`. A file of an instrument with one row gives a profile.
+    Points that were not measured are filled, see `measured_heights.filled`.
 
     Raises
     ------
     ParameterError
-        The file is missing, damaged or of another kind, a point was not measured, or the package
-        that reads it is not installed.
+        The file is missing, damaged or of another kind, too many points were not measured, or the
+        package that reads it is not installed.
 
     Examples
     --------
@@ -37,11 +39,11 @@ def read_surface(path: str | Path) -> Surface:
     ...     read_surface("disc.xyz")
     ... except ParameterError as error:
     ...     print(str(error)[:60])
-    A surface must be a file that ends in one of .csv, .npz, .nc
+    A surface must be a file that ends in one of .csv, .txt, .ts
     """
     where = Path(path)
     kind = where.suffix.lower()
-    if kind == ".csv":
+    if kind in TABLES:
         return evenly_spaced(read_profile(where))
     if kind in (".npz", ".nc"):
         return evenly_spaced(read_map(where))
@@ -49,9 +51,11 @@ def read_surface(path: str | Path) -> Surface:
         return _read_sdf(where)
     if kind == ".x3p":
         return _read_x3p(where)
+    if kind in SUFFIXES:
+        return _read_topography(where)
     raise ParameterError(
         f"A surface must be a file that ends in one of {', '.join(SUFFIXES)}, got {where.name}. "
-        "Export it from the instrument's software as X3P, SDF or CSV."
+        "Export it from the instrument's software as X3P, SDF, SUR or CSV."
     )
 
 
@@ -116,10 +120,23 @@ def _read_x3p(path: Path) -> Surface:
     return _from_rows(path, layer.z, layer.spacing)
 
 
+def _read_topography(path: Path) -> Surface:
+    package = _package("SurfaceTopography", path)
+    error = import_module("SurfaceTopography.Exceptions").ReadFileError
+    kind = path.suffix[1:]
+
+    def read(file: Path) -> Any:
+        return package.open_topography(str(file), format=kind).topography().to_unit("m")
+
+    found = _read(path, kind.upper(), read, error)
+    return _from_rows(path, np.ma.filled(found.heights(), np.nan).T, found.pixel_size)
+
+
 def _from_rows(path: Path, rows: Array, steps: tuple[float, float]) -> Surface:
     """Return heights (ny, nx) [m] of an instrument as a surface."""
     height = np.ascontiguousarray(np.asarray(rows, dtype=float).T)
     name = f"surface {path}"
+    height = filled(height, name)
     if height.shape[0] == 1:
         raise ParameterError(
             f"{name} must have several points along x, got one. Turn it by 90 deg."
@@ -141,5 +158,5 @@ def _package(name: str, path: Path) -> Any:
 def _read(path: Path, kind: str, read: Any, error: type[Exception]) -> Any:
     try:
         return read(path)
-    except (error, OSError, ValueError) as reason:
+    except (error, OSError, ValueError, KeyError) as reason:
         raise ParameterError(f"{path} is not a readable {kind} file: {why(reason)}.") from None

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline, RectBivariateSpline
+from scipy.sparse import coo_array, diags_array
+from scipy.sparse.linalg import spsolve
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError, why
@@ -18,6 +21,8 @@ _MICROMETRE = 1e-6  # m
 _FEWEST = 4  # points of a cubic spline
 _HEAD = ("x_mm", "height_um")
 _ROUNDING = 1e-6  # of an interval or a range
+_MOST_MISSING = 0.2  # share of points that may be filled
+logger = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +121,7 @@ def read_map(path: str | Path) -> MeasuredMap:
     """Read heights over a plane: `x`, `y` [mm] and `height` [um] from NetCDF or an .npz file.
 
     In NetCDF the dimensions are called x and y, in any order; in an .npz file `height` has the
-    shape (x, y).
+    shape (x, y). Missing heights (nan) are filled, see `filled`.
 
     Raises
     ------
@@ -134,9 +139,58 @@ def read_map(path: str | Path) -> MeasuredMap:
         raise ParameterError(
             f"{path} is not a readable NetCDF or npz file: {why(reason)}."
         ) from None
+    name = f"height map {path}"
     return MeasuredMap(
-        x * MILLIMETRE, y * MILLIMETRE, height * _MICROMETRE, name=f"height map {path}"
+        x * MILLIMETRE, y * MILLIMETRE, filled(height * _MICROMETRE, name), name=name
     )
+
+
+def filled(height: Array, name: str) -> Array:
+    """Return heights (n,) or (nx, ny) with missing points (nan) filled; log how many there were.
+
+    Each missing point gets the mean of its neighbours along the sides (Laplace's equation), so that
+    it never leaves the heights around the hole: a line across a gap of a profile.
+
+    Raises
+    ------
+    ParameterError
+        More than a fifth of the points are missing.
+    """
+    missing = np.isnan(height)
+    count = int(missing.sum())
+    if not count:
+        return height
+    if count > _MOST_MISSING * height.size:
+        raise ParameterError(
+            f"{name}: at most {_MOST_MISSING:.0%} of the points may be missing, got {count} of "
+            f"{height.size}. Cut out a part with fewer gaps, or measure again."
+        )
+    places = np.arange(height.size).reshape(height.shape)
+    sides = [
+        (places.take(range(n - 1), axis).ravel(), places.take(range(1, n), axis).ravel())
+        for axis, n in enumerate(height.shape)
+    ]
+    one = np.concatenate([part for pair in sides for part in pair])
+    other = np.concatenate([part for pair in sides for part in reversed(pair)])
+    holes, level = missing.ravel(), height.ravel().copy()
+    one, other = one[holes[one]], other[holes[one]]
+    row = np.cumsum(holes) - 1  # number of a missing point
+    known = ~holes[other]
+    given = np.bincount(row[one[known]], level[other[known]], count)
+    links = (np.ones(int((~known).sum())), (row[one[~known]], row[other[~known]]))
+    matrix = diags_array(np.bincount(row[one], minlength=count).astype(float)) - coo_array(
+        links, (count, count)
+    )
+    level[holes] = spsolve(matrix.tocsc(), given)
+    logger.warning(
+        "%s: %d of %d points (%.2g %%) were not measured and are filled: each has the mean of its "
+        "neighbours, smoother than the surface.",
+        name,
+        count,
+        height.size,
+        100.0 * count / height.size,
+    )
+    return level.reshape(height.shape)
 
 
 def _from_npz(path: Path) -> tuple[Array, Array, Array]:

@@ -19,6 +19,7 @@ from gearlube_core.hypoid_contact.refusal import check_pair
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.design import design_pair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.units import without_units
 
 EXAMPLE = BlankFile.shipped_text("hypoid_13_42")
 
@@ -68,6 +69,7 @@ def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path, monke
     for part in ("wanted and found", "undercut", "blade points", "a third of the face width"):
         assert part in report
     with xr.open_dataset(out / "design.nc") as dataset:
+        assert not without_units(dataset)
         errors = [dataset["error"].sel(side=side).values for side in ("drive", "coast")]
         # 40 positions miss the handover by up to an 80th of the period, 5 % of a parabola
         assert [np.ptp(one) for one in errors] == pytest.approx([50e-6, 80e-6], rel=0.06)

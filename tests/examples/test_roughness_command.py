@@ -82,7 +82,7 @@ def test_a_map_and_a_stand_in_are_written(tmp_path, caplog):
         (("make", "--ra-um", 310), "--ra-um must be within 0 to 100 um, got 310 um"),
         (("make", "--ra-um", 0.3, "--along-um", 40), "--width-mm is missing"),
         (("make", "--ra-um", 0.3, "--lay-deg", 8), "--width-mm is missing"),
-        (("extrude", "missing.csv"), "not a readable CSV file: there is no such file in "),
+        (("extrude", "missing.csv"), "The table missing.csv was not found in "),
         (("read", "missing.x3p"), "missing.x3p"),
         (("stand-in", "D"), "A, B, C"),
     ],

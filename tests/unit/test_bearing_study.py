@@ -18,6 +18,7 @@ from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import LossModel
 from gearlube_core.errors import ParameterError
 from tests.helpers.bearing_32216 import BEARING, DEG, RPM
+from tests.helpers.units import without_units
 
 FILE = BearingFile.named("wingertszahn_2023")
 SMALL = BearingSettings(
@@ -136,6 +137,7 @@ def test_command_writes_each_part_on_its_own_line(tmp_path, caplog):
     assert 2.0 < float(rows[4]["torque_high_n_m"]) / torque[4] < 2.1
     assert float(rows[4]["power_w"]) == pytest.approx(torque[4] * 500 * RPM, rel=1e-5)
     with xr.open_dataset(out / "bearing.nc") as stored:
+        assert not without_units(stored)
         assert stored.attrs["name"] == "my_wingertszahn_2023"
         assert stored["torque"].attrs["units"] == "N.m"
         assert stored["speed"].attrs["units"] == "rad/s"

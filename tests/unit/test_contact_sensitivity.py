@@ -19,6 +19,7 @@ from gearlube_core.hypoid_contact.sensitivity.sensitivity_dataset import UNITS
 from gearlube_core.hypoid_contact.strips import StripSettings
 from tests.helpers.contact_cases import shipped_file
 from tests.helpers.loaded_cases import stiffness
+from tests.helpers.units import without_units
 
 NAMES = ("misalignment.pinion_axial", "gear.machine.machine_root_angle_deg")
 SETTINGS = SensitivitySettings(
@@ -82,6 +83,7 @@ def test_rates_of_the_error_over_the_mesh_follow_from_those_of_positions(found):
 def test_results_are_written_and_finished_positions_used_again(found, folder, monkeypatch):
     for name in ("sensitivity.nc", "sensitivity.csv", "figures/sensitivity.png"):
         assert (folder / name).is_file()
+    assert not without_units(found)
     teeth = stiffness()
     monkeypatch.setattr(
         analysis, "pair_stiffness", lambda *_, **__: {"drive": teeth, "coast": teeth}

@@ -15,6 +15,7 @@ import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.studies.drive_cycle.nedc import EXTRA_URBAN, URBAN
 from gearlube_core.errors import ParameterError
+from tests.helpers.units import without_units
 
 CAR = gl.read_axle("mohammadpour_2015")
 
@@ -255,6 +256,7 @@ def test_the_report_says_what_was_taken_as_rest(out):
 
 def test_the_files_hold_the_same_cycle(out):
     with xr.open_dataset(out / "drive_cycle.nc", engine="scipy") as found:
+        assert not without_units(found)
         found.load()
     with (out / "drive_cycle.csv").open() as file:
         rows = list(csv.DictReader(file))

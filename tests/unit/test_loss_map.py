@@ -30,6 +30,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
 )
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
+from tests.helpers.units import without_units
 
 AXLE = replace(
     mohammadpour_2015_axle(),
@@ -220,6 +221,7 @@ def test_every_uncertain_input_moves_the_loss(found, name):
 
 def test_the_netcdf_file_holds_the_map(found, folder):
     with xr.open_dataset(folder / "map.nc", engine="scipy") as read:
+        assert not without_units(read)
         xr.testing.assert_allclose(read, found)
 
 

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from drivetrain.speed_ramp import SpeedRamp
 from gearlube.studies.runup.car_torque import fitting_duration
@@ -11,6 +12,7 @@ from gearlube.studies.runup.record import record_ramp
 from gearlube.studies.runup.run import load_runup, run_runup
 from gearlube_core.errors import ParameterError
 from tests.helpers.short_ramp import SHORT
+from tests.helpers.units import without_units
 
 
 def test_a_ramp_too_fast_for_its_orders_is_refused_with_a_cure_that_helps() -> None:
@@ -69,6 +71,7 @@ def test_a_run_up_keeps_forces_and_speeds_with_units_at_a_constant_rate(tmp_path
     force = found["bearing_force"]
     assert force.dims == ("time", "bearing", "direction")
     assert force.attrs["units"] == "N"
+    assert not without_units(xr.open_dataset(tmp_path / "runup.nc", decode_times=False))
     assert (found["time"].attrs["units"], found["pinion_speed"].attrs["units"]) == ("s", "rad s-1")
     assert np.diff(found["time"].values) == pytest.approx(1.0 / 8192.0, rel=1e-9)
     assert found.sizes["time"] == made.sizes["time"] == round(0.8 * 8192.0)

@@ -18,6 +18,7 @@ from gearlube.studies.sound.settings import SoundSettings
 from gearlube.studies.sound.wav import read_wav
 from gearlube_core.errors import ParameterError
 from tests.helpers.made_run import made_run
+from tests.helpers.units import without_units
 
 RAMP = {"start": 100.0, "end": 300.0, "duration": 3.0}  # 36 to 108 km/h
 QUIET = SoundSettings(metrics=())
@@ -102,6 +103,7 @@ def test_the_command_writes_every_file_and_says_what_is_generic(tmp_path, caplog
     ratio = np.sqrt(np.mean(signals[0] ** 2) / np.mean(signals[1] ** 2))
     assert 20.0 * np.log10(ratio) == pytest.approx(6.02, abs=0.01)  # 16 bits and half the force
     with xr.open_dataset(out / "sound_b.nc") as stored:
+        assert not without_units(stored)
         assert stored.attrs["wav_full_scale_pa"] == 0.05
         assert stored["order_level"].attrs["units"] == "dB"
     with (out / "summary.csv").open(encoding="utf-8") as lines:

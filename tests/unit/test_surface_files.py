@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import datetime
 import math
+import struct
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface import files
@@ -20,7 +22,7 @@ from gearlube_core.surface.heights import (
     evenly_spaced,
 )
 from gearlube_core.surface.levelling import levelled
-from gearlube_core.surface.measured_heights import MeasuredProfile
+from gearlube_core.surface.measured_heights import MeasuredProfile, filled
 from gearlube_core.surface.running_in import peaks_cut
 from gearlube_core.surface.statistics import profile_statistics
 
@@ -104,21 +106,122 @@ def test_x3p_files_of_instruments_are_read(tmp_path):
     assert profile.height == pytest.approx(HEIGHT[:, 0], abs=1e-18)
 
 
-def test_points_that_were_not_measured_are_refused(tmp_path):
-    sdfio = pytest.importorskip("sdfio")
-    holes = HEIGHT.T.copy()
-    holes[2, 3] = math.nan
-    sdfio.write(tmp_path / "holes.sdf", holes, x_scale=1e-6, y_scale=1e-6)
-    with pytest.raises(ParameterError, match="1 of 54 are not"):
-        read_surface(tmp_path / "holes.sdf")
+def sur_file(heights, missing):
+    """Return a Digital Surf file by its published layout: 512 bytes of header, whole nanometres."""
+    nanometres = np.round(1e9 * heights.T).astype("<i4")
+    low, high = int(nanometres.min()), int(nanometres.max())
+    nanometres[missing.T] = low - 2
+    texts = [text.encode().ljust(16) for text in ("X", "Y", "Z", *["um", "um", "nm"] * 2)]
+    head = struct.pack(
+        "<12s4H30s30s5H8xHiiiiIfff",
+        b"DIGITAL SURF",
+        0,
+        1,
+        1,
+        2,
+        b"",
+        b"",
+        0,
+        0,
+        0,
+        1,
+        1,
+        32,
+        low,
+        high,
+        *heights.shape,
+        heights.size,
+        1.0,
+        2.0,
+        1.0,
+    )
+    head += b"".join(texts) + struct.pack("<fff", 1.0, 1.0, 1.0)
+    head = head.ljust(364, b"\0")  # then day 1, month 1, year 2026
+    head = head[:342] + struct.pack("<6H", 0, 0, 0, 1, 1, 2026) + head[354:]
+    return head.ljust(512, b"\0") + nanometres.tobytes()
+
+
+def al3d_file(heights, missing):
+    """Return an Alicona file: tags of 52 bytes, a comment, rows of floats filled up to 8 bytes."""
+    nx, ny = heights.shape
+    tags = {
+        "Cols": nx,
+        "Rows": ny,
+        "DepthImageOffset": 1024,
+        "PixelSizeXMeter": STEPS[0],
+        "PixelSizeYMeter": STEPS[1],
+        "InvalidPixelValue": -1.0,
+    }
+    named = {"Version": 1, "TagCount": len(tags), **tags}
+    head = b"AliconaImaging\0\r\n" + b"".join(
+        f"{name:\0<20}{value:\0<30}\r\n".encode()
+        for name, value in ((name, str(value)) for name, value in named.items())
+    )
+    rows = np.zeros((ny, nx + nx % 2), dtype="<f4")
+    rows[:, :nx] = np.where(missing, -1.0, heights).T
+    return (head + b"\0" * 254 + b"\r\n").ljust(1024, b"\0") + rows.tobytes()
+
+
+@pytest.mark.parametrize(("ending", "write"), [("sur", sur_file), ("al3d", al3d_file)])
+def test_files_of_digital_surf_and_alicona_are_read_with_gaps(ending, write, tmp_path, caplog):
+    pytest.importorskip("SurfaceTopography")
+    missing = np.zeros(HEIGHT.shape, dtype=bool)
+    missing[4, 3] = True
+    path = tmp_path / f"map.{ending}"
+    path.write_bytes(write(HEIGHT, missing))
+    found = read_surface(path)
+    assert found.spacing == pytest.approx(STEPS)
+    # whole nanometres; single precision is finer
+    assert found.height[~missing] == pytest.approx(HEIGHT[~missing], abs=0.51e-9)
+    around = (HEIGHT[3, 3] + HEIGHT[5, 3] + HEIGHT[4, 2] + HEIGHT[4, 4]) / 4.0
+    assert found.height[4, 3] == pytest.approx(around, abs=0.51e-9)
+    assert "1 of 54 points (1.9 %) were not measured and are filled" in caplog.text
+
+
+@pytest.mark.parametrize("ending", ["sdf", "x3p", "npz", "nc"])
+def test_points_that_were_not_measured_are_filled_and_said(ending, tmp_path, caplog):
+    """A plane solves Laplace's equation, so that every hole inside it is filled exactly."""
+    x, y = 1e-6 * np.arange(9.0), 2e-6 * np.arange(6.0)
+    plane = 1e-3 * x[:, None] + 3e-3 * y
+    holes = plane.copy()
+    holes[2:5, 2:4] = math.nan
+    holes[7, 1] = math.nan
+    path = tmp_path / f"holes.{ending}"
+    if ending == "sdf":
+        sdfio = pytest.importorskip("sdfio")
+        sdfio.write(path, holes.T, x_scale=1e-6, y_scale=2e-6, z_scale=1e-12)
+    elif ending == "x3p":
+        x3pio = pytest.importorskip("x3pio")
+        x3pio.write(path, holes.T, x_scale=1e-6, y_scale=2e-6, metadata=x3p_metadata(x3pio))
+    elif ending == "npz":
+        np.savez(path, x=1e3 * x, y=1e3 * y, height=1e6 * holes)
+    else:
+        fields = {"height": (("x", "y"), 1e6 * holes)}
+        xr.Dataset(fields, {"x": 1e3 * x, "y": 1e3 * y}).to_netcdf(path, engine="scipy")
+    # whole picometres in SDF
+    assert read_surface(path).height == pytest.approx(plane, abs=6e-13)
+    assert "7 of 54 points (13 %) were not measured" in caplog.text
+
+
+def test_gaps_of_a_profile_are_bridged_by_lines_and_too_many_are_refused():
+    nan = math.nan
+    given = np.array([nan, 1.0, nan, nan, 4.0, *[5.0] * 15])
+    # a gap at the end has one neighbour; the long one lies on the line from 1 to 4
+    assert filled(given, "p")[:5] == pytest.approx([1.0, 1.0, 2.0, 3.0, 4.0], rel=1e-12)
+    given[5:7] = nan
+    with pytest.raises(ParameterError, match=r"at most 20% .* missing, got 5 of 20"):
+        filled(given, "p")
 
 
 @pytest.mark.parametrize(
     ("name", "content", "words"),
     [
-        ("heights.xyz", "", "ends in one of .csv, .npz, .nc, .sdf, .x3p"),
+        ("heights.xyz", "", "ends in one of .csv, .txt, .tsv, .npz, .nc, .sdf, .x3p, .sur, .al3d"),
         ("broken.sdf", "no header", "not a readable SDF file"),
         ("broken.x3p", "no archive", "not a readable X3P file"),
+        ("broken.sur", "DIGITAL SURF", "not a readable SUR file"),
+        ("broken.al3d", "AliconaImaging", "not a readable AL3D file"),
+        ("no_size.al3d", al3d_file(HEIGHT, HEIGHT > 1.0).replace(b"Cols", b"Cola"), "'Cols'"),
         ("one.csv", "x_mm,height_um\n0,0\n", "at least 4 places"),
         ("hole.csv", "x_mm,height_um\n0,0\n1,nan\n2,0\n3,1\n4,0\n", "must be a finite number"),
         ("far.csv", "x_mm,height_um\n0,0\n2,1\n4,0\n6,1\n8,0\n", "1 um is 1e-6 m"),
@@ -128,7 +231,7 @@ def test_points_that_were_not_measured_are_refused(tmp_path):
 def test_wrong_files_are_refused(name, content, words, tmp_path):
     if name.endswith((".sdf", ".x3p")):
         pytest.importorskip(f"{name[-3:]}io")
-    (tmp_path / name).write_text(content)
+    (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
     with pytest.raises(ParameterError) as refused:
         read_surface(tmp_path / name)
     assert words in str(refused.value)

@@ -15,6 +15,7 @@ from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings
 from gearlube_core.hypoid_contact.strips import StripSettings
 from tests.helpers.contact_cases import shipped_file
 from tests.helpers.loaded_cases import stiffness
+from tests.helpers.units import without_units
 
 NAMES = ("misalignment.pinion_axial", "pinion.machine.radial_setting_mm")
 SERIES = SeriesSettings(
@@ -45,6 +46,7 @@ def test_far_below_resonance_the_error_is_the_static_one(results):
     found = float(dataset["transmission_error"].sel(pinion_speed=100.0, order=1))
     assert found == pytest.approx(static, rel=0.15)
     assert (dataset["stable"] == 1.0).all()
+    assert not without_units(dataset)
 
 
 def test_rows_are_sorted_by_the_largest_change_of_the_force(results):

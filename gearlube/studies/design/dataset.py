@@ -84,11 +84,16 @@ def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
             "side": list(SIDES),
             "member": list(forms),
             "edge": list(LEAST),
-            "face": forms["gear"].t,
-            "path_phase": PATH_PHASES,
-            "mesh_phase": np.arange(_FINER * _PERIOD) / (_FINER * _PERIOD),
-            "ease_s": np.linspace(0.0, 1.0, EASE_GRID[0]),
-            "ease_t": np.linspace(0.0, 1.0, EASE_GRID[1]),
+            **{
+                name: (name, values, {"units": "1"})
+                for name, values in (
+                    ("face", forms["gear"].t),
+                    ("path_phase", PATH_PHASES),
+                    ("mesh_phase", np.arange(_FINER * _PERIOD) / (_FINER * _PERIOD)),
+                    ("ease_s", np.linspace(0.0, 1.0, EASE_GRID[0])),
+                    ("ease_t", np.linspace(0.0, 1.0, EASE_GRID[1])),
+                )
+            },
         },
         attrs={
             "name": design.file.name,

@@ -33,7 +33,11 @@ def flank_dataset(flanks: MeasuredFlanks, fits: Sequence[SettingsFit] = ()) -> x
         name: (("flank", "row", "column"), _padded(values), {"units": unit, "long_name": text})
         for name, (unit, text, values) in maps.items()
     }
-    data["teeth"] = (("flank",), [len(one.teeth) for one in grids], {"long_name": "measured teeth"})
+    data["teeth"] = (
+        ("flank",),
+        [len(one.teeth) for one in grids],
+        {"units": "1", "long_name": "measured teeth"},
+    )
     data["rest_rms"] = (
         ("flank",),
         [one.residual_rms for one in surfaces],

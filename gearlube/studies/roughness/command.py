@@ -29,7 +29,8 @@ _MICRO = 1e-6  # m
 _HIGHEST_UM = 100.0
 
 FileArgument = Annotated[
-    str, typer.Argument(help="CSV, npz, NetCDF, SDF or X3P file of heights.", metavar="FILE")
+    str,
+    typer.Argument(help="CSV, npz, NetCDF, SDF, X3P, SUR or AL3D file of heights.", metavar="FILE"),
 ]
 OutOption = Annotated[Path, typer.Option(help="Folder of results.")]
 PeaksOption = Annotated[

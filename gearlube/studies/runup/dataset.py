@@ -68,6 +68,11 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "shape_share": ("1", "part of a mode in the kinetic energy of this motion"),
     "shape_speed": ("rad s-1", "pinion speed of this motion"),
     "shape_mesh_order": ("1", "mesh order of this motion"),
+    "frame_time": ("s", "time of a frame in the turn of the pinion that is drawn"),
+    "frame_angle": ("rad", "angle of the pinion since the first frame"),
+    "ring": ("1", "bearing of the rollers, numbered from 1"),
+    "roller_load": ("N", "load of a roller; nan: no such roller in this bearing"),
+    "roller_angle": ("rad", "place of a roller around its shaft"),
 }
 
 

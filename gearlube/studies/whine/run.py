@@ -276,6 +276,7 @@ def _dataset(
         {"units": "rad per unit of the parameter", "long_name": "its rate"},
     )
     model = HypoidTorsional(pair)
+    own = {"units": "unit of the parameter"}
     return xr.Dataset(
         data,
         coords={
@@ -284,12 +285,16 @@ def _dataset(
                 list(settings.speeds),
                 {"units": "rad/s", "long_name": "mean pinion speed"},
             ),
-            "order": list(settings.orders),
-            "phase": np.arange(settings.series.positions) / settings.series.positions,
+            "order": ("order", list(settings.orders), {"units": "1", "long_name": "mesh order"}),
+            "phase": (
+                "phase",
+                np.arange(settings.series.positions) / settings.series.positions,
+                {"units": "1", "long_name": "share of a mesh period"},
+            ),
             "parameter": [one.name for one in table.parameters],
             "unit": ("parameter", [one.unit for one in table.parameters]),
-            "value": ("parameter", [one.value for one in table.parameters]),
-            "tolerance": ("parameter", [one.tolerance for one in table.parameters]),
+            "value": ("parameter", [one.value for one in table.parameters], own),
+            "tolerance": ("parameter", [one.tolerance for one in table.parameters], own),
         },
         attrs={
             "name": file.name,

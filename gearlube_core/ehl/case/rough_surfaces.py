@@ -44,8 +44,8 @@ class RoughSurface(Section):
 
     file: FileName | None = Field(
         default=None,
-        description="File with heights: a profile (CSV) or a map (npz, NetCDF, SDF, X3P); its "
-        "path is relative to the case file",
+        description="File with heights: a profile (CSV) or a map (npz, NetCDF, SDF, X3P, SUR, "
+        "AL3D); its path is relative to the case file",
     )
     stand_in: Literal["A", "B", "C"] | None = Field(
         default=None,

@@ -82,18 +82,19 @@ def sensitivity_dataset(
             rates,
             {"units": f"{unit} per unit of the parameter", "long_name": f"rate of: {text}"},
         )
+    own, one_each = {"units": "unit of the parameter"}, {"units": "1"}
     return xr.Dataset(
         data,
         coords={
             "side": list(SIDES),
             "parameter": [one.name for one in parameters],
             "unit": ("parameter", [one.unit for one in parameters]),
-            "value": ("parameter", [one.value for one in parameters]),
-            "tolerance": ("parameter", [one.tolerance for one in parameters]),
+            "value": ("parameter", [one.value for one in parameters], own),
+            "tolerance": ("parameter", [one.tolerance for one in parameters], own),
             "phase": ("phase", phases, {"units": "1", "long_name": "mesh phase"}),
-            "pair": np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1),
-            "ease_s": places[0],
-            "ease_t": places[1],
+            "pair": ("pair", np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1), one_each),
+            "ease_s": ("ease_s", places[0], one_each),
+            "ease_t": ("ease_t", places[1], one_each),
         },
         attrs={
             "name": file.name,
