@@ -9,6 +9,7 @@ from pydantic import Field
 from gearlube_core.input_file.input_file import Section
 
 Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
+CutterRadius = Annotated[float, Field(gt=0.0, le=900.0, allow_inf_nan=False)]
 Offset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
 SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
 PressureAngle = Annotated[float, Field(ge=10.0, le=30.0, allow_inf_nan=False)]
@@ -55,7 +56,7 @@ class BlankPair(Section):
 class BlankCutter(Section):
     """The cutter head and the inclination of both flanks."""
 
-    radius_mm: Length = Field(description="Cutter radius")
+    radius_mm: CutterRadius = Field(description="Cutter radius")
     blade_groups: int = Field(
         ge=0,
         le=50,
