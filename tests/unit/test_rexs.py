@@ -321,7 +321,7 @@ def test_profile_shifts_of_flanks_make_thickness_backlash_and_tips(written):
     # 2 m sin(20 deg) times the 0.05 by which the shifts fall short
     assert 1e3 * pair.backlash == pytest.approx(0.4 * math.sin(math.radians(20.0)), rel=1e-6)
     other = shifted((0.3, -0.35)).replace(">0.3<", ">0.2<", 1)
-    with pytest.raises(ParameterError, match="same for both flanks, got 0.2 of .* 0.3 of"):
+    with pytest.raises(ParameterError, match=r"same for both flanks, got 0.2 of .* 0.3 of"):
         read_rexs(written(other))
 
 
@@ -375,10 +375,10 @@ def test_json_and_archives_are_read_as_xml_is(tmp_path, written):
         assert read_rexs(other).file.helical_pair() == expected.file.helical_pair()
     with zipfile.ZipFile(other, "a") as archive:
         archive.writestr("second.rexs", CYLINDRICAL)
-    with pytest.raises(ParameterError, match="must hold one REXS model .*pair.rexsj .*second.rexs"):
+    with pytest.raises(ParameterError, match=r"must hold one REXS model .*pair.rexsj .*second.rexs"):
         read_rexs(other)
     path.write_text('{"model": {"version": "1.4"}}', encoding="utf-8")
-    with pytest.raises(ParameterError, match="not a readable JSON file of REXS.*relations"):
+    with pytest.raises(ParameterError, match=r"not a readable JSON file of REXS.*relations"):
         read_rexs(path)
     with pytest.raises(ParameterError, match="there is no such file"):
         read_rexs(tmp_path / "none.rexsz")
@@ -439,5 +439,5 @@ def test_a_planetary_stage_is_read_as_its_mesh_of_sun_and_planet(wanted, written
 
 
 def test_the_ring_of_a_planetary_stage_is_refused_with_what_can_be_read(written):
-    with pytest.raises(ParameterError, match="of planetary_stage 10 .* mesh of sun and planet"):
+    with pytest.raises(ParameterError, match=r"of planetary_stage 10 .* mesh of sun and planet"):
         read_rexs(written(PLANETARY), stage="ring 1")
