@@ -70,7 +70,10 @@ print(pair.total_contact_ratio, file.provenance("pair.backlash_mm"))
 
 Use the file in these commands:
 
-- `gearlube helical my_pair.toml` analyses the pair.
+- `gearlube helical my_pair.toml` analyses the pair. `--export` also writes both flanks of a tooth
+  of each gear as STEP files (`gears/pinion_flanks.step`, `gears/gear_flanks.step`): bicubic
+  B-splines within 0.01 um of the involute helicoids, without modifications, from the start of the
+  involute to the tip. Each is about its own axis, z, with mid-face at z = 0.
 - `gearlube build-fmu --model helical-pair --gear my_pair.toml` builds an FMU of it.
 - `[film]` is on friction and losses in both. `oil_file` names your [oil](oil_file.md), `model` the
   formulas or solved films, and `line_model` a

@@ -375,7 +375,9 @@ def test_json_and_archives_are_read_as_xml_is(tmp_path, written):
         assert read_rexs(other).file.helical_pair() == expected.file.helical_pair()
     with zipfile.ZipFile(other, "a") as archive:
         archive.writestr("second.rexs", CYLINDRICAL)
-    with pytest.raises(ParameterError, match=r"must hold one REXS model .*pair.rexsj .*second.rexs"):
+    with pytest.raises(
+        ParameterError, match=r"must hold one REXS model .*pair.rexsj .*second.rexs"
+    ):
         read_rexs(other)
     path.write_text('{"model": {"version": "1.4"}}', encoding="utf-8")
     with pytest.raises(ParameterError, match=r"not a readable JSON file of REXS.*relations"):
