@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from difflib import get_close_matches
 from functools import cache
@@ -127,7 +127,7 @@ def sentence(
         for word, why in unmodelled.items():
             if word in f"{field} {value}".lower():
                 return f"{field} is not a field of this file: {why}."
-        near = " or ".join(_meant(field, notes))
+        near = " or ".join(likely_fields(field, notes))
         return f"{field} is not a field of this file" + (f"; is it {near}?" if near else ".")
     if note is None:
         return f"{field or 'The file'}: {error['msg'].lower()}, got {error['input']!r}."
@@ -138,19 +138,19 @@ def sentence(
     return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}.{hint}"
 
 
-def _meant(field: str, notes: Mapping[str, FieldNote]) -> list[str]:
+def likely_fields(field: str, names: Iterable[str]) -> list[str]:
     """Return the fields that a misspelt one is likely to be, the nearest first.
 
     A likely field has all its words, or words that read nearly the same. Letters count where words
     were joined: alone they would take profile_shift for profile_slope.
     """
-    words = _words(field.rpartition(".")[2])
+    names, words = list(names), _words(field.rpartition(".")[2])
     near = [
         name
-        for name in notes
+        for name in names
         if max(map(len, words)) > 1
         and all(any(_alike(word, other) for other in _words(name)) for word in words)
-    ] or [name for name in notes if get_close_matches(field, [name], cutoff=_SAME_LETTERS)]
+    ] or [name for name in names if get_close_matches(field, [name], cutoff=_SAME_LETTERS)]
     ranked = get_close_matches(field, near, n=len(near) or 1, cutoff=0.0)
     sections, keys = field.rpartition(".")[0], [name.rpartition(".")[2] for name in ranked]
     same = [name for name, key in zip(ranked, keys, strict=True) if key == keys[0]]
@@ -183,7 +183,7 @@ def as_meant(
     unknown = [error["loc"] for error in errors if error["type"] == "extra_forbidden"]
     for place in unknown:
         *sections, key = (str(part) for part in place)
-        likely = _meant(".".join((*sections, key)), notes)
+        likely = likely_fields(".".join((*sections, key)), notes)
         *meant_sections, meant = likely[0].split(".") if likely else [""]
         section: Any = changed
         for part in sections:
