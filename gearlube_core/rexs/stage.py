@@ -67,7 +67,7 @@ class Stage:
             and model.components[mesh].kind in _STAGES
         }
         offered = _offered(model, stages, planetary)
-        stage = _one_of(model, offered if wanted is None else stages, wanted, offered, planetary)
+        stage = _one_of(model, stages, wanted, offered, planetary)
         first, second = _gears(model, stage)
         for one in (first, second):
             if one.kind != _GEARS[stage.kind]:
@@ -216,15 +216,17 @@ def _one_of(
     planetary: dict[int, Component],
 ) -> Component:
     """Return the stage that is wanted, by number, name or a part of the name."""
-    text = "" if wanted is None else str(wanted).strip().lower()
-    names = {
-        one.number: {str(one.number), one.name.lower()}
-        | ({str(around.number), around.name.lower()} if (around := planetary.get(one.number))
-           and one in offered else set())
-        for one in stages
-    }  # fmt: skip
-    found = [one for one in stages if not text or text in names[one.number]]
-    found = found or [one for one in stages if any(text in name for name in names[one.number])]
+    text, found = str(wanted).strip().lower(), stages
+    if wanted is not None:
+        called = {one.number: [one] for one in stages}
+        for one in offered:
+            called[one.number] += [planetary[one.number]] if one.number in planetary else []
+        found = [
+            one
+            for one in stages
+            if any(text in (str(own.number), own.name.lower()) for own in called[one.number])
+        ] or [one for one in stages if any(text in own.name.lower() for own in called[one.number])]
+    found = [one for one in found if one in offered] or found[:1]  # else copies of one mesh
     if len(found) == 1:
         return found[0]
     listed = "; ".join(_listed(model, one, planetary) for one in offered)
@@ -233,13 +235,16 @@ def _one_of(
             f"{model.path} has no cylindrical or bevel stage {wanted}; it has {listed}."
         )
     raise ParameterError(
-        f"{model.path} has {len(found)} stages{f' called {wanted}' if text else ''}: {listed}. "
+        f"{model.path} has {len(found)} stages{f' called {wanted}' if wanted else ''}: {listed}. "
         f"Choose one by its number or name: --stage {offered[0].number}"
     )
 
 
 def _listed(model: RexsModel, stage: Component, planetary: dict[int, Component]) -> str:
     """Return a stage with its teeth, and the planetary stage that it is in."""
-    teeth = "/".join(str(one.count("number_of_teeth") or "?") for one in _gears(model, stage))
+    related = model.related("stage", "stage", stage.number)
+    gears = [model.components.get(number) for roles in related for role, number in roles.items()
+             if role in ("gear_1", "gear_2")]  # fmt: skip
+    teeth = "/".join(str(one.count("number_of_teeth") if one else "?") for one in gears) or "no"
     around = planetary.get(stage.number)
     return f"{stage}, {teeth} teeth" + (f", sun and planet of {around}" if around else "")
