@@ -235,13 +235,14 @@ teeth in the standard. Its cones and face widths are compared, but not its tooth
 | Check | Refused | Warning |
 |---|---|---|
 | Offset, spiral angle, cutter radius: cones that meet the condition of the method | none found | |
-| Spiral angle of the gear, after subtraction of the offset angle | 0 or less | |
+| Spiral angle of the gear, after subtraction of the offset angle | below 0 | |
 | Blade angle: pressure angle plus or minus limit pressure angle | outside 5 to 40 deg | |
 | Cutter over the gear's face | does not reach; spiral above 65 deg | spiral of the other hand |
 | Face width over outer cone distance | above 0.45 | above 0.35 |
 | Calculation point | not on the face | |
 | Blade groups and teeth | a common factor | |
 | Topland at mid-face | none (pointed) | below 0.2 normal modules |
+| Tip clearance | | below 0.1 normal modules |
 | Undercut at mid-face by the mate's tip | any | |
 
 Topland and undercut are those of the virtual spur gear in the normal section. This is an estimate,

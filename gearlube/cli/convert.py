@@ -37,7 +37,8 @@ def convert(
     pair: Annotated[
         str,
         typer.Argument(
-            help="REXS file (.rexs), gear file or blank file (TOML), or a shipped one.",
+            help="REXS file (.rexs, .rexsj, .rexsz), gear file or blank file (TOML), or a shipped "
+            "one.",
             metavar="PAIR",
         ),
     ],
@@ -46,8 +47,10 @@ def convert(
         typer.Option(help="File to write. Default: PAIR with the other ending, in this folder."),
     ] = None,
     stage: Annotated[
-        int | None,
-        typer.Option(help="Number of the gear stage, if the REXS file has several.", metavar="N"),
+        str | None,
+        typer.Option(
+            help="Number or name of the gear stage, if the REXS file has several.", metavar="STAGE"
+        ),
     ] = None,
     given: Annotated[
         list[str] | None,
@@ -75,9 +78,9 @@ def convert(
     with exit_on_error():
         reads = Path(pair).suffix.lower() in _REXS
         path = out or Path(Path(pair).name).with_suffix(".toml" if reads else ".rexs")
-        if (path.suffix.lower() in _REXS) == reads:
-            wanted = "in .toml" if reads else "in .rexs"
-            raise ParameterError(f"--out must end {wanted}, got {path}")
+        wanted = ".toml" if reads else ".rexs"
+        if path.suffix.lower() != wanted:
+            raise ParameterError(f"--out must end in {wanted}, got {path}")
         if path.exists() and not overwrite:
             raise ParameterError(f"{path} exists already. Choose another --out, or add --overwrite")
         if not reads:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from typing import Literal, NamedTuple
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import FieldNote, field_unit
+from gearlube_core.input_file.field_notes import FieldNote, field_unit, likely_fields
 
 Kind = Literal["number", "whole number", "text"]
 _KINDS: tuple[Kind, ...] = ("number", "whole number", "text")
-_NEAR, _ALIKE = 3, 0.5
+_NEAR = 3
 
 
 class Key(NamedTuple):
@@ -74,7 +73,7 @@ def understood(typed: str, keys: Keys) -> Key:
     short = [key for key in keys.values() if _short(key) == typed]
     if len(short) == 1:
         return short[0]
-    near = [key.name for key in short] or get_close_matches(typed, keys, _NEAR, _ALIKE)
+    near = [key.name for key in short] or likely_fields(typed, keys)
     if not near:
         last = typed.rpartition(".")[2]
         near = [name for name in keys if last and last in name][:_NEAR]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -24,7 +23,7 @@ from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.flank.flank import CURVES, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.gear_file_sections import FlankRelief
-from gearlube_core.input_file.field_notes import field_notes, field_unit
+from gearlube_core.input_file.field_notes import field_notes, field_unit, likely_fields
 from gearlube_core.input_file.input_file import read_toml
 
 logger = logging.getLogger(__name__)
@@ -320,7 +319,7 @@ def _check_number(file: GearFile, name: str) -> None:
     notes = field_notes(type(file))
     numbers = [key for key, note in notes.items() if note.kind == "number"]
     if name not in numbers:
-        near = get_close_matches(name, numbers, n=1)
+        near = likely_fields(name, numbers)
         cure = f"Is it {near[0]}?" if near else "docs/gear_file.md and its helical twin list them."
         raise ParameterError(
             f"A parameter must be a number of the gear file of {file.name}, got {name!r}. {cure}"

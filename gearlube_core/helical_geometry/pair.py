@@ -28,6 +28,9 @@ _ROUNDED_SHIFTS = 2e-3  # normal modules of backlash that shifts of three decima
 Shifts = tuple[float, float]
 
 
+_RADII = ("reference", "base", "tip", "root")
+
+
 class _Member(NamedTuple):
     role: str
     reference: float  # radii [m]
@@ -114,11 +117,7 @@ class HelicalPair:
             "It must exceed the sum of the base radii, by about 10 percent.",
         )  # fmt: skip
         for member in ("pinion", "gear"):
-            tip, root = (
-                getattr(self, f"{member}_tip_radius"),
-                getattr(self, f"{member}_root_radius"),
-            )
-            base = getattr(self, f"{member}_base_radius")
+            base, tip, root = (getattr(self, f"{member}_{kind}_radius") for kind in _RADII[1:])
             check_within(f"{member}_tip_radius", tip, base, 2.0 * base, "m", _METRES)
             check_within(f"{member}_root_radius", root, 0.3 * base, tip, "m", _METRES)
         self._check_backlash()
@@ -169,21 +168,19 @@ class HelicalPair:
         ParameterError
             Tips that cut into the mate's root, are pointed or run into the mate's fillet.
         """
-        m, found = self.normal_module, []
-        members = self._members
-        reached = (self.tip_start, self.tangent_length - self.tip_end)
+        m, members, found = self.normal_module, self._members, list[str]()
         for own, mate in (members, members[::-1]):
             found += check_clearance(
                 own.role, self.centre_distance - mate.tip - own.root, m,
                 f"Increase the centre distance, or reduce the {mate.role}'s tip diameter or the "
                 f"{own.role}'s root diameter.",
             )  # fmt: skip
-        for own, thickness in zip(members, self.tooth_thickness, strict=True):
-            arc = tip_thickness(own.reference, thickness, own.tip, self.transverse_pressure_angle)
+        reached = (self.tip_start, self.tangent_length - self.tip_end)
+        for own, arc, reach in zip(members, self.tooth_thickness, reached, strict=True):
+            top = tip_thickness(own.reference, arc, own.tip, self.transverse_pressure_angle)
             lead = math.atan(math.tan(self.helix_angle) * own.tip / own.reference)
             cure = f"Reduce the {own.role}'s tip diameter, profile shift or pressure angle."
-            found += check_tip(own.role, arc * math.cos(lead), m, cure)
-        for own, reach in zip(members, reached, strict=True):
+            found += check_tip(own.role, top * math.cos(lead), m, cure)
             found += check_reach(own.role, own.base, reach, self._rack(own), m)
         return found
 
@@ -223,16 +220,11 @@ class HelicalPair:
     @property
     def _members(self) -> tuple[_Member, _Member]:
         """Radii of pinion and gear."""
-        return (
-            _Member(
-                "pinion", self.pinion_reference_radius, self.pinion_base_radius,
-                self.pinion_tip_radius, self.pinion_root_radius, self.profile_shifts[0],
-            ),
-            _Member(
-                "gear", self.gear_reference_radius, self.gear_base_radius,
-                self.gear_tip_radius, self.gear_root_radius, self.profile_shifts[1],
-            ),
-        )  # fmt: skip
+        first, second = (
+            _Member._make([role, *(getattr(self, f"{role}_{r}_radius") for r in _RADII), shift])
+            for role, shift in zip(("pinion", "gear"), self.profile_shifts, strict=True)
+        )
+        return first, second
 
     @property
     def profile_shift_sum(self) -> float:

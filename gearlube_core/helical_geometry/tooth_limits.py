@@ -192,7 +192,8 @@ def check_reach(role: str, base: float, reached: float, tool: RackTool, module: 
     """
     start = involute_start(tool)
     begins, reach = (
-        f"{2.0 * math.hypot(base, roll) / MILLIMETRE:.2f} mm" for roll in (start.roll, reached)
+        f"{2.0 * math.hypot(base, max(roll, 0.0)) / MILLIMETRE:.2f} mm"
+        for roll in (start.roll, reached)
     )
     hob = f"a hob with a corner radius of {tool.fillet / module:.3g} normal modules"
     if start.undercut:

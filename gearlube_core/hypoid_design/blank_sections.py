@@ -13,6 +13,7 @@ Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(5
 Offset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(1.0, 150.0)]
 SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False), Usual(3.0, 60.0)]
 PressureAngle = Annotated[float, Field(ge=10.0, le=30.0, allow_inf_nan=False), Usual(12.0, 28.0)]
+CutterRadius = Annotated[float, Field(gt=0.0, le=900.0, allow_inf_nan=False), Usual(5.0, 600.0)]
 Depth = Annotated[float, Field(ge=1.0, le=3.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Error = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
@@ -56,7 +57,7 @@ class BlankPair(Section):
 class BlankCutter(Section):
     """The cutter head and the inclination of both flanks."""
 
-    radius_mm: Length = Field(description="Cutter radius")
+    radius_mm: CutterRadius = Field(description="Cutter radius")
     blade_groups: int = Field(
         ge=0,
         le=50,

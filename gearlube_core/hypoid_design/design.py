@@ -188,7 +188,12 @@ def nearest_fit(
     rounds: list[Attempt] = []
     for number in range(ROUNDS):
         progress((number + 0.1) / ROUNDS, f"pinion settings, round {number + 1}")
-        fit = fit_pinion(start, asked, freedoms=designed.file.machine, first=first)
+        try:
+            fit = fit_pinion(start, asked, freedoms=designed.file.machine, first=first)
+        except ParameterError:
+            if not rounds:
+                raise
+            break  # corrections went beyond what a path can be; the nearest round stands
         progress((number + 0.7) / ROUNDS, "unloaded contact")
         measured = {side: measured_contact(fit.file, side) for side in SIDES}
         far = {side: _far(targets[side], measured[side], designed) for side in SIDES}

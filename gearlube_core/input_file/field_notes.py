@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -111,6 +111,10 @@ class Usual:
         return handler(core) | {"usual": (self.low, self.high)}
 
 
+# shares of equal letters, as difflib has them, from which a word or a whole name is the same
+_SAME_WORD, _SAME_LETTERS = 0.75, 0.9
+
+
 class FieldNote(NamedTuple):
     """One field of a data model, all as text.
 
@@ -192,7 +196,7 @@ def sentence(
         for word, why in unmodelled.items():
             if word in f"{field} {value}".lower():
                 return f"{field} is not a field of this file: {why}."
-        near = _meant(field, notes)
+        near = " or ".join(likely_fields(field, notes))
         return f"{field} is not a field of this file" + (f"; is it {near}?" if near else ".")
     cure = _rewritten(kind, error["input"])
     if kind == "model_type":
@@ -206,9 +210,37 @@ def sentence(
     return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}.{hint}"
 
 
-def _meant(field: str, notes: Mapping[str, FieldNote]) -> str:
-    """Return the field that a misspelt one is likely to be; "" for none."""
-    return next(iter(get_close_matches(field, notes, n=1)), "")
+def likely_fields(field: str, names: Iterable[str]) -> list[str]:
+    """Return the fields that a misspelt one is likely to be, the nearest first.
+
+    A likely field has all its words, or words that read nearly the same. Letters count where words
+    were joined: alone they would take profile_shift for profile_slope.
+    """
+    names, words = list(names), _words(field.rpartition(".")[2])
+    near = [
+        name
+        for name in names
+        if max(map(len, words)) > 1
+        and all(any(_alike(word, other) for other in _words(name)) for word in words)
+    ] or [name for name in names if get_close_matches(field, [name], cutoff=_SAME_LETTERS)]
+    ranked = get_close_matches(field, near, n=len(near) or 1, cutoff=0.0)
+    sections, keys = field.rpartition(".")[0], [name.rpartition(".")[2] for name in ranked]
+    same = [name for name, key in zip(ranked, keys, strict=True) if key == keys[0]]
+    own = [name for name in same if name.rpartition(".")[0] == sections]
+    return own or same[:2]
+
+
+def _words(name: str) -> list[str]:
+    """Return the words of a field, without its unit."""
+    ending = field_unit(name)[1]
+    return name.removesuffix(ending).replace(".", "_").split("_")
+
+
+def _alike(word: str, other: str) -> bool:
+    long_enough = min(len(word), len(other)) > 2
+    begins = other.startswith(word) or word.startswith(other)
+    close = get_close_matches(word, [other], cutoff=_SAME_WORD)
+    return word == other or (long_enough and (begins or bool(close)))
 
 
 def as_meant(
@@ -223,13 +255,12 @@ def as_meant(
     unknown = [error["loc"] for error in errors if error["type"] == "extra_forbidden"]
     for place in unknown:
         *sections, key = (str(part) for part in place)
-        *meant_sections, meant = _meant(".".join((*sections, key)), notes).split(".")
+        likely = likely_fields(".".join((*sections, key)), notes)
+        *meant_sections, meant = likely[0].split(".") if likely else [""]
         section: Any = changed
         for part in sections:
             section = section.get(part) if isinstance(section, dict) else None
         if not isinstance(section, dict) or meant_sections != sections or meant in section:
-            return None
-        if not get_close_matches(key, [meant]):
             return None
         section[meant] = section.pop(key)
     return changed if unknown else None

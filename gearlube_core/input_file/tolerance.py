@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from gearlube_core.input_file.field_notes import FieldNote
+from gearlube_core.input_file.field_notes import FieldNote, likely_fields
 from gearlube_core.input_file.input_file import Section
 
 Width = Annotated[float, Field(gt=0.0, le=1e12, allow_inf_nan=False)]
@@ -79,6 +78,6 @@ def check_tolerances(tolerances: Mapping[str, Tolerance], fields: Mapping[str, F
     numbers = [name for name, note in fields.items() if note.kind in _NUMBERS]
     for name in tolerances:
         if name not in numbers:
-            near = get_close_matches(name, numbers, n=1)
+            near = likely_fields(name, numbers)
             cure = f"is it {near[0]}" if near else "write its whole name, with sections and unit"
             raise ValueError(f"tolerances must name fields that are numbers, got {name}; {cure}")

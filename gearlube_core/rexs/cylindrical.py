@@ -14,6 +14,10 @@ from gearlube_core.rexs.stage import ExchangeNote, Stage
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 _AGREE = 1e-4  # of numbers that both gears must have alike
+_SHIFT = "addendum_modification_coefficient"
+_ADDENDUM = "addendum_coefficient_basic_profile"
+_REFERENCE = ("pair.centre_distance_mm", "pair.normal_module_mm", "pair.helix_angle_deg",
+              "pinion.teeth", "gear.teeth")  # fmt: skip
 
 
 def helical_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
@@ -64,8 +68,8 @@ def helical_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
     if (backlash := _backlash(stage)) is not None:
         data["pair.backlash_mm"] = backlash
     for role, one in stage.members().items():
-        tip = _tip(stage, role, one, teeth[role], data, given)
-        data[f"{role}.tip_diameter_mm"] = tip
+        data[f"{role}.profile_shift_coefficient"] = _shift(stage, role, one, data | given)
+        data[f"{role}.tip_diameter_mm"] = _tip(stage, role, one, data, given)
         data[f"{role}.root_diameter_mm"] = stage.optional(
             f"{role}.root_diameter_mm", (one, "root_diameter", "mm")
         )
@@ -157,26 +161,54 @@ def _backlash(stage: Stage) -> float | None:
     return 0.5 * (least + most)
 
 
+def _shift(stage: Stage, role: str, gear: Component, data: dict[str, Any]) -> float | None:
+    """Return the profile shift coefficient, alike on both flanks.
+
+    0 where neither it nor the tip diameter is there and the axes stand at the reference distance.
+    """
+    name = f"{role}.profile_shift_coefficient"
+    found = [(one, x) for one in stage.flanks(gear) if (x := one.value(_SHIFT)) is not None]
+    if found:
+        values = [x for _, x in found]
+        if max(values) - min(values) > _AGREE:
+            listed = ", ".join(f"{x:g} of {one}" for one, x in found)
+            raise ParameterError(f"{_SHIFT} must be the same for both flanks, got {listed}")
+        stage.note("taken", name, f"{_SHIFT} of {found[0][0]}")
+        return values[0]
+    numbers = [float(data[one]) for one in _REFERENCE if data.get(one) is not None]
+    if "tip_diameter" in gear.attributes or len(numbers) < len(_REFERENCE):
+        return None
+    centres, module, helix, z1, z2 = numbers
+    if abs(0.5 * (z1 + z2) * module / math.cos(helix * DEGREE) - centres) > _AGREE * module:
+        return None
+    stage.note("lacking", name, f"{_SHIFT} is absent: 0, as the axes are at reference distance")
+    return 0.0
+
+
 def _tip(
-    stage: Stage, role: str, gear: Component, teeth: float | None, data: dict[str, Any],
-    given: dict[str, Any],
-) -> float | None:  # fmt: skip
-    """Return the tip diameter [mm]: as given, or from addendum and profile shift."""
+    stage: Stage, role: str, gear: Component, data: dict[str, Any], given: dict[str, Any]
+) -> float | None:
+    """Return the tip diameter [mm]: as given, or d + 2 m_n (x + h_aP); [iso_21771]."""
     name = f"{role}.tip_diameter_mm"
-    fields = ("pair.normal_module_mm", "pair.helix_angle_deg")
-    module, helix = (given.get(one, data.get(one)) for one in fields)
-    places = ("addendum_modification_coefficient", "addendum_coefficient_basic_profile")
-    flanks = stage.flanks(gear)
-    usable = bool(flanks) and all(place in flanks[0].attributes for place in places)
-    usable = usable and "tip_diameter" not in gear.attributes
-    if usable and teeth is not None and module is not None and helix is not None:
-        shift, addendum = (flanks[0].value(place) or 0.0 for place in places)
-        stage.note("inferred", name, f"from {' and '.join(places)} of {flanks[0]}")
-        reference = teeth * module / math.cos(helix * DEGREE)
-        return float(reference + 2.0 * module * (shift + addendum))
-    return stage.required(
-        name, (gear, "tip_diameter", "mm"), given=given, other=f"{' with '.join(places)} of a flank"
-    )
+    fields = (f"{role}.teeth", *_REFERENCE[1:3], f"{role}.profile_shift_coefficient")
+    known = [value for one in fields if (value := given.get(one, data.get(one))) is not None]
+    tip = gear.value("tip_diameter", "mm")
+    if len(known) < len(fields):
+        other = f"{_SHIFT} of a flank"
+        return stage.required(name, (gear, "tip_diameter", "mm"), given=given, other=other)
+    teeth, module, helix, shift = (float(value) for value in known)
+    reference = teeth * module / math.cos(helix * DEGREE)
+    if tip is not None and tip > 0.5 * reference:
+        return stage.optional(name, (gear, "tip_diameter", "mm"))
+    if tip is not None:
+        why = f"{tip:g} mm cannot be with a reference diameter of {reference:.4g} mm"
+        stage.note("left out", f"tip_diameter of {gear}", why)
+    found = [h for one in (*stage.flanks(gear), gear) if (h := one.value(_ADDENDUM)) is not None]
+    if found:
+        stage.note("inferred", name, f"from {_SHIFT} and {_ADDENDUM}, {found[0]:g}")
+    elif name not in given:
+        stage.note("lacking", name, f"{_ADDENDUM} is absent: 1 module above the profile shift")
+    return reference + 2.0 * module * (shift + (found[0] if found else 1.0))
 
 
 def lacking_fields(file: HelicalGearFile) -> list[ExchangeNote]:
@@ -215,7 +247,8 @@ def write_helical(file: HelicalGearFile, document: Document) -> set[str]:
     document.value(stage, "center_distance", "mm", pair.centre_distance / MILLIMETRE)
     document.value(stage, "common_face_width", "mm", pair.face_width / MILLIMETRE)
     for bound in ("minimum", "maximum"):
-        document.value(stage, f"{bound}_normal_backlash", "mm", pair.backlash / MILLIMETRE)
+        if file.pair.backlash_mm is not None:
+            document.value(stage, f"{bound}_normal_backlash", "mm", file.pair.backlash_mm)
     gears = []
     for role, sign in (("pinion", -1.0), ("gear", 1.0)):
         member = getattr(file, role)
@@ -236,12 +269,15 @@ def write_helical(file: HelicalGearFile, document: Document) -> set[str]:
             flank = document.component("cylindrical_gear_flank", f"{role}, {side} flank")
             angle = pair.normal_pressure_angle / DEGREE
             document.value(flank, "normal_pressure_angle", "deg", angle)
+            if member.profile_shift_coefficient is not None:
+                document.value(flank, _SHIFT, "none", member.profile_shift_coefficient)
             flanks.append(flank)
         document.flanks(gear, *flanks)
         gears.append(gear)
     document.stage(stage, *gears)
     members = {f"{role}.{key}" for role in ("pinion", "gear")
-               for key in ("teeth", "tip_diameter_mm", "root_diameter_mm")}  # fmt: skip
+               for key in ("teeth", "tip_diameter_mm", "root_diameter_mm",
+                           "profile_shift_coefficient")}  # fmt: skip
     return members | {
         *(f"pair.{key}" for key in _ALTERNATIVES),
         "name", "pair.helix_angle_deg", "pair.centre_distance_mm", "pair.face_width_mm",

@@ -46,16 +46,17 @@ class RexsPair:
 
 
 def read_rexs(
-    path: str | Path, *, stage: int | None = None, given: Mapping[str, Any] | None = None
+    path: str | Path, *, stage: int | str | None = None, given: Mapping[str, Any] | None = None
 ) -> RexsPair:
-    """Return the pair of a REXS file (XML, version 1) with a cylindrical or a bevel stage.
+    """Return the pair of a REXS file (version 1) with a cylindrical or a bevel stage.
 
     Parameters
     ----------
     path : path
-        The .rexs file.
-    stage : int, optional
-        Number of the stage's component, if the file has several.
+        XML (.rexs), JSON (.rexsj) or an archive (.rexsz) of one of them.
+    stage : int or str, optional
+        Number or name of the stage, if the file has several; a planetary stage stands for the mesh
+        of its sun with a planet.
     given : dict of str to number, optional
         Values of dotted gear-file fields that the REXS file lacks; they replace those of the REXS
         file.

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import math
+import zipfile
+import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from lxml import etree
 
 from gearlube_core.errors import ParameterError, why
 from gearlube_core.rexs.units import converted
 
-_OTHER_KINDS = {
-    ".rexsz": "is a ZIP archive. Unpack it and give the .rexs file that is in it",
-    ".rexsj": "is REXS as JSON. Save it as XML (.rexs) instead",
-}
+_MODELS = (".rexs", ".rexsj", ".xml")  # files of an archive that hold a model
+_LARGEST = 500_000_000  # bytes of an unpacked model
 
 
 @dataclass(slots=True)
@@ -88,16 +90,22 @@ class RexsModel:
 
     @classmethod
     def read(cls, path: str | Path) -> RexsModel:
-        """Read a file; raise ParameterError where it is not REXS of version 1."""
+        """Read a file; raise ParameterError where it is not REXS of version 1.
+
+        What the file is, XML, JSON or a ZIP archive of one of them, is seen from its content.
+        """
         path = Path(path)
-        if path.suffix in _OTHER_KINDS:
-            raise ParameterError(f"{path} {_OTHER_KINDS[path.suffix]}.")
-        parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True)
         try:
-            root = etree.parse(path, parser).getroot()
-        except (OSError, etree.XMLSyntaxError) as reason:
-            text = why(reason) if path.is_file() else "there is no such file"
-            raise ParameterError(f"{path} is not a readable XML file: {text}.") from None
+            content = _unpacked(path) if zipfile.is_zipfile(path) else path.read_bytes()
+        except (OSError, zipfile.BadZipFile, RuntimeError, zlib.error) as reason:
+            raise ParameterError(f"{path} is not a readable file: {why(reason)}.") from None
+        kind = "JSON" if content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{" else "XML"
+        try:
+            root = _xml_of(json.loads(content)["model"]) if kind == "JSON" else _xml(content)
+        except (ValueError, KeyError, TypeError, AttributeError, etree.XMLSyntaxError) as reason:
+            raise ParameterError(
+                f"{path} is not a readable {kind} file of REXS: {type(reason).__name__}, {reason}."
+            ) from None
         version = root.get("version", "")
         if etree.QName(root).localname != "model" or not version.startswith("1."):
             raise ParameterError(
@@ -133,6 +141,53 @@ class RexsModel:
     def of_kind(self, *kinds: str) -> list[Component]:
         """Return the components of these types, in the order of the file."""
         return [one for one in self.components.values() if one.kind in kinds]
+
+
+def _unpacked(path: Path) -> bytes:
+    """Return the one model of an archive."""
+    with zipfile.ZipFile(path) as archive:
+        models = [
+            one
+            for one in archive.infolist()
+            if Path(one.filename).suffix.lower() in _MODELS and "__MACOSX" not in one.filename
+        ]
+        if len(models) != 1 or models[0].file_size > _LARGEST:
+            found = ", ".join(f"{one.filename} ({one.file_size} bytes)" for one in models) or "none"
+            raise ParameterError(
+                f"{path} must hold one REXS model (.rexs, .rexsj) of up to {_LARGEST} bytes, got "
+                f"{found}. Unpack it and give one of its files"
+            )
+        return archive.read(models[0])
+
+
+def _xml(content: bytes) -> etree._Element:
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True)
+    return etree.fromstring(content, parser)
+
+
+def _xml_of(model: dict[str, Any]) -> etree._Element:
+    """Return the same model as XML; arrays have no text, as those of XML files."""
+    names = ("version", "applicationId", "applicationVersion")
+    root = etree.Element("model", {name: str(model.get(name, "")) for name in names})
+    relations, components = (etree.SubElement(root, one) for one in ("relations", "components"))
+    for one in model["relations"]:
+        relation = etree.SubElement(relations, "relation", type=one["type"])
+        for ref in one["refs"]:
+            etree.SubElement(relation, "ref", id=str(ref["id"]), role=ref["role"])
+    for one in model["components"]:
+        about = {"id": str(one["id"]), "type": one["type"], "name": one.get("name") or ""}
+        component = etree.SubElement(components, "component", about)
+        for given in one.get("attributes") or ():
+            attribute = etree.SubElement(
+                component, "attribute", id=given["id"], unit=given.get("unit") or ""
+            )
+            values = [value for key, value in given.items() if key not in ("id", "unit")]
+            if values and isinstance(values[0], str | int | float):
+                attribute.text = str(values[0])
+    spectrum = model.get("load_spectrum") or ()
+    for _ in spectrum if isinstance(spectrum, list) else (spectrum,):
+        etree.SubElement(root, "load_spectrum")
+    return root
 
 
 def _component(element: etree._Element) -> Component:

@@ -79,6 +79,11 @@ def test_a_path_along_the_lines_of_contact_is_refused_with_the_direction_to_take
 
 
 GENERATED = {"machine.gear": "generated"}
+MITRE = {"pair.pinion_teeth": 20, "pair.gear_teeth": 20, "pair.face_width_mm": 15.0,
+         "pair.outer_pitch_diameter_mm": 80.0, "cutter.radius_mm": 57.15}  # fmt: skip
+ZEROL = {"pair.pinion_teeth": 20, "pair.gear_teeth": 40, "pair.face_width_mm": 22.0,
+         "pair.outer_pitch_diameter_mm": 120.0, "pair.gear_spiral_angle_deg": 0.0,
+         "cutter.radius_mm": 76.2}  # fmt: skip
 DUPLEX = {
     "machine.curved_blades": False,
     "machine.modified_roll": True,
@@ -97,6 +102,8 @@ DUPLEX = {
         GENERATED | {"cutter.blade_groups": 5},
         DUPLEX,
         GENERATED | DUPLEX,
+        BEVEL | MITRE | GENERATED,
+        BEVEL | ZEROL,
     ],
 )
 def test_other_processes_have_the_contact_that_was_asked(changes):

@@ -79,6 +79,16 @@ def test_a_wide_face_is_warned_of():
     assert "face width is 0.39" in " ".join(check_blank(DesignedBlank.from_file(wide)))
 
 
+def test_straight_bevel_teeth_across_the_face_are_no_error_and_a_small_clearance_is_told():
+    bevel = {"pair.offset_mm": 0.0, "pair.pinion_spiral_angle_deg": None}
+    zerol = SAMPLE.varied(bevel | {"pair.gear_spiral_angle_deg": 0.0})
+    assert check_blank(DesignedBlank.from_file(zerol)) == []
+    tight = SAMPLE.varied({"depth.clearance_factor": 0.03})  # 0.06 normal modules
+    told = " ".join(check_blank(DesignedBlank.from_file(tight)))
+    assert "tips over the gear's roots is 0.1" in told
+    assert "below 0.1 normal modules" in told
+
+
 def test_undercut_begins_where_a_rack_undercuts_the_virtual_spur_gear():
     """A rack of addendum h undercuts a gear of radius r below h = r sin^2(alpha)."""
     one = DesignedBlank.from_file(SAMPLE)

@@ -87,3 +87,33 @@ def test_kelvin_for_degc_is_asked_about():
     with pytest.raises(ParameterError) as told:
         oil_kelvin(900.0, "mohammadpour_2015")
     assert "in K" not in str(told.value)
+
+
+@pytest.mark.parametrize(
+    ("kind", "field", "meant"),
+    [
+        (HelicalGearFile, "pinion.profile_shift", "pinion.profile_shift_coefficient?"),
+        (
+            HelicalGearFile,
+            "pair.profile_shift",
+            "gear.profile_shift_coefficient or pinion.profile_shift_coefficient?",
+        ),
+        (HelicalGearFile, "pinion_teeth", "pinion.teeth?"),
+        (HelicalGearFile, "pair.facewidth_mm", "pair.face_width_mm?"),
+        (HelicalGearFile, "pair.center_distance_mm", "pair.centre_distance_mm?"),
+        (HelicalGearFile, "gear.tip_dia_mm", "gear.tip_diameter_mm?"),
+        (HelicalGearFile, "pinion.x", ""),
+        (HelicalGearFile, "pinion.profile_angle", ""),
+        (BlankFile, "pair.cone_angle_deg", ""),
+        (BlankFile, "cutter.blades", "cutter.blade_groups?"),
+        (AxleFile, "oil.immersion", "housing.immersion_mm?"),
+    ],
+)
+def test_an_unknown_field_is_asked_for_by_its_words_or_not_at_all(kind, field, meant):
+    """profile_shift has twelve letters of profile_slope_um, but not its second word."""
+    *sections, key = field.split(".")
+    data = {sections[0]: {key: 1.0}} if sections else {key: 1.0}
+    with pytest.raises(ParameterError) as told:
+        kind.from_data(data, "mine")
+    said = str(told.value).partition(f"{field} is not a field of this file")[2]
+    assert said.startswith(f"; is it {meant}" if meant else ".")

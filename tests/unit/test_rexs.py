@@ -1,6 +1,8 @@
 """REXS files of pairs: round trips, files written by hand, and files that are wrong."""
 
+import json
 import math
+import zipfile
 
 import pytest
 from lxml import etree
@@ -66,6 +68,9 @@ CYLINDRICAL = f"""<?xml version="1.0" encoding="UTF-8"?>
   <load_spectrum id="1"/>
 </model>
 """
+
+# at another centre distance than the reference one, missing shifts are not taken as 0
+TIPLESS, CENTRED = f"{CENTRES / 1e3}", f"{CENTRES / 1e3 + 2e-4}"
 
 # the samples F.3 to F.5 of ISO 23509 as printed: teeth, offset, face width, cutter, diameters and
 # angles (the outer diameter of F.4 from its mean one, face width and pitch angle)
@@ -188,7 +193,9 @@ def test_what_is_lacking_and_what_is_left_out_is_said(written):
     pair = read_rexs(written(CYLINDRICAL))
     assert "the narrower face" in notes(pair, "inferred")["pair.face_width_mm"]
     assert "profile" in notes(pair, "inferred")["gear.tip_diameter_mm"]
-    assert notes(pair, "lacking")["pair"] == "backlash_mm 0, reduced_modulus_gpa none"
+    assert notes(pair, "lacking")["pair"] == (
+        "backlash_mm none, fillet_radius_factor 0.275, reduced_modulus_gpa none"
+    )
     assert notes(pair, "lacking")["pinion.bearing_1"] == "no such section"
     left_out = notes(pair, "left out")
     assert left_out["cylindrical_gear 3"] == "u_coordinate_on_shaft"
@@ -230,7 +237,7 @@ def test_the_method_of_a_printed_sample_is_found_from_its_cones(method, written)
 def test_a_wrong_file_is_refused_with_what_to_do(old, new, message, written):
     text = CYLINDRICAL.replace(old, new, 1)
     if old == '"tip_diameter"':
-        text = text.replace("addendum_coefficient", "other", 2)
+        text = text.replace("addendum_modification", "other", 2).replace(TIPLESS, CENTRED)
     with pytest.raises(ParameterError, match=message):
         read_rexs(written(text))
 
@@ -276,7 +283,7 @@ def test_the_command_converts_there_and_back(tmp_path, monkeypatch):
 
 
 def test_numbers_that_the_file_lacks_can_be_given(tmp_path, written, monkeypatch):
-    text = CYLINDRICAL.replace("addendum_coefficient", "other")
+    text = CYLINDRICAL.replace("addendum_modification", "other").replace(TIPLESS, CENTRED)
     monkeypatch.chdir(tmp_path)
     path = str(written(text))
     run = CliRunner()
@@ -291,3 +298,154 @@ def test_numbers_that_the_file_lacks_can_be_given(tmp_path, written, monkeypatch
     assert f"gear.tip_diameter_mm: {TIPS[1]:g}" in by_set
     assert "pair.backlash_mm: 0.1" in by_set
     assert HelicalGearFile.from_toml("pair.toml").pair.backlash_mm == 0.1
+
+
+def shifted(x, more=""):
+    """The stage by hand with profile shifts (pinion, gear) and other attributes of the flanks."""
+    text = CYLINDRICAL.replace(
+        f'<attribute id="tip_diameter" unit="mum">{1e3 * TIPS[0]}</attribute>', ""
+    )
+    for number, value in zip((5, 6, 7, 8), (x[0], x[0], x[1], x[1]), strict=True):
+        start = text.index(f'<component id="{number}"')
+        old = '_modification_coefficient" unit="none">0<'
+        text = text[:start] + text[start:].replace(old, old.replace(">0<", f">{value}<") + more, 1)
+    return text
+
+
+def test_profile_shifts_of_flanks_make_thickness_backlash_and_tips(written):
+    """Tips d + 2 m (x + 1), thickness m (pi/2 + 2 x tan 20 deg)/cos 15 deg."""
+    pair = read_rexs(written(shifted((0.3, -0.35)))).file.helical_pair()
+    cos = math.cos(math.radians(15.0))
+    assert pair.profile_shifts == (0.3, -0.35)
+    for z, x, tip, arc in zip(
+        (20, 41), (0.3, -0.35), (pair.pinion_tip_radius, pair.gear_tip_radius),
+        pair.tooth_thickness, strict=True,
+    ):  # fmt: skip
+        assert 2e3 * tip == pytest.approx(4.0 * z / cos + 8.0 * (1.0 + x), rel=1e-12)
+        expected = 4.0 * (0.5 * math.pi + 2.0 * x * math.tan(math.radians(20.0))) / cos
+        assert 1e3 * arc == pytest.approx(expected, rel=1e-12)
+    # 2 m sin(20 deg) times the 0.05 by which the shifts fall short
+    assert 1e3 * pair.backlash == pytest.approx(0.4 * math.sin(math.radians(20.0)), rel=1e-6)
+    other = shifted((0.3, -0.35)).replace(">0.3<", ">0.2<", 1)
+    with pytest.raises(ParameterError, match=r"same for both flanks, got 0.2 of .* 0.3 of"):
+        read_rexs(written(other))
+
+
+def test_tip_diameters_that_are_absent_or_empty_have_a_default_that_is_said(written):
+    text = shifted((0.0, 0.0)).replace("addendum_coefficient", "other")
+    plain = read_rexs(written(text))
+    assert plain.file.gear.tip_diameter_mm == pytest.approx(TIPS[1])
+    assert "1 module above" in notes(plain, "lacking")["gear.tip_diameter_mm"]
+    one = '<attribute id="tip_diameter" unit="mm">1</attribute></component>\n    <component id="4"'
+    empty = read_rexs(written(text.replace('</component>\n    <component id="4"', one)))
+    assert empty.file.pinion.tip_diameter_mm == pytest.approx(TIPS[0])
+    assert "1 mm cannot be" in notes(empty, "left out")["tip_diameter of cylindrical_gear 3"]
+    bare = read_rexs(written(text.replace("addendum_modification", "other")))
+    assert bare.file.helical_pair().profile_shifts == (0.0, 0.0)
+    assert "reference distance" in notes(bare, "lacking")["pinion.profile_shift_coefficient"]
+
+
+def as_json(text):
+    """The same model in the JSON form of REXS."""
+    root = etree.fromstring(text.encode())
+    return json.dumps({"model": dict(root.attrib) | {
+        "relations": [
+            {"id": int(one.get("id")), "type": one.get("type"),
+             "refs": [{"id": int(ref.get("id")), "role": ref.get("role")} for ref in one]}
+            for one in root.find("relations")
+        ],
+        "components": [
+            {"id": int(one.get("id")), "type": one.get("type"), "attributes": [
+                {"id": of.get("id"), "unit": of.get("unit"), "floating_point": float(of.text)}
+                for of in one
+            ]} | ({"name": one.get("name")} if one.get("name") else {})
+            for one in root.find("components")
+        ],
+        "load_spectrum": {"id": 1},
+    }})  # fmt: skip
+
+
+def test_json_and_archives_are_read_as_xml_is(tmp_path, written):
+    path, other = tmp_path / "pair.rexsj", tmp_path / "pair.rexsz"
+    path.write_text(as_json(CYLINDRICAL), encoding="utf-8")
+    expected = read_rexs(written(CYLINDRICAL))
+    read = read_rexs(path)
+    assert read.file.helical_pair() == expected.file.helical_pair()
+    # the same is named as left out, but for the source, which names the file
+    assert notes(read, "left out") == notes(expected, "left out")
+    for model in ("pair.rexs", "pair.rexsj"):
+        with zipfile.ZipFile(other, "w") as archive:
+            archive.write(tmp_path / model, f"folder/{model}")
+            archive.writestr("__MACOSX/._pair.rexs", b"rest")
+            archive.writestr("bearing.gde", b"")
+        assert read_rexs(other).file.helical_pair() == expected.file.helical_pair()
+    with zipfile.ZipFile(other, "a") as archive:
+        archive.writestr("second.rexs", CYLINDRICAL)
+    with pytest.raises(
+        ParameterError, match=r"must hold one REXS model .*pair.rexsj .*second.rexs"
+    ):
+        read_rexs(other)
+    path.write_text('{"model": {"version": "1.4"}}', encoding="utf-8")
+    with pytest.raises(ParameterError, match=r"not a readable JSON file of REXS.*relations"):
+        read_rexs(path)
+    with pytest.raises(ParameterError, match="there is no such file"):
+        read_rexs(tmp_path / "none.rexsz")
+
+
+def box(*stages):
+    """A gear unit whose stages (number, name, gear 1, gear 2) share the gears 3 and 4."""
+    more = "".join(
+        f'<component id="{number}" type="cylindrical_stage" name="{name}">'
+        f'<attribute id="center_distance" unit="mm">{CENTRES}</attribute></component>'
+        for number, name, _, _ in stages
+    )
+    relations = "".join(
+        f'<relation id="{50 + number}" type="stage"><ref id="{number}" role="stage"/>'
+        f'<ref id="{one}" role="gear_1"/><ref id="{two}" role="gear_2"/></relation>'
+        for number, _, one, two in stages
+    )
+    text = CYLINDRICAL.replace("</relations>", f"{relations}</relations>")
+    return text.replace("</components>", f"{more}</components>")
+
+
+def test_a_stage_of_a_box_is_chosen_by_number_or_name_and_all_are_listed(written):
+    path = written(box((20, "Input stage", 3, 4)))
+    listed = r"2 stages: .* 2 \(output stage\), 41/20 teeth; .* 20 \(Input stage\), 20/41 teeth"
+    with pytest.raises(ParameterError, match=listed):
+        read_rexs(path)
+    for wanted in (20, "20", "input stage", "INPUT", "Input stage"):
+        assert read_rexs(path, stage=wanted).file.name == "Input stage"
+    with pytest.raises(ParameterError, match="2 stages called stage"):
+        read_rexs(path, stage="stage")
+    with pytest.raises(ParameterError, match="no cylindrical or bevel stage third; it has"):
+        read_rexs(path, stage="third")
+
+
+PLANETARY = box((21, "sun 2", 3, 11), (22, "ring 1", 4, 12), (23, "ring 2", 11, 12)).replace(
+    "</relations>",
+    '<relation id="90" type="assembly"><ref id="10" role="assembly"/><ref id="2" role="part"/>'
+    "</relation>" + "".join(
+        f'<relation id="{70 + n}" type="assembly"><ref id="10" role="assembly"/>'
+        f'<ref id="{n}" role="part"/></relation>' for n in (21, 22, 23)
+    ) + "</relations>",
+).replace(
+    "</components>",
+    '<component id="10" type="planetary_stage" name="epicycle"/>'
+    '<component id="11" type="cylindrical_gear" name="planet 2">'
+    '<attribute id="number_of_teeth" unit="none">41</attribute></component>'
+    '<component id="12" type="ring_gear"/></components>',
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("wanted", [None, 10, "epicycle", 2])
+def test_a_planetary_stage_is_read_as_its_mesh_of_sun_and_planet(wanted, written):
+    pair = read_rexs(written(PLANETARY), stage=wanted)
+    assert (pair.file.pinion.teeth, pair.file.gear.teeth) == (20, 41)
+    said = notes(pair, "inferred")["planetary_stage 10 (epicycle)"]
+    assert "mesh of cylindrical_gear 3 and cylindrical_gear 4, one of 2" in said
+    assert "internal gears" in notes(pair, "left out")["ring_gear 12"]
+
+
+def test_the_ring_of_a_planetary_stage_is_refused_with_what_can_be_read(written):
+    with pytest.raises(ParameterError, match=r"of planetary_stage 10 .* mesh of sun and planet"):
+        read_rexs(written(PLANETARY), stage="ring 1")

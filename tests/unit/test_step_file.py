@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
+from gearlube.studies.helical.gear_surfaces import write_gears
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.flank.step_file import tooth_surfaces, write_step
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -66,6 +68,39 @@ def test_the_surface_in_the_file_is_the_flank(side, pinion, entities):
     off = np.sum((found - expected) * turn.apply(sample.normal), axis=-1)
     np.testing.assert_allclose(off, 0.0, atol=0.01e-3)
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=0.1e-3)
+
+
+@pytest.mark.parametrize("member", ["pinion", "gear"])
+def test_helical_flanks_are_involute_helicoids_of_the_given_thickness(member, tmp_path):
+    """r_b (tan(a) - a) of arc between the base circle and a point, turned by z/lead, mirrored."""
+    file = HelicalGearFile.named("he_2007")
+    pair = file.helical_pair()
+    k = ["pinion", "gear"].index(member)
+    path = next(one for one in write_gears(file, tmp_path / "gears") if one.stem.startswith(member))
+    data = path.read_text(encoding="utf-8").partition("DATA;\n")[2].partition("ENDSEC;")[0]
+    found = dict(re.findall(r"^(#\d+)=(.*);$", data, re.MULTILINE))
+    base = 1e3 * (pair.pinion_base_radius, pair.gear_base_radius)[k]
+    reference = 1e3 * (pair.pinion_reference_radius, pair.gear_reference_radius)[k]
+    inv = lambda angle: np.tan(angle) - angle  # noqa: E731
+    half = 0.5e3 * pair.tooth_thickness[k] / reference + inv(pair.transverse_pressure_angle)
+    random, towards = np.random.default_rng(3), (1.0, -1.0)[k]
+    for side, sign in (("drive", towards), ("coast", -towards)):
+        points, rows, columns = surface(found, f"{member} {side} flank")
+        s, t = random.uniform(0.0, 1.0, 200), random.uniform(0.0, 1.0, 200)
+        x, y, z = np.stack(
+            [
+                BSpline(columns, BSpline(rows, points, 3)(one), 3)(place)
+                for one, place in zip(s, t, strict=True)
+            ],
+            axis=-1,
+        )
+        radius = np.hypot(x, y)
+        turned = np.arctan2(x, towards * y) - z * np.tan(pair.base_helix_angle) / base
+        expected = sign * (half - inv(np.arccos(base / radius)))
+        # 0.01 um over the radius, as the docs say
+        np.testing.assert_allclose(base * turned, base * expected, rtol=0.0, atol=0.01e-3)
+        assert radius.max() <= 1e3 * (pair.pinion_tip_radius, pair.gear_tip_radius)[k] + 1e-9
+        assert np.ptp(z) > 0.9e3 * pair.face_width
 
 
 def test_edges_end_in_the_corners_of_the_surface(entities):

@@ -141,6 +141,10 @@ def helical(
     ] = "all",
     jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_helical"),
+    export: Annotated[
+        bool,
+        typer.Option("--export", help="Also write both flanks of a tooth of each gear (STEP)."),
+    ] = False,
     quick: Annotated[
         bool, typer.Option("--quick", help="Few points and coarse teeth, for a first look.")
     ] = False,
@@ -159,6 +163,7 @@ def helical(
     from gearlube.report.stored import PAGE
     from gearlube.studies.helical import run
     from gearlube.studies.helical.findings import findings
+    from gearlube.studies.helical.gear_surfaces import write_gears
     from gearlube.studies.helical.settings import HelicalSettings, quick_settings
     from gearlube.studies.helical.summary import remarks, summary_rows
     from gearlube_core.dynamics.helical_pair.gear_file_pair import gear_file_oil
@@ -229,6 +234,9 @@ def helical(
                 progress=progress,
                 command_line=command_line(),
             )
+            if export and not results.interrupted:
+                for path in write_gears(file, out / "gears"):
+                    logger.info("Flanks: %s", path)
         console.print(_table(file.name, summary_rows(results)))
         for sentence in remarks(results):
             logger.warning("%s", sentence)

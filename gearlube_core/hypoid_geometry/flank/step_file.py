@@ -17,7 +17,7 @@ from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.units import MILLIMETRE
 
 _DEGREE = 3
-_ROWS, _COLUMNS = 33, 65  # on them the spline is within 0.01 um of the flank
+ROWS, COLUMNS = 33, 65  # on them the spline is within 0.01 um of the flank
 _MARGIN = 0.01  # s above the end of the flank
 _HEADER = """ISO-10303-21;
 HEADER;
@@ -79,11 +79,16 @@ def flank_surface(flank: Flank, lowest: float, angle: float = 0.0) -> SplineSurf
         By which it is turned about its axis [rad].
     """
     # rows close up towards the root, where an undercut flank bends as a square root
-    s = lowest + (1.0 - lowest) * np.linspace(0.0, 1.0, _ROWS) ** 2
-    t = np.linspace(0.0, 1.0, _COLUMNS)
+    s = lowest + (1.0 - lowest) * np.linspace(0.0, 1.0, ROWS) ** 2
+    t = np.linspace(0.0, 1.0, COLUMNS)
     centre = flank.axis_point
     arms = flank.grid(s, t).r - centre
     points = centre + flank.turned(angle).apply(arms.reshape(-1, 3)).reshape(arms.shape)
+    return surface_through(points, s, t)
+
+
+def surface_through(points: Array, s: Array, t: Array) -> SplineSurface:
+    """Return the surface through points [m], (m, n, 3), at places s (m,) and t (n,) [-]."""
     down = make_interp_spline(s, points, k=_DEGREE, axis=0)
     across = make_interp_spline(t, down.c, k=_DEGREE, axis=1)
     return SplineSurface(np.moveaxis(across.c, 0, 1), down.t, across.t)
@@ -96,7 +101,7 @@ def tooth_surfaces(tooth: Tooth) -> dict[str, SplineSurface]:
         ("drive", tooth.drive, 0.0),
         ("coast", tooth.coast, tooth.coast_turn),
     ):
-        limit = tooth.limit(side, np.linspace(0.0, 1.0, _COLUMNS))  # type: ignore[arg-type]
+        limit = tooth.limit(side, np.linspace(0.0, 1.0, COLUMNS))  # type: ignore[arg-type]
         lowest = max(0.0, float(np.max(limit.s)) + _MARGIN)
         found[f"{flank.role} {side} flank"] = flank_surface(flank, lowest, angle)
     return found
