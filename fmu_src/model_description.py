@@ -21,6 +21,8 @@ LOG_CATEGORIES = {
     "logAll": "All messages.",
 }
 
+_TOLERANCE = 1e-6  # relative, for solvers of model exchange
+
 
 def number_text(value: float) -> str:
     """Return a number as XML has it."""
@@ -161,6 +163,7 @@ def write_default_experiment(root: ElementTree.Element, definition: Definition) 
         "DefaultExperiment",
         startTime="0",
         stopTime=number_text(definition.stop_time),
+        tolerance=number_text(_TOLERANCE),
         stepSize=number_text(definition.step_size),
     )
 

@@ -171,12 +171,15 @@ class CoSimulationSlave(Fmi2Slave):
             raise StepError(" ".join(self._values.refused.values()))
         if self._broken:
             raise StepError(self._broken)
-        if not 0.0 < h <= LONGEST_STEP:
+        # of the host's times; a limit, because a huge time must not allow any step
+        rounding = 2.0 * sys.float_info.epsilon * (abs(self._time) + LONGEST_STEP)
+        rounding = min(rounding, 1e-3 * LONGEST_STEP)
+        if not 0.0 < h <= LONGEST_STEP + rounding:
             raise StepError(
                 f"communicationStepSize must be above 0 and at most {LONGEST_STEP} s, got {h} s. "
                 "Renew the torques at least that often."
             )
-        if not abs(t - self._time) <= 1e-3 * h + 1e-9 * max(1.0, abs(self._time)):
+        if not abs(t - self._time) <= 1e-3 * h + rounding:
             raise StepError(
                 f"currentCommunicationPoint must be {self._time!r} s, where the last step ended, "
                 f"got {t!r} s. Restore an FMU state to repeat a step."

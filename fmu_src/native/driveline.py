@@ -34,9 +34,8 @@ _N, _N_INPUTS = len(MEMORY), 5
 _SPEEDS = 33  # of each gear, between which starts are interpolated
 _ROW = 2 * len(STATES) + 4  # state, what torque orders add, torques, pinion speed
 _SLOWEST, _FASTEST = 0.5, 120.0  # m/s
+_MOST_TURNED, _FASTEST_SHAFT = 1e9, 5e3  # rad, rad/s
 _REFUSALS = {
-    1: f"communication steps of the driveline must be at most {1e3 * LONGEST_INNER_STEP:g} ms, "
-    "because torques are exchanged with the axle once a step",
     2: "the driveline must get finite signals and keep finite states",
     3: "the start speed must keep the engine within its speeds in gearbox.gear. Choose another "
     "gear, or 0 for the one that fits",
@@ -50,13 +49,15 @@ def default_car() -> DrivelineParameters:
 
 def _variables(car: DrivelineParameters, start: Array) -> tuple[Variable, ...]:
     ratio, fastest = car.axle_ratio, _FASTEST
+    continued = "; while it stays the same, the speed continues it"
+    angle = {"start": 0.0, "minimum": -_MOST_TURNED, "maximum": _MOST_TURNED}
+    speed = {"minimum": -_FASTEST_SHAFT, "maximum": _FASTEST_SHAFT, "display_unit": "rpm"}
     return (
-        input_("pinion.angle", "rad", "Rotation of the pinion", start=0.0),
-        input_("pinion.speed", "rad/s", "Speed of the pinion", start=float(start[-1]),
-               display_unit="rpm"),
-        input_("wheel.angle", "rad", "Rotation of the ring gear", start=0.0),
+        input_("pinion.angle", "rad", f"Rotation of the pinion{continued}", **angle),
+        input_("pinion.speed", "rad/s", "Speed of the pinion", start=float(start[-1]), **speed),
+        input_("wheel.angle", "rad", f"Rotation of the ring gear{continued}", **angle),
         input_("wheel.speed", "rad/s", "Speed of the ring gear", start=float(start[-1]) / ratio,
-               display_unit="rpm"),
+               **speed),
         input_("vehicle.speed_request", "m/s", "Target of the speed controller",
                start=START_SPEED, minimum=0.0, maximum=fastest, display_unit="km/h"),
         parameter("engine.order_scale", "1", "Scale of the torque orders: 0 for a smooth engine",
@@ -192,13 +193,15 @@ def _c_code(car: DrivelineParameters) -> dict[str, str]:
         "STARTED": SLOT["started"],
         "PINION_TORQUE": SLOT["pinion_torque"],
         "WHEEL_TORQUE": SLOT["wheel_torque"],
+        "PINION_ANGLE": SLOT["pinion_angle"],
+        "WHEEL_ANGLE": SLOT["wheel_angle"],
         "CRANK_SPEED": INDEX["crank_speed"],
         "VEHICLE_SPEED": INDEX["vehicle_speed"],
         "GEARS": len(gears),
         "SPEEDS": _SPEEDS,
         "ROW": _ROW,
         "WORK": work,
-        "LONGEST_STEP": repr(LONGEST_INNER_STEP * (1.0 + 1e-9)),
+        "LONGEST_PART": repr(LONGEST_INNER_STEP * (1.0 + 1e-9)),
     }
     lines = [f"#define {name} {value}" for name, value in places.items()]
     files["driveline_places.h"] = "\n".join(lines) + "\n"

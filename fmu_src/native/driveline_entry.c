@@ -17,7 +17,7 @@
 #include "driveline_places.h"
 #include "model.h"
 
-enum { STEP_TOO_LONG = 1, NOT_FINITE = 2, NO_GEAR = 3 };
+enum { NOT_FINITE = 2, NO_GEAR = 3 };
 enum { GEAR_AT = MEMORY + GL_INPUTS, PINION_AT, ENGINE_AT };
 /* s; nothing moves in it, and the means over a shorter step are lost to underflow */
 static const double SHORTEST_STEP = 1e-290;
@@ -26,9 +26,10 @@ enum { LIMITS = 3, GEAR_SIZE = LIMITS + SPEEDS * ROW, GEARS_AT = 2 };
 
 static void fill_work(const double *data, double *work)
 {
-    static const double limits[2 * GL_INPUTS] = {-1e9, 1e9,  -5e3, 5e3, -1e9,
-                                                 1e9,  -5e3, 5e3,  0.0, 120.0};
-    memcpy(work + GL_LIMITS_AT, limits, sizeof limits);
+    for (int i = 0; i < GL_INPUTS; i++) {
+        work[GL_LIMITS_AT + 2 * i] = gl_variables[gl_inputs[i]].low;
+        work[GL_LIMITS_AT + 2 * i + 1] = gl_variables[gl_inputs[i]].high;
+    }
     memcpy(work + GL_RANGES_AT, data, 2 * sizeof *data);
 }
 
@@ -116,17 +117,22 @@ static void interval(int gear, const double **arguments, double **results)
 #undef GEAR
 }
 
+/* An angle that is the same as in the last step is not connected: the speed continues it. */
+static double angle_of(const double *inputs, const double *state, int input, int expected)
+{
+    const int continued = state[STARTED] != 0.0 && inputs[input] == state[MEMORY + input];
+    return continued ? state[expected] : inputs[input];
+}
+
 static int64_t advance(double h, const double *parameters, const double *inputs, double *state)
 {
     const int gear = (int)fmin(fmax(state[GEAR_AT], 0.0), GEARS + 1.0);
-    const double motion[] = {fmax(h, SHORTEST_STEP), inputs[0], inputs[1], inputs[2], inputs[3]};
+    const double motion[] = {fmax(h, SHORTEST_STEP), angle_of(inputs, state, 0, PINION_ANGLE),
+                             inputs[1], angle_of(inputs, state, 2, WHEEL_ANGLE), inputs[3]};
     const double settings[] = {inputs[4], state[ENGINE_AT], parameters[0]};
     const double *arguments[] = {state, motion, settings};
     double next[MEMORY], torques[3];
     double *results[] = {next, torques};
-    if (h > LONGEST_STEP) {
-        return STEP_TOO_LONG;
-    }
     if (gear < 1 || gear > GEARS) {
         return NO_GEAR;
     }
@@ -137,6 +143,27 @@ static int64_t advance(double h, const double *parameters, const double *inputs,
     }
     memcpy(state, next, sizeof next);
     memcpy(state + MEMORY, inputs, GL_INPUTS * sizeof *inputs);
+    return 0;
+}
+
+/* A step in parts that the integration resolves; angles are continued, torques are means over all. */
+static int64_t advance_in_parts(double h, const double *parameters, const double *inputs,
+                                double *state)
+{
+    const int parts = (int)fmax(ceil(h / LONGEST_PART), 1.0);
+    double next[GL_STATE], pinion = 0.0, wheel = 0.0;
+    memcpy(next, state, sizeof next);
+    for (int part = 0; part < parts; part++) {
+        const int64_t status = advance(h / parts, parameters, inputs, next);
+        if (status != 0) {
+            return status;
+        }
+        pinion += next[PINION_TORQUE];
+        wheel += next[WHEEL_TORQUE];
+    }
+    next[PINION_TORQUE] = pinion / parts;
+    next[WHEEL_TORQUE] = wheel / parts;
+    memcpy(state, next, sizeof next);
     return 0;
 }
 
@@ -152,7 +179,7 @@ int64_t gearlube_entry(int64_t operation, double step, const double *data,
         status = start(data, parameters, inputs, state);
     }
     if (operation == GL_STEP) {
-        status = advance(step, parameters, inputs, state);
+        status = advance_in_parts(step, parameters, inputs, state);
     }
     if (status == 0 && operation != GL_RESUME) {
         write_outputs(state, work, outputs);

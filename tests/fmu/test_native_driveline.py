@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from pathlib import Path
 
 import fmpy
@@ -12,10 +13,12 @@ from docs.fmu_hosts.hosts import Job, c_host, in_c_host, in_fmpy
 from drivetrain.driveline.model import Driveline
 from drivetrain.engine import Gearbox
 from fmu_src import build
+from fmu_src.build import DEFINITIONS
 from fmu_src.check import problems
 from fmu_src.native.build import NativeOptions, build_native, native_guid
 from fmu_src.native.driveline import default_car, driveline_model
 from fmu_src.native.model import NativeModel
+from fmu_src.native.models import native_model
 from fmu_src.native.platforms import platform_of_this_machine
 from gearlube_core.errors import ParameterError
 from tests.helpers.native_library import OK, NativeInstance, NativeLibrary
@@ -72,19 +75,28 @@ def test_it_starts_as_the_driveline_of_the_package(fmus: list[Path], speed: floa
     )
 
 
-@pytest.mark.parametrize("ripple", [1.0, 0.0])
-def test_it_computes_what_the_package_computes(fmus: list[Path], ripple: float) -> None:
-    """At a speed of the table of starts, to rounding: the highest of the only gear."""
+@pytest.mark.parametrize(
+    ("ripple", "h", "connected"),
+    [(1.0, 2.0**-13, True), (0.0, 2.0**-13, True), (1.0, 2.0**-8, True), (1.0, 2.0**-8, False)],
+)
+def test_it_computes_what_the_package_computes(
+    fmus: list[Path], ripple: float, h: float, connected: bool
+) -> None:
+    """At a speed of the table of starts, to rounding: the highest of the only gear.
+
+    Longer steps than the integration resolves are taken in parts. Angles that are not connected
+    stay at their start value and are continued with the speeds.
+    """
     car = dataclasses.replace(default_car(), gearbox=Gearbox(ratios=(2.0,)))
     model = driveline_model(car)
-    folder = fmus[0].parent / f"one_gear_{ripple:g}"
+    folder = fmus[0].parent / f"one_gear_{ripple:g}_{h:g}_{connected}"
     options = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
     (fmu,) = build_native(model, folder, options)
     assert len(fmus) == 2
     # engine speeds at idle and at most, then speeds of the vehicle in this gear
     speed = float(model.data[4])
     python = Driveline(car, speed * (1.0 - 1e-12))
-    h, steps = 2.0**-13, 500
+    steps = round(0.0625 / h)
     names = OUTPUTS[:4]
     wanted = expected(python, ripple, steps, h)[:4]
     result = fmpy.simulate_fmu(
@@ -95,8 +107,10 @@ def test_it_computes_what_the_package_computes(fmus: list[Path], ripple: float) 
             "engine.order_scale": ripple,
             "vehicle.speed_start": speed,
             "vehicle.speed_request": speed + 0.5,
+            "pinion.speed": python.steady.pinion_speed,
+            "wheel.speed": python.steady.wheel_speed,
         },
-        input=_motion(python, steps, h),
+        input=_motion(python, steps, h) if connected else None,
         output=names,
     )
     found = [float(result[name][-1]) for name in names]
@@ -125,12 +139,22 @@ def test_checkers_find_no_problem(fmus: list[Path]) -> None:
     assert [problems(fmu) for fmu in fmus] == [[], []]
 
 
-def test_steps_that_its_integration_cannot_take_are_refused(
-    fmus: list[Path], tmp_path: Path
-) -> None:
-    job = Job(fmu=fmus[0], reals={}, integers={}, names=OUTPUTS, step_size=2.0**-11)
-    with pytest.raises(RuntimeError, match=r"steps of the driveline must be at most 0\.25 ms"):
-        in_c_host(job, c_host(tmp_path), tmp_path)
+@pytest.mark.parametrize("h", [None, 1e-5, 1e-2, 0.1])
+def test_it_holds_its_speed_by_its_defaults_in_any_step(fmus: list[Path], h: float | None) -> None:
+    """By its defaults alone the car holds the 80 km/h that it starts with."""
+    for fmu in fmus:
+        stop = None if h is None else min(1.0, 100 * h)
+        result = fmpy.simulate_fmu(str(fmu), output_interval=h, stop_time=stop)
+        assert result["time"][-1] == pytest.approx(stop or 1.0, rel=1e-9)
+        # the engine's orders swing the car by less than 1e-4 of its speed
+        assert result["vehicle.speed"] == pytest.approx(80.0 / 3.6, rel=1e-4)
+        assert not result["range.exceeded"].any()
+
+
+def test_every_value_that_a_host_sets_has_finite_limits() -> None:
+    models = [driveline_model(), *map(native_model, DEFINITIONS)]
+    given = [v for one in models for v in one.definition.variables if not v.is_computed]
+    assert [v.name for v in given if not all(map(math.isfinite, v.range))] == []
 
 
 @pytest.mark.parametrize("version", [2, 3])

@@ -69,7 +69,7 @@ def test_tables_of_another_kind_are_refused(tmp_path, text: str, words: str):
     table.write_text(text)
     with pytest.raises(ParameterError, match=words):
         read_profile(table)
-    with pytest.raises(ParameterError, match="table missing.csv was not found"):
+    with pytest.raises(ParameterError, match="table missing\\.csv was not found"):
         read_profile(tmp_path / "missing.csv")
 
 

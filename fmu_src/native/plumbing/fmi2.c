@@ -48,7 +48,7 @@ const char *fmi2GetVersion(void)
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[])
 {
-    return gl_is_instance(c) ? answer(gl_choose_logs(c, on, n, names)) : fmi2Error;
+    return answer(GL_CALL(c, gl_choose_logs(c, on, n, names)));
 }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
@@ -87,28 +87,27 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, f
 {
     (void)tolerance_defined;
     (void)tolerance; /* the step follows from the frequencies of the model */
-    return gl_is_instance(c) ? answer(gl_set_times(c, start, stop_defined ? stop : INFINITY))
-                             : fmi2Error;
+    return answer(GL_CALL(c, gl_set_times(c, start, stop_defined ? stop : INFINITY)));
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
-    return gl_is_instance(c) ? answer(gl_enter_initialisation(c)) : fmi2Error;
+    return answer(GL_CALL(c, gl_enter_initialisation(c)));
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 {
-    return gl_is_instance(c) ? answer(gl_exit_initialisation(c)) : fmi2Error;
+    return answer(GL_CALL(c, gl_exit_initialisation(c)));
 }
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
-    return gl_is_instance(c) ? answer(gl_terminate(c)) : fmi2Error;
+    return answer(GL_CALL(c, gl_terminate(c)));
 }
 
 fmi2Status fmi2Reset(fmi2Component c)
 {
-    return gl_is_instance(c) ? answer(gl_reset(c)) : fmi2Error;
+    return answer(GL_CALL(c, gl_reset(c)));
 }
 
 /* Points at the values that may be read, if any. */
@@ -119,7 +118,7 @@ static fmi2Status read_values(gl_instance *instance, gl_kind kind, const unsigne
     if (!gl_is_instance(instance)) {
         return fmi2Error;
     }
-    gl_status status = gl_check_read(instance, kind, n, refs, values);
+    gl_status status = GL_CALL(instance, gl_check_read(instance, kind, n, refs, values));
     if (status == GL_OK) {
         *from = instance->now.values;
     }
@@ -160,10 +159,8 @@ fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t
 
 static fmi2Status no_strings(gl_instance *instance, size_t n)
 {
-    if (!gl_is_instance(instance)) {
-        return fmi2Error;
-    }
-    return n ? answer(gl_refuse(instance, "No variable of this FMU is a String.")) : fmi2OK;
+    return answer(GL_CALL(
+        instance, n ? gl_refuse(instance, "No variable of this FMU is a String.") : GL_OK));
 }
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n,
@@ -193,12 +190,12 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n,
     if (!gl_is_instance(c)) {
         return fmi2Error;
     }
-    fmi2Status status = answer(gl_check_set(c, GL_REAL, n, vr, value));
+    fmi2Status status = answer(GL_CALL(c, gl_check_set(c, GL_REAL, n, vr, value)));
     if (status != fmi2OK) {
         return status;
     }
     for (size_t i = 0; i < n; i++) {
-        status = worse(status, gl_set(c, vr[i], value[i]));
+        status = worse(status, GL_CALL(c, gl_set(c, vr[i], value[i])));
     }
     return status;
 }
@@ -206,12 +203,12 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n,
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                           const fmi2Integer value[])
 {
-    if (!gl_is_instance(c) || gl_check_set(c, GL_INTEGER, n, vr, value) != GL_OK) {
+    if (GL_CALL(c, gl_check_set(c, GL_INTEGER, n, vr, value)) != GL_OK) {
         return fmi2Error;
     }
     fmi2Status status = fmi2OK;
     for (size_t i = 0; i < n; i++) {
-        status = worse(status, gl_set(c, vr[i], (double)value[i]));
+        status = worse(status, GL_CALL(c, gl_set(c, vr[i], (double)value[i])));
     }
     return status;
 }
@@ -219,60 +216,56 @@ fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                           const fmi2Boolean value[])
 {
-    if (!gl_is_instance(c) || gl_check_set(c, GL_BOOLEAN, n, vr, value) != GL_OK) {
+    if (GL_CALL(c, gl_check_set(c, GL_BOOLEAN, n, vr, value)) != GL_OK) {
         return fmi2Error;
     }
     fmi2Status status = fmi2OK;
     for (size_t i = 0; i < n; i++) {
-        status = worse(status, gl_set(c, vr[i], value[i] ? 1.0 : 0.0));
+        status = worse(status, GL_CALL(c, gl_set(c, vr[i], value[i] ? 1.0 : 0.0)));
     }
     return status;
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
-    return gl_is_instance(c) ? answer(gl_save(c, state)) : fmi2Error;
+    return answer(GL_CALL(c, gl_save(c, state)));
 }
 
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
 {
-    return gl_is_instance(c) ? answer(gl_restore(c, state)) : fmi2Error;
+    return answer(GL_CALL(c, gl_restore(c, state)));
 }
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
-    return gl_is_instance(c) ? answer(gl_forget(c, state)) : fmi2Error;
+    return answer(GL_CALL(c, gl_forget(c, state)));
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
 {
-    return gl_is_instance(c) ? answer(gl_state_size(c, state, size)) : fmi2Error;
+    return answer(GL_CALL(c, gl_state_size(c, state, size)));
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
 {
-    return gl_is_instance(c) ? answer(gl_serialise(c, state, (unsigned char *)bytes, size))
-                             : fmi2Error;
+    return answer(GL_CALL(c, gl_serialise(c, state, (unsigned char *)bytes, size)));
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size,
                                    fmi2FMUstate *state)
 {
-    return gl_is_instance(c)
-               ? answer(gl_deserialise(c, (const unsigned char *)bytes, size, state))
-               : fmi2Error;
+    return answer(GL_CALL(c, gl_deserialise(c, (const unsigned char *)bytes, size, state)));
 }
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_way_back)
 {
     (void)no_way_back;
-    return gl_is_instance(c) ? answer(gl_step(c, time, step)) : fmi2Error;
+    return answer(GL_CALL(c, gl_step(c, time, step)));
 }
 
 static fmi2Status unsupported(gl_instance *instance, const char *what)
 {
-    return gl_is_instance(instance) ? answer(gl_refuse(instance, "This FMU has no %s.", what))
-                                    : fmi2Error;
+    return answer(GL_CALL(instance, gl_refuse(instance, "This FMU has no %s.", what)));
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c)
@@ -303,11 +296,11 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
 /* Discard says that the FMU has not the information that is asked for (FMI 2.0.4, 2.1.3). */
 static fmi2Status no_information(gl_instance *instance, const char *what)
 {
-    if (!gl_is_instance(instance)) {
+    if (!gl_enter(instance)) {
         return fmi2Error;
     }
     gl_say(instance, GL_DISCARD, "This FMU has no %s.", what);
-    return fmi2Discard;
+    return answer(gl_leave(instance, GL_DISCARD));
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)

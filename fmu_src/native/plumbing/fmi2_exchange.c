@@ -11,12 +11,12 @@ static fmi2Status answer(gl_status status)
 
 static fmi2Status no_pointer(gl_instance *instance)
 {
-    return answer(gl_refuse(instance, "A pointer of the call is null."));
+    return answer(GL_CALL(instance, gl_refuse(instance, "A pointer of the call is null.")));
 }
 
 fmi2Status fmi2EnterEventMode(fmi2Component c)
 {
-    return gl_is_instance(c) ? answer(gl_enter_events(c)) : fmi2Error;
+    return answer(GL_CALL(c, gl_enter_events(c)));
 }
 
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
@@ -28,7 +28,7 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
     if (!info) {
         return no_pointer(c);
     }
-    gl_status status = gl_update_discrete(c, &changed);
+    gl_status status = GL_CALL(c, gl_update_discrete(c, &changed));
     if (status == GL_OK) {
         info->newDiscreteStatesNeeded = fmi2False;
         info->terminateSimulation = fmi2False;
@@ -42,7 +42,7 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
 
 fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c)
 {
-    return gl_is_instance(c) ? answer(gl_enter_continuous_time(c)) : fmi2Error;
+    return answer(GL_CALL(c, gl_enter_continuous_time(c)));
 }
 
 fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_way_back,
@@ -56,7 +56,7 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_way_back,
     if (!enter_event_mode || !terminate) {
         return no_pointer(c);
     }
-    gl_status status = gl_complete_step(c, &due);
+    gl_status status = GL_CALL(c, gl_complete_step(c, &due));
     if (status == GL_OK) {
         *enter_event_mode = due ? fmi2True : fmi2False;
         *terminate = fmi2False;
@@ -66,32 +66,32 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_way_back,
 
 fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time)
 {
-    return gl_is_instance(c) ? answer(gl_set_time(c, time)) : fmi2Error;
+    return answer(GL_CALL(c, gl_set_time(c, time)));
 }
 
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_set_states(c, x, n)) : fmi2Error;
+    return answer(GL_CALL(c, gl_set_states(c, x, n)));
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_get_states(c, x, n)) : fmi2Error;
+    return answer(GL_CALL(c, gl_get_states(c, x, n)));
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_get_nominals(c, x, n)) : fmi2Error;
+    return answer(GL_CALL(c, gl_get_nominals(c, x, n)));
 }
 
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real x[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_get_rates(c, x, n)) : fmi2Error;
+    return answer(GL_CALL(c, gl_get_rates(c, x, n)));
 }
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real z[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_get_indicators(c, z, n)) : fmi2Error;
+    return answer(GL_CALL(c, gl_get_indicators(c, z, n)));
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[],
@@ -99,7 +99,6 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
                                         size_t n_known, const fmi2Real d_known[],
                                         fmi2Real d_unknown[])
 {
-    return gl_is_instance(c) ? answer(gl_differentiate(c, unknown, n_unknown, known, n_known,
-                                                       d_known, d_unknown))
-                             : fmi2Error;
+    return answer(GL_CALL(
+        c, gl_differentiate(c, unknown, n_unknown, known, n_known, d_known, d_unknown)));
 }

@@ -31,7 +31,7 @@ const char *fmi3GetVersion(void)
 
 fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String names[])
 {
-    return gl_is_instance(c) ? answer(gl_choose_logs(c, on, n, names)) : fmi3Error;
+    return answer(GL_CALL(c, gl_choose_logs(c, on, n, names)));
 }
 
 static fmi3Instance no_instance(fmi3String name, fmi3InstanceEnvironment host,
@@ -111,26 +111,23 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_def
 {
     (void)tolerance_defined;
     (void)tolerance; /* the step follows from the frequencies of the model */
-    if (!gl_is_instance(c)) {
-        return fmi3Error;
-    }
-    gl_status status = gl_set_times(c, start, stop_defined ? stop : INFINITY);
-    return answer(status == GL_OK ? gl_enter_initialisation(c) : status);
+    gl_status status = GL_CALL(c, gl_set_times(c, start, stop_defined ? stop : INFINITY));
+    return answer(status == GL_OK ? GL_CALL(c, gl_enter_initialisation(c)) : status);
 }
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance c)
 {
-    return gl_is_instance(c) ? answer(gl_exit_initialisation(c)) : fmi3Error;
+    return answer(GL_CALL(c, gl_exit_initialisation(c)));
 }
 
 fmi3Status fmi3Terminate(fmi3Instance c)
 {
-    return gl_is_instance(c) ? answer(gl_terminate(c)) : fmi3Error;
+    return answer(GL_CALL(c, gl_terminate(c)));
 }
 
 fmi3Status fmi3Reset(fmi3Instance c)
 {
-    return gl_is_instance(c) ? answer(gl_reset(c)) : fmi3Error;
+    return answer(GL_CALL(c, gl_reset(c)));
 }
 
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Boolean no_way_back,
@@ -143,9 +140,9 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Bo
         return fmi3Error;
     }
     if (!event_needed || !terminate || !early_return || !last_time) {
-        return answer(gl_refuse(instance, "A pointer of the call is null."));
+        return answer(GL_CALL(instance, gl_refuse(instance, "A pointer of the call is null.")));
     }
-    gl_status status = gl_step(instance, time, step);
+    gl_status status = GL_CALL(instance, gl_step(instance, time, step));
     *event_needed = *terminate = *early_return = false;
     *last_time = instance->now.time;
     return answer(status);
@@ -219,7 +216,8 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
         if (!gl_is_instance(instance)) {                                                          \
             return fmi3Error;                                                                     \
         }                                                                                         \
-        gl_status status = check(instance, kind, enumeration, 0, refs, n, values, n_values);      \
+        gl_status status =                                                                        \
+            GL_CALL(c, check(instance, kind, enumeration, 0, refs, n, values, n_values));         \
         if (status != GL_OK) {                                                                    \
             return answer(status);                                                                \
         }                                                                                         \
@@ -243,14 +241,16 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
         if (!gl_is_instance(c)) {                                                                 \
             return fmi3Error;                                                                     \
         }                                                                                         \
-        gl_status status = check(c, kind, enumeration, 1, refs, n, values, n_values);             \
+        gl_status status =                                                                        \
+            GL_CALL(c, check(c, kind, enumeration, 1, refs, n, values, n_values));                \
         if (status != GL_OK) {                                                                    \
             return answer(status);                                                                \
         }                                                                                         \
         for (size_t i = 0; i < n; i++) {                                                          \
             for (int j = 0; j < gl_arrays[refs[i]].count; j++) {                                  \
-                fmi3Status one =                                                                  \
-                    answer(gl_set(c, gl_arrays[refs[i]].members[j], (double)values[k++]));        \
+                unsigned reference = gl_arrays[refs[i]].members[j];                               \
+                fmi3Status one = answer(GL_CALL(c, gl_set(c, reference, (double)values[k])));     \
+                k++;                                                                              \
                 worst = one > worst ? one : worst;                                                \
             }                                                                                     \
         }                                                                                         \
@@ -259,15 +259,13 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
 
 ACCESS(Float64, fmi3Float64, GL_REAL, 0, value)
 ACCESS(Int32, fmi3Int32, GL_INTEGER, 0, (fmi3Int32)gl_whole(value, INT32_MIN, INT32_MAX))
-ACCESS(Int64, fmi3Int64, GL_INTEGER, 1, gl_whole(value, INT64_MIN, INT64_MAX))
+ACCESS(Int64, fmi3Int64, GL_INTEGER, 1, gl_whole(value, INT32_MIN, INT32_MAX))
 ACCESS(Boolean, fmi3Boolean, GL_BOOLEAN, 0, value != 0.0)
 
 static fmi3Status unsupported(gl_instance *instance, size_t asked, const char *what)
 {
-    if (!gl_is_instance(instance)) {
-        return fmi3Error;
-    }
-    return asked ? answer(gl_refuse(instance, "This FMU has no %s.", what)) : fmi3OK;
+    return answer(
+        GL_CALL(instance, asked ? gl_refuse(instance, "This FMU has no %s.", what) : GL_OK));
 }
 
 /* Types that no variable has. */
@@ -310,31 +308,31 @@ fmi3Status fmi3SetBinary(fmi3Instance c, const fmi3ValueReference refs[], size_t
 
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state)
 {
-    return gl_is_instance(c) ? answer(gl_save(c, state)) : fmi3Error;
+    return answer(GL_CALL(c, gl_save(c, state)));
 }
 
 fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state)
 {
-    return gl_is_instance(c) ? answer(gl_restore(c, state)) : fmi3Error;
+    return answer(GL_CALL(c, gl_restore(c, state)));
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state)
 {
-    return gl_is_instance(c) ? answer(gl_forget(c, state)) : fmi3Error;
+    return answer(GL_CALL(c, gl_forget(c, state)));
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size)
 {
-    return gl_is_instance(c) ? answer(gl_state_size(c, state, size)) : fmi3Error;
+    return answer(GL_CALL(c, gl_state_size(c, state, size)));
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size)
 {
-    return gl_is_instance(c) ? answer(gl_serialise(c, state, bytes, size)) : fmi3Error;
+    return answer(GL_CALL(c, gl_serialise(c, state, bytes, size)));
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size,
                                    fmi3FMUState *state)
 {
-    return gl_is_instance(c) ? answer(gl_deserialise(c, bytes, size, state)) : fmi3Error;
+    return answer(GL_CALL(c, gl_deserialise(c, bytes, size, state)));
 }

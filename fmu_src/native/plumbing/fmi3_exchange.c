@@ -11,12 +11,12 @@ static fmi3Status answer(gl_status status)
 
 static fmi3Status no_pointer(gl_instance *instance)
 {
-    return answer(gl_refuse(instance, "A pointer of the call is null."));
+    return answer(GL_CALL(instance, gl_refuse(instance, "A pointer of the call is null.")));
 }
 
 fmi3Status fmi3EnterEventMode(fmi3Instance c)
 {
-    return gl_is_instance(c) ? answer(gl_enter_events(c)) : fmi3Error;
+    return answer(GL_CALL(c, gl_enter_events(c)));
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needed, fmi3Boolean *terminate,
@@ -30,7 +30,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needed, fmi3Boo
     if (!needed || !terminate || !nominals_changed || !values_changed || !next_defined || !next) {
         return no_pointer(c);
     }
-    gl_status status = gl_update_discrete(c, &changed);
+    gl_status status = GL_CALL(c, gl_update_discrete(c, &changed));
     if (status == GL_OK) {
         *needed = *terminate = *nominals_changed = *next_defined = false;
         *values_changed = changed != 0;
@@ -41,7 +41,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needed, fmi3Boo
 
 fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance c)
 {
-    return gl_is_instance(c) ? answer(gl_enter_continuous_time(c)) : fmi3Error;
+    return answer(GL_CALL(c, gl_enter_continuous_time(c)));
 }
 
 fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_way_back,
@@ -55,7 +55,7 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_way_back,
     if (!enter_event_mode || !terminate) {
         return no_pointer(c);
     }
-    gl_status status = gl_complete_step(c, &due);
+    gl_status status = GL_CALL(c, gl_complete_step(c, &due));
     if (status == GL_OK) {
         *enter_event_mode = due != 0;
         *terminate = false;
@@ -65,32 +65,32 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_way_back,
 
 fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time)
 {
-    return gl_is_instance(c) ? answer(gl_set_time(c, time)) : fmi3Error;
+    return answer(GL_CALL(c, gl_set_time(c, time)));
 }
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 x[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_set_states(c, x, n)) : fmi3Error;
+    return answer(GL_CALL(c, gl_set_states(c, x, n)));
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_get_states(c, x, n)) : fmi3Error;
+    return answer(GL_CALL(c, gl_get_states(c, x, n)));
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_get_nominals(c, x, n)) : fmi3Error;
+    return answer(GL_CALL(c, gl_get_nominals(c, x, n)));
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 x[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_get_rates(c, x, n)) : fmi3Error;
+    return answer(GL_CALL(c, gl_get_rates(c, x, n)));
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 z[], size_t n)
 {
-    return gl_is_instance(c) ? answer(gl_get_indicators(c, z, n)) : fmi3Error;
+    return answer(GL_CALL(c, gl_get_indicators(c, z, n)));
 }
 
 static fmi3Status tell_number(gl_instance *instance, size_t *place, size_t number)
@@ -147,9 +147,9 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
     }
     if (!elements(unknowns, n_unknowns, n_sensitivity, of_unknowns) ||
         !elements(knowns, n_knowns, n_seed, of_knowns)) {
-        return answer(gl_refuse(c, "Value references of variables are expected, each once, and as "
-                                   "many values as they have elements."));
+        return answer(GL_CALL(c, gl_refuse(c, "Value references of variables are expected, each "
+                                              "once, and as many values as they have elements.")));
     }
-    return answer(gl_differentiate(c, of_unknowns, n_sensitivity, of_knowns, n_seed, seed,
-                                   sensitivity));
+    return answer(GL_CALL(c, gl_differentiate(c, of_unknowns, n_sensitivity, of_knowns, n_seed, seed,
+                                              sensitivity)));
 }

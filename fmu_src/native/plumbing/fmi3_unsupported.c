@@ -5,9 +5,7 @@
 
 static fmi3Status without(gl_instance *instance, const char *what)
 {
-    if (gl_is_instance(instance)) {
-        gl_refuse(instance, "This FMU has no %s.", what);
-    }
+    (void)GL_CALL(instance, gl_refuse(instance, "This FMU has no %s.", what));
     return fmi3Error;
 }
 

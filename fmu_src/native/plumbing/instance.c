@@ -2,6 +2,7 @@
 #include "instance.h"
 #include "internal.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -224,11 +225,13 @@ gl_status gl_reset(gl_instance *instance)
 static gl_status check_step(gl_instance *instance, double time, double step)
 {
     double last = instance->now.time;
-    double allowed = 1e-3 * step + 1e-9 * fmax(1.0, fabs(last));
+    /* of the host's times; a limit, because a huge time must not allow any step */
+    double rounding = fmin(2.0 * DBL_EPSILON * (fabs(last) + GL_LONGEST_STEP), 1e-3 * GL_LONGEST_STEP);
+    double allowed = 1e-3 * step + rounding;
     if (instance->now.phase != GL_STEPPING) {
         return gl_expect(instance, GL_STEPPING);
     }
-    if (!(0.0 < step && step <= GL_LONGEST_STEP)) {
+    if (!(0.0 < step && step <= GL_LONGEST_STEP + rounding)) {
         gl_say(instance, GL_DISCARD,
                "step at t = %g s refused. The communication step must be above 0 and at most %g s, "
                "got %g s. Renew the torques at least that often.",

@@ -42,8 +42,19 @@ typedef struct {
     double state[GL_STATE];      /* of the model */
 } gl_snapshot;
 
+/* Settings of floating point, in the registers of the processor. */
+typedef struct {
+#if defined(__x86_64__)
+    uint32_t sse;
+    uint16_t x87, x87_status;
+#else
+    uint64_t control, flags;
+#endif
+} gl_floats;
+
 struct gl_instance {
     uint64_t mark; /* tells an instance from other memory */
+    gl_floats host_floats; /* while a call of the host lasts */
     gl_snapshot now;
     double stop; /* no step goes beyond it [s] */
     int stale;   /* outputs wait for a start with the present values */
@@ -67,6 +78,12 @@ gl_instance *gl_make(const char *name, gl_listener listener, void *host, uintptr
                      int logging, int exchange);
 void gl_free(gl_instance *instance);
 int gl_is_instance(const gl_instance *instance);
+
+/* Begins a call of the host, with floating point as the model needs it; 0 if this is no instance. */
+int gl_enter(gl_instance *instance);
+/* Ends it, with floating point as the host had it; returns the status. */
+gl_status gl_leave(gl_instance *instance, gl_status status);
+#define GL_CALL(instance, call) (gl_enter(instance) ? gl_leave(instance, call) : GL_ERROR)
 
 /* Says why no instance can be made, also on standard error. */
 void gl_say_no_instance(const char *name, const char *text);

@@ -9,6 +9,10 @@ enum { GL_LONGEST_LIMITS = 512 };
 /* Writes the range of a variable as words: "within 0 to 1 m", or the names of an option. */
 void gl_limits_text(const gl_variable *variable, char *text, size_t size);
 
+/* Sets floating point as the model needs it, and as the host had it. */
+void gl_take_floats(gl_floats *host);
+void gl_give_floats(const gl_floats *host);
+
 /* Says of one refused value why; returns 0 if none is refused. */
 int gl_say_refused(gl_instance *instance, gl_status status, const char *before);
 void gl_find_refused(gl_instance *instance);

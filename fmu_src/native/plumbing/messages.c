@@ -21,7 +21,9 @@ static void pass_on(gl_instance *instance, gl_status status, const char *text, v
     }
     char whole[GL_LONGEST_MESSAGE];
     vsnprintf(whole, sizeof whole, text, arguments);
+    gl_give_floats(&instance->host_floats); /* the host computes in its own way */
     instance->listener(instance, status, gl_log_names[log_of(status)], whole);
+    gl_take_floats(&instance->host_floats);
 }
 
 void gl_say(gl_instance *instance, gl_status status, const char *text, ...)
