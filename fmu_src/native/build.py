@@ -14,7 +14,6 @@ from fmu_src.archive import write_archive
 from fmu_src.documentation import index_html
 from fmu_src.identity import source_digest
 from fmu_src.model_description import model_description
-from fmu_src.native.build_description import build_description
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
 from fmu_src.native.model_description_3 import ICON, model_description_3, terminals
 from fmu_src.native.platforms import (
@@ -140,7 +139,7 @@ def _common_content(model: NativeModel) -> dict[str, bytes]:
     for licence in sorted((_PACKAGE / "licences").glob("gearlube*.txt")):
         content[f"documentation/licenses/{licence.name}"] = licence.read_bytes()
     for name, text in c_sources(model, str(native_guid(model))).items():
-        content[f"sources/{name}"] = text.encode()
+        content[f"documentation/sources/{name}"] = text.encode()
     content |= {f"resources/{name}": data for name, data in definition.resources.items()}
     return content
 
@@ -168,7 +167,6 @@ def fmi3_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
     content["modelDescription.xml"] = model_description_3(definition, guid, model.exchange)
     content["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(definition)
     content[ICON] = (_PACKAGE / "model.png").read_bytes()
-    content["sources/buildDescription.xml"] = build_description(definition.name)
     for platform in PLATFORMS:
         if platform.name in built:
             path = f"binaries/{platform.name}/{definition.name}{platform.suffix}"

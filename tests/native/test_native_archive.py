@@ -124,7 +124,6 @@ def test_checkers_find_no_problem(archives: dict[str, Path], version: str) -> No
         ("2", "modelDescription.xml", "fmi2/fmi2ModelDescription.xsd"),
         ("3", "modelDescription.xml", "fmi3/fmi3ModelDescription.xsd"),
         ("3", "terminalsAndIcons/terminalsAndIcons.xml", "fmi3/fmi3TerminalsAndIcons.xsd"),
-        ("3", "sources/buildDescription.xml", "fmi3/fmi3BuildDescription.xsd"),
     ],
 )
 def test_every_description_obeys_its_schema(
@@ -134,6 +133,19 @@ def test_every_description_obeys_its_schema(
     with zipfile.ZipFile(archives[version]) as archive:
         validator.validate(etree.fromstring(archive.read(file)))
     assert list(validator.error_log) == []
+
+
+@pytest.mark.parametrize("version", ["2", "3"])
+def test_a_host_finds_no_sources_to_build_without_the_kernels(
+    archives: dict[str, Path], version: str
+) -> None:
+    """FMPy replaces the library of an archive by what `sources` declares."""
+    description = fmpy.read_model_description(str(archives[version]))
+    assert not description.buildConfigurations
+    with zipfile.ZipFile(archives[version]) as archive:
+        names = archive.namelist()
+    assert not [name for name in names if name.startswith("sources/")]
+    assert "documentation/sources/instance.c" in names
 
 
 def test_fmi_3_has_an_array_for_indexed_outputs(archives: dict[str, Path]) -> None:
