@@ -224,7 +224,7 @@ class BearingFile(InputFile):
         named = self.film_model
         return None if named is None else chosen_model(named, ROLLER, "film_model")
 
-    def inferred(self) -> list[InputNote]:
+    def inferred_notes(self) -> list[InputNote]:
         """Return what follows for the rollers that the file leaves out."""
         found, how = self.bearing.rollers_and_pitch()
         return [

@@ -35,7 +35,7 @@ The film of a ball of the same radius on a flat, under 20 N:
 ...                           contact_modulus=1.15e11, lubricant=oil, nodes=(65, 65))
 >>> point = solve_point_contact(ball, PointSolverSettings(tolerance=1e-6))
 >>> point.outcome.converged, round(1e6 * point.central_film, 2)  # um
-(True, 0.38)
+(True, 0.39)
 
 With heat, `solve_thermal_line` and `solve_thermal_point` take the same problems, both solids and an
 oil with law="houpert". In time: `LineMarch` for lines, `FilmMarch` for points.

@@ -12,7 +12,7 @@ from typing import Any
 
 from lxml import etree
 
-from gearlube_core.errors import ParameterError, why
+from gearlube_core.errors import ParameterError, unread
 from gearlube_core.rexs.units import converted
 
 _MODELS = (".rexs", ".rexsj", ".xml")  # files of an archive that hold a model
@@ -98,7 +98,7 @@ class RexsModel:
         try:
             content = _unpacked(path) if zipfile.is_zipfile(path) else path.read_bytes()
         except (OSError, zipfile.BadZipFile, RuntimeError, zlib.error) as reason:
-            raise ParameterError(f"{path} is not a readable file: {why(reason)}.") from None
+            raise ParameterError(f"{unread('REXS file', path, reason)}.") from None
         kind = "JSON" if content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{" else "XML"
         try:
             root = _xml_of(json.loads(content)["model"]) if kind == "JSON" else _xml(content)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError, why
+from gearlube_core.errors import ParameterError, unread, why
 from gearlube_core.input_file.table import TABLES
 from gearlube_core.storage.atomic_file import write_arrays, write_text
 from gearlube_core.surface.heights import MICROMETRE, HeightMap, Profile, Surface, evenly_spaced
@@ -158,5 +158,7 @@ def _package(name: str, path: Path) -> Any:
 def _read(path: Path, kind: str, read: Any, error: type[Exception]) -> Any:
     try:
         return read(path)
+    except FileNotFoundError as reason:
+        raise ParameterError(f"{unread(f'{kind} file', path, reason)}.") from None
     except (error, OSError, ValueError, KeyError) as reason:
         raise ParameterError(f"{path} is not a readable {kind} file: {why(reason)}.") from None

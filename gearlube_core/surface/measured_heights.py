@@ -13,7 +13,7 @@ from scipy.sparse import coo_array, diags_array
 from scipy.sparse.linalg import spsolve
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError, why
+from gearlube_core.errors import ParameterError, unread, why
 from gearlube_core.input_file.table import read_table
 from gearlube_core.units import MILLIMETRE
 
@@ -135,6 +135,8 @@ def read_map(path: str | Path) -> MeasuredMap:
         raise ParameterError(
             f"{path} must hold x and y in mm and height in um, {missing} is missing."
         ) from None
+    except FileNotFoundError as reason:
+        raise ParameterError(f"{unread('height map', path, reason)}.") from None
     except (OSError, ValueError, TypeError) as reason:
         raise ParameterError(
             f"{path} is not a readable NetCDF or npz file: {why(reason)}."

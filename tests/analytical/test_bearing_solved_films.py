@@ -39,8 +39,12 @@ def test_torque_of_the_raceways_is_that_of_films_solved_for_them(rpm):
     assert found.out_of_range == 0.0
     # bounds of the model hold for 95 % of contacts; the grid's limit is known to some tenths
     tolerance = 1.5 * model.friction_bound + 0.003
-    assert found.parts["rolling"] * rpm * RPM == pytest.approx(power, rel=tolerance)
-    assert found.film_ratio == pytest.approx(min(films), rel=1.5 * model.film_bound + 0.003)
+    # the model was trained with an inlet cut at 150 films, which leaves out rolling force: up to
+    # `domain_bounds` of it, never the other way
+    share = found.parts["rolling"] * rpm * RPM / power
+    assert 1.0 - model.domain_bounds[1] - tolerance < share < 1.0 + tolerance
+    most = 1.5 * model.film_bound + 0.003 + model.domain_bounds[0]
+    assert found.film_ratio == pytest.approx(min(films), rel=most)
 
 
 def test_films_heat_themselves_and_lose_less_for_it():

@@ -65,7 +65,7 @@ def test_what_enters_the_domain_leaves_it(layer: float | None) -> None:
     flooded = solve_point_contact(problem, CONSERVING)
     solution = flooded
     if layer is not None:
-        thin = replace(problem, inlet_layer=layer * flooded.central_film)
+        thin = replace(problem, oil_beyond=False, inlet_layer=layer * flooded.central_film)
         solution = solve_point_contact(thin, CONSERVING)
     # the outlet is ruptured right across: this is the balance with what broken film carries
     assert (solution.fill[-2, 1:-1] < 1.0).all()
@@ -174,7 +174,7 @@ def test_film_of_a_wavy_wall_breaks_and_forms_again_where_the_closed_form_says()
 
 
 def test_starvation_lowers_the_film_to_the_layer_that_comes() -> None:
-    problem = moes_contact(200.0, 10.0, nodes=(65, 65))
+    problem = moes_contact(200.0, 10.0, nodes=(65, 65), oil_beyond=False)
     settings = PointSolverSettings(cavitation="mass_conserving")
     flooded = solve_point_contact(problem, settings)
     squeezed = density(problem.lubricant, flooded.maximum_pressure) / problem.lubricant.rho0

@@ -192,7 +192,7 @@ def test_wrong_files_are_named(gear_file: Path, line_mesh: Path, tmp_path: Path)
         definition_with(None, line_mesh)
     with pytest.raises(TableError, match=r"bad\.toml"):
         definition_with(gear_file, bad)
-    with pytest.raises(TableError, match="No line mesh can be read"):
+    with pytest.raises(TableError, match=r"line mesh absent\.nc was not found in "):
         definition_with(gear_file, tmp_path / "absent.nc")
     other = write_line_mesh(helical().mesh, tmp_path / "he.nc")
     with pytest.raises(TableError, match=r"he\.nc: mesh must belong to the pair of 33 and 34"):

@@ -198,7 +198,8 @@ def test_a_bad_table_is_refused_before_any_work(
         result = CliRunner().invoke(cli.app, options)
         assert result.exit_code == BAD_ARGUMENT
         assert message in caplog.text
-        assert str(path) in caplog.text
+        assert path.name in caplog.text
+        assert str(path.parent) in caplog.text
         assert not (out / "points").exists()
         assert not (out / "HypoidAxle.fmu").exists()
 

@@ -60,7 +60,11 @@ def test_relief_crown_and_facets_only_remove_material(name, pinion, gear):
 def test_gap_of_two_equal_gears_is_symmetric_about_the_pitch_line(crown):
     pair = named_pair("jamali_2015_a")
     pair = replace(
-        pair, gear_teeth=33, gear_tip_radius=pair.pinion_tip_radius, centre_distance=0.158
+        pair,
+        gear_teeth=33,
+        gear_tip_radius=pair.pinion_tip_radius,
+        gear_root_radius=pair.pinion_root_radius,
+        centre_distance=0.158,
     )
     flank = FlankModification(
         tip_relief=TipRelief(amount=70e-6, extent=2e-3, k=0.5),

@@ -67,11 +67,11 @@ def test_a_file_is_looked_for_beside_its_case(tmp_path):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"text": "x,z\n0,1\n"}, ["x_mm,height_um", "x,z"]),
-        ({"text": "x_mm,height_um\n0,1\n1;2\n"}, ["line 3", "1;2", "comma"]),
+        ({"text": "x,z\n0,1\n"}, ["x_mm, height_um", "x, z"]),
+        ({"text": "x_mm,height_um\n0,1\n1;2\n"}, ["line 3", "1;2", "has 1 of 2 columns"]),
         ({"text": "x_mm,height_um\n0,1\n1,2\n"}, ["at least 4"]),
         ({"text": "x_mm,height_um\n0,1\n1,2\n1,3\n2,3\n"}, ["rise", "1 mm"]),
-        ({"heights": lambda x: np.nan if 0.0 < x < 0.02 else 0.0}, ["finite", "2 of 213"]),
+        ({"heights": lambda x: np.nan if 0.0 < x < 0.02 else 0.0}, ["finite", "line 140", "'nan'"]),
         ({"heights": abs, "x": np.arange(-0.9, 0.6, STEP)}, ["-1 to 0.5 mm", "-0.9"]),
         ({"heights": abs, "x": np.arange(-1.1, 0.6, 2.0 * STEP)}, ["10 um", "20 um", "76 nodes"]),
     ],
@@ -86,7 +86,7 @@ def test_profiles_that_cannot_serve_are_refused(given, words, tmp_path):
 def test_a_missing_file_is_named(tmp_path):
     for model, data, section in ((LineCase, LINE, "profile"), (PointCase, POINT, "height_map")):
         file = str(tmp_path / "none.csv")
-        with pytest.raises(ParameterError, match=r"none\.csv is not a readable"):
+        with pytest.raises(ParameterError, match=r"none\.csv was not found in "):
             model.from_data({**data, section: {"file": file}}, "own")
 
 
@@ -123,7 +123,10 @@ def test_maps_that_cannot_serve_are_refused(tmp_path):
         "missing": ({"x": x, "y": y}, "height is not a file|'height.* is missing"),
         "narrow": ({"x": 0.5 * x, "y": y, "height": height}, "cover the domain"),
         "coarse": ({"x": x[::8], "y": y, "height": height[::8]}, "as fine as the grid along x"),
-        "holes": ({"x": x, "y": y, "height": np.where(height > 0.1, np.nan, height)}, "finite"),
+        "holes": (
+            {"x": x, "y": y, "height": np.where(height > -1e3, np.nan, height)},
+            "may be missing",
+        ),
     }
     wrong["coarse"][0]["x"] = np.linspace(x[0], x[-1], x[::8].size)
     for name, (arrays, words) in wrong.items():

@@ -13,7 +13,7 @@ from tests.helpers.ehl_point_cases import moes_contact
 
 EYRING = film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6)
 NEWTONIAN = film_oil(eta0=0.04, alpha=2e-8)
-CONTACT = moes_contact(50.0, 10.0, nodes=(33, 33), lubricant=EYRING)
+CONTACT = moes_contact(50.0, 10.0, nodes=(33, 33), lubricant=EYRING, oil_beyond=False)
 CONSERVING = PointSolverSettings(cavitation="mass_conserving")
 REYNOLDS = PointSolverSettings()
 

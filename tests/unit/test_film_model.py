@@ -247,7 +247,7 @@ def test_what_is_no_file_or_no_json_is_refused_in_words(tmp_path):
     (tmp_path / "text.json").write_text("not a model")
     with pytest.raises(FileError, match="must be a film model in JSON"):
         FilmModel.read(tmp_path / "text.json")
-    with pytest.raises(FileError, match="there is no such file"):
+    with pytest.raises(FileError, match="was not found in"):
         FilmModel.read(tmp_path / "none.json")
     with pytest.raises(FileError, match=r"must be one of .*hypoid_flank"):
         FilmModel.named("no_such_model")

@@ -243,7 +243,7 @@ def test_points_of_a_run_are_read_and_others_refused_in_words(tmp_path):
     for path, words in (
         (tmp_path, "must hold map.nc or drive_cycle.nc"),
         (Path("run.dat"), "must be a folder or a CSV file"),
-        (tmp_path / "none.csv", "there is no such file"),
+        (tmp_path / "none.csv", r"The table none\.csv was not found in "),
     ):
         with pytest.raises((FileError, ParameterError), match=words):
             visited_points(path)

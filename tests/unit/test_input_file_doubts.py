@@ -223,7 +223,7 @@ def test_a_catalogue_serves_bearing_files_and_axle_files_alike():
     file = BearingFile.from_data({"name": "32216", "bearing": catalogue}, "bearing.toml")
     length = file.geometry().roller_length
     assert length == pytest.approx(22.7e-3 * (187.0 / 179.0) ** (9 / 7), rel=0.005)
-    assert [note.field for note in file.inferred()] == ["bearing.roller_length_mm"]
+    assert [note.field for note in file.inferred_notes()] == ["bearing.roller_length_mm"]
     bearing = {"bearing": {**catalogue, "rollers": 16}}
     axle = AxleFile.from_data({**AXLE, "gear": bearing}, "axle.toml").car_axle().axle
     assert axle.bearings[1].roller_length == pytest.approx(length, rel=1e-12)  # same law
@@ -232,7 +232,7 @@ def test_a_catalogue_serves_bearing_files_and_axle_files_alike():
 def test_bore_outside_diameter_and_angle_are_enough_for_a_bearing_file():
     sizes = {"bore_diameter_mm": 80.0, "outside_diameter_mm": 140.0, "contact_angle_deg": 15.64}
     file = BearingFile.from_data({"name": "32216", "bearing": sizes}, "bearing.toml")
-    notes = {note.field: note.value for note in file.inferred()}
+    notes = {note.field: note.value for note in file.inferred_notes()}
     # 0.57 of half of 60 mm; rollers fill 0.8 of the circle of 110 mm; 1.5 diameters long
     assert notes == {
         "bearing.pitch_diameter_mm": pytest.approx(110.0),

@@ -254,9 +254,11 @@ def test_a_file_that_is_no_netcdf_is_refused(tmp_path):
 
 
 def test_a_file_that_is_not_there_is_told_with_its_name_and_who_writes_one(tmp_path):
-    for name in (tmp_path / "absent.nc", tmp_path):
-        with pytest.raises(TableError, match=rf"No mesh table .* {name}: .*`gearlube contact`"):
-            read_mesh_table(name)
+    absent = rf"mesh table absent\.nc was not found in {tmp_path}\. .*`gearlube contact`"
+    with pytest.raises(TableError, match=absent):
+        read_mesh_table(tmp_path / "absent.nc")
+    with pytest.raises(TableError, match=rf"mesh table {tmp_path} .*folder.*`gearlube contact`"):
+        read_mesh_table(tmp_path)
 
 
 def test_every_datum_of_the_shipped_table_says_where_it_is_from():

@@ -388,7 +388,7 @@ def test_json_and_archives_are_read_as_xml_is(tmp_path, written):
     path.write_text('{"model": {"version": "1.4"}}', encoding="utf-8")
     with pytest.raises(ParameterError, match=r"not a readable JSON file of REXS.*relations"):
         read_rexs(path)
-    with pytest.raises(ParameterError, match="there is no such file"):
+    with pytest.raises(ParameterError, match=r"REXS file none\.rexsz was not found in "):
         read_rexs(tmp_path / "none.rexsz")
 
 

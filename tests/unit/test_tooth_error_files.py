@@ -97,9 +97,14 @@ def test_pitch_turns_a_flank_by_its_length_over_the_radius(tmp_path):
     values = np.r_[13.0, np.zeros(12)]
     lines = [f"pinion,drive,{k},{value}" for k, value in enumerate(values, 1)]
     (tmp_path / "pitch.csv").write_text("\n".join([",".join(PITCH_COLUMNS), *lines]))
-    data = {"name": "one", "source": "made", "gear_file": "mohammadpour_2015", "pitch": "pitch.csv"}
+    data = {
+        "name": "one",
+        "source": "made",
+        "gear_file": "mohammadpour_2015",
+        "pitch": str(tmp_path / "pitch.csv"),
+    }
     file = MeasuredFile.from_data(data, "one")
-    found = file.tooth_errors(tmp_path, gear.blank())
+    found = file.tooth_errors(gear.blank())
     # mid-face pitch radius of the pinion by hand: (outer cone distance - half the width) sin(delta)
     member = gear.pinion
     radius = member.outer_cone_distance_mm - 0.5 * member.face_width_mm
@@ -107,7 +112,7 @@ def test_pitch_turns_a_flank_by_its_length_over_the_radius(tmp_path):
     turned = found.pinion.pitch["drive"][0]
     assert turned == pytest.approx(12e-3 / radius, rel=1e-9)
     at = MeasuredFile.from_data({**data, "pinion": {"pitch_radius_mm": 20.0}}, "one")
-    turned = at.tooth_errors(tmp_path, gear.blank()).pinion.pitch["drive"][0]
+    turned = at.tooth_errors(gear.blank()).pinion.pitch["drive"][0]
     assert turned == pytest.approx(12e-3 / 20.0, rel=1e-9)
     assert found.gear.is_none
     assert not found.is_none

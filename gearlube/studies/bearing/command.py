@@ -183,7 +183,7 @@ def bearing(
         seconds = time.monotonic() - began
         logger.info("Computed in %.1f s.", seconds)
         logger.info("Results: %s, %s, %s", out / "bearing.nc", out / "bearing.csv", out / "figures")
-        inputs = [*file_inputs(given), *noted_inputs(given.inferred())]
+        inputs = [*file_inputs(given), *noted_inputs(given.inferred_notes())]
         finish_with_report(bearing_report(dataset, inputs), out, seconds)
 
 

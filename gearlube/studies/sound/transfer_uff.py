@@ -10,7 +10,7 @@ import numpy as np
 
 from gearlube.studies.sound.transfer_path import Complex, TransferPath
 from gearlube_core.arrays import Array
-from gearlube_core.errors import FileError, ParameterError, why
+from gearlube_core.errors import FileError, ParameterError, unread
 
 _RESPONSE_FUNCTION = 4  # function type of a frequency response
 _PRESSURE, _FORCE = (15,), (9, 13)  # specific data types: pressure; reaction and excitation force
@@ -77,7 +77,7 @@ def _records(file: Path) -> list[dict[str, Any]]:
             pass
         found = pyuff.UFF(str(file)).read_sets()
     except OSError as reason:
-        raise FileError(f"The transfer path {file} cannot be read: {why(reason)}.") from None
+        raise FileError(f"{unread('transfer path', file, reason)}.") from None
     except Exception as reason:  # pyuff raises plain Exception, ValueError and others
         raise FileError(f"{file} must be a universal file, it is not: {reason}.") from None
     return [found] if isinstance(found, dict) else list(found)

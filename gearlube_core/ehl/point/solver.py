@@ -71,7 +71,7 @@ def solve_point_contact(
     ...                           contact_modulus=1.15e11, lubricant=oil, nodes=(65, 65))
     >>> film = solve_point_contact(ball)
     >>> film.outcome.converged, round(1e6 * film.central_film, 2)  # um
-    (True, 0.38)
+    (True, 0.39)
     """
     settings = PointSolverSettings() if settings is None else settings
     check_cavitation(problem, settings)

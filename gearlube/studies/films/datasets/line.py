@@ -106,6 +106,7 @@ def line_dataset(
             "turns": 0 if thermal is None else len(thermal.changes),
             "residual": film.residual,
             "load_error": film.load_error,
+            "load_beyond": film.beyond.load / problem.line_load,
             "iterations": sum(len(record.residual) for _, record in film.records),
             "seconds": seconds,
             "converged": int(solution.converged),

@@ -144,6 +144,7 @@ def point_dataset(
             "heat_balance": math.nan if thermal is None else thermal.balances[-1],
             "residual": float(outcome.residual),
             "load_error": float(outcome.load_error),
+            "load_beyond": float(outcome.beyond),
             "iterations": len(solution.residuals),
             "krylov_steps": solution.krylov_steps,
             "seconds": solution.seconds,

@@ -112,11 +112,13 @@ class MassConservingCavitation:
             state.ruptured,
             state.residual,
         )
-        # other borders show what the nodes beside them pass on
-        for border, beside in ((np.s_[:, -1], np.s_[:, -2]), (np.s_[-1], np.s_[-2])):
-            np.minimum(full[border], state.mass[beside], out=state.mass[border])
+        # other borders show what the nodes beside them pass on; under pressure they are full
+        beside = [(np.s_[:, -1], np.s_[:, -2]), (np.s_[-1], np.s_[-2])]
         if stencil.wedge_y == 0.0:
-            np.minimum(full[0], state.mass[1], out=state.mass[0])
+            beside.append((np.s_[0], np.s_[1]))
+        for border, near in beside:
+            passed_on = np.minimum(full[border], state.mass[near])
+            state.mass[border] = np.where(state.oil[border] > 0.0, full[border], passed_on)
 
     def add_derivatives(self, linear: Linearisation, state: FilmState, balance: Balance) -> None:
         """Turn derivatives of full gaps into those of the oil that the nodes hold."""
