@@ -104,6 +104,8 @@ class Case:
 
 def helical(gear_name: str = "he_2007", stiffness_model: str = "uniform", **settings: Any) -> Any:
     mesh = named_line_mesh(gear_name) if stiffness_model == "line_mesh" else None
+    # in the FMU the oil is chosen beside the gear, which may have one of its own
+    settings.setdefault("oil", "mohammadpour_2015")
     return march_of(HelicalGearFile.named(gear_name), line_mesh=mesh, **settings)
 
 
