@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import math
 import random
+import sys
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
@@ -267,10 +268,11 @@ class Calls(ExchangeCalls):
     def step(self, arguments: Arguments) -> tuple[int, set[int]]:
         h, offset = arguments.one_of(STEPS), arguments.one_of(TIMES)
         status = self.instance.step(h, self.time + offset)
-        allowed = 1e-3 * h + 1e-9 * max(1.0, abs(self.time))
+        rounding = min(2.0 * sys.float_info.epsilon * (abs(self.time) + 0.1), 1e-4)
+        allowed = 1e-3 * h + rounding
         if self.phase != STEPPING:
             return status, {ERROR}
-        if not 0.0 < h <= 0.1 or not abs(self.time + offset - self.time) <= allowed:
+        if not 0.0 < h <= 0.1 + rounding or not abs(self.time + offset - self.time) <= allowed:
             return status, {DISCARD}
         if self.time + offset + h > self.stop + allowed:
             return status, {ERROR}

@@ -259,7 +259,7 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
 
 ACCESS(Float64, fmi3Float64, GL_REAL, 0, value)
 ACCESS(Int32, fmi3Int32, GL_INTEGER, 0, (fmi3Int32)gl_whole(value, INT32_MIN, INT32_MAX))
-ACCESS(Int64, fmi3Int64, GL_INTEGER, 1, gl_whole(value, INT32_MIN, INT32_MAX))
+ACCESS(Int64, fmi3Int64, GL_INTEGER, 1, gl_whole(value, INT64_MIN, INT64_MAX))
 ACCESS(Boolean, fmi3Boolean, GL_BOOLEAN, 0, value != 0.0)
 
 static fmi3Status unsupported(gl_instance *instance, size_t asked, const char *what)

@@ -79,10 +79,10 @@ void gl_gather_inputs(const double *values, double *inputs)
 
 int64_t gl_whole(double value, int64_t low, int64_t high)
 {
-    if (!(value > (double)low)) {
-        return low;
-    }
-    return value < (double)high ? (int64_t)value : high;
+    /* no conversion here is inexact, which a host may have set to trap */
+    static const double LIMIT = 9223372036854775808.0; /* 2^63 */
+    int64_t whole = value >= LIMIT ? INT64_MAX : value > -LIMIT ? (int64_t)value : INT64_MIN;
+    return whole < low ? low : whole > high ? high : whole;
 }
 
 static gl_status check(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
