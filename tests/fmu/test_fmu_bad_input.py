@@ -52,6 +52,16 @@ def test_an_impossible_step_is_discarded_and_nothing_moves(host: Host, h: float)
     assert host.step() == OK
 
 
+def test_a_late_step_begins_where_the_last_ended_to_rounding(host: Host) -> None:
+    host.start(1e6)
+    assert host.step() == OK
+    end = host.time
+    host.time = end + 2.0**-13  # an eighth of a step
+    assert host.step() == DISCARD
+    host.time = math.nextafter(end, math.inf)
+    assert host.step(0.10000000000000003) == OK
+
+
 @pytest.mark.parametrize("time", [0.5, -1.0, NAN])
 def test_a_step_from_another_time_is_discarded(host: Host, time: float) -> None:
     host.start()

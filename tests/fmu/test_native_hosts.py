@@ -15,8 +15,11 @@ from fmpy.fmi1 import FMICallException
 
 from docs.fmu_hosts import hosts
 from docs.fmu_hosts.hosts import Job
+from fmu_src.native.models import native_model
 from tests.helpers.fmu_cases import CASES, HYPOID_AXLE, Case
+from tests.helpers.host_floats import SETTINGS, under
 from tests.helpers.native_fmus import NativeFmus, native_fmus
+from tests.helpers.native_library import OK, NativeInstance, NativeLibrary
 
 PAIR = CASES[1]
 FMI2: dict[str, Callable[[Job, Path], list[float]]] = {
@@ -80,6 +83,46 @@ def test_a_host_of_fmi_3_gives_the_numbers_of_fmi_2(
     fmus: NativeFmus, job: Job, in_fmpy: list[float], host: str
 ) -> None:
     assert FMI3[host](replace(job, fmu=fmus.fmi3)) == in_fmpy
+
+
+@pytest.mark.parametrize("settings", SETTINGS.values(), ids=SETTINGS)
+def test_floats_as_a_host_sets_them_change_no_bit_of_a_gear(
+    native_case: Case, fmus: NativeFmus, settings: tuple[int, int], tmp_path: Path
+) -> None:
+    folder = Path(fmpy.extract(str(fmus.fmi2), str(tmp_path)))
+    library = NativeLibrary(
+        folder / "binaries" / "linux64" / f"{native_case.name}.so",
+        native_model(native_case.definition),
+        fmpy.read_model_description(str(folder)).guid,
+        2,
+    )
+
+    def ride(library: NativeLibrary) -> list[bytes]:
+        one = NativeInstance(library)
+        assert one.start() == one.step(1e-3 / 3.0) == one.step(1e-3 / 3.0) == OK
+        seen = [one.content(), repr(one.outputs()).encode()]
+        one.close()
+        return seen
+
+    assert ride(under(library, settings)) == ride(library)
+
+
+@pytest.mark.parametrize(
+    ("kind", "h"),
+    [
+        *(("CoSimulation", h) for h in (None, 1e-5, 1e-3, 0.1)),
+        # FMPy allows CVODE 500 steps between outputs, and 10 ms may take more
+        *(("ModelExchange", h) for h in (None, 1e-5, 1e-3)),
+    ],
+)
+def test_fmpy_runs_to_the_end_by_defaults_and_in_steps_of_its_own(
+    fmus: NativeFmus, kind: str, h: float | None
+) -> None:
+    stop = None if h is None else max(3 * h, 2e-3)  # three of 0.1 s are one bit too long
+    for fmu in fmus:
+        result = simulate_fmu(str(fmu), fmi_type=kind, output_interval=h, stop_time=stop)
+        assert result["time"][-1] == pytest.approx(stop or 0.1, rel=1e-9)
+        assert all(np.isfinite(result[name]).all() for name in result.dtype.names)
 
 
 def test_the_reference_results_inside_come_out_again(
@@ -161,3 +204,11 @@ def test_fmpy_ends_with_fmi_2_where_the_last_step_ended(fmus: NativeFmus) -> Non
 def test_fmpy_ends_with_fmi_3_at_a_step_that_the_model_refuses(fmus: NativeFmus, job: Job) -> None:
     with pytest.raises(FMICallException, match="fmi3DoStep"):
         hosts.in_fmpy(replace(job, fmu=fmus.fmi3, step_size=0.125, steps=2))
+
+
+def test_fmpy_reaches_the_stop_time_in_steps_longer_by_rounding(fmus: NativeFmus) -> None:
+    """Differences of k 0.1 s reach 0.10000000000000003 s, above the longest step by rounding."""
+    for fmu in fmus:
+        result = simulate_fmu(str(fmu), stop_time=1.0, output_interval=0.1, timeout=20.0)
+        assert result["time"] == pytest.approx(np.arange(11) * 0.1, rel=1e-12)
+        assert all(np.isfinite(result[name]).all() for name in result.dtype.names)

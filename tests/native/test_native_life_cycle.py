@@ -211,6 +211,19 @@ def test_a_step_from_another_time_is_discarded(mass: NativeInstance, time: float
     assert mass.step() == OK
 
 
+@pytest.mark.parametrize("late", [1e5, 2e5, 1e7])
+def test_a_late_step_begins_where_the_last_ended_to_rounding(
+    mass: NativeInstance, late: float
+) -> None:
+    mass.start(late)
+    assert mass.step(1e-3, time=late) == OK
+    end = late + 1e-3
+    for wrong in (end - 1e-4, end + 1e-4):
+        assert mass.step(1e-3, time=wrong) == DISCARD
+    assert mass.step(1e-3, time=math.nextafter(end, INF)) == OK
+    assert mass.step(0.10000000000000003, time=end + 1e-3) == OK
+
+
 @pytest.mark.parametrize("start", [NAN, INF, -INF])
 def test_a_start_time_must_be_finite(mass: NativeInstance, start: float) -> None:
     before = mass.content()
