@@ -10,6 +10,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -50,8 +51,12 @@ def default_car() -> DrivelineParameters:
 def _variables(car: DrivelineParameters, start: Array) -> tuple[Variable, ...]:
     ratio, fastest = car.axle_ratio, _FASTEST
     continued = "; while it stays the same, the speed continues it"
-    angle = {"start": 0.0, "minimum": -_MOST_TURNED, "maximum": _MOST_TURNED}
-    speed = {"minimum": -_FASTEST_SHAFT, "maximum": _FASTEST_SHAFT, "display_unit": "rpm"}
+    angle: dict[str, Any] = {"start": 0.0, "minimum": -_MOST_TURNED, "maximum": _MOST_TURNED}
+    speed: dict[str, Any] = {
+        "minimum": -_FASTEST_SHAFT,
+        "maximum": _FASTEST_SHAFT,
+        "display_unit": "rpm",
+    }
     return (
         input_("pinion.angle", "rad", f"Rotation of the pinion{continued}", **angle),
         input_("pinion.speed", "rad/s", "Speed of the pinion", start=float(start[-1]), **speed),
