@@ -175,7 +175,9 @@ def page(fmus: Path, fmusim: Path | None, folder: Path) -> str:
     return (
         head
         + "".join(tables)
-        + _text("notes").format(dlls=named_dlls(axle.fmu), fmpy=version("fmpy"))
+        + _text("notes").format(
+            dlls=named_dlls(axle.fmu), fmpy=version("fmpy"), steps=_text("steps").strip()
+        )
     )
 
 
