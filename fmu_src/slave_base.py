@@ -30,9 +30,8 @@ from fmu_src.slave_state import SlaveState
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
 from fmu_src.wrapper import guarded, told_on_stderr, unload_before_libraries
+from gearlube_core.dynamics.stepped_model import MAX_STEP, STEP_ROUNDING
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
-
-LONGEST_STEP = 0.1  # s
 
 _LOGGER = logging.getLogger(__name__)
 _LEVELS = {Fmi2Status.ok: logging.INFO, Fmi2Status.warning: logging.WARNING}
@@ -172,11 +171,11 @@ class CoSimulationSlave(Fmi2Slave):
         if self._broken:
             raise StepError(self._broken)
         # of the host's times; a limit, because a huge time must not allow any step
-        rounding = 2.0 * sys.float_info.epsilon * (abs(self._time) + LONGEST_STEP)
-        rounding = min(rounding, 1e-3 * LONGEST_STEP)
-        if not 0.0 < h <= LONGEST_STEP + rounding:
+        rounding = 2.0 * sys.float_info.epsilon * (abs(self._time) + MAX_STEP)
+        rounding = min(rounding, STEP_ROUNDING * MAX_STEP)
+        if not 0.0 < h <= MAX_STEP + rounding:
             raise StepError(
-                f"communicationStepSize must be above 0 and at most {LONGEST_STEP} s, got {h} s. "
+                f"communicationStepSize must be above 0 and at most {MAX_STEP} s, got {h} s. "
                 "Renew the torques at least that often."
             )
         if not abs(t - self._time) <= 1e-3 * h + rounding:

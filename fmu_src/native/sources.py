@@ -8,10 +8,10 @@ from pathlib import Path
 
 from fmu_src.native.array_variables import array_variables
 from fmu_src.native.model import NativeModel, Operation
-from fmu_src.slave_base import LONGEST_STEP
 from fmu_src.variable import Variable
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED
+from gearlube_core.dynamics.stepped_model import MAX_STEP
 
 PLUMBING = Path(__file__).with_name("plumbing")
 _KINDS = {"Real": "GL_REAL", "Integer": "GL_INTEGER", "Enumeration": "GL_INTEGER",
@@ -135,7 +135,7 @@ def model_sizes(model: NativeModel, guid: str) -> str:
             f"#define GL_MODEL_NAME {text_literal(definition.name)}",
             f"#define GL_GUID {text_literal(guid)}",
             *lines,
-            f"#define GL_LONGEST_STEP {LONGEST_STEP!r} /* s */",
+            f"#define GL_LONGEST_STEP {MAX_STEP!r} /* s */",
             "#endif\n",
         ]
     )

@@ -27,6 +27,8 @@ from gearlube_core.oil.lubricant import Lubricant
 Control = TypeVar("Control", bound=tuple[float, ...])  # a NamedTuple of floats
 
 MAX_STEP = 0.1  # s, communication step
+# of MAX_STEP: a host's step is a difference of times, rounded at late times
+STEP_ROUNDING = 1e-3
 _N_INPUTS = 3
 TOO_FAR_WORDS = (
     f"an angle of a shaft or cage is beyond {MAX_ANGLE:g} rad, where rounding blurs the phase of "
@@ -217,7 +219,7 @@ class SteppedModel(ABC, Generic[Control]):
         StepError
             When the step cannot be made; the model is then as before the step.
         """
-        if not 0.0 < h <= MAX_STEP:
+        if not 0.0 < h <= MAX_STEP * (1.0 + STEP_ROUNDING):
             check_finite("step size", h, "s")
             raise StepError(
                 f"step size must be above 0 and at most {MAX_STEP:g} s, got {h:g} s. "
