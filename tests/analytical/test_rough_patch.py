@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.contact.asperity_table import tabled_asperities
 from gearlube_core.contact.greenwood_tripp_1971 import (
     SurfaceParameters,
     asperity_area,
@@ -198,16 +197,6 @@ def test_fit_gives_back_the_law_that_made_a_table():
     assert (fit.load_misfit, fit.area_misfit) == pytest.approx((1.0, 1.0))
     with pytest.raises(ParameterError, match=r"at two film ratios within 0\.9 to 1\.1, got 1"):
         greenwood_tripp_fit(table, 0.9, 1.1)
-
-
-def test_tabled_asperities_are_exact_for_exponentials():
-    ratios = np.array([0.5, 1.0, 1.7, 3.0])
-    table = np.column_stack((ratios, 0.01 * np.exp(-2.0 * ratios), 0.3 * np.exp(-1.5 * ratios)))
-    for ratio in (0.5, 0.8, 1.0, 2.9, 3.0, 4.5):
-        expected = (0.01 * math.exp(-2.0 * ratio), 0.3 * math.exp(-1.5 * ratio))
-        assert tabled_asperities(ratio, table) == pytest.approx(expected, rel=1e-12)
-        assert tabled_asperities.py_func(ratio, table) == pytest.approx(expected, rel=1e-12)
-    assert tabled_asperities(0.1, table) == pytest.approx(tuple(table[0, 1:]))
 
 
 @pytest.mark.parametrize(
