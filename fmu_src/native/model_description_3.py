@@ -28,7 +28,6 @@ _FLANGES = {
 _MEMBERS = ("torque", "speed", "angle")
 ICON = "terminalsAndIcons/icon.png"
 _ICON_SIZE = 100.0  # of the drawing in its own units
-_READ_AS_NUMBERS = ("Output", "InitialUnknown")
 
 
 def _variable(parent: ElementTree.Element, array: ArrayVariable, state: int | None) -> None:
@@ -85,12 +84,12 @@ def _structure(
     parent = ElementTree.SubElement(root, "ModelStructure")
     for kind, unknowns in sections:
         for reference, dependencies in unknowns.items():
-            places = [first[one] for one in dependencies]
-            element = ElementTree.SubElement(parent, kind, valueReference=str(reference))
-            # OMSimulator 3.0 takes them as numbers of variables from 1 on. An element that it would
-            # refuse depends on all, by the standard, without the attribute.
-            if kind not in _READ_AS_NUMBERS or all(0 < one <= len(arrays) for one in places):
-                element.set("dependencies", " ".join(map(str, places)))
+            ElementTree.SubElement(
+                parent,
+                kind,
+                valueReference=str(reference),
+                dependencies=" ".join(str(first[one]) for one in dependencies),
+            )
 
 
 def model_description_3(

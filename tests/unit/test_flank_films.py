@@ -113,6 +113,7 @@ def test_data_of_an_earlier_version_and_speeds_out_of_range_are_refused(films, c
 @pytest.fixture
 def own_axle(tmp_path):
     path = tmp_path / "own.toml"
+    (tmp_path / "not_analysed.toml").touch()
     path.write_text(
         """
         [gear_set]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -113,7 +114,7 @@ class MassConservingCavitation:
             state.residual,
         )
         # other borders show what the nodes beside them pass on; under pressure they are full
-        beside = [(np.s_[:, -1], np.s_[:, -2]), (np.s_[-1], np.s_[-2])]
+        beside: list[tuple[Any, Any]] = [(np.s_[:, -1], np.s_[:, -2]), (np.s_[-1], np.s_[-2])]
         if stencil.wedge_y == 0.0:
             beside.append((np.s_[0], np.s_[1]))
         for border, near in beside:
