@@ -32,7 +32,7 @@ STEP_ROUNDING = 1e-3
 _N_INPUTS = 3
 TOO_FAR_WORDS = (
     f"an angle of a shaft or cage is beyond {MAX_ANGLE:g} rad, where rounding blurs the phase of "
-    "the mesh. Start anew, or take whole turns of all shafts from the angles"
+    "the mesh. Start again, or take whole turns of all shafts from the angles"
 )
 TOO_FAST_WORDS = (
     f"a shaft turns faster than {MAX_SPEED:g} rad/s, where the model has no meaning. "
