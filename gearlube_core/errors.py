@@ -83,7 +83,7 @@ def unread(what: str, path: str | Path, error: Exception) -> str:
 
 
 def _folder(path: str | Path) -> str:
-    folder = Path(path).absolute().parent
+    folder = Path(path).parent.resolve()
     return str(folder) if folder.is_dir() else f"{folder}, which is no folder"
 
 

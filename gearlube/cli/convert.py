@@ -93,7 +93,8 @@ def convert(
         write_text(toml_text(read.data), path)
         _show(read.notes, path)
         blank = isinstance(read.file, BlankFile)
-        logger.info("Next: gearlube %s %s", "design" if blank else "helical", path)
+        load = "" if blank or "operation" in read.data else " --torque N_M --speed-rpm RPM"
+        logger.info("Next: gearlube %s %s%s", "design" if blank else "helical", path, load)
 
 
 def _fields(given: list[str]) -> dict[str, Any]:

@@ -44,6 +44,8 @@ def exit_on_error(when_stopped: str = "Stopped.") -> Iterator[None]:
     except GearLubeError as error:
         _LOGGER.error("%s", error)
         raise typer.Exit(FAILED) from None
+    except BrokenPipeError:  # head and its like have read enough; typer ends without a word
+        raise
     except OSError as error:
         _LOGGER.error("%s", _file_error(error))
         raise typer.Exit(FAILED) from None

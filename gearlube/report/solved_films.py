@@ -22,7 +22,12 @@ def film_model_attributes(models: Mapping[str, FilmModel]) -> dict[str, str]:
 
 
 def solved_films(
-    bound: float, share_outside: float, outside_words: str, effect: str = "", model: str = ""
+    bound: float,
+    share_outside: float,
+    outside_words: str,
+    effect: str = "",
+    model: str = "",
+    where: str = "",
 ) -> Finding:
     """Return the finding of a run with `film.model = solved`.
 
@@ -38,10 +43,13 @@ def solved_films(
         A sentence on what the bound does to another result.
     model
         The model in words, of `film_model_attributes`.
+    where
+        At which part of the points, " at 3 of 4 points"; empty for all.
     """
     headline = (
-        "Films and friction of the flanks are those of solved films (film.model = solved). "
-        f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss."
+        f"Films and friction of the flanks are those of solved films{where} (film.model = solved). "
+        f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss"
+        f"{' there' if where else ''}."
     )
     return _finding(headline, share_outside, outside_words, effect, model)
 
@@ -87,8 +95,8 @@ def formulas_stand_in(what: str, outside: Array, speed: Array) -> list[Finding]:
             WARNING,
             f"{what} are by formulas and not by solved films at {beyond.sum()} of {beyond.size} "
             f"points, at {at.min():.0f} to {at.max():.0f} rpm: the film model covers only "
-            f"{_covered(float(outside.max()))} of the load there, less than "
-            f"{_covered(MOST_OUTSIDE)}.",
+            f"{_covered(outside[beyond])} of the load there, less than "
+            f"{_covered(np.array([MOST_OUTSIDE]))}.",
             "Formulas lose up to four times as much as solved films: a step of the numbers between "
             "such points and others is one of the models. Train a film model for this oil and "
             "these speeds, or take film.model formula for all points.",
@@ -105,8 +113,9 @@ def points_beyond(outside: xr.DataArray) -> str:
     return f"{where}, whose losses are in part those of formulas"
 
 
-def _covered(share_outside: float) -> str:
-    return f"{100.0 * (1.0 - share_outside):.3g} %"
+def _covered(share_outside: Array) -> str:
+    shares = [f"{100.0 * (1.0 - one):.3g}" for one in (share_outside.max(), share_outside.min())]
+    return f"{' to '.join(dict.fromkeys(shares))} %"
 
 
 def _finding(

@@ -22,8 +22,9 @@ from gearlube_core.helical_geometry.gear_file_sections import (
     Pair,
 )
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
-from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.helical_geometry.pair import LARGEST_SHIFT, HelicalPair
 from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
+from gearlube_core.helical_geometry.tooth_limits import profile_shift_sum
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
@@ -128,22 +129,20 @@ class HelicalGearFile(InputFile):
 
     def helical_pair(self) -> HelicalPair:
         """Return the macro geometry, in SI units."""
-        pair, cos = self.pair, math.cos(self.pair.helix_angle_deg * DEGREE)
-        angles = ((pair.normal_pressure_angle_deg, 1.0), (pair.transverse_pressure_angle_deg, cos))
-        tangent = next(math.tan(a * DEGREE) * factor for a, factor in angles if a is not None)
+        pair = self.pair
         backlash = math.nan if pair.backlash_mm is None else pair.backlash_mm * MILLIMETRE
         return HelicalPair(
             name=self.name,
             pinion_teeth=self.pinion.teeth,
             gear_teeth=self.gear.teeth,
             normal_module=self._normal_module,
-            normal_pressure_angle=math.atan(tangent),
+            normal_pressure_angle=self._normal_pressure_angle,
             helix_angle=pair.helix_angle_deg * DEGREE,
             centre_distance=pair.centre_distance_mm * MILLIMETRE,
             pinion_tip_radius=0.5 * self.pinion.tip_diameter_mm * MILLIMETRE,
             gear_tip_radius=0.5 * self.gear.tip_diameter_mm * MILLIMETRE,
-            pinion_root_radius=self._root_radius(self.pinion),
-            gear_root_radius=self._root_radius(self.gear),
+            pinion_root_radius=self._root_radius("pinion"),
+            gear_root_radius=self._root_radius("gear"),
             face_width=pair.face_width_mm * MILLIMETRE,
             backlash=backlash,
             profile_shift=self._given_shifts,
@@ -189,7 +188,7 @@ class HelicalGearFile(InputFile):
     def body(self, role: Role) -> GearBody:
         """Return inertia and supports of the "pinion" or the "gear", in SI units."""
         member: Member = getattr(self, role)
-        width, root = self.pair.face_width_mm * MILLIMETRE, self._root_radius(member)
+        width, root = self.pair.face_width_mm * MILLIMETRE, self._root_radius(role)
         given = member.body
         mass = given.mass_kg
         if mass is None:
@@ -241,14 +240,39 @@ class HelicalGearFile(InputFile):
     def _given_shifts(self) -> tuple[float | None, float | None]:
         return self.pinion.profile_shift_coefficient, self.gear.profile_shift_coefficient
 
-    def _root_radius(self, member: Member) -> float:
+    @property
+    def _normal_pressure_angle(self) -> float:
+        pair, cos = self.pair, math.cos(self.pair.helix_angle_deg * DEGREE)
+        angles = ((pair.normal_pressure_angle_deg, 1.0), (pair.transverse_pressure_angle_deg, cos))
+        return math.atan(
+            next(math.tan(a * DEGREE) * factor for a, factor in angles if a is not None)
+        )
+
+    def _root_radius(self, role: Role) -> float:
+        member: Member = getattr(self, role)
         module, x = self._normal_module, member.profile_shift_coefficient
         if member.root_diameter_mm is not None:
             return 0.5 * member.root_diameter_mm * MILLIMETRE
+        if x is None:
+            x = self._other_shift()
         if x is not None:
             reference = 0.5 * member.teeth / math.cos(self.pair.helix_angle_deg * DEGREE)
             return (reference + x - _DEDENDUM) * module
         return 0.5 * member.tip_diameter_mm * MILLIMETRE - (1.0 + _DEDENDUM) * module
+
+    def _other_shift(self) -> float | None:
+        """Return x of the gear without one [-], as the pair completes it; None where it cannot."""
+        given = [x for x in self._given_shifts if x is not None]
+        if not given:
+            return None
+        teeth = self.pinion.teeth + self.gear.teeth
+        cos = math.cos(self.pair.helix_angle_deg * DEGREE)
+        normal = self._normal_pressure_angle
+        transverse = math.atan(math.tan(normal) / cos)
+        base = 0.5 * teeth * self._normal_module / cos * math.cos(transverse)
+        working = math.acos(min(base / (self.pair.centre_distance_mm * MILLIMETRE), 1.0))
+        x = profile_shift_sum(teeth, normal, transverse, working) - given[0]
+        return x if abs(x) <= LARGEST_SHIFT else None  # the pair refuses it, in clearer words
 
 
 def _modification(flank: Flank) -> FlankModification:

@@ -219,8 +219,9 @@ class Member(Section):
     tip_diameter_mm: Length = Field(description="Tip diameter")
     root_diameter_mm: Length | None = Field(
         default=None,
-        description="Root diameter; left out: with a profile shift the rack's dedendum of 1.25 "
-        "normal modules, else the tip diameter minus 4.5 normal modules (full depth 2.25)",
+        description="Root diameter; left out: with a profile shift of either gear the rack's "
+        "dedendum of 1.25 normal modules, else the tip diameter minus 4.5 normal modules (full "
+        "depth 2.25)",
     )
     profile_shift_coefficient: Shift | None = Field(
         default=None,

@@ -16,14 +16,15 @@ from gearlube_core.helical_geometry.tooth_limits import (
     check_clearance,
     check_reach,
     check_tip,
-    involute,
     involute_start,
     largest_fillet,
+    profile_shift_sum,
     tip_thickness,
 )
 
 _METRES = "Give metres, not millimetres."
 _LARGEST_HELIX = math.radians(45.0)
+LARGEST_SHIFT = 2.0  # x of a gear
 _ROUNDED_SHIFTS = 2e-3  # normal modules of backlash that shifts of three decimals leave at most
 Shifts = tuple[float, float]
 
@@ -144,7 +145,8 @@ class HelicalPair:
         check_within("fillet_factor", self.fillet_factor, 0.0, 1.0, "", "0.25 to 0.4 is usual.")
         for role, x in zip(("pinion", "gear"), self.profile_shifts, strict=True):
             if self.profile_shift != (None, None):
-                check_within(f"profile shift coefficient x of the {role}", x, -2.0, 2.0)
+                what = f"profile shift coefficient x of the {role}"
+                check_within(what, x, -LARGEST_SHIFT, LARGEST_SHIFT)
         left, rounding = self.backlash_of_shifts, _ROUNDED_SHIFTS * self.normal_module
         if left < -rounding:
             raise ParameterError(
@@ -228,13 +230,11 @@ class HelicalPair:
 
     @property
     def profile_shift_sum(self) -> float:
-        """x1 + x2 that meshes without backlash at the centre distance [-]; [iso_21771].
-
-        x1 + x2 = (z1 + z2)(inv(alpha_wt) - inv(alpha_t))/(2 tan(alpha_n))
-        """
-        roll = involute(self.working_pressure_angle) - involute(self.transverse_pressure_angle)
-        teeth = self.pinion_teeth + self.gear_teeth
-        return 0.5 * teeth * roll / math.tan(self.normal_pressure_angle)
+        """x1 + x2 that meshes without backlash at the centre distance [-]."""
+        return profile_shift_sum(
+            self.pinion_teeth + self.gear_teeth, self.normal_pressure_angle,
+            self.transverse_pressure_angle, self.working_pressure_angle,
+        )  # fmt: skip
 
     @property
     def guessed_shifts(self) -> Shifts:

@@ -63,6 +63,14 @@ def involute(angle: float) -> float:
     return math.tan(angle) - angle
 
 
+def profile_shift_sum(teeth: int, normal: float, transverse: float, working: float) -> float:
+    """Return x1 + x2 without backlash [-], from both tooth numbers together; [iso_21771].
+
+    x1 + x2 = (z1 + z2)(inv(alpha_wt) - inv(alpha_t))/(2 tan(alpha_n)); pressure angles [rad].
+    """
+    return 0.5 * teeth * (involute(working) - involute(transverse)) / math.tan(normal)
+
+
 def largest_fillet(module: float, pressure_angle: float, dedendum: float) -> float:
     """Return the radius of a tool tip without a flat [m], by rack sizes of the normal section [m].
 

@@ -63,7 +63,7 @@ class ChosenRelief:
         if self.unchecked:
             return [
                 f"The relief was not chosen for a torque, as the loaded contact could not be "
-                f"computed. {self.unchecked}"
+                f"computed: {self.unchecked}"
             ]
         found = []
         for side, edges in self.edges.items():

@@ -136,13 +136,9 @@ class FieldNote(NamedTuple):
         if self.usual is None or not isinstance(value, float | int) or not value:
             return ""
         low, high = self.usual
-
-        def is_usual(number: float) -> bool:
-            return low <= (number if low < 0.0 else abs(number)) <= high
-
-        if is_usual(value):
+        if self._is_usual(value):
             return ""
-        meant = next((one for one in _in_other_units(self.unit, value) if is_usual(one[1])), None)
+        meant = self._usual_in_other_units(value)
         question = (
             _question(value, *meant, self.unit) if meant else " Check the number and its unit."
         )
@@ -150,6 +146,30 @@ class FieldNote(NamedTuple):
             f"{self.name} = {value:g} {self.unit} is unusual; {low:g} to {high:g} {self.unit} is "
             f"usual.{question}"
         )
+
+    def hint(self, error: Any) -> str:
+        """Return in which unit a number out of range would be usual, or within it."""
+        value, context = error["input"], error.get("ctx", {})
+        bounds = [context.get(name) for name in ("ge", "gt", "le", "lt")]
+        if error["type"] not in _LIMITS or not isinstance(value, float | int) or value <= 0.0:
+            return ""
+        if self.usual is not None:
+            meant = self._usual_in_other_units(value)
+            return _question(value, *meant, self.unit) if meant else ""
+        bound = next(float(one) for one in bounds if one is not None)
+        rises = error["type"].startswith("greater")
+        for other, converted in _in_other_units(self.unit, value):
+            if (converted > value) == rises and (converted > bound) == rises:
+                return _question(value, other, converted, self.unit)
+        return ""
+
+    def _is_usual(self, number: float) -> bool:
+        low, high = self.usual or (math.inf, math.inf)
+        return low <= (number if low < 0.0 else abs(number)) <= high
+
+    def _usual_in_other_units(self, value: float) -> tuple[str, float] | None:
+        meant = _in_other_units(self.unit, value)
+        return next((one for one in meant if self._is_usual(one[1])), None)
 
 
 @cache
@@ -206,7 +226,7 @@ def sentence(
     limits = f", {note.limits}" if note.limits else ""
     unit = f" {note.unit}" if note.unit else ""
     what = note.kind if note.kind == _KINDS["boolean"] else f"a {note.kind}"
-    hint = _likely_unit(note.unit, error) or cure
+    hint = note.hint(error) or cure
     return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}.{hint}"
 
 
@@ -295,20 +315,6 @@ def _in_other_units(unit: str, value: float) -> list[tuple[str, float]]:
 
 def _question(value: float, other: str, converted: float, unit: str) -> str:
     return f" Is it in {other}? {value:g} {other} is {converted:.6g} {unit}."
-
-
-def _likely_unit(unit: str, error: Any) -> str:
-    """Return in which unit a number out of range would be within it."""
-    value, context = error["input"], error.get("ctx", {})
-    bounds = [context.get(name) for name in ("ge", "gt", "le", "lt")]
-    if error["type"] not in _LIMITS or not isinstance(value, float | int) or value <= 0.0:
-        return ""
-    bound = next(float(one) for one in bounds if one is not None)
-    rises = error["type"].startswith("greater")
-    for other, converted in _in_other_units(unit, value):
-        if (converted > value) == rises and (converted > bound) == rises:
-            return _question(value, other, converted, unit)
-    return ""
 
 
 def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]]:

@@ -27,7 +27,17 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
     Until then an older file at `path` stays as it is. If anything fails, the neighbouring file is
     removed.
+
+    Raises
+    ------
+    FileError
+        The folder of `path` is not there.
     """
+    if not path.parent.is_dir():
+        raise FileError(
+            f"{path.name} must be written into a folder that is there, got {path.parent}. Make the "
+            "folder, or choose another one."
+        )
     partial = path.with_name(f"{path.name}.{os.getpid()}.part")
     try:
         yield partial

@@ -63,6 +63,7 @@ def refusal(changes):
         ({"gear.bearing.contact_angle_deg": 0.26}, ["0.26 rad is 14.8969 deg"]),
         ({"gear.bearing.contact_angle_deg": 60.0}, ["5 to 45 deg, got 60.0"]),
         ({"gear_set.backlash_um": 150000.0}, ["Is it in nm? 150000 nm is 150 um"]),
+        ({"steel.youngs_modulus_gpa": 210000.0}, ["Is it in MPa? 210000 MPa is 210 GPa"]),
         ({"vehicle.mass_kg": 1.3}, ["100 to 100000 kg, got 1.3", "1.3 t is 1300 kg"]),
         ({"gear.inertia_kg_m2": 58100.0}, ["58100 kg.mm2 is 0.0581 kg.m2"]),
         ({"gearbox.ratios": [3.0, 3.5]}, ["gearbox: ratios must fall", "First gear comes first"]),

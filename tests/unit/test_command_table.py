@@ -12,6 +12,8 @@ from typer.testing import CliRunner
 from gearlube.cli.exit_codes import FAILED, exit_on_error
 from gearlube.cli.lazy_commands import LazyCommand
 from gearlube.command import COMMANDS, command_line
+from gearlube_core.errors import FileError
+from gearlube_core.storage.atomic_file import write_text
 
 STUDY = '''
 import typer
@@ -62,6 +64,17 @@ def test_errors_of_the_file_system_say_what_to_do(number, words, caplog):
         raise OSError(number, os.strerror(number), "runs/a")
     assert ended.value.exit_code == FAILED
     assert words in caplog.text
+
+
+def test_a_reader_that_stops_is_no_error_of_the_file_system(caplog):
+    with pytest.raises(BrokenPipeError), exit_on_error():
+        raise BrokenPipeError(32, "Broken pipe")
+    assert caplog.text == ""
+
+
+def test_a_file_for_a_folder_that_is_not_there_names_the_folder(tmp_path):
+    with pytest.raises(FileError, match=rf"a\.toml must be .* got {tmp_path / 'none'}\. Make"):
+        write_text("", tmp_path / "none" / "a.toml")
 
 
 def test_its_errors_have_the_exit_code_of_a_bad_argument(app, caplog):

@@ -348,6 +348,13 @@ def test_a_shift_left_out_follows_from_the_other_and_both_are_guessed_aloud():
     assert one.backlash == 0.0
     assert sum(one.profile_shifts) == pytest.approx(one.profile_shift_sum)
     assert one.profile_shifts[0] == 0.2
+    # its root is as deep as if it were given: 1.25 modules, not those of a stub tip
+    rootless = shifted(**{
+        "gear.profile_shift_coefficient": None, "gear.root_diameter_mm": None,
+        "gear.tip_diameter_mm": 37.8,
+    }).helical_pair()  # fmt: skip
+    depth = rootless.gear_reference_radius - rootless.gear_root_radius
+    assert 1e3 * depth == pytest.approx(1.25 - rootless.profile_shifts[1], rel=1e-9)
     none = {f"{role}.profile_shift_coefficient": None for role in ("pinion", "gear")}
     both = shifted(**none)
     assert "guessed: x = 0.462 (pinion) and 0.162 (gear)" in both.guessed_shifts()

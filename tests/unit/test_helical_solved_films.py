@@ -99,6 +99,9 @@ def test_points_that_the_film_model_does_not_cover_are_those_of_the_formulas():
     assert bars[0] == pytest.approx(bars[1], rel=0.25)
     told = " ".join(f.headline for f in findings({"losses": solved.expand_dims("temperature")}))
     assert "by formulas and not by solved films at 2 of 3 points, at 8000 to 10000 rpm" in told
+    low, high = (100.0 * (1.0 - float(solved["share_outside"][k])) for k in (2, 1))
+    assert f"covers only {low:.3g} to {high:.3g} % of the load" in told
+    assert "those of solved films at 1 of 3 points" in told
     assert all("solved films (" in row.quantity or "formulas (" in row.quantity
                for row in _losses(solved.expand_dims(["temperature", "torque"])))  # fmt: skip
 

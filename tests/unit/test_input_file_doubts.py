@@ -155,6 +155,8 @@ def test_a_file_that_is_not_there_is_not_found(kind, tmp_path):
     with pytest.raises(ParameterError, match=rf"gone\.toml was not found in {tmp_path}\.") as told:
         kind.given(str(tmp_path / "gone.toml"))
     assert kind.title in str(told.value)
+    with pytest.raises(ParameterError, match=rf"was not found in {tmp_path}\."):
+        kind.given(str(tmp_path / "no" / ".." / "gone.toml"))
     with pytest.raises(ParameterError, match=r"in .*/no, which is no folder"):
         kind.given(str(tmp_path / "no" / "gone.toml"))
     with pytest.raises(ParameterError, match="cannot be read: it is a folder"):

@@ -13,7 +13,7 @@ from gearlube_core.hypoid_contact.pair_check import misfits_by_cost
 from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_contact.setting_slips import setting
 from gearlube_core.hypoid_geometry.flank.flank import Flank
-from gearlube_core.hypoid_geometry.flank.machine_check import reference_misfit
+from gearlube_core.hypoid_geometry.flank.machine_check import edge_misfits, reference_misfit
 from gearlube_core.hypoid_geometry.flank.machine_frames import pinion_cut
 from gearlube_core.hypoid_geometry.flank.pressure_angle import pressure_angle
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -214,3 +214,12 @@ def test_every_single_slip_is_refused_or_warned_of_and_its_setting_is_named(file
     assert count > 125
     assert missed == []
     assert refused > 0.85 * count
+
+
+def test_each_blade_whose_edge_crowns_too_much_is_named():
+    radii = {"pinion.cutter.convex_flank_edge_radius_mm": 70.0,
+             "pinion.cutter.concave_flank_edge_radius_mm": 60.0}  # fmt: skip
+    file = MILLED.varied({"pinion.cutter.blade_edge_radius_mm": None, **radii})
+    told = [m.what for m in edge_misfits(file)]
+    assert len(set(told)) == len(told)
+    assert all(any(name in one for one in told) for name in radii)

@@ -355,7 +355,9 @@ def _losses(losses: xr.Dataset) -> list[Finding]:
     if solved.any():
         share = np.nanmax((losses["loss_bound"] / losses["loss"].sel(part="sliding")).values)
         words = f"at most {100.0 * outside[solved].max():.1f} % of the load, where they count"
-        found.append(solved_films(float(share), 0.0, words, model=model_of(losses, LINE)))
+        where = "" if solved.all() else f" at {solved.sum()} of {solved.size} points"
+        model = model_of(losses, LINE)
+        found.append(solved_films(float(share), 0.0, words, model=model, where=where))
     return found + formulas_stand_in("Losses", outside, losses["speed"].values)
 
 

@@ -124,7 +124,7 @@ def edge_misfits(file: HypoidGearFile) -> list[Misfit]:
                 continue
             found.append(
                 Misfit(
-                    what=f"The crowning by the {role}'s blade edge radius, at tip and root,",
+                    what=f"The crowning by {role}.cutter.{blade}_edge_radius_mm, at tip and root,",
                     value=depth**2 / (8.0 * radius * MILLIMETRE),
                     limit=EDGE_LIMIT,
                     refused=math.inf,
