@@ -98,7 +98,7 @@ class LossBearingSection(BearingFields):
     rolling_scale: Scale | None = Field(
         default=None,
         description="Measured rolling torque of this bearing divided by the computed one; if "
-        "given, the error bar is 25 % instead of a factor of 2",
+        "given, the error bar of the raceways is a factor of 1.25 instead of that of the law",
     )
 
     def rollers_and_pitch(self) -> tuple[dict[str, Any], dict[str, str]]:
