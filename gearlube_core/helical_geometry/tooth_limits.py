@@ -16,8 +16,7 @@ from gearlube_core.units import MILLIMETRE
 
 THIN_TIP = 0.2  # normal modules; thinner ones are reported
 SMALL_CLEARANCE = 0.1  # normal modules; smaller ones are reported
-# of the basic rack in normal modules, between types B and C of [iso_53], which have 0.3 and 0.25
-USUAL_FILLET = 0.275
+USUAL_FILLET = 0.25  # of the basic rack in normal modules, type C of [iso_53]
 _ROUNDING = 1e-9
 
 

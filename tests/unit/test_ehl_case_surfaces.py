@@ -71,6 +71,7 @@ def test_a_file_is_looked_for_beside_its_case(tmp_path):
         ({"text": "x_mm,height_um\n0,1\n1;2\n"}, ["line 3", "1;2", "has 1 of 2 columns"]),
         ({"text": "x_mm,height_um\n0,1\n1,2\n"}, ["at least 4"]),
         ({"text": "x_mm,height_um\n0,1\n1,2\n1,3\n2,3\n"}, ["rise", "1 mm"]),
+        # from -1.1 mm in steps of 8 um: the 139th place, at 4 um, below the heading
         ({"heights": lambda x: np.nan if 0.0 < x < 0.02 else 0.0}, ["finite", "line 140", "'nan'"]),
         ({"heights": abs, "x": np.arange(-0.9, 0.6, STEP)}, ["-1 to 0.5 mm", "-0.9"]),
         ({"heights": abs, "x": np.arange(-1.1, 0.6, 2.0 * STEP)}, ["10 um", "20 um", "76 nodes"]),

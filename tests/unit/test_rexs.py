@@ -194,7 +194,7 @@ def test_what_is_lacking_and_what_is_left_out_is_said(written):
     assert "the narrower face" in notes(pair, "inferred")["pair.face_width_mm"]
     assert "profile" in notes(pair, "inferred")["gear.tip_diameter_mm"]
     assert notes(pair, "lacking")["pair"] == (
-        "backlash_mm none, fillet_radius_factor 0.275, reduced_modulus_gpa none"
+        "backlash_mm none, fillet_radius_factor 0.25, reduced_modulus_gpa none"
     )
     assert notes(pair, "lacking")["pinion.bearing_1"] == "no such section"
     left_out = notes(pair, "left out")
