@@ -38,6 +38,7 @@ PURPOSES = {
     "docs": "this site",
     "test": "tests",
     "lint": "checks of the code",
+    "release": "wheel, upload and list of parts",
 }
 
 _HEAD = """# Licences
@@ -45,14 +46,18 @@ _HEAD = """# Licences
 Written by `python -m docs.licences`; not edited by hand.
 
 gearlube has the MIT licence. Its wheel holds gearlube alone, and no other package. The packages
-below are loaded where you install them. A container holds those that are always installed and
-those of `native`, with Python and its base system, so who passes on a container must keep all
-their licences.
+below are loaded where you install them. A container made by `Containerfile` holds those that are
+always installed and those of `native`, with Python and its base system. Who passes on a container
+must keep all their licences.
 
-- **FFTW is GPL.** pyfftw brings it. A native FMU holds nothing of it: it holds machine code of
-  gearlube's own kernels, C code of gearlube and the headers of the FMI standard (BSD). Who passes
-  on a program or a container with pyfftw must follow the GPL for it. Using gearlube inside a
-  company is no such case.
+- **What a native FMU holds**: machine code of gearlube's own kernels (MIT) with mathematical
+  functions of numba (BSD-2-Clause), C code of gearlube, the headers of the FMI standard
+  (BSD-2-Clause), start code of zig (MIT) and, for Windows, of mingw-w64 (ZPL-2.1). Their texts are in
+  the folder `documentation/licenses` of each FMU. A driveline also holds C code that casadi writes
+  for gearlube's equations.
+- **FFTW is GPL.** pyfftw brings it. A native FMU holds nothing of it. Who passes on a program or a
+  container with pyfftw must follow the GPL for it: FFTW's source, or a written offer of it, goes
+  with the copy. Using gearlube inside a company is no such case.
 - **casadi is LGPL.** It is loaded as a separate library, which a user can exchange. No native FMU
   holds it.
 - **asammdf is LGPL.** It comes with the extra `export` alone, is loaded as it is, only while a

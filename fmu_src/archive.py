@@ -8,8 +8,15 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 
+_LICENCES = Path(__file__).with_name("licences")
 _EARLIEST = (1980, 1, 1, 0, 0, 0)  # earliest time of the zip format
 _REGULAR_FILE = 0o100644 << 16
+
+
+def licence_texts(kind: str) -> dict[str, bytes]:
+    """Return gearlube's licence and those of the parts of a "native" or "python" FMU, by name."""
+    paths = sorted([*_LICENCES.glob("*.txt"), *(_LICENCES / kind).glob("*.txt")])
+    return {f"documentation/licenses/{path.name}": path.read_bytes() for path in paths}
 
 
 def write_archive(path: Path, content: Mapping[str, bytes]) -> None:

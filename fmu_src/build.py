@@ -14,7 +14,7 @@ from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import table_file
 from drivetrain.driveline.parameters import DrivelineParameters
 from fmu_src import helical_pair, hypoid_axle
-from fmu_src.archive import write_archive
+from fmu_src.archive import licence_texts, write_archive
 from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
 from fmu_src.identity import IDENTITY_FILE, guid_of, identity_text
@@ -66,8 +66,7 @@ def _build(definition: Definition, out_dir: Path) -> Path:
     content |= {f"resources/{name}": data for name, data in definition.resources.items()}
     content["documentation/index.html"] = index_html(definition).encode()
     content["model.png"] = (_HERE / "model.png").read_bytes()
-    for licence in sorted((_HERE / "licences").glob("*.txt")):
-        content[f"documentation/licenses/{licence.name}"] = licence.read_bytes()
+    content |= licence_texts("python")
     path = out_dir / f"{definition.name}.fmu"
     write_archive(path, content)
     return path

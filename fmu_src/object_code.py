@@ -7,7 +7,7 @@ can raise, and emitted for a fixed target. All that is private to numba stands i
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
@@ -33,6 +33,12 @@ class Target(NamedTuple):
 
 LINUX = Target("x86_64-unknown-linux-gnu", "x86-64-v2")
 _DOUBLE = 8  # bytes
+# what LLVM writes at the places where jumps may end, by the kind of Linux machine; a library is
+# guarded only if all its parts are
+_GUARDS = {
+    "x86_64-unknown-linux-gnu": ("cf-protection-branch", "cf-protection-return"),
+    "aarch64-unknown-linux-gnu": ("branch-target-enforcement", "sign-return-address"),
+}
 
 
 def _array_of(lengths: int) -> Any:
@@ -117,7 +123,7 @@ def optimised(code: str, target: Target) -> tuple[Any, Any]:
     """Return intermediate code as an LLVM module optimised for a target, and the target machine."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    module = llvm.parse_assembly(code)
+    module = llvm.parse_assembly(code + _module_flags(_GUARDS.get(target.triple, ())))
     machine = llvm.Target.from_triple(target.triple).create_target_machine(
         cpu=target.cpu, reloc="pic", opt=3
     )
@@ -127,6 +133,15 @@ def optimised(code: str, target: Target) -> tuple[Any, Any]:
     passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
     return module, machine
+
+
+def _module_flags(names: Sequence[str]) -> str:
+    """Return the text that sets flags of a module that has none."""
+    if not names:
+        return ""
+    flags = [f'!{90000 + i} = !{{i32 8, !"{name}", i32 1}}' for i, name in enumerate(names)]
+    listed = ", ".join(flag.split(" ")[0] for flag in flags)
+    return "\n".join(["", f"!llvm.module.flags = !{{{listed}}}", *flags, ""])
 
 
 def object_code(code: str, target: Target) -> tuple[bytes, set[str]]:

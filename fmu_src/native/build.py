@@ -7,10 +7,11 @@ import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from uuid import UUID
 
-from fmu_src.archive import write_archive
+from fmu_src.archive import licence_texts, write_archive
 from fmu_src.documentation import index_html
 from fmu_src.identity import source_digest
 from fmu_src.model_description import model_description
@@ -37,6 +38,13 @@ from gearlube_core.kernels.source_files import source_files
 ENTRY = "gearlube_entry"
 FMI_VERSIONS = ("2", "3")
 _PACKAGE = Path(__file__).parents[1]
+_SOURCES = f"""C sources of the FMI functions in this FMU, with the headers of the standard.
+
+They call the physics by one function, {ENTRY}. Its object code is made from kernels in Python
+(gearlube_core, in the package gearlube {version("gearlube")}) and is not here, so these files alone do
+not build the library. `gearlube build-fmu` of that version builds this archive again, with the same
+bytes if its inputs are the same.
+"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,10 +143,9 @@ def libraries(
 def _common_content(model: NativeModel) -> dict[str, bytes]:
     definition = model.definition
     page = index_html(definition, model.ranges, native=True)
-    content = {"documentation/index.html": page.encode()}
-    for licence in sorted((_PACKAGE / "licences").glob("gearlube*.txt")):
-        content[f"documentation/licenses/{licence.name}"] = licence.read_bytes()
-    for name, text in c_sources(model, str(native_guid(model))).items():
+    content = {"documentation/index.html": page.encode(), **licence_texts("native")}
+    sources = c_sources(model, str(native_guid(model))) | fmi_headers()
+    for name, text in (sources | {"README.txt": _SOURCES}).items():
         content[f"documentation/sources/{name}"] = text.encode()
     content |= {f"resources/{name}": data for name, data in definition.resources.items()}
     return content
@@ -192,8 +199,8 @@ def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> l
         results = reference_results(model.definition)
     contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}
     paths = []
-    for version in options.fmi:
-        ending, content = contents[version]
+    for number in options.fmi:
+        ending, content = contents[number]
         paths.append(out_dir / f"{model.definition.name}{ending}.fmu")
         write_archive(paths[-1], content(model, built) | results)
     return paths

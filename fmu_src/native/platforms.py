@@ -31,16 +31,21 @@ class Platform(NamedTuple):
         Target of the linker, with the oldest C library that the binary runs with.
     suffix : str
         Of a shared library.
+    guards : tuple of str
+        Options of the compiler against jumps and returns to places that an attacker chose.
     """
 
     name: str
     target: Target
     zig: str
     suffix: str
+    guards: tuple[str, ...] = ()
 
 
+_INTEL_GUARDS = ("-fcf-protection=full",)
+_ARM_GUARDS = ("-mbranch-protection=standard",)
 PLATFORMS = (
-    Platform("x86_64-linux", LINUX, "x86_64-linux-gnu.2.17", ".so"),
+    Platform("x86_64-linux", LINUX, "x86_64-linux-gnu.2.17", ".so", _INTEL_GUARDS),
     Platform(
         "x86_64-windows", Target("x86_64-w64-windows-gnu", LINUX.cpu), "x86_64-windows-gnu", ".dll"
     ),
@@ -58,6 +63,7 @@ PLATFORMS = (
         Target("aarch64-unknown-linux-gnu", "generic"),
         "aarch64-linux-gnu.2.17",
         ".so",
+        _ARM_GUARDS,
     ),
 )
 PLATFORM_NAMES = tuple(platform.name for platform in PLATFORMS)
@@ -68,8 +74,8 @@ FMI2_FOLDERS = {
     "darwin64": ("x86_64-darwin", "aarch64-darwin"),
     "aarch64-linux": ("aarch64-linux",),
 }
-_OPTIONS = ("-std=c99", "-O2", "-s", "-shared", "-fPIC", "-fvisibility=hidden", "-Wall", "-Wextra",
- "-ffp-contract=off", "-I.", "-lm")  # fmt: skip
+_OPTIONS = ("-std=c99", "-O2", "-fPIC", "-fvisibility=hidden", "-fstack-protector-strong",
+            "-ffp-contract=off")  # fmt: skip
 _FAT_MAGIC, _DYLIB_ALIGNMENT = 0xCAFEBABE, 14
 _MACHINES = {"x86_64-darwin": (0x01000007, 3), "aarch64-darwin": (0x0100000C, 0)}
 
@@ -113,8 +119,8 @@ def c_object(platform: Platform, code: Mapping[str, str], headers: Mapping[str, 
     """
     check_linker()
     main = next(iter(code))
-    options = ["-std=c99", "-O2", "-w", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off"]
-    return _compiled(platform, {**headers, **code}, [*options, "-c", main], "entry.o", main)
+    options = ["-w", "-DCASADI_SYMBOL_EXPORT=", "-c", main]  # casadi's functions stay inside
+    return _compiled(platform, {**headers, **code}, options, "entry.o", main)
 
 
 def shared_library(
@@ -140,9 +146,8 @@ def shared_library(
     check_linker()
     files = sorted(file for file in sources if file.endswith(".c"))
     library = f"{name}{platform.suffix}"
-    return _compiled(
-        platform, {**sources, "kernels.o": kernels}, [*_OPTIONS, *files, "kernels.o"], library, name
-    )
+    options = ["-s", "-shared", "-Wall", "-Wextra", "-I.", "-lm", *files, "kernels.o"]
+    return _compiled(platform, {**sources, "kernels.o": kernels}, options, library, name)
 
 
 def _compiled(
@@ -158,7 +163,8 @@ def _compiled(
             data = content.encode() if isinstance(content, str) else content
             Path(folder, file).write_bytes(data)
         command = [
-            sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, *options, "-o", wanted,
+            sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, *_OPTIONS,
+            *platform.guards, *options, "-o", wanted,
         ]  # fmt: skip
         run = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=_settings())
         if run.returncode != 0 or not Path(folder, wanted).is_file():

@@ -8,13 +8,15 @@ from typing import Any, NamedTuple
 
 from elftools.elf.elffile import ELFFile
 from elftools.elf.gnuversions import GNUVerNeedSection
+from elftools.elf.sections import NoteSection
 
 
 class Binary(NamedTuple):
     """A shared library.
 
     `needs` are libraries, `imports` symbols, `versions` those of the C library, `system` the oldest
-    release of macOS as (major, minor), `name` that under which the library calls itself.
+    release of macOS as (major, minor), `name` that under which the library calls itself, `guards`
+    what the system is asked to hold against attacks, by its own names.
     """
 
     machine: str
@@ -25,6 +27,25 @@ class Binary(NamedTuple):
     system: tuple[int, int] = (0, 0)
     name: str = ""
     is_signed: bool = False
+    guards: set[str] = frozenset()  # type: ignore[assignment]
+
+
+# bits of NT_GNU_PROPERTY_TYPE_0, and of DllCharacteristics in the PE header
+_ELF_GUARDS = {"GNU_PROPERTY_X86_FEATURE_1_AND": ("IBT", "SHSTK"),
+               "GNU_PROPERTY_AARCH64_FEATURE_1_AND": ("BTI", "PAC")}  # fmt: skip
+_PE_GUARDS = {0x20: "HIGH_ENTROPY_VA", 0x40: "DYNAMIC_BASE", 0x100: "NX_COMPAT"}
+
+
+def _elf_guards(file: ELFFile, tags: list[Any]) -> set[str]:
+    found = {one.header.p_type for one in file.iter_segments()} & {"PT_GNU_RELRO"}
+    if any(tag.entry.d_tag == "DT_FLAGS" and tag.entry.d_val & 0x8 for tag in tags):
+        found.add("BIND_NOW")
+    for section in file.iter_sections():
+        for note in section.iter_notes() if isinstance(section, NoteSection) else ():
+            for item in note["n_desc"] if note["n_type"] == "NT_GNU_PROPERTY_TYPE_0" else ():
+                names = _ELF_GUARDS.get(item["pr_type"], ())
+                found |= {name for i, name in enumerate(names) if item["pr_data"] >> i & 1}
+    return found
 
 
 def elf(content: bytes) -> Binary:
@@ -47,6 +68,7 @@ def elf(content: bytes) -> Binary:
         {s.name for s in symbols} - inside,
         versions,
         name="".join(tag.runpath for tag in tags if tag.entry.d_tag == "DT_RUNPATH"),
+        guards=_elf_guards(file, tags),
     )
 
 
@@ -86,7 +108,9 @@ def pe(content: bytes) -> Binary:
             imports.add(_text(content, place(symbol) + 2))
             at += 8
         imports_at += 20
-    return Binary({0x8664: "x86_64"}[machine], exports, needs, imports)
+    (flags,) = struct.unpack_from("<H", content, optional + 70)
+    guards = {name for bit, name in _PE_GUARDS.items() if flags & bit}
+    return Binary({0x8664: "x86_64"}[machine], exports, needs, imports, guards=guards)
 
 
 def mach_o(content: bytes) -> Binary:

@@ -24,6 +24,7 @@ from fmu_src.native.build import (
     libraries,
     native_guid,
 )
+from fmu_src.native.driveline import driveline_model
 from fmu_src.native.platforms import PLATFORMS, fmi_headers, universal_library
 from fmu_src.native.sources import c_sources
 from tests.helpers.binary_formats import Binary, elf, mach_o, pe
@@ -37,8 +38,12 @@ FUNCTIONS = {
     if header.endswith("Functions.h")
     for name in re.findall(r"Export\s+\w+TYPE\s+(fmi[23]\w+);", text)
 }
-LIBC = {"bcmp", "calloc", "fprintf", "free", "malloc", "memcmp", "memcpy", "memset", "snprintf",
+LIBC = {"__stack_chk_fail", "bcmp", "calloc", "fprintf", "free", "malloc", "memcmp", "memcpy", "memset", "snprintf",
         "stderr", "strcmp", "strlen", "vsnprintf"}  # fmt: skip
+# what a library of each system must ask for: fixed tables, no jump to a place that is no target
+GUARDS = {"x86_64-linux": {"PT_GNU_RELRO", "BIND_NOW", "IBT", "SHSTK"},
+          "aarch64-linux": {"PT_GNU_RELRO", "BIND_NOW", "BTI", "PAC"},
+          "x86_64-windows": {"HIGH_ENTROPY_VA", "DYNAMIC_BASE", "NX_COMPAT"}}  # fmt: skip
 LIBM = {"ceil", "exp", "floor", "log", "pow", "sin", "cos"}
 WINDOWS = re.compile(r"KERNEL32\.dll|api-ms-win-crt-\w+-l1-1-0\.dll")
 
@@ -93,6 +98,8 @@ def test_the_linux_library_needs_the_c_library_alone_and_shows_fmi_alone() -> No
     assert has_all_functions(binary)
     assert binary.needs <= {"libc.so.6", "libm.so.6"}
     assert binary.imports <= LIBC | LIBM
+    assert "__stack_chk_fail" in binary.imports  # the stack is checked
+    assert binary.guards == GUARDS[LINUX.name]
     versions = [tuple(map(int, one.split("_")[1].split("."))) for one in binary.versions]
     assert max(versions) <= (2, 17)
     assert binary.name == ""
@@ -145,7 +152,29 @@ def test_a_host_finds_no_sources_to_build_without_the_kernels(
     with zipfile.ZipFile(archives[version]) as archive:
         names = archive.namelist()
     assert not [name for name in names if name.startswith("sources/")]
-    assert "documentation/sources/instance.c" in names
+    assert {"documentation/sources/instance.c", "documentation/sources/fmi3Functions.h"} <= {*names}
+
+
+def test_the_archive_has_the_licence_of_every_part(archives: dict[str, Path]) -> None:
+    for path in archives.values():
+        with zipfile.ZipFile(path) as archive:
+            texts = {
+                Path(name).name: archive.read(name).decode()
+                for name in archive.namelist()
+                if name.startswith("documentation/licenses/")
+            }
+        owners = {"gearlube_MIT.txt": "gearlube", "zig_MIT.txt": "Zig contributors",
+                  "numba_BSD-2-Clause.txt": "Anaconda, Inc.",
+                  "mingw-w64_ZPL-2.1.txt": "mingw-w64 project"}  # fmt: skip
+        assert set(texts) == set(owners)
+        assert all(owner in texts[name] for name, owner in owners.items())
+
+
+def test_a_driveline_for_windows_shows_fmi_alone() -> None:
+    """casadi marks each function that it writes for export there."""
+    windows = PLATFORMS[1]
+    binary = pe(libraries(driveline_model(), [windows])[windows.name])
+    assert has_all_functions(binary)
 
 
 def test_fmi_3_has_an_array_for_indexed_outputs(archives: dict[str, Path]) -> None:
@@ -249,6 +278,7 @@ def test_the_library_of_every_platform_needs_only_its_system(
         assert len(content) < 200_000
         binary = {"linux": elf, "windows": pe, "darwin": mach_o}[name.split("-")[1]](content)
         assert has_all_functions(binary), name
+        assert binary.guards == GUARDS.get(name, set()), name
         if "windows" in name:
             assert binary.machine == "x86_64"
             assert all(map(WINDOWS.fullmatch, binary.needs)), binary.needs
@@ -260,7 +290,7 @@ def test_the_library_of_every_platform_needs_only_its_system(
             # arm64 runs nothing without a signature
             assert binary.is_signed or binary.machine == "x86_64"
         else:
-            assert binary.needs <= {"libc.so.6", "libm.so.6"}
+            assert binary.needs <= {"libc.so.6", "libm.so.6", "ld-linux-aarch64.so.1"}
             assert binary.machine == {"x86_64": "EM_X86_64", "aarch64": "EM_AARCH64"}[name[:-6]]
 
 
