@@ -52,9 +52,9 @@ must keep all their licences.
 
 - **What a native FMU holds**: machine code of gearlube's own kernels (MIT) with mathematical
   functions of numba (BSD-2-Clause), C code of gearlube, the headers of the FMI standard
-  (BSD-2-Clause), start code of zig (MIT) and, for Windows, of mingw-w64 (ZPL-2.1). Their texts are in
-  the folder `documentation/licenses` of each FMU. A driveline also holds C code that casadi writes
-  for gearlube's equations.
+  (BSD-2-Clause), start code of zig (MIT) and, for Windows, of mingw-w64 (ZPL-2.1). Their texts are
+  in the folder `documentation/licenses` of each FMU. A driveline also holds C code that casadi
+  writes for gearlube's equations.
 - **FFTW is GPL.** pyfftw brings it. A native FMU holds nothing of it. Who passes on a program or a
   container with pyfftw must follow the GPL for it: FFTW's source, or a written offer of it, goes
   with the copy. Using gearlube inside a company is no such case.

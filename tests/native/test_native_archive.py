@@ -38,8 +38,8 @@ FUNCTIONS = {
     if header.endswith("Functions.h")
     for name in re.findall(r"Export\s+\w+TYPE\s+(fmi[23]\w+);", text)
 }
-LIBC = {"__stack_chk_fail", "bcmp", "calloc", "fprintf", "free", "malloc", "memcmp", "memcpy", "memset", "snprintf",
-        "stderr", "strcmp", "strlen", "vsnprintf"}  # fmt: skip
+LIBC = {"__stack_chk_fail", "bcmp", "calloc", "fprintf", "free", "malloc", "memcmp", "memcpy",
+        "memset", "snprintf", "stderr", "strcmp", "strlen", "vsnprintf"}  # fmt: skip
 # what a library of each system must ask for: fixed tables, no jump to a place that is no target
 GUARDS = {"x86_64-linux": {"PT_GNU_RELRO", "BIND_NOW", "IBT", "SHSTK"},
           "aarch64-linux": {"PT_GNU_RELRO", "BIND_NOW", "BTI", "PAC"},
