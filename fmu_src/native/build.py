@@ -41,7 +41,7 @@ _PACKAGE = Path(__file__).parents[1]
 _SOURCES = f"""C sources of the FMI functions in this FMU, with the headers of the standard.
 
 They call the physics by one function, {ENTRY}. Its object code is made from kernels in
-Python (gearlube_core, in the package gearlube {version("gearlube")}) and is not here, so these files
+Python (gearlube_core, in gearlube {version("gearlube")}) and is not here, so these files
 alone do not build the library. `gearlube build-fmu` of that version builds this archive again, with
 the same bytes if its inputs are the same.
 """
