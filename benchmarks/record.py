@@ -1,19 +1,26 @@
 """Record the numbers that the commands give, and compare two such records.
 
-    python -m benchmarks.record take FOLDER       run every case below, about ten minutes
+    python -m benchmarks.record take FOLDER       run every case below, about fifteen minutes
     python -m benchmarks.record compare OLD NEW   exit code 1 where numbers differ
 
 Take one record before a change that must keep the numbers, one after it, on the same machine. The
 cases run the command `gearlube` and the FMUs only, so that code may move between the two records.
-A number agrees if it differs by at most TOLERANCE of the largest magnitude of its variable.
+A number agrees if it differs by at most TOLERANCE of the largest magnitude of its variable. Model
+descriptions agree if they are equal but for GUID, time and version of the tool: value references
+are among what must not change. Times are processor seconds; they are printed, not judged.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
+import re
+import resource
 import subprocess
 import sys
+import tempfile
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -26,11 +33,22 @@ COMMANDS = {
     "contact_face_milled": ["contact", "examples/gears/face_milled.toml", "--quick"],
     "sweep": ["sweep", "--jobs", "2"],
     "sweep_as_printed": ["sweep", "--quick", "--equations", "as_printed"],
+    "map": [
+        "map", "--torques", "-50:200:125", "--speeds", "500:2500:1000", "--temperatures",
+        "60:100:40", "--draws", "20",
+    ],
+    "cycle": ["cycle"],
+    "bearing": ["bearing"],
+    "whine": ["whine", "--speeds-rpm", "1000:3000:500"],
+    "runup": ["runup", "--quick"],
     "resonance": ["resonance", "--quick", "--load-at", "0.9"],
     "resonance_synthetic": [
         "resonance", "--quick", "--mesh", "synthetic", "--mismatch", "0.3", "--radii", "paper",
     ],
     "helical": ["helical", "--quick"],
+    "helical_solved": [
+        "helical", "--quick", "--parts", "losses", "--film-model", "solved", "--speeds-rpm", "1500",
+    ],
     "helical_jamali": ["helical", "jamali_2015_a", "--quick", "--parts", "contact"],
     "line": ["ehl", "line"],
     "line_thermal": ["ehl", "line", "jamali_2015_thermal"],
@@ -66,32 +84,50 @@ _OF_THE_RUN = (
     "heat_balance_history",
 )
 
+_OF_THE_BUILD = re.compile(
+    r'\b(guid|instantiationToken|generationDateAndTime|generationTool|version)="[^"]*"'
+)
+
 
 def take(folder: Path, names: list[str]) -> None:
     """Run the cases `names`, all if empty, and both FMUs; write to `folder`."""
     folder.mkdir(parents=True, exist_ok=True)
-    for name in names or [*COMMANDS, "fmu"]:
+    for name in names or [*COMMANDS, "fmu", "compilation"]:
         print(name, flush=True)  # noqa: T201
+        place = folder / name
+        place.mkdir(exist_ok=True)
+        before = _children_s()
         if name == "fmu":
-            _fmu_trajectories(folder / "fmu")
-            continue
-        command = [str(Path(sys.executable).with_name("gearlube")), *COMMANDS[name]]
-        done = subprocess.run(
-            [*command, "--out", str(folder / name)], capture_output=True, text=True, check=False
-        )
-        (folder / name).mkdir(exist_ok=True)
-        (folder / name / "exit_code.txt").write_text(f"{done.returncode}\n")
-        if done.returncode:
-            print(done.stderr, file=sys.stderr)  # noqa: T201
+            _fmu_trajectories(place)
+        elif name == "compilation":
+            with tempfile.TemporaryDirectory() as empty:
+                _run(["sweep", "--quick"], place, {"NUMBA_CACHE_DIR": empty})
+        else:
+            _run(COMMANDS[name], place)
+        (place / "seconds.txt").write_text(f"{_children_s() - before:.2f}\n")
+
+
+def _children_s() -> float:
+    """Return the processor time of all programs that were run [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def _run(arguments: list[str], folder: Path, settings: dict[str, str] | None = None) -> None:
+    command = [str(Path(sys.executable).with_name("gearlube")), *arguments, "--out", str(folder)]
+    done = subprocess.run(
+        command, capture_output=True, text=True, check=False, env={**os.environ, **(settings or {})}
+    )
+    (folder / "exit_code.txt").write_text(f"{done.returncode}\n")
+    if done.returncode:
+        print(done.stderr, file=sys.stderr)  # noqa: T201
 
 
 def _fmu_trajectories(folder: Path) -> None:
-    """March both FMUs for 0.05 s and keep every output."""
+    """March both FMUs for 0.05 s and keep every output, and all model descriptions."""
     from fmpy import read_model_description, simulate_fmu
 
-    folder.mkdir(exist_ok=True)
-    gearlube = str(Path(sys.executable).with_name("gearlube"))
-    subprocess.run([gearlube, "build-fmu", "--out", str(folder)], check=True)
+    _run(["build-fmu"], folder)
     for model in ("HypoidAxle", "HelicalPair"):
         path = str(folder / f"{model}.fmu")
         variables = read_model_description(path).modelVariables
@@ -99,6 +135,10 @@ def _fmu_trajectories(folder: Path) -> None:
         result = simulate_fmu(path, stop_time=0.05, output_interval=1e-3, output=outputs)
         columns = {name: ("time", result[name]) for name in result.dtype.names}
         xr.Dataset(columns).to_netcdf(folder / f"{model}.nc", engine="scipy")
+    for path in folder.glob("*.fmu"):
+        with zipfile.ZipFile(path) as archive:
+            text = archive.read("modelDescription.xml").decode()
+        (folder / f"{path.stem}.xml").write_text(_OF_THE_BUILD.sub("", text), "utf-8")
 
 
 def compare(old: Path, new: Path) -> bool:
@@ -125,11 +165,16 @@ def compare(old: Path, new: Path) -> bool:
                 if difference:
                     print(f"{where}: {name} differs by {difference:.1e}")  # noqa: T201
                 agree &= difference <= TOLERANCE
-    for path in sorted(old.rglob("exit_code.txt")):
+    for path in sorted([*old.rglob("exit_code.txt"), *old.glob("fmu/*.xml")]):
         where = path.relative_to(old)
         if not (new / where).exists() or path.read_text() != (new / where).read_text():
-            print(f"{where}: other exit code")  # noqa: T201
+            print(f"{where}: other text")  # noqa: T201
             agree = False
+    for path in sorted(old.rglob("seconds.txt")):
+        where = path.relative_to(old)
+        if (new / where).exists():
+            one, two = (float((folder / where).read_text()) for folder in (old, new))
+            print(f"{where.parent}: {one:.1f} s, {two:.1f} s, ratio {two / one:.2f}")  # noqa: T201
     print(json.dumps({"variables": variables, "identical": identical, "agree": agree}))  # noqa: T201
     return agree
 
