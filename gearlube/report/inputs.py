@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from gearlube.report.numbers import unit_words
-from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, Input
+from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, NOTE, WARNING, Finding, Input
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
@@ -58,6 +58,29 @@ def file_inputs(file: InputFile) -> list[Input]:
                     origin, why = kind, reasons[one] if isinstance(reasons, Mapping) else ""
         unit = unit_words(notes[name].unit) if name in notes else ""
         found.append(Input(name, text, unit, origin, why))
+    return found
+
+
+def remark_attributes(file: InputFile) -> dict[str, str]:
+    """Return what a dataset keeps of the remarks and guesses of an input file, a line each."""
+    return {"remarks": "\n".join(file.remarks()), "guessed": "\n".join(file.guesses())}
+
+
+def remark_findings(attributes: Mapping[str, Any]) -> list[Finding]:
+    """Return the findings in `remark_attributes`, headline and detail parted at the first stop.
+
+    They are for reports: the terminal has them from reading the file.
+
+    Examples
+    --------
+    >>> remark_findings({"guessed": "x is guessed: 0.1. Give it."})[0].headline
+    'x is guessed: 0.1.'
+    """
+    found = []
+    for level, name in ((WARNING, "remarks"), (NOTE, "guessed")):
+        for sentences in str(attributes.get(name, "")).splitlines():
+            headline, _, detail = sentences.partition(". ")
+            found.append(Finding(level, f"{headline.removesuffix('.')}.", detail))
     return found
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.report.inputs import file_inputs, origin_of
+from gearlube.report.inputs import file_inputs, origin_of, remark_findings
 from gearlube.report.page import write_report
 from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import pictured
@@ -58,7 +58,7 @@ def helical_report(results: HelicalResults, figures: Path) -> Report:
         subtitle=f"{settings.file.pinion.teeth} and {settings.file.gear.teeth} teeth, "
         f"{settings.pinion_torque:.4g} N·m and {settings.pinion_speed / RPM:.5g} rpm on the "
         "pinion.",
-        findings=findings(found),
+        findings=[*remark_findings(attributes), *findings(found)],
         numbers=numbers(found),
         figures=[*first, *pictured(HELICAL_CATALOGUE, figures, charts)],
         tables=[
