@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -87,17 +88,26 @@ def remark_findings(attributes: Mapping[str, Any]) -> list[Finding]:
 _OF_THE_FILE = {"name", "source", "compared_with", "inferred", "completed", "tolerances"}
 
 
-def origin_of(option: str, otherwise: tuple[str, str] = (ASSUMED, "default")) -> tuple[str, str]:
-    """Return origin and reason of an input that an option of the running command sets.
+def stored_inputs(attributes: Mapping[Any, Any], *names: str) -> list[Input]:
+    """Return the inputs in attributes of a dataset, see `notes_as_text`; attributes may lack."""
+    return [Input(*row) for name in names for row in json.loads(str(attributes.get(name, "[]")))]
 
-    `option` is the name of its parameter, `otherwise` holds where the option was not typed. Without
-    a command all settings count as given, by the call.
+
+OF_AXLE = GIVEN, "axle file or its default"  # what an option replaces
+
+
+def origin_of(*options: str, otherwise: tuple[str, str] = (ASSUMED, "default")) -> tuple[str, str]:
+    """Return origin and reason of an input that options of the running command set.
+
+    `options` are the names of their parameters, `otherwise` holds where none was typed. Without a
+    command all settings count as given, by the call.
     """
     context = get_current_context(silent=True)
     if context is None:
         return GIVEN, "setting"
-    source = context.get_parameter_source(option)
-    return (GIVEN, "option") if source and source.name == "COMMANDLINE" else otherwise
+    sources = (context.get_parameter_source(one) for one in options)
+    typed = any(one is not None and one.name == "COMMANDLINE" for one in sources)
+    return (GIVEN, "option") if typed else otherwise
 
 
 def _flat(values: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
