@@ -40,15 +40,17 @@ _LIMITS = (
 _FORMULAS = "Films and friction of the flanks are from formulas, not from a solution of the film."
 
 
-def loss_map_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
-    """Return the report of a loss map; `inputs` are those of the axle file."""
+def loss_map_report(
+    dataset: xr.Dataset, inputs: Sequence[Input] = (), axle: str = "an axle"
+) -> Report:
+    """Return the report of a loss map; `inputs` are those of the axle file, `axle` is its name."""
     torque, speed, temperature = (
         dataset[name].values for name in ("torque", "speed", "temperature")
     )
     finished = bool(np.isfinite(dataset["loss_torque"].values).any())
     return Report(
         study="map",
-        title="Loss map of an axle",
+        title=f"Loss map of {axle}",
         subtitle=f"Gear set {dataset.attrs['mesh']}, oil {dataset.attrs['oil']}: "
         f"{dataset['status'].size} points from {number_text(torque[0])} to "
         f"{number_text(torque[-1])} N·m and "
