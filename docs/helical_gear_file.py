@@ -36,7 +36,7 @@ from it. Three files ship: `he_2007`, `jamali_2015_a` and `jamali_2015_b`
 - Give one module and one pressure angle, each either in the normal or in the transverse section.
 - `profile_shift_coefficient` sets how thick the teeth are. The backlash then follows from the
   centre distance, or is given and taken off both gears alike. Without it for both gears the
-  coefficients are guessed from centre distance and tip diameters, and `gearlube helical` says so.
+  coefficients are guessed from centre distance and tip diameters, which is said.
 - Without a root diameter the teeth are 2.25 normal modules deep, or 1.25 below the profile shift.
 - Tips that cut into the mate's root, run into its fillet or are pointed are refused. Clearances
   below 0.1 normal modules, tips below 0.2 and undercut are reported.

@@ -193,13 +193,16 @@ def definition_with(
     content = read_content(gear, "gear file")
     mesh = b"" if line_mesh is None else read_line_mesh_content(line_mesh)
     try:
-        return _definition_with(content, mesh, _named_files(content, Path(gear).parent, named))
+        found = _definition_with(content, mesh, _named_files(content, Path(gear).parent, named))
     except TableError as error:
         raise TableError(f"{line_mesh}: {error}") from None
     except FileError as error:
         raise FileError(f"{gear}: {error}") from None
     except GearLubeError as error:
         raise ParameterError(f"{gear}: {error}") from None
+    if named is None:
+        _gear_file(content).warn(gear)
+    return found
 
 
 def _named_files(

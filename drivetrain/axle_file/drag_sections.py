@@ -20,7 +20,7 @@ Litres = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False), Usual(
 ShaftSize = Annotated[float, Field(ge=5.0, le=500.0, allow_inf_nan=False), Usual(10.0, 200.0)]
 Torque = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.01, 20.0)]
 
-DEFAULT_LAW = "changenet_velex_2007"
+DEFAULT_CHURNING = "changenet_velex_2007"
 _NO_SOURCE = "size found in passenger cars; no source"
 _WHEEL_SEALS = 2
 
@@ -60,7 +60,7 @@ class Housing(ModelSection):
     def housing_changes(self, axle: HypoidAxleParameters) -> dict[str, Any]:
         """Return the given fields in SI units, and the law where it follows from them."""
         given = self.changes(axle)
-        return {"churning": DEFAULT_LAW} | given if given else given
+        return {"churning": DEFAULT_CHURNING} | given if given else given
 
     def housing_notes(self, prefix: str, axle: HypoidAxleParameters) -> list[InputNote]:
         """Return a note on every field; without churning its numbers play no part."""

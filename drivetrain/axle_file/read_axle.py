@@ -79,11 +79,12 @@ def read_axle(
     Raises
     ------
     ParameterError
-        The file or its gear file is missing or wrong; the message names all wrong fields.
+        The file, or a file that it names, is missing, or fields of it or of its gear file or oil
+        file are wrong; the message names all wrong fields.
     TableError
-        Its mesh table or its asperity table is missing or wrong.
+        Its mesh table or its asperity table is wrong.
     FileError
-        A film model is missing or damaged.
+        A film model is damaged.
     ConvergenceError
         The analysis of its gear file finds no equilibrium.
 

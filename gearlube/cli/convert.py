@@ -92,6 +92,7 @@ def convert(
         read = read_rexs(pair, stage=stage, given=_fields(given or []))
         write_text(toml_text(read.data), path)
         _show(read.notes, path)
+        read.file.warn(path)
         blank = isinstance(read.file, BlankFile)
         load = "" if blank or "operation" in read.data else " --torque N_M --speed-rpm RPM"
         logger.info("Next: gearlube %s %s%s", "design" if blank else "helical", path, load)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from gearlube.report.numbers import unit_words
-from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, Input
+from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, NOTE, WARNING, Finding, Input
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
@@ -61,20 +62,52 @@ def file_inputs(file: InputFile) -> list[Input]:
     return found
 
 
+def remark_attributes(file: InputFile) -> dict[str, str]:
+    """Return what a dataset keeps of the remarks and guesses of an input file, a line each."""
+    return {"remarks": "\n".join(file.remarks()), "guessed": "\n".join(file.guesses())}
+
+
+def remark_findings(attributes: Mapping[str, Any]) -> list[Finding]:
+    """Return the findings in `remark_attributes`, headline and detail parted at the first stop.
+
+    They are for reports: the terminal has them from reading the file.
+
+    Examples
+    --------
+    >>> remark_findings({"guessed": "x is guessed: 0.1. Give it."})[0].headline
+    'x is guessed: 0.1.'
+    """
+    found = []
+    for level, name in ((WARNING, "remarks"), (NOTE, "guessed")):
+        for sentences in str(attributes.get(name, "")).splitlines():
+            headline, _, detail = sentences.partition(". ")
+            found.append(Finding(level, f"{headline.removesuffix('.')}.", detail))
+    return found
+
+
 _OF_THE_FILE = {"name", "source", "compared_with", "inferred", "completed", "tolerances"}
 
 
-def origin_of(option: str, otherwise: tuple[str, str] = (ASSUMED, "default")) -> tuple[str, str]:
-    """Return origin and reason of an input that an option of the running command sets.
+def stored_inputs(attributes: Mapping[Any, Any], *names: str) -> list[Input]:
+    """Return the inputs in attributes of a dataset, see `notes_as_text`; attributes may lack."""
+    return [Input(*row) for name in names for row in json.loads(str(attributes.get(name, "[]")))]
 
-    `option` is the name of its parameter, `otherwise` holds where the option was not typed. Without
-    a command all settings count as given, by the call.
+
+OF_AXLE = GIVEN, "axle file or its default"  # what an option replaces
+
+
+def origin_of(*options: str, otherwise: tuple[str, str] = (ASSUMED, "default")) -> tuple[str, str]:
+    """Return origin and reason of an input that options of the running command set.
+
+    `options` are the names of their parameters, `otherwise` holds where none was typed. Without a
+    command all settings count as given, by the call.
     """
     context = get_current_context(silent=True)
     if context is None:
         return GIVEN, "setting"
-    source = context.get_parameter_source(option)
-    return (GIVEN, "option") if source and source.name == "COMMANDLINE" else otherwise
+    sources = (context.get_parameter_source(one) for one in options)
+    typed = any(one is not None and one.name == "COMMANDLINE" for one in sources)
+    return (GIVEN, "option") if typed else otherwise
 
 
 def _flat(values: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

@@ -157,16 +157,16 @@ class HelicalGearFile(InputFile):
             gear=_modification(self.gear.flank),
         )
 
-    def guessed_shifts(self) -> str:
-        """Return a sentence on profile shifts that are guessed; empty where one is given."""
+    def guesses(self) -> list[str]:
+        """Return sentences on profile shifts that are guessed; none where one is given."""
         if self._given_shifts != (None, None):
-            return ""
+            return []
         x1, x2 = (round(x, 3) + 0.0 for x in self.helical_pair().profile_shifts)
-        return (
+        return [
             f"Profile shift coefficients are guessed: x = {x1:.3f} (pinion) and {x2:.3f} (gear). "
             "They follow from centre distance and tip diameters, with equal addenda and no "
             "backlash. Give profile_shift_coefficient of [pinion] and [gear]."
-        )
+        ]
 
     def remarks(self) -> list[str]:
         """Return warnings about tips, roots, undercut and guessed profile shifts."""

@@ -44,7 +44,7 @@ class InputFile(Section):
     def from_toml(cls, path: str | Path) -> Self:
         """Read a file; what it names counts from its folder, and has absolute paths thereafter.
 
-        A number that is allowed but hardly meant is logged as a warning.
+        What is allowed but hardly meant is logged as warnings, see `warn`.
 
         Raises
         ------
@@ -61,13 +61,25 @@ class InputFile(Section):
                     f"{unread('file', place, reason)}. {path} names it in {field}; a relative "
                     "path in a file counts from the folder of that file."
                 )
-        for doubt in found.doubts().values():
-            logger.warning("%s: %s", path, doubt)
+        found.warn(path)
         return found
+
+    def warn(self, where: str | Path) -> None:
+        """Log doubts, remarks and guesses of a file that `where` names, as warnings."""
+        for one in (*self.doubts().values(), *self.remarks(), *self.guesses()):
+            logger.warning("%s: %s", where, one)
 
     def doubts(self) -> dict[str, str]:
         """Return the numbers that the file gives and hardly means: sentences by dotted name."""
         return doubts(self.model_dump(exclude_unset=True), field_notes(type(self)))
+
+    def remarks(self) -> list[str]:
+        """Return warnings about what the file describes as a whole; a kind of file has its own."""
+        return []
+
+    def guesses(self) -> list[str]:
+        """Return what the file leaves to a guess, in sentences; a kind of file has its own."""
+        return []
 
     @classmethod
     def _places(cls, data: dict[str, Any], folder: Path) -> dict[str, Path]:

@@ -256,6 +256,11 @@ def _rows(
                 rows.append((read + 1, stripped))
             read = reader.line_num
     except csv.Error as reason:
+        if reader.line_num > read + 1 or "unexpected end" in str(reason):
+            raise ParameterError(
+                f"{path}: a quote opened in line {read + 1} is never closed. Close it, or "
+                "remove it."
+            ) from None
         raise ParameterError(
             f"{path}, line {read + 1}: must be cells of at most {csv.field_size_limit()} "
             f"characters, each quote closed, got: {reason}. Check the quotes of this line."

@@ -348,6 +348,18 @@ CHURNING = replace(
 )
 
 
+def test_the_regime_of_churning_is_that_of_speed_and_oil():
+    """Half way where w R b/nu is the geometric mean of 6000 and 9000; at rest the slow one."""
+    oil, ring = CAR.axle.oil, CAR.axle.kernel_parameters().churning
+    nu = oil.dynamic_viscosity(WARM) / oil.density
+    gear = np.sqrt(6000.0 * 9000.0) * nu / (0.5 * ring.ring_diameter * ring.ring_width)
+    speed = gear * RADIUS * np.array([0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.0])
+    cycle = gl.DriveCycle(name="half", time=np.arange(7.0), speed=speed)
+    found = gl.run_cycle(replace(settings(cycle), car=CHURNING))
+    assert found["churning_regime"].values[[0, 1, -1]] == pytest.approx([0.0, 0.0, 0.5], abs=1e-6)
+    assert "churning_regime" not in gl.run_cycle(settings(cycle))
+
+
 # 0.7 %: measured -0.55, -0.29, -0.51 and -0.27 %. The map is linear between its points, above the
 # true loss, and its error falls fourfold with twice the points: that of the usual map is 4/3 of it
 @pytest.mark.slow

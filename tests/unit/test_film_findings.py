@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from gearlube.report.inputs import remark_attributes
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.films.findings import findings, formula_ratios, mean_ratios, numbers
-from gearlube.studies.films.report import film_inputs
+from gearlube.studies.films.report import film_inputs, film_report
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 
 def line(converged=1, error=0.01, **more):
@@ -134,6 +136,14 @@ def test_formulas_are_told_as_ratios_to_the_solution():
     one = headline(line(), "central film of A")
     assert one.level == NOTE
     assert "1.20 times" in one.headline
+
+
+def test_the_report_of_a_film_says_what_the_gear_file_says(tmp_path):
+    of = {**remark_attributes(HelicalGearFile.named("he_2007")), "remarks": "Undercut. Look."}
+    march = cycle().assign_attrs(of, name="he_2007", source="")
+    first, second, *_ = film_report(march, tmp_path).findings
+    assert (first.level, first.headline, first.detail) == (WARNING, "Undercut.", "Look.")
+    assert (second.level, second.headline[:26]) == (NOTE, "Profile shift coefficients")
 
 
 def test_a_march_tells_the_steps_of_its_extremes():

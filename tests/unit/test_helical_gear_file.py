@@ -5,7 +5,10 @@ import re
 
 import pytest
 
+from fmu_src.helical_pair import definition_with
+from gearlube.output.toml_text import toml_text
 from gearlube_core.errors import ParameterError
+from gearlube_core.flank_optimisation.problem import read_gear_file
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
 from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
@@ -332,7 +335,7 @@ def test_profile_shifts_make_the_teeth_thick_and_leave_backlash():
     assert 1e3 * pair.tooth_thickness[1] == pytest.approx(1.550846, abs=1e-6)
     assert 1e3 * pair.backlash == pytest.approx(closed_backlash(file), abs=1e-9)
     assert 1e3 * pair.backlash == pytest.approx(0.359, abs=5e-4)
-    assert file.guessed_shifts() == ""
+    assert file.guesses() == []
     # more backlash than the shifts leave comes off both members alike
     thinner = shifted(**{"pair.backlash_mm": 0.459})
     assert closed_backlash(thinner) == pytest.approx(0.459, abs=1e-9)
@@ -357,7 +360,7 @@ def test_a_shift_left_out_follows_from_the_other_and_both_are_guessed_aloud():
     assert 1e3 * depth == pytest.approx(1.25 - rootless.profile_shifts[1], rel=1e-9)
     none = {f"{role}.profile_shift_coefficient": None for role in ("pinion", "gear")}
     both = shifted(**none)
-    assert "guessed: x = 0.462 (pinion) and 0.162 (gear)" in both.guessed_shifts()
+    assert "guessed: x = 0.462 (pinion) and 0.162 (gear)" in both.guesses()[0]
     # standard pair with short gear tips: tips say 0.2 and -0.2, roots of 1.25 modules say 0
     stub = HelicalGearFile.from_data(
         {
@@ -400,6 +403,23 @@ def test_a_shift_left_out_follows_from_the_other_and_both_are_guessed_aloud():
 def test_teeth_that_cannot_be_are_refused(changes, words):
     with pytest.raises(ParameterError, match=words):
         shifted(**changes)
+
+
+@pytest.mark.parametrize("reader", [HelicalGearFile.given, read_gear_file, definition_with])
+def test_every_reader_of_a_gear_file_says_what_its_teeth_are(reader, tmp_path, caplog):
+    """A rack of 14.5 deg undercuts below 2 (1.25 - 0.25 (1 - sin a))/sin2 a = 33.9 teeth."""
+    path = tmp_path / "pair.toml"
+    data = HE.model_dump(exclude_none=True, exclude_defaults=True)
+    data["pair"] = {
+        "normal_module_mm": 3.0, "normal_pressure_angle_deg": 14.5, "helix_angle_deg": 0.0,
+        "centre_distance_mm": 72.0, "face_width_mm": 20.0,
+    }  # fmt: skip
+    for role in ("pinion", "gear"):
+        data[role] |= {"teeth": 24, "tip_diameter_mm": 78.0, "root_diameter_mm": 64.5}
+    path.write_text(toml_text(data))
+    reader(str(path))
+    for words in ("The pinion is undercut", "The gear is undercut", "Profile shift coefficients"):
+        assert caplog.text.count(f"{path}: {words}") == 1
 
 
 def test_tips_in_the_mates_roots_are_refused_and_near_ones_named():

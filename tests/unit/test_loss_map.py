@@ -344,6 +344,7 @@ def test_the_command_writes_a_map_and_says_what_it_lacks(tmp_path, caplog):
     )
     assert ended.exit_code == 0, ended.output
     assert (out / "map.csv").exists()
+    assert "Loss map of mohammadpour_2015" in (out / "report.html").read_text()
     assert (out / "figures" / "losses.png").exists()
     assert "Not modelled" in caplog.text
     assert "at least 4 points, got 3" in caplog.text  # of a .vtlm file; the others are there

@@ -107,6 +107,12 @@ def test_the_report_has_key_numbers_and_tables_before_and_after():
     found = {one.name: one.value for one in numbers(optimised())}
     assert found["change of all mesh orders at 50 N·m"] == pytest.approx(-20.0)
     assert found["limits not kept"] == 0.0
-    html = report_html(optimise_report(optimised(), "gearlube optimise"))
-    for part in ("Fields of the gear file", "All measures before and after", "−20.0 dB"):
+    dataset = optimised().assign_attrs(remarks="The pinion is undercut. Look.")
+    html = report_html(optimise_report(dataset, "gearlube optimise"))
+    for part in (
+        "The pinion is undercut.",
+        "Fields of the gear file",
+        "All measures before and after",
+        "−20.0 dB",
+    ):
         assert part in html

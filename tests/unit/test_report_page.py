@@ -7,9 +7,12 @@ import re
 
 import numpy as np
 import pytest
+import typer
+import xarray as xr
 from lxml import html as lxml_html
 
 from gearlube.cli.report_end import tell_findings
+from gearlube.command import COMMANDS, command_line
 from gearlube.report.charts import (
     Axis,
     Line,
@@ -35,6 +38,10 @@ from gearlube.report.parts import (
     Table,
 )
 from gearlube.report.stored import read_report
+from gearlube.studies.drive_cycle import report as drive_cycle
+from gearlube.studies.runup import report as runup
+from gearlube.studies.sweep import report as sweep
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import ParameterError
 
 PNG = base64.b64decode(
@@ -225,3 +232,29 @@ def test_the_console_has_every_finding_of_the_report(caplog, tmp_path):
     lines = [record.getMessage() for record in caplog.records]
     assert lines[0] == "Look. Law A left its range at 3 rpm."
     assert lines[1:-1] == [f"Note {i}." for i in range(9)]
+
+
+@pytest.mark.parametrize(
+    ("command", "typed", "inputs", "attributes", "said"),
+    [
+        ("cycle", ["--air-temperature", "5"], drive_cycle._settings,
+         {"cycle": "nedc", **dict.fromkeys(drive_cycle._SETTINGS, 5.0)},
+         {"cycle: air temperature": "option", "cycle: name": "default"}),
+        ("sweep", ["--roughness-um", "0.4", "--quick"], sweep._settings,
+         {f"setting_{name}": value for name, value in SweepSettings().as_dict().items()},
+         {"sweep: roughness rms": "option", "sweep: friction": "axle file or its default",
+          "sweep: driver": "default", "sweep: settling time": "option"}),
+        ("runup", ["--rate", "3", "--to", "80"], lambda one: runup._settings(one, ""),
+         {"ramp": "run-up", **{f"setting_{row[0]}": 300.0 for row in runup._INPUTS}},
+         {"ramp: duration": "option", "ramp: end speed of the pinion": "option",
+          "ramp: start speed of the pinion": "default", "ramp: driver": "default"}),
+    ],
+)  # fmt: skip
+def test_inputs_say_whether_an_option_a_file_or_a_default_gave_them(
+    command, typed, inputs, attributes, said
+):
+    group = typer.main.get_command(command_line(COMMANDS))
+    whole = group.make_context("gearlube", [command], resilient_parsing=True)
+    with group.get_command(whole, command).make_context(command, typed, parent=whole):
+        found = {one.name: one.why for one in inputs(xr.Dataset(attrs=attributes))}
+    assert {name: found[name] for name in said} == said

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 
+from gearlube.report.churning import churning_regime
 from gearlube.report.parts import WARNING
-from gearlube.studies.loss_map import findings
+from gearlube.studies.drive_cycle import findings as drive_cycle
+from gearlube.studies.loss_map import findings as loss_map
+from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings
+from gearlube.studies.runup import findings as runup
+from gearlube.studies.sweep import findings as sweep
+from gearlube.studies.sweep.quantities import GRID
+from gearlube.studies.sweep.run import with_churning_regime
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.uncertain import by_one_film, changed_axle
@@ -63,10 +71,67 @@ def test_a_map_says_where_churning_changes_its_formula():
         },
         coords={"temperature": [40.0, 80.0], "speed": [1000.0, 2000.0], "source": ["churning"]},
     )
-    (said,) = findings._churning(one)
+    (said,) = loss_map._churning(one)
     assert "between 1000 and 2000 rpm with 80 °C oil" in said.headline
     assert "from 2.00 W to 40.0 W" in said.headline
     # twice the speed is 2^1.6 = 3 times the power in one regime, and the error bar is a factor of 3
     assert said.level == WARNING
     one["churning_regime"] *= 0.9
-    assert not findings._churning(one)
+    assert not loss_map._churning(one)
+
+
+# 60 km/h or 500 rad/s at the faster point, half of it at the slower one; 353.15 K is 80 degC
+SPEEDS = {"speed_kmh": [30.0, 60.0], "pinion_speed": [250.0, 500.0]}
+
+
+@pytest.mark.parametrize(
+    ("study", "words", "dims", "coords", "more"),
+    [
+        (drive_cycle, "2387 and 4775 rpm", ("step",), {}, {
+            "pinion_speed": (("step",), [2387.3, 4774.6]),
+            "oil_temperature": (("time",), [78.0, 82.0, 78.0]),
+        }),
+        (sweep, "30 and 60 km/h", ("preload", "speed"), {
+            "speed": [8.3, 16.7], "speed_kmh": ("speed", [30.0, 60.0]), "preload": [2500.0],
+        }, {"oil_temperature": (("preload", "speed"), [[353.15, 353.15]])}),
+        (runup, "2387 and 4775 rpm", ("slow_time",), {"slow_time": [1.0, 3.0]}, {
+            "time": (("time",), [0.0, 4.0]), "pinion_speed": (("time",), [125.0, 625.0]),
+        }),
+    ],
+)  # fmt: skip
+def test_other_studies_say_so_in_the_same_words(study, words, dims, coords, more):
+    shape = (1, 2) if len(dims) == 2 else (2,)
+    one = xr.Dataset(
+        {
+            "loss": ((*dims, "source"), np.array([2.0, 40.0]).reshape(*shape, 1)),
+            "churning_regime": (dims, np.array([0.0, 1.0]).reshape(shape)),
+            **more,
+        },
+        coords={**coords, "source": ["churning"]},
+        attrs={"setting_oil_temperature": 353.15},
+    )
+    (said,) = study._churning(one)
+    assert f"between {words} with 80 °C oil and rises from 2.00 W to 40.0 W" in said.headline
+    assert not study._churning(one.drop_vars("churning_regime"))
+
+
+def test_every_study_keeps_the_regime_of_its_points():
+    """The regime is 1/2 where w R b/nu is the geometric mean of 6000 and 9000."""
+    axle = replace(AXLE, churning="changenet_velex_2007")
+    oil, constants = 353.15, axle.kernel_parameters().churning
+    nu = axle.oil.dynamic_viscosity(oil) / axle.oil.density
+    gear = [re * nu / (0.5 * constants.ring_diameter * constants.ring_width)
+            for re in (5999.0, math.sqrt(6000.0 * 9000.0), 9001.0)]  # fmt: skip
+    expected = pytest.approx([0.0, 0.5, 1.0], abs=1e-12)
+    assert churning_regime(axle, oil, -np.array(gear)) == expected
+    assert churning_regime(replace(axle, churning="boness_1989"), oil, gear) is None
+    pinion = axle.mesh.ratio * np.array(gear)
+    points = xr.Dataset(
+        {"pinion_speed": (GRID, [[*pinion, np.nan]]), "oil_temperature": (GRID, [[oil] * 4])}
+    )
+    swept = with_churning_regime(points, axle)["churning_regime"].values[0]
+    assert swept[:3] == expected
+    assert np.isnan(swept[3])
+    grid = LossMapSettings(axle=axle, speeds=pinion, torques=np.array([50.0, 60.0]),
+                           temperatures=np.array([oil, oil + 1.0]), draws=0)  # fmt: skip
+    assert run_loss_map(grid)["churning_regime"].values[0] == expected

@@ -149,7 +149,7 @@ def _conditions(dataset: xr.Dataset, of_file: Mapping[str, tuple[str, str]]) -> 
                 f"{one:.4g}" for one in np.atleast_1d(axis_values(name, dataset[name].values))
             ),
             axis.unit,
-            *origin_of(option, of_file.get(f"operation.{field}", _GIVEN)),
+            *origin_of(option, otherwise=of_file.get(f"operation.{field}", _GIVEN)),
         )
         for (name, axis), (option, field) in zip(_AXES.items(), _FIELDS.items(), strict=True)
     ]
@@ -161,7 +161,7 @@ def _conditions(dataset: xr.Dataset, of_file: Mapping[str, tuple[str, str]]) -> 
             "bearing: oil",
             str(attributes["oil"]),
             "",
-            *origin_of("oil", of_file.get("oil", _GIVEN)),
+            *origin_of("oil", otherwise=of_file.get("oil", _GIVEN)),
         ),
         Input("bearing: oil at the inlet of the raceways", _layer(attributes), "", *layer),
         Input("bearing: oil in the contacts warmer by", rise, "K", *origin_of("temperature_rise")),

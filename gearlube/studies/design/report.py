@@ -11,8 +11,9 @@ import numpy as np
 import xarray as xr
 
 from gearlube.report.charts import Axis, Line, add_line, panels
+from gearlube.report.inputs import stored_inputs
 from gearlube.report.page import write_report
-from gearlube.report.parts import Cell, Column, Input, Report, Table
+from gearlube.report.parts import Cell, Column, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.design.figures import DESIGN_CATALOGUE
 from gearlube.studies.design.findings import findings, numbers
@@ -62,10 +63,7 @@ def design_report(dataset: xr.Dataset, figures: Path, command_line: str = "") ->
         numbers=numbers(dataset),
         figures=pictured(DESIGN_CATALOGUE, figures, charts),
         tables=[_contact(dataset), _teeth(dataset), _blank(dataset), _settings(dataset)],
-        inputs=[
-            Input(field, value, unit, origin, why)
-            for field, value, unit, origin, why in json.loads(attributes["inputs"])
-        ],
+        inputs=stored_inputs(attributes, "inputs"),
         limits=_LIMITS,
         facts=[("command", command_line)] if command_line else [],
         files=(

@@ -7,6 +7,7 @@ import xarray as xr
 
 from drivetrain.sump_heat import Warming
 from gearlube.plotting.loss_words import not_modelled
+from gearlube.report.churning import REGIME, churning_regime
 from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.drive_cycle.demand import Demand
 from gearlube.studies.drive_cycle.loss_field import LossesAlong, at_temperatures
@@ -103,6 +104,9 @@ def cycle_dataset(
             "efficiency of the axle over the cycle",
         ),
     }
+    regime = churning_regime(settings.car.axle, warming.mean, demand.pinion_speed / ratio)
+    if regime is not None:
+        variables["churning_regime"] = (step, regime, *REGIME)
     bound, share, drag, rollers = at_temperatures(losses.film, losses.temperatures, warming.mean).T
     if settings.car.axle.bearing_torque_loss == "solved_films":
         variables |= {

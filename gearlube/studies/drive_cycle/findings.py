@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
+from gearlube.report.churning import regime_findings
 from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.report.solved_films import (
@@ -31,6 +32,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         *_brakes(dataset),
         *_solved(dataset),
         *_rollers(dataset),
+        *_churning(dataset),
         _ranges(dataset),
         *(Finding(WARNING, note) for note in dataset.attrs.get("trace_notes", "").splitlines()),
         Finding(NOTE, f"Not modelled: {dataset.attrs['not_modelled']}."),
@@ -146,6 +148,19 @@ def _rollers(dataset: xr.Dataset) -> list[Finding]:
     effect = f"That is {quantity_text(lost, 'kJ', 2)} of energy lost."
     words = f"with {100.0 * outside:.1f} % of the bearings' drag loss"
     return [solved_rollers(lost / energy, outside, words, effect, model_of(dataset, ROLLER))]
+
+
+def _churning(dataset: xr.Dataset) -> list[Finding]:
+    if "churning_regime" not in dataset:
+        return []
+    oil = dataset["oil_temperature"].values
+    return regime_findings(
+        dataset["churning_regime"].values,
+        dataset["pinion_speed"].values,
+        "rpm",
+        dataset["loss"].sel(source="churning").values,
+        0.5 * (oil[1:] + oil[:-1]),
+    )
 
 
 def _ranges(dataset: xr.Dataset) -> Finding:

@@ -53,17 +53,21 @@ def cycle_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
         numbers=numbers(dataset),
         figures=_figures(dataset),
         tables=_tables(dataset),
-        inputs=[
-            Input("cycle: name", str(attributes["cycle"])),
-            *(
-                Input(f"cycle: {words}", f"{attributes[name]:g}", unit, *origin_of(option))
-                for option, (name, (words, unit)) in zip(_OPTIONS, _SETTINGS.items(), strict=True)
-            ),
-            *inputs,
-        ],
+        inputs=[*_settings(dataset), *inputs],
         limits=_LIMITS,
         files=("drive_cycle.nc", "drive_cycle.csv", "summary.csv", "figures/"),
     )
+
+
+def _settings(dataset: xr.Dataset) -> list[Input]:
+    attributes = dataset.attrs
+    return [
+        Input("cycle: name", str(attributes["cycle"]), "", *origin_of("cycle")),
+        *(
+            Input(f"cycle: {words}", f"{attributes[name]:g}", unit, *origin_of(option))
+            for option, (name, (words, unit)) in zip(_OPTIONS, _SETTINGS.items(), strict=True)
+        ),
+    ]
 
 
 def _figures(dataset: xr.Dataset) -> list[Figure]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from gearlube.report.inputs import remark_findings
 from gearlube.report.numbers import number_text
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Input, Report, Table
@@ -89,7 +90,7 @@ def film_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> R
         study=f"ehl {kind}",
         title=f"Film of {of['name']}",
         subtitle=f"Lubricated {_KINDS[kind]}.",
-        findings=findings(dataset),
+        findings=[*remark_findings(of), *findings(dataset)],
         numbers=numbers(dataset),
         figures=pictured(catalogue, figures, main_charts(dataset)),
         tables=_tables(dataset),

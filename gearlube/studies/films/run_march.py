@@ -8,6 +8,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from gearlube.report.inputs import remark_attributes
 from gearlube.studies.films.datasets.cycle_lines import CycleLines, step_dataset, with_steady_film
 from gearlube.studies.films.datasets.helical_cycle import (
     cycle_dataset,
@@ -165,6 +166,7 @@ def run_helical_march(
             _finish_snapshot(folder, step, key, steady[step])
     curves = cycle_dataset(film, cycle, lines, start=start, repeated=steps.repeat, **names)
     dataset = with_steady_points(curves, steady)
+    dataset.attrs |= remark_attributes(case.file)
     note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress, films / (films + 1))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from gearlube.report.inputs import remark_attributes
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.datasets.line import line_dataset
 from gearlube.studies.films.datasets.point import point_dataset
@@ -165,6 +166,7 @@ def run_helical_line(
     # the settings of a march, so that both give one film where nothing moves
     solution = solve_helical_line(film, step, MARCH_SETTINGS, film_error=film_error, throw=False)
     dataset = helical_dataset(film, step, solution, name=case.file.name, source=case.file.source)
+    dataset.attrs |= remark_attributes(case.file)
     note_roughness(dataset, case.roughness_um)
     warn_of_grid(dataset)
     return finished(dataset, folder, progress)

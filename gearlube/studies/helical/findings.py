@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -48,7 +48,7 @@ def findings(datasets: Datasets) -> list[Finding]:
     --------
     >>> findings({"sweep": xr.load_dataset("gearlube_helical/sweep.nc")})  # doctest: +SKIP
     """
-    found = _teeth(next((of.attrs for of in datasets.values()), {}))
+    found: list[Finding] = []
     for name, of in (
         ("response", _operation),
         ("response", _margins),
@@ -61,16 +61,6 @@ def findings(datasets: Datasets) -> list[Finding]:
     ):
         if name in datasets:
             found += of(datasets[name])
-    return found
-
-
-def _teeth(attributes: Mapping[str, Any]) -> list[Finding]:
-    """Return what the gear file's teeth say, headline and detail parted at the first full stop."""
-    found = []
-    for level, name in ((WARNING, "remarks"), (NOTE, "guessed")):
-        for sentences in str(attributes.get(name, "")).splitlines():
-            headline, _, detail = sentences.partition(". ")
-            found.append(Finding(level, f"{headline.removesuffix('.')}.", detail))
     return found
 
 

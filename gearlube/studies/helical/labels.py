@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from gearlube.report.inputs import remark_attributes
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core import __version__
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE, mean_mesh_stiffness
@@ -60,10 +61,8 @@ def study_attributes(settings: HelicalSettings, command_line: str) -> dict[str, 
         "pinion_speed_units": "rad/s",
         "mesh": settings.mesh,
         "friction": settings.friction,
-        "guessed": settings.file.guessed_shifts(),
-        "remarks": "\n".join(settings.file.remarks()),
     }
-    return attributes | _provenance(settings.file)
+    return attributes | remark_attributes(settings.file) | _provenance(settings.file)
 
 
 def _provenance(file: HelicalGearFile) -> dict[str, str]:

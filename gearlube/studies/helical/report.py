@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.report.inputs import file_inputs, origin_of
+from gearlube.report.inputs import file_inputs, origin_of, remark_findings
 from gearlube.report.page import write_report
 from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import pictured
@@ -58,7 +58,7 @@ def helical_report(results: HelicalResults, figures: Path) -> Report:
         subtitle=f"{settings.file.pinion.teeth} and {settings.file.gear.teeth} teeth, "
         f"{settings.pinion_torque:.4g} N·m and {settings.pinion_speed / RPM:.5g} rpm on the "
         "pinion.",
-        findings=findings(found),
+        findings=[*remark_findings(attributes), *findings(found)],
         numbers=numbers(found),
         figures=[*first, *pictured(HELICAL_CATALOGUE, figures, charts)],
         tables=[
@@ -138,17 +138,22 @@ def _inputs(results: HelicalResults) -> list[Input]:
     settings, file, film = results.settings, results.settings.file, results.settings.film()
     mu = np.asarray(settings.mu)
     own = GIVEN, "gear file"
-    speed = origin_of("speed_rpm", own)
+    speed = origin_of("speed_rpm", otherwise=own)
     named = film.oil == gear_file_oil(file) and film.oil.name != USUAL_OIL
     model = own if "model" in file.film.model_fields_set else _DEFAULT
     kelvin, rough = settings.oil_temperature - 273.15, 1e6 * settings.roughness_rms
     return [
-        Input("pinion torque", f"{settings.pinion_torque:.5g}", "N·m", *origin_of("torque", own)),
+        Input(
+            "pinion torque",
+            f"{settings.pinion_torque:.5g}",
+            "N·m",
+            *origin_of("torque", otherwise=own),
+        ),
         Input("pinion speed", f"{settings.pinion_speed / RPM:.5g}", "rpm", *speed),
         Input("coefficients of friction", f"{mu.min():g} to {mu.max():g}", "", *origin_of("mu")),
         Input("stiffness of the mesh", settings.mesh, "", *origin_of("mesh")),
-        Input("oil", film.oil.name, "", *origin_of("oil", own if named else _DEFAULT)),
-        Input("film of the oil", film.film, "", *origin_of("film_model", model)),
+        Input("oil", film.oil.name, "", *origin_of("oil", otherwise=own if named else _DEFAULT)),
+        Input("film of the oil", film.film, "", *origin_of("film_model", otherwise=model)),
         *(Input("film model", one.words) for one in film.film_models.values()),
         Input("oil temperature", f"{kelvin:.4g}", "°C", *origin_of("oil_temperature")),
         Input("composite roughness", f"{rough:.3g}", "µm", *origin_of("roughness_um")),

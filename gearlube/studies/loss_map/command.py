@@ -177,7 +177,8 @@ def loss_map(
         seconds = time.monotonic() - began
         logger.info("%d points in %.1f s.", dataset["status"].size, seconds)
         logger.info("Results: %s, %s, %s", out / "map.nc", out / "map.csv", out / "figures")
-        finish_with_report(loss_map_report(dataset, noted_inputs(described.inputs)), out, seconds)
+        report = loss_map_report(dataset, noted_inputs(described.inputs), described.name)
+        finish_with_report(report, out, seconds)
         failures = int((dataset["status"] != 0).sum())
         exit_if_failed(f"{failures} points failed; map.csv says why." if failures else "")
 

@@ -9,11 +9,11 @@ import xarray as xr
 
 from drivetrain.steady_temperature import Cooling
 from gearlube.plotting.loss_words import NEVER_MODELLED
+from gearlube.report.churning import REGIME, churning_regime
 from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.loss_map.sampling import Spread
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
-from gearlube_core.drag.churning import fast_regime
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, AxleLosses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.ranges import left_ranges
@@ -48,13 +48,9 @@ def loss_map_dataset(
         "range_exceeded": (GRID, losses.exceeded, "1", "sum of 1, 2, 4, ... for each range left"),
         "status": (GRID, losses.status, "1", "0: computed; others: see the attribute reasons"),
     }
-    if settings.axle.churning == "changenet_velex_2007":
-        variables["churning_regime"] = (
-            GRID[:2],
-            _churning_regime(settings.axle, temperatures, speeds / ratio),
-            "1",
-            "churning by its slow formula at 0, by its fast one at 1",
-        )
+    regime = churning_regime(settings.axle, temperatures[:, None], speeds / ratio)
+    if regime is not None:
+        variables["churning_regime"] = (GRID[:2], regime, *REGIME)
     if settings.axle.flank_bulk_resistance > 0.0:
         bulk = losses.bulk_temperature - ZERO_CELSIUS
         variables["bulk_temperature"] = (GRID, bulk, "degC", "bulk of the flanks")
@@ -98,13 +94,6 @@ def loss_map_dataset(
         coords=coordinates,
         attrs=_attributes(settings, losses),
     )
-
-
-def _churning_regime(axle: HypoidAxleParameters, temperatures: Array, speeds: Array) -> Array:
-    """Return `fast_regime` at oil temperatures [K] and speeds of the gear [rad/s]."""
-    p, oil = axle.kernel_parameters().churning, axle.oil
-    nu = [oil.dynamic_viscosity(float(one)) / oil.density for one in temperatures]
-    return np.array([[fast_regime(float(speed), one, p) for speed in speeds] for one in nu])
 
 
 def with_steady_temperature(

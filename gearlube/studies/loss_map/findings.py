@@ -7,6 +7,7 @@ import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
 from gearlube.plotting.range_words import RANGE_WORDS
+from gearlube.report.churning import regime_findings
 from gearlube.report.film_ratio import MIXED, film_ratio_level
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
@@ -162,23 +163,9 @@ def _churning(dataset: xr.Dataset) -> list[Finding]:
     if "churning_regime" not in dataset:
         return []
     hot = dataset.isel(temperature=-1)
-    regime = hot["churning_regime"].values
-    slow, fast = np.flatnonzero(regime <= 0.0), np.flatnonzero(regime >= 1.0)
-    if not (slow.size and fast.size):
-        return []
-    ends = hot["loss"].sel(source="churning").max("torque").isel(speed=[slow[-1], fast[0]])
-    (low, high), (before, after) = ends["speed"].values, ends.values
-    usual = 3.0 * (high / low) ** 1.6  # the error bar, and how power grows in the slow regime
-    return [
-        Finding(
-            WARNING if after > usual * before else NOTE,
-            f"Churning changes its regime between {low:.0f} and {high:.0f} rpm with "
-            f"{float(hot['temperature']):g} °C oil and rises from {quantity_text(before, 'W')} to "
-            f"{quantity_text(after, 'W')}.",
-            "So far do Changenet and Velex' two formulas differ for this gear. The error bar does "
-            "not cover where the change happens: compare with another law (housing.churning).",
-        )
-    ]
+    loss = hot["loss"].sel(source="churning").max("torque").values
+    regime, speed = hot["churning_regime"].values, hot["speed"].values
+    return regime_findings(regime, speed, "rpm", loss, float(hot["temperature"]))
 
 
 def _warmth(dataset: xr.Dataset) -> list[Finding]:

@@ -10,9 +10,9 @@ import xarray as xr
 
 from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, add_map, add_stack, bar_chart, panels
-from gearlube.report.inputs import origin_of
+from gearlube.report.inputs import OF_AXLE, origin_of
 from gearlube.report.numbers import number_text
-from gearlube.report.parts import GIVEN, Column, Figure, Input, Report, Table
+from gearlube.report.parts import Column, Figure, Input, Report, Table
 from gearlube.studies.loss_map.figures import LEAST_SHARE, shown_speeds, some_temperatures
 from gearlube.studies.loss_map.findings import findings, numbers
 from gearlube.studies.loss_map.swings import input_words, mean_swings, moving_inputs
@@ -40,15 +40,17 @@ _LIMITS = (
 _FORMULAS = "Films and friction of the flanks are from formulas, not from a solution of the film."
 
 
-def loss_map_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
-    """Return the report of a loss map; `inputs` are those of the axle file."""
+def loss_map_report(
+    dataset: xr.Dataset, inputs: Sequence[Input] = (), axle: str = "an axle"
+) -> Report:
+    """Return the report of a loss map; `inputs` are those of the axle file, `axle` is its name."""
     torque, speed, temperature = (
         dataset[name].values for name in ("torque", "speed", "temperature")
     )
     finished = bool(np.isfinite(dataset["loss_torque"].values).any())
     return Report(
         study="map",
-        title="Loss map of an axle",
+        title=f"Loss map of {axle}",
         subtitle=f"Gear set {dataset.attrs['mesh']}, oil {dataset.attrs['oil']}: "
         f"{dataset['status'].size} points from {number_text(torque[0])} to "
         f"{number_text(torque[-1])} N·m and "
@@ -232,7 +234,7 @@ def _settings(dataset: xr.Dataset) -> list[Input]:
         _span(dataset[name].values) for name in ("torque", "speed", "temperature")
     )
     lines = [
-        Input("map: oil", oil, "", *origin_of("oil", (GIVEN, "axle file or its default"))),
+        Input("map: oil", oil, "", *origin_of("oil", otherwise=OF_AXLE)),
         Input("map: torques", torques, "N·m", *origin_of("torques")),
         Input("map: pinion speeds", speeds, "rpm", *origin_of("speeds")),
         Input("map: oil temperatures", temperatures, "°C", *origin_of("temperatures")),

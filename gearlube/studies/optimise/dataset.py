@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.report.inputs import remark_attributes
 from gearlube.studies.optimise.summary import MeasureRow, measure_rows
 from gearlube_core.flank_optimisation.evaluation import Evaluation
 from gearlube_core.flank_optimisation.optimise import Optimised
@@ -87,6 +88,7 @@ def optimise_dataset(found: Optimised) -> xr.Dataset:
         attrs={
             "name": given.name,
             "gear_file": found.better.file.model_dump_json(exclude_none=True, exclude_unset=True),
+            **remark_attributes(found.better.file),
             "pair": problem.file.name,
             "kind": "hypoid" if problem.is_hypoid else "helical",
             "aim": given.aim,

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.report.charts import COLOURS, Axis, Line, add_line, line_chart, panels
-from gearlube.report.inputs import file_inputs
+from gearlube.report.inputs import file_inputs, remark_findings
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
 from gearlube.studies.optimise.dataset import measures_of
@@ -57,7 +57,7 @@ def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:
         f"at {torques} N·m, with {'no' if count == 0 else count} errors of assembly and "
         f"making, aim {attributes['aim']}. All numbers come from the full loaded analysis "
         f"with {sizes['phase']} mesh phases; errors are rotations of the pinion.",
-        findings=findings(dataset),
+        findings=[*remark_findings(attributes), *findings(dataset)],
         numbers=numbers(dataset),
         figures=_figures(dataset),
         tables=[_values(dataset), _measures(dataset), *_error_tables(dataset)],

@@ -7,6 +7,7 @@ from typing import Any
 
 import xarray as xr
 
+from gearlube.report.inputs import origin_of
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import pictured
@@ -137,13 +138,19 @@ def _ranges(ranges: list[tuple[float, float]]) -> str:
 
 def _inputs(response: xr.Dataset) -> list[Input]:
     given = response.attrs
+    oil, rough = kelvin_to_celsius(given["oil_temperature"]), 1e6 * given["roughness_rms"]
     found = [
-        Input("pinion torque", f"{given['pinion_torque']:g}", "N·m"),
-        Input("range, mesh over natural frequency", f"{given['first']:g} to {given['last']:g}"),
-        Input("contact radii", str(given["radii"])),
-        Input("flank friction", str(given["friction"])),
-        Input("oil temperature", f"{kelvin_to_celsius(given['oil_temperature']):.4g}", "°C"),
-        Input("roughness of both flanks, rms", f"{1e6 * given['roughness_rms']:.4g}", "µm"),
+        Input("pinion torque", f"{given['pinion_torque']:g}", "N·m", *origin_of("torque")),
+        Input(
+            "range, mesh over natural frequency",
+            f"{given['first']:g} to {given['last']:g}",
+            "",
+            *origin_of("frequency_range"),
+        ),
+        Input("contact radii", str(given["radii"]), "", *origin_of("radii")),
+        Input("flank friction", str(given["friction"]), "", *origin_of("friction")),
+        Input("oil temperature", f"{oil:.4g}", "°C", *origin_of("oil_temperature")),
+        Input("roughness of both flanks, rms", f"{rough:.4g}", "µm", *origin_of("roughness_um")),
     ]
     for name, words, scale, unit in (
         ("damping_ratio", "damping ratio", 100.0, "%"),

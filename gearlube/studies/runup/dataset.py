@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from gearlube.report.churning import REGIME, churning_regime
 from gearlube.studies.runup.modes import COORDINATES, RampModes, engine_orders, ramp_modes
 from gearlube.studies.runup.operating_shape import CHANNELS, loudest, operating_shape
 from gearlube.studies.runup.record import AXES, BEARINGS, DIRECTIONS, RampRecord
@@ -36,6 +37,7 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "axis": ("", "axis of the fixed frame"),
     "slow_time": ("s", "middle of an interval of the losses"),
     "loss": ("W", "power lost"),
+    "churning_regime": REGIME,
     "power_in": ("W", "power into the pinion"),
     "torque_time": ("s", "time of the torques"),
     "pinion_torque": ("N m", "torque on the pinion from outside"),
@@ -133,9 +135,13 @@ def _record(record: RampRecord) -> dict[str, tuple[object, Array]]:
 def _losses(record: RampRecord, settings: RunupSettings) -> dict[str, tuple[object, Array]]:
     steps = np.diff(record.slow_time)
     powers = np.diff(record.energies, axis=0) / steps[:, None]
-    torque = record.torques[0]
+    torque, axle = record.torques[0], settings.car_axle.axle
+    middle = record.slow_time[:-1] + 0.5 * steps
+    speed = np.interp(middle, record.time, record.smooth_speed) / axle.mesh.ratio
+    regime = churning_regime(axle, settings.oil_temperature, speed)
     return {
-        "slow_time": ("slow_time", record.slow_time[:-1] + 0.5 * steps),
+        "slow_time": ("slow_time", middle),
+        **({} if regime is None else {"churning_regime": ("slow_time", regime)}),
         "power_in": ("slow_time", powers[:, 0]),
         "loss": (("slow_time", "source"), powers[:, 1:]),
         "torque_time": ("torque_time", np.linspace(0.0, settings.duration, torque.size)),

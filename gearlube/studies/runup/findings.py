@@ -7,10 +7,12 @@ import xarray as xr
 
 from gearlube.plotting.loss_words import not_modelled, source_words
 from gearlube.plotting.range_words import range_text
+from gearlube.report.churning import regime_findings
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.runup import levels
 from gearlube.studies.runup.peaks import Critical, Peak, critical_speeds, mean_loss, peaks
+from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 
 NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
 _MARKED = 3  # mesh orders whose critical speeds are told
@@ -35,6 +37,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         *_rate(critical),
         *_contact(dataset),
         *_loss(dataset),
+        *_churning(dataset),
         *_ranges(dataset),
     ]
 
@@ -179,6 +182,19 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
             f"Not modelled: {', '.join(not_modelled(losing))}.",
         )
     ]
+
+
+def _churning(dataset: xr.Dataset) -> list[Finding]:
+    if "churning_regime" not in dataset:
+        return []
+    time, speed = dataset["time"].values, rads_to_rpm(1.0) * dataset["pinion_speed"].values
+    return regime_findings(
+        dataset["churning_regime"].values,
+        np.interp(dataset["slow_time"].values, time, speed),
+        "rpm",
+        dataset["loss"].sel(source="churning").values,
+        float(dataset.attrs["setting_oil_temperature"]) - ZERO_CELSIUS,
+    )
 
 
 def _ranges(dataset: xr.Dataset) -> list[Finding]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -13,8 +12,9 @@ from typing import Any
 import xarray as xr
 
 from gearlube.plotting.figure_folder import save_figure_folder
+from gearlube.report.inputs import origin_of, stored_inputs
 from gearlube.report.page import write_report
-from gearlube.report.parts import GIVEN, Column, Figure, Input, Report, Table
+from gearlube.report.parts import INFERRED, Column, Figure, Input, Report, Table
 from gearlube.studies.runup import levels
 from gearlube.studies.runup.figures import CATALOGUE
 from gearlube.studies.runup.figures.moving.parts import moving_figures
@@ -35,17 +35,18 @@ _LIMITS = (
     "Films and friction are from formulas unless film.model is solved; see docs/ehl_hypoid.md for "
     "their error.",
 )
-_INPUTS = (
-    ("start_speed", "start speed of the pinion", "rpm", rads_to_rpm),
-    ("end_speed", "end speed of the pinion", "rpm", rads_to_rpm),
-    ("duration", "duration", "s", float),
-    ("pinion_torque", "torque on the pinion", "N·m", float),
-    ("oil_temperature", "oil temperature", "°C", kelvin_to_celsius),
-    ("order_resolution", "order resolution", "", float),
-    ("highest_frequency", "end of the spectra", "Hz", float),
-    ("sample_rate", "sample rate", "Hz", float),
-    ("settling_time", "settling time", "s", float),
+_INPUTS = (  # setting, words, unit, conversion, options of the command
+    ("start_speed", "start speed of the pinion", "rpm", rads_to_rpm, ("start",)),
+    ("end_speed", "end speed of the pinion", "rpm", rads_to_rpm, ("end",)),
+    ("duration", "duration", "s", float, ("duration", "rate")),
+    ("pinion_torque", "torque on the pinion", "N·m", float, ("torque",)),
+    ("oil_temperature", "oil temperature", "°C", kelvin_to_celsius, ("oil_temperature",)),
+    ("order_resolution", "order resolution", "", float, ("order_resolution", "quick")),
+    ("highest_frequency", "end of the spectra", "Hz", float, ()),
+    ("sample_rate", "sample rate", "Hz", float, ()),
+    ("settling_time", "settling time", "s", float, ()),
 )
+_BACK = {"start": "end", "end": "start", "torque": "coast_torque"}  # of an added coast-down
 
 
 def write_runup_report(
@@ -99,7 +100,7 @@ def runup_report(
             "figures/",
             *(["animation/"] if moving else []),
         ),
-        inputs=_noted(datasets[0]),
+        inputs=stored_inputs(datasets[0].attrs, "inputs_given", "inputs_assumed"),
         facts=_facts(datasets[0], command_line),
     )
     for dataset in datasets:
@@ -218,23 +219,17 @@ def tables(dataset: xr.Dataset, before: str = "") -> list[Table]:
 
 def _settings(dataset: xr.Dataset, before: str) -> list[Input]:
     driver = str(dataset.attrs.get("setting_driver", "bench"))
-    found = [Input(f"{before or 'ramp: '}driver", driver, "", GIVEN, "setting")]
-    for name, words, unit, converted in _INPUTS:
+    found = [Input(f"{before or 'ramp: '}driver", driver, "", *origin_of("engine_orders"))]
+    added = bool(before) and dataset.attrs["ramp"] == "coast-down"
+    for name, words, unit, converted, options in _INPUTS:
         value = float(dataset.attrs[f"setting_{name}"])
         label = f"{before or 'ramp: '}{words}"
+        origin = origin_of(*(_BACK.get(one, one) if added else one for one in options))
         if math.isnan(value):
-            found.append(Input(label, "what the car needs", "", GIVEN, "road load and inertia"))
+            found.append(Input(label, "what the car needs", "", INFERRED, "road load and inertia"))
         else:
-            found.append(Input(label, f"{converted(value):.6g}", unit, GIVEN, "setting"))
+            found.append(Input(label, f"{converted(value):.6g}", unit, *origin))
     return found
-
-
-def _noted(dataset: xr.Dataset) -> list[Input]:
-    return [
-        Input(field, value, unit, origin, why)
-        for name in ("inputs_given", "inputs_assumed")
-        for field, value, unit, origin, why in json.loads(dataset.attrs[name])
-    ]
 
 
 def _facts(dataset: xr.Dataset, command_line: str) -> list[tuple[str, str]]:

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.report.inputs import origin_of
 from gearlube.report.page import write_report
 from gearlube.report.parts import (
     ASSUMED,
     GIVEN,
+    INFERRED,
     NOTE,
     WARNING,
     Figure,
@@ -158,12 +160,11 @@ def _inputs(sound: Sound) -> list[Input]:
     first = sound.runs[0]
     low, high = first.dataset.attrs["band_hz"]
     generic = first.path.generic
-    path = Input(
-        "transfer path", first.path.source, "", ASSUMED if generic else GIVEN, "generic" * generic
-    )
+    origin = (ASSUMED, "generic") if generic else origin_of("transfer")
+    reached, field = (INFERRED, "where run and path reach"), str(first.dataset.attrs["field"])
     return [
         *(Input("run", str(run.dataset.attrs["name"]), "", GIVEN, "") for run in sound.runs),
-        path,
-        Input("band", f"{low:.0f} to {high:.0f}", "Hz", GIVEN, "where run and path reach"),
-        Input("sound field", str(first.dataset.attrs["field"]), "", ASSUMED, "of the loudness"),
+        Input("transfer path", first.path.source, "", *origin),
+        Input("band", f"{low:.0f} to {high:.0f}", "Hz", *origin_of("band", otherwise=reached)),
+        Input("sound field, for the loudness", field, "", *origin_of("field")),
     ]

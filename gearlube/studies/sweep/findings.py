@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import not_modelled, source_words
+from gearlube.report.churning import regime_findings
 from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
@@ -21,9 +22,11 @@ from gearlube.report.solved_films import (
 from gearlube.studies.sweep.crossings import ORDERS, Crossing, crossings
 from gearlube.studies.sweep.peaks import Peak, peak_orders
 from gearlube.studies.sweep.point import FINISHED
+from gearlube.studies.sweep.quantities import GRID
 from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FLANK, ROLLER
+from gearlube_core.units import ZERO_CELSIUS
 
 NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
 _CLOSED = 1e-3  # of the input, below which the energy balance is called closed
@@ -61,6 +64,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             *_solved(dataset),
             *_solved_rollers(dataset),
             *_rollers(dataset),
+            *_churning(dataset),
             *_ranges(dataset),
             *_balance(dataset),
         ]
@@ -273,6 +277,16 @@ def _outside(share: xr.DataArray, whose: str) -> tuple[float, str]:
         f"at most {100.0 * most:.0f} % of the {whose}' load, at {float(point['speed_kmh']):g} km/h "
         f"and preload {float(point['preload']):g} N{points_beyond(share)}"
     )
+
+
+def _churning(dataset: xr.Dataset) -> list[Finding]:
+    if "churning_regime" not in dataset:
+        return []
+    grid = dataset.transpose(*GRID, ...)
+    regime, oil = grid["churning_regime"].values, grid["oil_temperature"].values - ZERO_CELSIUS
+    speed = np.broadcast_to(grid["speed_kmh"].values, regime.shape)
+    loss = grid["loss"].sel(source="churning").values
+    return regime_findings(regime, speed, "km/h", loss, oil)
 
 
 def _rollers(dataset: xr.Dataset) -> list[Finding]:

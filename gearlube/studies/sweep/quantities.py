@@ -7,6 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
+from gearlube.report.churning import REGIME
+
 GRID = ("preload", "speed")  # dimensions of a sweep
 SEPARATION_MEANINGS = ("none", "single-sided", "double-sided")
 
@@ -31,6 +33,7 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "wheel_cage_frequency": ("Hz", "mean rotation frequency of the wheel bearing cage"),
     "record_revolutions": ("1", "pinion revolutions analysed"),
     "communication_step": ("s", "communication step, mesh period over an integer"),
+    "churning_regime": REGIME,
     "oil_temperature": ("K", "temperature of the oil"),
     "dte_min": ("m", "smallest dynamic transmission error"),
     "dte_max": ("m", "largest dynamic transmission error"),

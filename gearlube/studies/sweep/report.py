@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -11,13 +10,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.report.inputs import OF_AXLE, origin_of, stored_inputs
 from gearlube.report.page import write_report
-from gearlube.report.parts import GIVEN, Figure, Input, Report
+from gearlube.report.parts import ASSUMED, Figure, Input, Report
 from gearlube.studies.sweep.figures import CATALOGUE, Entry
 from gearlube.studies.sweep.findings import findings
 from gearlube.studies.sweep.peaks import numbers
 from gearlube.studies.sweep.point import FINISHED
-from gearlube.studies.sweep.settings import STEADY
+from gearlube.studies.sweep.settings import FMU_PARAMETERS, STEADY
 from gearlube.studies.sweep.tables import tables
 from gearlube_core.units import kelvin_to_celsius
 
@@ -35,6 +35,14 @@ _UNITS = {
     "communication_step": ("ms", 1e3),
     "settling_time": ("s", 1.0),
     "record_time": ("s", 1.0),
+}
+_OPTIONS = {  # of the command that set them, where they have other names
+    "oil_state": "steady_temperature",
+    "roughness_rms": "roughness_um",
+    "conductance_at_100_kmh": "conductance_at_100",
+    "settling_time": "quick",
+    "record_time": "quick",
+    "cage_turns": "quick",
 }
 _LIMITS = (
     "Films are from a formula (Chittenden et al. 1985), friction from a regression for shear and a "
@@ -86,7 +94,10 @@ def sweep_report(
         numbers=numbers(dataset),
         figures=_figures(dataset, figures, entries) if finished else (),
         tables=tables(dataset),
-        inputs=_inputs(dataset),
+        inputs=[
+            *_settings(dataset),
+            *stored_inputs(dataset.attrs, "inputs_given", "inputs_assumed"),
+        ],
         limits=_LIMITS,
         facts=_facts(dataset, finished),
         files=("sweep.nc", "summary.csv", "figures/"),
@@ -128,16 +139,6 @@ def _png(dataset: xr.Dataset, entry: Entry) -> bytes:
     return buffer.getvalue()
 
 
-def _inputs(dataset: xr.Dataset) -> list[Input]:
-    """Return the settings, then the inputs of the axle file: given, inferred, assumed."""
-    noted = [
-        Input(field, value, unit, origin, why)
-        for name in ("inputs_given", "inputs_assumed")
-        for field, value, unit, origin, why in json.loads(dataset.attrs.get(name, "[]"))
-    ]
-    return [*_settings(dataset), *noted]
-
-
 def _settings(dataset: xr.Dataset) -> list[Input]:
     steady = dataset.attrs.get("setting_oil_state") == STEADY
     unused = ("setting_oil_temperature",) if steady else _COOLING
@@ -150,11 +151,13 @@ def _settings(dataset: xr.Dataset) -> list[Input]:
 
 def _setting(name: str, value: Any) -> Input:
     words = f"sweep: {name.replace('_', ' ')}"
+    otherwise = OF_AXLE if name in FMU_PARAMETERS else (ASSUMED, "default")
+    origin = origin_of(_OPTIONS.get(name, name), otherwise=otherwise)
     if name.endswith("_temperature"):
-        return Input(words, f"{kelvin_to_celsius(float(value)):.1f}", "°C", GIVEN, "setting")
+        return Input(words, f"{kelvin_to_celsius(float(value)):.1f}", "°C", *origin)
     unit, factor = _UNITS.get(name, ("", 1.0))
     text = f"{factor * value:g}" if isinstance(value, float | np.floating) else str(value)
-    return Input(words, text, unit, GIVEN, "setting")
+    return Input(words, text, unit, *origin)
 
 
 def _facts(dataset: xr.Dataset, finished: int) -> list[tuple[str, str]]:

@@ -15,6 +15,7 @@ from pathlib import Path
 import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
+from gearlube.report.churning import churning_regime
 from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
@@ -29,10 +30,11 @@ from gearlube.studies.sweep.engine_lines import crank_frequencies
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.provenance import code_version
-from gearlube.studies.sweep.quantities import described
+from gearlube.studies.sweep.quantities import GRID, described
 from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSettings
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.input_file.input_note import notes_as_text
 from gearlube_core.progress import Progress, no_progress
@@ -168,6 +170,7 @@ def run_sweep(
         points, computed = _points(keys, compute, pool, folder, progress)
         wall_time = time.monotonic() - began
         mode_frequency = modes()
+    of_axle = car_axle_at(car_axle, settings, loads[0])
     sweep = merge(loads, speeds, points).assign_attrs(
         {
             "title": "Speed sweep of a lubricated hypoid axle",
@@ -180,7 +183,7 @@ def run_sweep(
             "inputs_assumed": notes_as_text(assumed_inputs(car_axle, settings)),
             "mesh_table": car_axle.axle.mesh.name,
             "mesh_table_source": car_axle.axle.mesh.source,
-            **film_model_attributes(car_axle_at(car_axle, settings, loads[0]).axle.film_models),
+            **film_model_attributes(of_axle.axle.film_models),
             "command_line": command_line,
             "scheduler": scheduler or "local processes",
             "computed_points": computed,
@@ -193,9 +196,19 @@ def run_sweep(
     if settings.driver == "vehicle":
         crank = crank_frequencies(car_axle.driveline, speeds)
         sweep["crank_frequency"] = ("speed", crank)
-    described(sweep)
+    described(with_churning_regime(sweep, of_axle.axle))
     if folder is not None:
         save(sweep, folder)
+    return sweep
+
+
+def with_churning_regime(sweep: xr.Dataset, axle: HypoidAxleParameters) -> xr.Dataset:
+    """Return a sweep with `churning_regime`, where its axle has one and its points have run."""
+    if "pinion_speed" in sweep and "oil_temperature" in sweep:
+        gear_speed = sweep["pinion_speed"] / axle.mesh.ratio
+        regime = churning_regime(axle, sweep["oil_temperature"], gear_speed)
+        if regime is not None:
+            sweep["churning_regime"] = (GRID, regime)
     return sweep
 
 

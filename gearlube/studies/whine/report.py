@@ -11,7 +11,7 @@ import xarray as xr
 
 from gearlube.plotting.parameter_words import parameter_words, tolerance_words
 from gearlube.report.charts import Axis, Line, heat_map, line_chart
-from gearlube.report.inputs import file_inputs
+from gearlube.report.inputs import file_inputs, origin_of, remark_findings
 from gearlube.report.page import write_report
 from gearlube.report.parts import Column, Figure, Input, Report, Table
 from gearlube.studies.whine.figures import most_moving, order_changes
@@ -53,9 +53,16 @@ def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
     file = model.model_validate_json(attributes["gear_file"])
     moved = "settings, reliefs and misalignments" if kind == "hypoid" else "reliefs and slopes"
     settings = [
-        Input("pinion torque", f"{attributes['torque']:g}", "N·m"),
-        Input("pinion speeds", f"{speed[0]:.0f} to {speed[-1]:.0f}, {speed.size} of them", "rpm"),
-        Input("positions of a mesh period", str(dataset.sizes["phase"])),
+        Input("pinion torque", f"{attributes['torque']:g}", "N·m", *origin_of("torque")),
+        Input(
+            "pinion speeds",
+            f"{speed[0]:.0f} to {speed[-1]:.0f}, {speed.size} of them",
+            "rpm",
+            *origin_of("speeds_rpm"),
+        ),
+        Input(
+            "positions of a mesh period", str(dataset.sizes["phase"]), "", *origin_of("positions")
+        ),
     ]
     return Report(
         study="whine",
@@ -63,7 +70,7 @@ def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
         subtitle=f"Mesh orders of the torsional pair at {attributes['torque']:g} N·m on the pinion "
         f"from {speed[0]:.0f} to {speed[-1]:.0f} rpm, and what {dataset.sizes['parameter']} "
         f"{moved} change of them.",
-        findings=findings(dataset),
+        findings=[*remark_findings(attributes), *findings(dataset)],
         numbers=numbers(dataset),
         figures=_figures(dataset),
         tables=[_table(dataset, int(order)) for order in dataset["order"].values],

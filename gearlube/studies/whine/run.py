@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.report.inputs import remark_attributes
 from gearlube.studies.whine.figures import whine_figure
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
@@ -303,5 +304,6 @@ def _dataset(
             "kind": "hypoid" if isinstance(file, HypoidGearFile) else "helical",
             "natural_frequency": model.natural_frequency,
             "gear_file": file.model_dump_json(exclude_none=True, exclude_unset=True),
+            **remark_attributes(file),
         },
     )
