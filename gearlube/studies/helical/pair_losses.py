@@ -211,7 +211,7 @@ def losses_dataset(
                 speeds * 30.0 / math.pi,
                 {"units": "rpm", "long_name": "pinion speed"},
             ),
-            "part": ("part", np.array(PARTS_OF_LOSS), {"long_name": "kind of loss"}),
+            "part": ("part", np.array(PARTS_OF_LOSS), {"units": "", "long_name": "kind of loss"}),
         },
         attrs={
             "not_modelled": NOT_MODELLED,
