@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import logging
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
-from gearlube.cli.default_command import ShowByDefault
 from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.oil_fit import fit
@@ -16,11 +16,22 @@ from gearlube.cli.oil_fit import fit
 if TYPE_CHECKING:
     from gearlube_core.oil.oil_file import DescribedOil
 
+
+class _ShowByDefault(TyperGroup):
+    """`gearlube oil my_oil.toml` is `gearlube oil show my_oil.toml`."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Put "show" in front of arguments that name no command."""
+        if args and args[0] not in (*self.commands, "--help"):
+            args = ["show", *args]
+        return super().parse_args(ctx, args)
+
+
 logger = logging.getLogger("gearlube")
 
 oil = typer.Typer(
     name="oil",
-    cls=ShowByDefault,
+    cls=_ShowByDefault,
     help="Check and show an oil file, or fit one to measured traction.",
     no_args_is_help=True,
 )

@@ -12,7 +12,7 @@ from gearlube_core.hypoid_contact.searched_transmission_error import searched_tr
 from gearlube_core.hypoid_contact.strips import StripSettings
 from gearlube_core.hypoid_geometry.flank.correction import FlankCorrection
 from gearlube_core.hypoid_geometry.measured.deviation_grid import DeviationGrid, GridPlaces
-from gearlube_core.hypoid_geometry.measured.smooth_surface import smooth_surface
+from gearlube_core.hypoid_geometry.measured.measured_flanks import smooth_surface
 from tests.helpers.contact_cases import shipped_pair
 from tests.helpers.loaded_cases import FILE, stiffness
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from gearlube.studies.sound.a_weighting import a_weighted, a_weighting
+from gearlube.studies.sound.dataset import fast_level
 from gearlube.studies.sound.force_record import read_forces
 from gearlube.studies.sound.generic_path import generic_path
-from gearlube.studies.sound.levels import fast_level
 from gearlube.studies.sound.order_tracks import order_signal, pinion_angle, track_orders
 from gearlube.studies.sound.pressure import RATE, sound_pressure
 from gearlube.studies.sound.wav import read_wav, write_wav

@@ -5,22 +5,26 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
-from gearlube.output.exports.mat import write_dataset_mat
 from gearlube.output.exports.mdf4 import write_mdf4
 from gearlube.output.exports.source import Span, chosen, dataset_file, read_dataset, without_unit
 from gearlube.output.exports.tables import write_tables
 from gearlube.output.exports.uff58 import write_uff58
 from gearlube.output.exports.vtk import write_vtk
+from gearlube.output.mat_file import write_mat
+from gearlube.output.units import unit_of
 from gearlube_core.errors import ParameterError
+
+_STRUCTS = ("units", "meanings", "dimensions", "attributes")
 
 logger = logging.getLogger("gearlube")
 
 
 def _mat(dataset: xr.Dataset, path: Path) -> list[Path]:
-    write_dataset_mat(dataset, path)
+    _write_dataset_mat(dataset, path)
     return [path]
 
 
@@ -91,3 +95,20 @@ def export_results(
         if not path.parent.is_dir():
             path.parent.mkdir(parents=True)
         return write(part, path)
+
+
+def _write_dataset_mat(dataset: xr.Dataset, path: Path) -> None:
+    """Write every variable as an array, and the structs units, meanings, dimensions, attributes.
+
+    `units.NAME` is the unit of NAME, "not stated" where the dataset has none; `dimensions.NAME`
+    the names of its dimensions in order.
+    """
+    content: dict[str, Any] = {str(name): v.values for name, v in dataset.variables.items()}
+    units = {name: unit_of(dataset[name]) for name in content}
+    structs = (
+        {name: "not stated" if unit is None else unit for name, unit in units.items()},
+        {name: str(dataset[name].attrs.get("long_name", "")) for name in content},
+        {name: " ".join(map(str, dataset[name].dims)) for name in content},
+        {str(key): value for key, value in dataset.attrs.items()},
+    )
+    write_mat({**content, **dict(zip(_STRUCTS, structs, strict=True))}, path)

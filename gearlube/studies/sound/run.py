@@ -12,6 +12,7 @@ from gearlube.studies.sound.audible import contributions
 from gearlube.studies.sound.compare import common_speeds, difference_sentences
 from gearlube.studies.sound.dataset import sound_dataset
 from gearlube.studies.sound.force_record import ForceRecord, read_forces
+from gearlube.studies.sound.generic_path import generic_path
 from gearlube.studies.sound.heard import HeardRun, Sound
 from gearlube.studies.sound.metrics import (
     NEITHER,
@@ -23,13 +24,18 @@ from gearlube.studies.sound.metrics import (
 )
 from gearlube.studies.sound.order_tracks import track_orders
 from gearlube.studies.sound.pressure import sound_pressure
-from gearlube.studies.sound.read_path import read_transfer
 from gearlube.studies.sound.results import write_sound
 from gearlube.studies.sound.settings import METRICS, SoundSettings
+from gearlube.studies.sound.transfer_csv import read_csv_path
+from gearlube.studies.sound.transfer_path import TransferPath
+from gearlube.studies.sound.transfer_uff import read_uff_path
 from gearlube.studies.sound.wav import full_scale_for, played, wav_names
 from gearlube.studies.sound.words import limit_sentences, sound_sentences
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.table import TABLES
 from gearlube_core.progress import Progress, no_progress, part_of
+
+_UFF = (".uff", ".unv", ".uf", ".58")
 
 
 def run_sound(
@@ -182,4 +188,31 @@ def _findings(heard: list[HeardRun]) -> list[str]:
     for one in heard:
         before = f"{one.dataset.attrs['name']}: " if len(heard) == 2 else ""
         found += [f"{before}{text}" for text in sound_sentences(one.dataset)]
+    return found
+
+
+def read_transfer(file: Path | str | None, record: ForceRecord) -> TransferPath:
+    """Return the transfer path of a file for the forces of a run; None: the generic one.
+
+    Raises
+    ------
+    FileError, ParameterError
+        The file cannot be read, is of another kind, or lacks a response.
+    """
+    if file is None:
+        return generic_path(record.paths)
+    path = Path(file)
+    if path.suffix.lower() in _UFF:
+        named = [one.partition(".") for one in record.paths]
+        bearings = list(dict.fromkeys(bearing for bearing, _, _ in named))
+        directions = list(dict.fromkeys(direction for _, _, direction in named))
+        found = read_uff_path(path, bearings, directions)
+    elif path.suffix.lower() in TABLES:
+        found = read_csv_path(path)
+    else:
+        raise ParameterError(
+            f"A transfer path must be a table ({', '.join(TABLES)}) or a universal file "
+            f"({', '.join(_UFF)}), got {path}."
+        )
+    found.check_paths(record.paths)
     return found

@@ -11,16 +11,76 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side, tooth_region
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.measured.deviation_grid import GridPlaces
-from gearlube_core.hypoid_geometry.measured.measured_sections import MeasuredMember
+from gearlube_core.hypoid_geometry.measured.deviation_grid import MOST_POINTS, GridPlaces
 from gearlube_core.hypoid_geometry.measured.tooth_error_files import (
     PitchKind,
     read_pitch,
     read_waves,
 )
 from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, ToothErrors, Wave
-from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.units import DEGREE, MILLIMETRE
+
+Points = Annotated[int, Field(ge=2, le=MOST_POINTS)]
+
+_Inset = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False), Usual(0.05, 20.0)]
+
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(5.0, 500.0)]
+
+Eccentricity = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(0.5, 200.0)]
+
+Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
+
+
+class Grid(Section):
+    """The grid of measured points on one member's flanks: even rows and columns."""
+
+    rows: Points = Field(5, description="Number of rows from root to tip")
+    columns: Points = Field(9, description="Number of columns from toe to heel")
+    root_inset_mm: _Inset = Field(
+        description="Tooth height between the root line (the edge of the root cone) and the "
+        "first row"
+    )
+    tip_inset_mm: _Inset = Field(description="Tooth height between the last row and the tip edge")
+    toe_inset_mm: _Inset = Field(
+        description="Distance of the first column from the toe, along the pitch cone"
+    )
+    heel_inset_mm: _Inset = Field(
+        description="Distance of the last column from the heel, along the pitch cone"
+    )
+
+
+class _MeasuredMember(Section):
+    """What was measured of one member."""
+
+    pitch_radius_mm: Length | None = Field(
+        None,
+        description="Distance from the axis at which the pitch was measured; left out: that of "
+        "the pitch cone at mid-face",
+    )
+    eccentricity_um: Eccentricity = Field(
+        0.0,
+        description="Eccentricity of the teeth: distance of their axis from the axis about "
+        "which the member runs in the axle",
+    )
+    eccentricity_phase_deg: Angle = Field(
+        0.0,
+        description="Direction of the eccentricity: angle from tooth 1 in the sense in which "
+        "teeth are counted",
+    )
+    wobble_um: Eccentricity = Field(
+        0.0,
+        description="Wobble: how far the teeth move axially from their mean over a turn, at the "
+        "pitch radius; half of the peak-to-peak axial runout",
+    )
+    wobble_phase_deg: Angle = Field(
+        0.0,
+        description="Direction in which the teeth are farthest from the crossing point, counted "
+        "in the same way",
+    )
+    grid: Grid | None = None
+
 
 Text = Annotated[str, Field(min_length=1)]
 
@@ -77,8 +137,8 @@ class MeasuredFile(InputFile):
     waviness: Text | None = Field(
         None, description="CSV file of waves; its path is relative to this file"
     )
-    pinion: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
-    gear: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
+    pinion: _MeasuredMember = Field(default_factory=_MeasuredMember.model_construct)
+    gear: _MeasuredMember = Field(default_factory=_MeasuredMember.model_construct)
 
     def nominal(self) -> HypoidGearFile:
         """Return the gear file of the nominal flanks."""
@@ -87,7 +147,7 @@ class MeasuredFile(InputFile):
     def places(self, blank: HypoidBlank) -> dict[tuple[Role, Side], GridPlaces]:
         """Return where the grid points of each described grid lie on its flanks."""
         found: dict[tuple[Role, Side], GridPlaces] = {}
-        members: tuple[tuple[Role, MeasuredMember], ...] = (
+        members: tuple[tuple[Role, _MeasuredMember], ...] = (
             ("pinion", self.pinion),
             ("gear", self.gear),
         )

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import xarray as xr
 
+from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 from gearlube.report.pictures import Picture
 from gearlube.studies.films.figures.helical_cycle import cycle_curves, cycle_map
 from gearlube.studies.films.figures.helical_line import (
@@ -14,7 +17,6 @@ from gearlube.studies.films.figures.helical_line import (
     helical_sections,
 )
 from gearlube.studies.films.figures.helical_step import step_contours, step_sections
-from gearlube.studies.films.figures.history import residual_history
 from gearlube.studies.films.figures.hypoid_contours import hypoid_contours
 from gearlube.studies.films.figures.hypoid_cycle import hypoid_curves, hypoid_ratios
 from gearlube.studies.films.figures.line_contact import (
@@ -29,6 +31,28 @@ from gearlube.studies.films.figures.point_contact import (
     point_shear,
     point_temperature,
 )
+
+_FLOOR = 1e-17  # drawn in place of an exact zero
+
+
+def residual_history(dataset: xr.Dataset) -> Any:
+    """Return the residuals of all Newton steps, from the coarsest to the finest grid.
+
+    For a thermal film the changes of temperature from turn to turn.
+    """
+    with house_style():
+        figure = new_figure(8.0, 4.2)
+        ax = figure.subplots()
+        if "temperature_change" in dataset:
+            _turns(ax, dataset)
+        else:
+            _newton_steps(ax, dataset)
+        ax.xaxis.get_major_locator().set_params(integer=True)
+        figure.legend(ncols=2, loc="outside lower center")
+        verdict = "converged" if dataset.attrs["converged"] else "NOT CONVERGED"
+        figure.suptitle(f"{dataset.attrs['name']}: {verdict}", fontsize=11.5)
+    return figure
+
 
 _RESIDUALS = Picture(
     residual_history,
@@ -169,3 +193,25 @@ def drawn_figures(dataset: xr.Dataset) -> list[str]:
     if of["contact"] == "helical_cycle" and dataset.sizes["step"] < 2:
         left_out.add("cycle_map")
     return [name for name in CATALOGUES[of["contact"]] if name not in left_out]
+
+
+def _turns(ax: Any, dataset: xr.Dataset) -> None:
+    changes = dataset["temperature_change"].values
+    turns = np.arange(1, changes.size + 1)
+    ax.semilogy(turns, changes, "o-", color=BLUE, ms=3.5, lw=1.0, label="change of temperature")
+    ax.set(xlabel="turn of film and energy", ylabel="largest change [K]")
+
+
+def _newton_steps(ax: Any, dataset: xr.Dataset) -> None:
+    steps = np.arange(1, dataset.sizes["iteration"] + 1)
+    residual = np.maximum(dataset["residual_history"].values, _FLOOR)
+    ax.semilogy(steps, residual, "o-", color=BLUE, ms=3.5, lw=1.0, label="unbalanced flow")
+    words = "Newton step"
+    if "load_error_history" in dataset:
+        load = np.maximum(dataset["load_error_history"].values, _FLOOR)
+        ax.semilogy(steps, load, "s", color=VERMILLION, ms=3.0, label="load error")
+        nodes = dataset["nodes_history"].values
+        for turn in np.flatnonzero(np.diff(nodes) != 0.0):
+            ax.axvline(turn + 1.5, color=GREY, lw=0.8, ls=":")
+        words += "; dotted: next finer grid; a load error of 1e-17 stands for zero"
+    ax.set(xlabel=words, ylabel="relative error [-]")
