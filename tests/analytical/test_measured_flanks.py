@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.hypoid_contact.flank_deviation import flank_deviation
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
+from gearlube_core.hypoid_contact.settings_fit import flank_deviation
 from gearlube_core.hypoid_contact.strips import StripSettings
 from gearlube_core.hypoid_geometry.flank.correction import FlankCorrection
 from gearlube_core.hypoid_geometry.measured.deviation_grid import DeviationGrid, GridPlaces

@@ -21,18 +21,71 @@ from gearlube.studies.sweep.curves import mesh_cycle, roller_zone, spectra, wave
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.oil_at_rest import oil_at_rest
 from gearlube.studies.sweep.operating_point import operation
-from gearlube.studies.sweep.python_axle import PythonAxle
 from gearlube.studies.sweep.quantities import described
 from gearlube.studies.sweep.recording import Recording, SteppedAxle, record
 from gearlube.studies.sweep.scalars import scalars
 from gearlube.studies.sweep.settings import STEADY, SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.loss_draws import drawn_losses
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    OUTPUT_NAMES,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.spectra import angle_window
 from gearlube_core.units import kmh_to_ms
+
+
+class _PythonAxle:
+    """An axle that starts at a speed; the same interface as `FmuAxle`.
+
+    Parameters
+    ----------
+    parameters : HypoidAxleParameters
+    channels : sequence of str
+        Outputs that `read` returns, in this order; FMI names.
+    pinion_speed : float
+        At the start [rad/s].
+    """
+
+    def __init__(
+        self, parameters: HypoidAxleParameters, channels: Sequence[str], pinion_speed: float
+    ) -> None:
+        self._axle = HypoidAxle(parameters)
+        self._columns = np.array([OUTPUT_NAMES.index(name) for name in channels])
+        self._speed, self._temperature, self._time = pinion_speed, 0.0, 0.0
+        self._warned: dict[str, str] = {}
+
+    @property
+    def warnings(self) -> list[str]:
+        """What left its range since the start, each said once."""
+        return list(self._warned.values())
+
+    def initialise(self, pinion_torque: float, wheel_torque: float, temperature: float) -> None:
+        """Start with these inputs [N.m, N.m, K]."""
+        self._temperature, self._time = temperature, 0.0
+        self._axle.initialise(
+            pinion_speed=self._speed,
+            pinion_torque=pinion_torque,
+            wheel_torque=wheel_torque,
+            oil_temperature=temperature,
+        )
+
+    def step(self, h: float, pinion_torque: float, wheel_torque: float) -> None:
+        """Advance by `h` [s] with constant torques [N.m]."""
+        self._axle.step(h, pinion_torque, wheel_torque, self._temperature)
+        self._time += h
+        if self._axle.output("range.exceeded"):
+            for name, sentence in self._axle.exceeded().items():
+                self._warned.setdefault(name, f"{sentence} First at t = {self._time:g} s.")
+
+    def read(self) -> Array:
+        """Return the channels."""
+        return np.asarray(self._axle.outputs[self._columns])
+
 
 _LOSS_CHANNELS = (
     "pinion.angle",
@@ -126,8 +179,8 @@ def march(car_axle: CarAxle, speed_kmh: float, settings: SweepSettings) -> xr.Da
     settings = oil_at_rest(car_axle, speed_kmh, settings)
 
     @contextmanager
-    def started(channels: Sequence[str], pinion_speed: float) -> Iterator[PythonAxle]:
-        yield PythonAxle(axle, channels, pinion_speed)
+    def started(channels: Sequence[str], pinion_speed: float) -> Iterator[_PythonAxle]:
+        yield _PythonAxle(axle, channels, pinion_speed)
 
     recording = _recorded(started, car_axle.driveline, speed_kmh, settings)
     preload = float(axle.bearings[0].preload_force())
@@ -135,7 +188,7 @@ def march(car_axle: CarAxle, speed_kmh: float, settings: SweepSettings) -> xr.Da
 
 
 def _recorded(
-    started: Callable[[Sequence[str], float], AbstractContextManager[FmuAxle | PythonAxle]],
+    started: Callable[[Sequence[str], float], AbstractContextManager[FmuAxle | _PythonAxle]],
     driveline: DrivelineParameters,
     speed_kmh: float,
     settings: SweepSettings,

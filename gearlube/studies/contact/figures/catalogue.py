@@ -3,17 +3,93 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import xarray as xr
 
+from gearlube.plotting.edge_pressure import mark_edge_pressure
+from gearlube.plotting.style import SERIES, WIDTHS, house_style, new_figure
 from gearlube.report.pictures import Picture, save_pictures
-from gearlube.studies.contact.figures.flank_maps import ease_off_map, pressure_maps
+from gearlube.studies.contact.figures.flank_maps import _SIDES, _spread, ease_off_map, pressure_maps
 from gearlube.studies.contact.figures.mesh_period import (
     stiffness_against_torque,
     stiffness_and_radii,
     transmission_errors,
 )
-from gearlube.studies.contact.figures.pair_cycle import contact_properties, load_shares
+
+_LOADED = 1e-3  # share above which a pair is drawn
+
+
+def contact_properties(dataset: xr.Dataset) -> Any:
+    """Return curvature and motion at a pair's centre of force over its contact, by torque.
+
+    Compare [karagiannis_2012 fig. 18a]: R_zx along the sliding, entrainment.
+    """
+    rows = (
+        ("R_x", "$R_x$, minor axis [mm]", 1e3),
+        ("R_y", "$R_y$, major axis [m]", 1.0),
+        ("R_sliding", "$R_{zx}$, along sliding [mm]", 1e3),
+        ("entrainment_arm", "entrainment / $\\omega_p$ [mm]", 1e3),
+        ("sliding_arm", "sliding / $\\omega_p$ [mm]", 1e3),
+        ("psi", "entrainment angle [°]", 180.0 / np.pi),
+        ("chi", "sliding angle [°]", 180.0 / np.pi),
+    )
+    title = "A tooth pair from entry to exit: curvature and motion (angles from the minor axis)"
+    return _pair_figure(dataset, rows, title, 13.0, {"R_sliding"})
+
+
+def _pair_figure(
+    dataset: xr.Dataset,
+    rows: tuple[tuple[str, str, float], ...],
+    title: str,
+    height: float,
+    logarithmic: set[str] | None = None,
+) -> Any:
+    from matplotlib.ticker import LogFormatter
+
+    with house_style():
+        figure = new_figure(9.6, height)
+        axes = figure.subplots(len(rows), 2, sharex=True, sharey="row")
+        for column, side in enumerate(_SIDES):
+            part = dataset.sel(side=side)
+            phase = (part["phase"].values[:, None] + part["pair"].values).ravel()
+            order = np.argsort(phase)
+            for ax, (name, label, scale) in zip(axes[:, column], rows, strict=True):
+                for row, torque in enumerate(_spread(part["torque"].values, 5)):
+                    state = part.sel(torque=torque)
+                    values = np.where(
+                        state["share"].values > _LOADED, scale * state[name].values, np.nan
+                    )
+                    ax.plot(
+                        phase[order],
+                        values.ravel()[order],
+                        color=SERIES[row],
+                        lw=WIDTHS[row],
+                        label=f"{torque:g} N·m",
+                    )
+                if name == "pressure_max":
+                    mark_edge_pressure(ax)
+                if logarithmic and name in logarithmic:
+                    ax.set_yscale("log")
+                    ax.yaxis.set_major_formatter(LogFormatter())
+                elif name != "R_y" and column == 1:  # both sides are drawn, so the top is known
+                    ax.set_ylim(bottom=0.0)
+                if column == 0:
+                    ax.set_ylabel(label)
+            axes[0, column].set_title(_SIDES[side])
+            axes[-1, column].set_xlabel("pinion rotation [mesh periods]")
+        handles, labels = axes[0, 0].get_legend_handles_labels()
+        figure.legend(handles, labels, ncols=5, loc="outside lower center")
+        figure.suptitle(title, fontsize=11.5)
+    return figure
+
+
+def _load_shares(dataset: xr.Dataset) -> Any:
+    """Return the load share and the highest pressure of a pair over its contact, by torque."""
+    rows = (("share", "load share [-]", 1.0), ("pressure_max", "highest pressure [GPa]", 1e-9))
+    return _pair_figure(dataset, rows, "A tooth pair from entry to exit: load and pressure", 6.4)
+
 
 CONTACT_CATALOGUE = {
     "pressure": Picture(
@@ -38,7 +114,7 @@ CONTACT_CATALOGUE = {
         "quietest.",
     ),
     "load_share": Picture(
-        load_shares,
+        _load_shares,
         "A tooth pair from entry to exit",
         "Share of the torque that one pair carries, and its highest pressure. Pressure peaks at "
         "entry or exit come from edge contact.",
