@@ -52,7 +52,7 @@ class InstabilityMap:
 
     @property
     def unstable(self) -> np.ndarray:
-        """Where disturbances grow, shape (V, F)."""
+        """Where disturbances grow, (V, F): from 2 f_i/k on [nayfeh_mook_1979 sec. 5.3]."""
         return np.asarray(self.growth > 0.0)
 
 
