@@ -23,7 +23,7 @@ from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_contact.gap_map import gap_map
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.sensitivity.error_rates import error_rates
+from gearlube_core.hypoid_contact.sensitivity.analysis import error_rates
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import loaded_rates
 from gearlube_core.hypoid_contact.sensitivity.parameter import usual_parameters
 from gearlube_core.hypoid_contact.sensitivity.variations import Variations

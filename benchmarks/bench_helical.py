@@ -19,8 +19,8 @@ import numpy as np
 from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.integrate import solve_ivp
 
-from gearlube.studies.helical.loaded import analyse_loaded_contact
 from gearlube.studies.helical.settings import RPM, HelicalSettings
+from gearlube.studies.helical.stages import analyse_loaded_contact
 from gearlube.studies.helical.sweep_grid import sweep_dataset
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (

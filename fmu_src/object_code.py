@@ -164,8 +164,3 @@ def object_code(code: str, target: Target) -> tuple[bytes, set[str]]:
     }
     undefined |= {v.name for v in module.global_variables if v.is_declaration}
     return machine.emit_object(module), undefined
-
-
-def lower_to_object(entry: Callable[..., Any], signature: Any, name: str) -> tuple[bytes, set[str]]:
-    """Return `object_code` of `intermediate_code` for 64-bit Linux."""
-    return object_code(intermediate_code(entry, signature, name), LINUX)

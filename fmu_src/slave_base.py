@@ -11,27 +11,83 @@ import logging
 import math
 import sys
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from enum import IntEnum
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pythonfmu import Fmi2Slave
+from pythonfmu import Boolean, Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real
 from pythonfmu.enums import Fmi2Status
 
-from fmu_src.compile_ahead import compile_ahead
 from fmu_src.definition import Definition, Model, Value
 from fmu_src.host_thread import HostThread
 from fmu_src.identity import IDENTITY_FILE, check_identity, guid_of
 from fmu_src.model_description import LOG_CATEGORIES
-from fmu_src.range_watch import RangeWatch
-from fmu_src.registration import register_variables
-from fmu_src.slave_state import SlaveState
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
+from fmu_src.variable import Variable
 from fmu_src.wrapper import guarded, told_on_stderr, unload_before_libraries
 from gearlube_core.dynamics.stepped_model import MAX_STEP, STEP_ROUNDING
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
+
+EXCEEDED = "range.exceeded"  # output: 0 while all is within its range
+
+
+class _RangeWatch:
+    """Steps of one run that ended outside a range.
+
+    Parameters
+    ----------
+    output_names : sequence of str
+        Of the model; without `EXCEEDED` nothing is watched.
+    """
+
+    def __init__(self, output_names: Sequence[str]) -> None:
+        self._at = output_names.index(EXCEEDED) if EXCEEDED in output_names else -1
+        self._steps: Counter[str] = Counter()
+        self._all = 0
+
+    def warnings(self, model: Model | None, time: float) -> list[str]:
+        """Count the present outputs; return a sentence for each range left for the first time."""
+        self._all += 1
+        if self._at < 0 or model is None or model.outputs[self._at] == 0.0:
+            return []
+        exceeded = model.exceeded()
+        new = [sentence for name, sentence in exceeded.items() if not self._steps[name]]
+        self._steps.update(exceeded.keys())
+        return [f"{sentence} First at t = {time:g} s; said once a run." for sentence in new]
+
+    def counts(self) -> list[str]:
+        """Return a sentence for each range that was left."""
+        return [
+            f"{name} was outside its range at {steps} of {self._all} communication points."
+            for name, steps in self._steps.items()
+        ]
+
+
+# pythonfmu has no Enumeration; FMI 2 reads and sets it as Integer.
+_CLASSES = {"Real": Real, "Integer": Integer, "Enumeration": Integer, "Boolean": Boolean}
+_SHORT_STEP = 1e-6  # s
+
+
+class _SlaveState(IntEnum):
+    """State of a slave in the FMI state machine."""
+
+    INSTANTIATED = 0
+    INITIALISING = 1
+    STEPPING = 2
+    TERMINATED = 3
+
+    @property
+    def settable(self) -> tuple[str, ...]:
+        """Causalities that can be set: parameters until initialised, nothing once terminated."""
+        if self == _SlaveState.TERMINATED:
+            return ()
+        return ("input",) if self == _SlaveState.STEPPING else ("input", "parameter")
+
 
 _LOGGER = logging.getLogger(__name__)
 _LEVELS = {Fmi2Status.ok: logging.INFO, Fmi2Status.warning: logging.WARNING}
@@ -65,10 +121,10 @@ class CoSimulationSlave(Fmi2Slave):
         self._stale = True
         self._broken = ""
         self._time = 0.0
-        self._range_watch = RangeWatch(self.definition.output_names)
-        self._slave_state = SlaveState.INSTANTIATED
+        self._range_watch = _RangeWatch(self.definition.output_names)
+        self._slave_state = _SlaveState.INSTANTIATED
         self._thread = HostThread()
-        register_variables(self, self.definition.variables)
+        _register_variables(self, self.definition.variables)
         # Not logged yet: see the third habit in `fmu_src.wrapper`.
         self._warnings = [
             check_identity(self.definition, self.resources or ""),
@@ -98,7 +154,7 @@ class CoSimulationSlave(Fmi2Slave):
     ) -> None:
         """Note the start time [s]; the step size of the model follows from its frequencies."""
         self._log_warnings()
-        self._expect(SlaveState.INSTANTIATED)
+        self._expect(_SlaveState.INSTANTIATED)
         if not math.isfinite(start_time):
             raise ParameterError(f"The start time must be finite, got {start_time} s.")
         self._time = start_time
@@ -107,16 +163,16 @@ class CoSimulationSlave(Fmi2Slave):
     def enter_initialization_mode(self) -> None:
         """Enter initialisation mode, in which outputs may be read."""
         self._log_warnings()
-        self._expect(SlaveState.INSTANTIATED)
-        self._slave_state = SlaveState.INITIALISING
+        self._expect(_SlaveState.INSTANTIATED)
+        self._slave_state = _SlaveState.INITIALISING
         self._thread.hold()
 
     @guarded
     def exit_initialization_mode(self) -> None:
         """Compute the outputs at the start time; raise if that cannot be done."""
-        self._expect(SlaveState.INITIALISING)
+        self._expect(_SlaveState.INITIALISING)
         self._initialise_model()
-        self._enter(SlaveState.STEPPING)
+        self._enter(_SlaveState.STEPPING)
         self._watch_ranges(self._time)
         settings = ", ".join(f"{name} = {value}" for name, value in self._model_parameters.items())
         self.report(Fmi2Status.ok, f"initialised at t = {self._time:g} s with {settings}")
@@ -124,8 +180,8 @@ class CoSimulationSlave(Fmi2Slave):
     @guarded
     def terminate(self) -> None:
         """Take no further step; outputs can still be read."""
-        self._expect(SlaveState.STEPPING)
-        self._enter(SlaveState.TERMINATED)
+        self._expect(_SlaveState.STEPPING)
+        self._enter(_SlaveState.TERMINATED)
         for count in self._range_watch.counts():
             self.report(Fmi2Status.ok, count)
         self._thread.release()
@@ -154,18 +210,18 @@ class CoSimulationSlave(Fmi2Slave):
             if warning:
                 self.report(Fmi2Status.warning, warning)
 
-    def _enter(self, state: SlaveState) -> None:
+    def _enter(self, state: _SlaveState) -> None:
         self._slave_state = state
         self._values.allow_setting(*state.settable)
 
-    def _expect(self, state: SlaveState) -> None:
+    def _expect(self, state: _SlaveState) -> None:
         if self._slave_state != state:
             raise StepError(
                 f"The FMU must be in state {state.name}, is in {self._slave_state.name}."
             )
 
     def _check_step(self, t: float, h: float) -> None:
-        self._expect(SlaveState.STEPPING)
+        self._expect(_SlaveState.STEPPING)
         if self._values.refused:
             raise StepError(" ".join(self._values.refused.values()))
         if self._broken:
@@ -212,7 +268,7 @@ class CoSimulationSlave(Fmi2Slave):
 
     def _read(self, kind: str, vrs: Sequence[int]) -> Any:
         index = self._values.index(kind, vrs)
-        if self._stale and self._slave_state < SlaveState.STEPPING and self._asks_for_output(vrs):
+        if self._stale and self._slave_state < _SlaveState.STEPPING and self._asks_for_output(vrs):
             self._initialise_model()
         return self._values.array[index]
 
@@ -274,10 +330,10 @@ class CoSimulationSlave(Fmi2Slave):
     @guarded
     def _set_fmu_state(self, state: bytes) -> None:
         snapshot = Snapshot.from_bytes(state, guid_of(self.definition))
-        self._enter(SlaveState(snapshot.phase))
+        self._enter(_SlaveState(snapshot.phase))
         self._values.restore(snapshot.values)
         self._time, self._broken, self._stale = snapshot.time, "", True
-        if snapshot.phase >= SlaveState.STEPPING:
+        if snapshot.phase >= _SlaveState.STEPPING:
             if self._model is None or self._model_parameters != self._values.parameters():
                 self._start_model(self._values.start_inputs())
             self._model.set_state(snapshot.model)  # type: ignore[union-attr]
@@ -290,3 +346,32 @@ class CoSimulationSlave(Fmi2Slave):
     def _fmu_state_from_bytes(state: bytes) -> bytes:
         # The wrapper does not survive an exception here; `_set_fmu_state` checks the content.
         return state
+
+
+@cache
+def compile_ahead(definition: Definition) -> str:
+    """Run a temporary model for one step, once per process; return an error text, or ''."""
+    table = definition.variables
+    parameters = {v.name: v.decoded(v.start or 0.0) for v in table if v.is_model_parameter}
+    inputs = [v.start or 0.0 for v in table if v.causality == "input"]
+    try:
+        definition.start_model(parameters, inputs).step(_SHORT_STEP, *inputs)
+    except GearLubeError as error:
+        return f"The model could not be run ahead of the simulation. {error}"
+    return ""
+
+
+def _register_variables(slave: Fmi2Slave, table: Iterable[Variable]) -> None:
+    """Register `table` in order, so that pythonfmu counts the same value references."""
+    for variable in table:
+        initial = variable.initial
+        slave.register_variable(
+            _CLASSES[variable.type](
+                variable.name,
+                causality=Fmi2Causality[variable.causality],
+                variability=Fmi2Variability[variable.variability],
+                initial=None if initial is None else Fmi2Initial[initial],
+                description=variable.description,
+            ),
+            nested=False,
+        )

@@ -6,12 +6,64 @@ This module lists the commands and defines the options that they share.
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
-from typing import Annotated
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Annotated, Any, Literal
 
 import typer
+from typer.core import TyperCommand, TyperGroup
+from typer.main import get_group
 
-from gearlube.cli.lazy_commands import MARKUP, LazyCommand, lazy_group
+from gearlube.cli.option_groups import group_options
+
+_MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would swallow [units]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LazyCommand:
+    """A command by the module and name of its function.
+
+    Parameters
+    ----------
+    name : str
+        As typed after `gearlube`.
+    target : str
+        "module:name" of a function with typer options, or of a `typer.Typer` with commands of
+        its own.
+    summary : str
+        One sentence for the list of commands, which is shown without importing them.
+    panel : str
+        Heading over it in the list of commands.
+    command_class : str
+        Name of a class of commands in the same module; typer's own if empty.
+    context_settings : mapping
+        Passed to click.
+    """
+
+    name: str
+    target: str
+    summary: str
+    panel: str = "More"
+    command_class: str = ""
+    context_settings: Mapping[str, Any] = field(default_factory=dict)
+
+    def load(self) -> Any:  # a click command; newer typers have a click of their own
+        """Import the module and return the command."""
+        module_name, attribute = self.target.split(":")
+        module = import_module(module_name)
+        found = getattr(module, attribute)
+        app = typer.Typer(add_completion=False, rich_markup_mode=_MARKUP)
+        app.callback()(_nothing)
+        if isinstance(found, typer.Typer):
+            app.add_typer(found, name=self.name)
+        else:
+            chosen = getattr(module, self.command_class) if self.command_class else None
+            app.command(self.name, cls=chosen, context_settings=dict(self.context_settings))(found)
+        command = get_group(app).commands[self.name]
+        group_options(command)
+        return command
+
 
 # headings in the list of commands
 _AXLE = "Axle and car"
@@ -181,12 +233,12 @@ COMMANDS = (
 def command_line(commands: Sequence[LazyCommand]) -> typer.Typer:
     """Return the command `gearlube` with these subcommands."""
     application = typer.Typer(
-        cls=lazy_group(commands),
+        cls=_lazy_group(commands),
         name="gearlube",
         help="Lubricated gears: tooth contact, vibration, FMUs, speed sweeps and their report.",
         no_args_is_help=True,
         pretty_exceptions_show_locals=False,
-        rich_markup_mode=MARKUP,
+        rich_markup_mode=_MARKUP,
     )
     application.callback()(_common)
     return application
@@ -212,6 +264,39 @@ def _common(
     if verbose:
         for name in ("gearlube", "drivetrain", "fmu_src", "gearlube_core"):
             logging.getLogger(name).setLevel(logging.DEBUG)
+
+
+def _lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
+    """Return a group class with these commands, listed in this order."""
+    table = {command.name: command for command in commands}
+
+    class LazyGroup(TyperGroup):
+        listing = False  # whether the help is being written
+
+        def __init__(self, **given: Any) -> None:
+            super().__init__(**given)
+            # typer compares a mistyped name with these
+            self.commands = {
+                one.name: TyperCommand(one.name, help=one.summary, rich_help_panel=one.panel)
+                for one in commands
+            }
+
+        def list_commands(self, ctx: Any) -> list[str]:
+            return list(table)
+
+        def get_command(self, ctx: Any, cmd_name: str) -> Any:
+            if self.listing or cmd_name not in table:
+                return super().get_command(ctx, cmd_name)
+            return table[cmd_name].load()
+
+        def format_help(self, ctx: Any, formatter: Any) -> None:
+            self.listing = True
+            try:
+                super().format_help(ctx, formatter)
+            finally:
+                self.listing = False
+
+    return LazyGroup
 
 
 app = command_line(COMMANDS)
@@ -241,3 +326,7 @@ def main() -> None:
     handler.addFilter(_WarningsOnce())
     logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler])
     app()
+
+
+def _nothing() -> None:
+    """Make typer treat an app with a single command as a group."""

@@ -58,8 +58,7 @@ from docs.helical.stiffness_density import choices, effects, table_density, used
 from docs.helical.structure import six_against_twelve, spur_limit
 from docs.helical.study import study
 from docs.validation.rejudge import helical_section
-from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
-from gearlube.studies.helical.figures.geometry_catalogue import GEOMETRY_CATALOGUE
+from gearlube.studies.helical.figures.catalogue import GEOMETRY_CATALOGUE, HELICAL_CATALOGUE
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE
 
 ROOT = Path(__file__).resolve().parents[2]

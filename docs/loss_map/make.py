@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from drivetrain.axle_file.read_axle import read_axle
-from gearlube.studies.helical.figures.losses import pair_losses
+from gearlube.studies.helical.figures.catalogue import pair_losses
 from gearlube.studies.helical.pair_losses import losses_dataset
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.loss_map.figures import loss_contours, loss_split, sensitivity

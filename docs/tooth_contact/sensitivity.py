@@ -14,12 +14,13 @@ import numpy as np
 import xarray as xr
 
 from docs.tooth_contact.pages import table
-from gearlube.studies.contact.figures.sensitivity import (
+from gearlube.studies.contact.sensitivity import (
+    SensitivityRow,
     parameter_words,
     sensitivity_figure,
+    sensitivity_rows,
     tolerance_words,
 )
-from gearlube.studies.contact.sensitivity import SensitivityRow, sensitivity_rows
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import ALIGNED

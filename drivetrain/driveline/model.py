@@ -15,7 +15,6 @@ from drivetrain.driveline.stepper import (
     MEMORY,
     SLOT,
     driveline_stepper,
-    interval_jacobian,
 )
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
@@ -67,7 +66,6 @@ class Driveline:
         self.equations = driveline_equations(parameters, self.gear_ratio)
         self.steady = steady_state(parameters, self.gear_ratio, speed, axle_power_loss)
         self._steppers: dict[int, Any] = {}
-        self._jacobians: dict[int, Any] = {}
         self._alive: list[Any] = []
         self._inputs = np.array([speed, self.steady.engine_torque, 1.0])
         self._memory = np.zeros(len(MEMORY))
@@ -187,26 +185,6 @@ class Driveline:
             )
         self._memory[:] = values[:size]
         self._inputs[:] = values[size:]
-
-    def interval_jacobian(self, h: float) -> tuple[Array, Array]:
-        """Return the linear map of one interval of `h` [s] at the smooth steady state.
-
-        Returns
-        -------
-        tuple of array
-            Derivatives of the states but the crank angle, shape (9, 11), and of the mean torques,
-            shape (2, 11), by these states, pinion speed and wheel speed.
-        """
-        inner_steps = max(1, math.ceil(h / LONGEST_INNER_STEP))
-        function = self._jacobians.get(inner_steps)
-        if function is None:
-            function = interval_jacobian(self._interval(inner_steps))
-            self._jacobians[inner_steps] = function
-        steady, inputs = self.steady, self.inputs
-        inputs[2] = 0.0
-        point = np.concatenate([steady.state[1:], [steady.pinion_speed, steady.wheel_speed]])
-        states, torques = function(point, h, inputs)
-        return np.array(states), np.array(torques)
 
     def _interval(self, inner_steps: int) -> Any:
         a = self.parameters

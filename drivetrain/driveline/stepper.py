@@ -108,25 +108,3 @@ def driveline_stepper(
         ["z", "m", "p"],
         ["z_end", "torques"],
     )
-
-
-def interval_jacobian(interval: Any) -> Any:
-    """Return the derivatives of a map from `driveline_stepper` as a casadi Function.
-
-    Returns
-    -------
-    casadi.Function
-        (y, h, p) -> (d states / d y, d mean torques / d y), with y the states but the crank angle,
-        pinion speed and wheel speed. The axle's angles are those that were expected.
-    """
-    import casadi as ca
-
-    size = len(STATES) - 1
-    y, h, p = ca.MX.sym("y", size + 2), ca.MX.sym("h"), ca.MX.sym("p", 3)
-    memory = ca.vertcat(0.0, y[:size], ca.DM.zeros(len(MEMORY) - len(STATES)))
-    end, torques = interval(memory, ca.vertcat(h, 0.0, y[size], 0.0, y[size + 1]), p)
-    return ca.Function(
-        "interval_jacobian",
-        [y, h, p],
-        [ca.jacobian(end[1 : len(STATES)], y), ca.jacobian(torques[:2], y)],
-    )

@@ -12,6 +12,7 @@ from pathlib import Path
 from uuid import UUID
 
 from fmu_src.archive import licence_texts, write_archive
+from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
 from fmu_src.identity import source_digest
 from fmu_src.model_description import model_description
@@ -30,10 +31,23 @@ from fmu_src.native.platforms import (
 )
 from fmu_src.native.sources import c_sources
 from fmu_src.object_code import intermediate_code, object_code
-from fmu_src.reference_results import reference_results
 from gearlube_core.checks import check_option
 from gearlube_core.kernels.source_code import code_of
 from gearlube_core.kernels.source_files import source_files
+
+FOLDER = "extra/gearlube"
+
+STEP = 1e-3  # s
+
+STEPS = 50
+
+_CHANGED_AT = 25  # steps, when the torques change
+
+TORQUES = {"pinion.torque": 1.2, "wheel.torque": 1.2}  # over their start values, from then on
+
+EXACT = 17  # digits of the inputs: less would turn a pair that is nearly balanced
+
+TOLERANCE = 1e-6  # of each output's largest value, between this run and one in another host
 
 ENTRY = "gearlube_entry"
 FMI_VERSIONS = ("2", "3")
@@ -196,7 +210,7 @@ def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> l
     results = {}
     if options.reference and model.entry is not None:
         options.report(f"{model.definition.name}: reference results")
-        results = reference_results(model.definition)
+        results = _reference_results(model.definition)
     contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}
     paths = []
     for number in options.fmi:
@@ -204,3 +218,58 @@ def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> l
         paths.append(out_dir / f"{model.definition.name}{ending}.fmu")
         write_archive(paths[-1], content(model, built) | results)
     return paths
+
+
+def _reference_results(definition: Definition) -> dict[str, bytes]:
+    """Return the files of a run of the Python model with all parameters at their start values.
+
+    Every output that is a Real and no element of a series is there, with seven digits; the inputs
+    are exact.
+
+    Notes
+    -----
+    A row of the inputs is what is set at that communication point, for the step that begins there.
+    """
+    inputs = [v for v in definition.variables if v.causality == "input"]
+    start = [float(v.start or 0.0) for v in inputs]
+    later = [value * TORQUES.get(v.name, 1.0) for v, value in zip(inputs, start, strict=True)]
+    parameters = {
+        v.name: v.decoded(v.start or 0.0) for v in definition.variables if v.is_model_parameter
+    }
+    outputs = {
+        v.name: definition.output_names.index(v.name)
+        for v in definition.variables
+        if v.causality == "output" and v.type == "Real" and "[" not in v.name
+    }
+    model = definition.start_model(parameters, start)
+    given, rows = [], []
+    for k in range(STEPS + 1):
+        now = start if k < _CHANGED_AT else later
+        given.append(_line(k * STEP, now, EXACT))
+        rows.append(_line(k * STEP, [model.outputs[i] for i in outputs.values()]))
+        if k < STEPS:
+            model.step(STEP, *now)
+    options = {
+        "StartTime": 0.0,
+        "StopTime": STEPS * STEP,
+        "StepSize": STEP,
+        "RelTol": TOLERANCE,
+        "OutputInterval": STEP,
+    }
+    files = {
+        "ref.opt": [f"{name}, {value:g}" for name, value in options.items()],
+        "in.csv": [_heading([v.name for v in inputs]), *given],
+        "ref.csv": [_heading(list(outputs)), *rows],
+    }
+    return {
+        f"{FOLDER}/{definition.name}_{ending}": "".join(f"{line}\n" for line in lines).encode()
+        for ending, lines in files.items()
+    }
+
+
+def _heading(names: list[str]) -> str:
+    return ",".join(f'"{name}"' for name in ("time", *names))
+
+
+def _line(time: float, values: list[float], digits: int = 7) -> str:
+    return ",".join(f"{value:.{digits}g}" for value in (time, *values))

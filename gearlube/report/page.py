@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import base64
 import gzip
+import platform
 from dataclasses import replace
+from datetime import UTC, datetime
 from functools import cache
+from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from gearlube.report.numbers import column_texts, number_text, unit_words
 from gearlube.report.parts import GIVEN, Input, Report, Table, ranked
-from gearlube.report.provenance import today, versions
 from gearlube.report.stored import PAGE, as_data, as_json
+from gearlube_core import __version__
 from gearlube_core.storage.atomic_file import write_text
 
+_PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib", "plotly")
 _SIZE = "@@@@ kB"  # replaced by the size of the page
 _HERE = "gearlube.report"
 
@@ -56,7 +60,7 @@ def report_html(report: Report, made: str = "") -> str:
     environment = Environment(
         loader=PackageLoader(_HERE, "."), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
-    made = made or today()
+    made = made or _today()
     drawn = any(figure.chart is not None for figure in report.figures)
     html = environment.get_template("page.html.j2").render(
         report=report,
@@ -133,3 +137,20 @@ def _groups(report: Report) -> list[tuple[str, list[Input]]]:
     others = [one for one in inputs if one.origin != GIVEN]
     groups = (("Given", given), ("Inferred or assumed: give the values that you know", others))
     return [(name, group) for name, group in groups if group]
+
+
+def versions() -> list[tuple[str, str]]:
+    """Return the versions of gearlube, of Python and of the packages that results rest on."""
+    found = [("gearlube", __version__), ("Python", platform.python_version())]
+    found.append(("system", f"{platform.system()} {platform.machine()}"))
+    for package in _PACKAGES:
+        try:
+            found.append((package, version(package)))
+        except PackageNotFoundError:  # an installation without it
+            continue
+    return found
+
+
+def _today() -> str:
+    """Return date and time of now, UTC, as "2026-03-01 12:30 UTC"."""
+    return datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")

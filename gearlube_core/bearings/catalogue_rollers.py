@@ -38,41 +38,25 @@ def usual_roller_count(pitch: float, diameter: float) -> int:
     return max(3, round(_OF_CIRCLE * math.pi * pitch / diameter))
 
 
-def load_rating(
-    *, rollers: int, diameter: float, length: float, contact_angle: float, pitch: float
+def roller_length_of_rating(
+    rating: float, *, rollers: int, diameter: float, contact_angle: float, pitch: float
 ) -> float:
-    """Return the basic dynamic radial load rating C of one row of rollers [N].
+    """Return the effective roller length that gives a load rating C of one row of rollers [m].
 
     C = b_m f_c (L cos a)^(7/9) Z^(3/4) D^(29/27) in N and mm, [iso_281], with f_c by its
     formula. The factors are quoted from memory.
 
     Parameters
     ----------
+    rating : float
+        C, basic dynamic radial load rating [N].
     rollers : int
         Z.
-    diameter, length : float
-        Mean diameter D and effective length L of a roller [m].
+    diameter, pitch : float
+        Mean diameter D of a roller and diameter of the circle through the roller centres [m].
     contact_angle : float
         a [rad].
-    pitch : float
-        Diameter of the circle through the roller centres [m].
-
-    Examples
-    --------
-    >>> rating = load_rating(
-    ...     rollers=16, diameter=0.017, length=0.0227, contact_angle=0.273, pitch=0.1085
-    ... )
-    >>> round(1e-3 * rating)  # kN, 32216: catalogues print some 187
-    179
     """
-    long_side = (1e3 * length * math.cos(contact_angle)) ** (7 / 9)
-    return long_side * _rating_per_length(rollers, diameter, contact_angle, pitch)
-
-
-def roller_length_of_rating(
-    rating: float, *, rollers: int, diameter: float, contact_angle: float, pitch: float
-) -> float:
-    """Return the effective roller length [m] that gives a load rating [N]; see `load_rating`."""
     long_side = rating / _rating_per_length(rollers, diameter, contact_angle, pitch)
     return 1e-3 * float(long_side ** (9 / 7)) / math.cos(contact_angle)
 

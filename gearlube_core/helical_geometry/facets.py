@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -12,10 +10,8 @@ from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import (
     InvoluteFlank,
-    involute_flank,
     relative_position,
 )
-from gearlube_core.helical_geometry.pair import HelicalPair
 
 _Array = Array
 _ROOT_STEPS = 4  # the quartic's fourth power is 1e-4 of its linear term: two would do
@@ -145,41 +141,3 @@ def parabola_distance(roll: ArrayLike, other: ArrayLike, base_radius: float) -> 
     for _ in range(_ROOT_STEPS):
         t = linear - t**4 / (8.0 * base_radius * roll**2)
     return np.asarray(t)
-
-
-class FacetData(NamedTuple):
-    """One facet near a point of the flank."""
-
-    length: float  # along the profile [m]
-    sagitta: float  # greatest depth below the involute, normal to the flank [m]
-    slope_step: float  # of the normal gap across the contact line, at its ends [rad]
-
-
-def facet_data(pair: HelicalPair, count: int, roll: float, member: str = "pinion") -> FacetData:
-    """Return size, sagitta and slope step of a facet centred at a roll length.
-
-    l = R arc/r_b,  sagitta = l^2 cos(beta_b)/(8 R),  step = l cos(beta_b)/R
-
-    Parameters
-    ----------
-    pair
-        Gear pair.
-    count
-        n_f [-], at least 1.
-    roll
-        R: roll length and radius of curvature at the facet [m], positive.
-    member
-        "pinion" or "gear".
-
-    Returns
-    -------
-    FacetData
-        To first order in the facet's length over R.
-    """
-    check_within("count", count, 1, 10_000, "", "Give at least one facet.")
-    flank = involute_flank(pair, member)
-    check_within("roll", roll, 1e-9, flank.tip_radius, "m", "Give a roll length in metres.")
-    arc = (flank.roll_high - flank.roll_low) / count
-    length = roll * arc / flank.base_radius
-    normal_turn = length * pair.plane.cos_b / roll
-    return FacetData(length, 0.125 * length * normal_turn, normal_turn)

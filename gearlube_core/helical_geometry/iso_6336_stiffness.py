@@ -61,34 +61,6 @@ def rack_dedendum_of(pair: HelicalPair) -> tuple[float, float]:
     return depth_1 / pair.normal_module + shifts[0], depth_2 / pair.normal_module + shifts[1]
 
 
-def gear_blank_factor(web_thickness: float, rim_thickness: float, module: float) -> float:
-    """Return C_R of a webbed gear blank [-]; a solid disc has 1.
-
-    C_R = 1 + ln(b_s/b)/(5 exp(s_R/(5 m_n)))
-
-    Parameters
-    ----------
-    web_thickness
-        b_s/b [-]: web over face width, taken as 0.2 to 1.2.
-    rim_thickness
-        s_R [m], taken as at least one module.
-    module
-        m_n [m].
-
-    Returns
-    -------
-    float
-        [-].
-
-    Notes
-    -----
-    Source: [iso_6336_1 9.3].
-    """
-    web = min(max(web_thickness, 0.2), 1.2)
-    rim = max(rim_thickness / module, 1.0)
-    return 1.0 + math.log(web) / (5.0 * math.exp(rim / 5.0))
-
-
 def iso_stiffness(
     pair: HelicalPair,
     *,

@@ -228,10 +228,6 @@ class ModifiedPair:
         x = np.asarray(x, dtype=float)
         return self.pinion_removal(x, z) + self.gear_removal(self.pair.tangent_length - x, z)
 
-    def normal_removal(self, x: ArrayLike, z: ArrayLike) -> Array:
-        """Return the removal normal to the flanks [m]: the transverse one times cos(beta_b)."""
-        return np.asarray(self.removal(x, z) * math.cos(self.pair.base_helix_angle))
-
 
 def _relief_start(modification: FlankModification, flank: InvoluteFlank) -> float:
     relief = modification.tip_relief

@@ -41,21 +41,10 @@ class ContactPattern:
         return np.asarray(np.nan_to_num(self.closest, nan=np.inf) <= self.thickness)
 
     @property
-    def area_fraction(self) -> float:
-        """Marked part of the gear flank [-], over tooth height and face width."""
-        return float(self.marked.mean())
-
-    @property
     def centre(self) -> tuple[float, float]:
         """Mean profile and face position of the marked points [-]."""
         i, j = np.nonzero(self.marked)
         return float(self.s[i].mean()), float(self.t[j].mean())
-
-    @property
-    def face_range(self) -> tuple[float, float]:
-        """Face positions [-] between which points are marked."""
-        j = np.nonzero(self.marked.any(axis=0))[0]
-        return float(self.t[j[0]]), float(self.t[j[-1]])
 
 
 def contact_pattern(

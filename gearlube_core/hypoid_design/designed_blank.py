@@ -4,16 +4,30 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from gearlube_core.checks import check_within
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.hypoid_design.blank_file import BlankFile
-from gearlube_core.hypoid_design.face_widths import FaceWidth, pinion_face
 from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead, ToothTrace
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank, MemberBlank
 from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, method_1, method_2, method_3
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
 from gearlube_core.input_file.input_note import InputNote
 from gearlube_core.units import DEGREE, MILLIMETRE
+
+
+class _FaceWidth(NamedTuple):
+    """Face of a member along its pitch cone [m]: from the calculation point out and in."""
+
+    outer: float  # b_e, to the heel
+    inner: float  # b_i, to the toe
+
+    @property
+    def total(self) -> float:
+        """Face width [m]."""
+        return self.outer + self.inner
+
 
 SHAFT_ANGLE = 0.5 * math.pi
 _FROM = "follows from the blank"
@@ -38,8 +52,8 @@ class DesignedBlank:
     file: BlankFile
     cones: PitchCones
     trace: ToothTrace
-    pinion_face: FaceWidth
-    gear_face: FaceWidth
+    pinion_face: _FaceWidth
+    gear_face: _FaceWidth
     blank: HypoidBlank
 
     @classmethod
@@ -64,7 +78,7 @@ class DesignedBlank:
             outer = 0.5 * width
         else:
             outer = 0.5 * pair.outer_pitch_diameter_mm * MILLIMETRE / sine - mean
-        gear = FaceWidth(outer, width - outer)
+        gear = _FaceWidth(outer, width - outer)
         working = depth.depth_factor * cones.normal_module
         try:
             pinion = pinion_face(cones, gear, working, file.design_method)
@@ -227,7 +241,7 @@ def _no_blank(file: BlankFile, reason: str) -> ParameterError:
     )
 
 
-def _member(cones: PitchCones, face: FaceWidth, addendum: float, role: str) -> MemberBlank:
+def _member(cones: PitchCones, face: _FaceWidth, addendum: float, role: str) -> MemberBlank:
     pinion = role == "pinion"
     angle = cones.pinion_pitch_angle if pinion else cones.gear_pitch_angle
     mean = cones.pinion_mean_cone_distance if pinion else cones.gear_mean_cone_distance
@@ -249,3 +263,58 @@ def _angle(name: str, value: float) -> InputNote:
 
 def _length(name: str, value: float) -> InputNote:
     return InputNote(name, round(value / MILLIMETRE, 9) + 0.0, "mm", "inferred", _FROM)
+
+
+def pinion_face(
+    cones: PitchCones, gear: _FaceWidth, working_depth: float, method: int
+) -> _FaceWidth:
+    """Return the face of the pinion that covers that of the gear, for uniform depth.
+
+    Parameters
+    ----------
+    cones : PitchCones
+    gear : FaceWidth
+    working_depth : float
+        h_mw [m].
+    method : int
+        0 to 3, of ISO 23509.
+
+    Notes
+    -----
+    Method 0: both alike. Method 1: the gear's ends carried to the pinion's cone along the pitch
+    plane, and a working depth more on each side as the root plane is turned; the offset angle in
+    the root plane is taken as that in the axial plane, 0.03 mm on the shipped pair. Method 2:
+    b_2 (1 + tan^2 zeta_mp). Method 3: the gear's ends seen along the pinion's generator plus
+    3 m_mn tan zeta_mp, as whole millimetres, what is added shared by both ends.
+
+    References
+    ----------
+    [iso_23509 7.3]; checked against the samples F.3 to F.5 of annex F.
+    """
+    offset = cones.offset_angle
+    if method == 0:
+        return gear
+    if method == 1:
+        ratio = cones.gear_teeth / cones.pinion_teeth
+        cos1, cos2 = math.cos(cones.pinion_pitch_angle), math.cos(cones.gear_pitch_angle)
+        turned = math.atan2(math.sin(offset) * cos2, ratio * cos1 + cos2 * math.cos(offset))
+        stretch = 1.0 / math.cos(offset - turned)
+        more = working_depth * math.sin(cones.axial_offset_angle) * (1.0 - 1.0 / ratio) / cos1
+        return _FaceWidth(gear.outer * stretch + more, gear.inner * stretch + more)
+    if method == 2:
+        stretch = 1.0 + math.tan(offset) ** 2
+        return _FaceWidth(gear.outer * stretch, gear.inner * stretch)
+    mean = cones.gear_mean_cone_distance
+    along, across = mean * math.cos(offset), mean * math.sin(offset)
+    check_within(
+        "R_m2 sin(zeta_mp) / (R_m2 - b_i2)",
+        across / (mean - gear.inner),
+        0.0,
+        1.0,
+        cure="Reduce the face width or the offset.",
+    )
+    outer = math.sqrt((mean + gear.outer) ** 2 - across**2) - along
+    inner = along - math.sqrt((mean - gear.inner) ** 2 - across**2)
+    needed = outer + inner + 3.0 * cones.normal_module * math.tan(offset)
+    spare = 0.5 * (1e-3 * math.floor(1e3 * needed + 1.0) - outer - inner)
+    return _FaceWidth(outer + spare, inner + spare)

@@ -6,17 +6,53 @@ import codecs
 import logging
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError, unread
 from gearlube_core.input_file.field_notes import as_meant, doubts, field_notes, sentence
-from gearlube_core.input_file.file_kind import other_kind
+
+
+class _FileKind(NamedTuple):
+    """A kind of input file by the fields that no other kind has."""
+
+    words: str  # what errors call it, with its article
+    marks: tuple[str, ...]  # dotted fields or sections
+    use: str  # a sentence: what takes such a file
+
+
+_KINDS = (
+    _FileKind(
+        "an axle file",
+        ("gear_set",),
+        "gearlube axle show, sweep, map, cycle and runup take it.",
+    ),
+    _FileKind(
+        "a gear file of a hypoid pair",
+        ("pinion.machine", "gear.machine"),
+        "gearlube contact takes it; an axle file names it in [gear_set] as gear_file.",
+    ),
+    _FileKind(
+        "a gear file of a helical pair",
+        ("pair.helix_angle_deg",),
+        "gearlube helical, whine and build-fmu --gear take it.",
+    ),
+    _FileKind(
+        "a blank file",
+        ("pair.pinion_teeth", "pair.gear_teeth"),
+        "gearlube design makes a gear file of it.",
+    ),
+    _FileKind(
+        "an oil file",
+        ("base_oil",),
+        "gearlube oil shows it; an axle file names it in [oil] as file, other commands as --oil.",
+    ),
+)
 
 logger = logging.getLogger(__name__)
 
@@ -138,7 +174,7 @@ class InputFile(Section):
             return cls.model_validate(data)
         except ValidationError as reason:
             notes = field_notes(cls)
-            other = other_kind(data, notes)
+            other = _other_kind(data, notes)
             if other is not None:
                 raise ParameterError(
                     f"{where} is not the file that is asked for ({cls.title}): its fields are "
@@ -214,3 +250,26 @@ def toml_data(content: bytes, where: str) -> dict[str, Any]:
     if not data:
         raise ParameterError(f"{where} is empty: it has no field. Write the fields into it.")
     return data
+
+
+def _other_kind(data: Mapping[str, Any], fields: Collection[str]) -> _FileKind | None:
+    """Return the kind of file that data are, if that kind lacks these dotted fields; else None.
+
+    >>> _other_kind({"base_oil": "pao"}, ["gear_set.mesh_table"]).words
+    'an oil file'
+    """
+    for kind in _KINDS:
+        if all(_has(data, mark) for mark in kind.marks):
+            known = all(
+                any(f"{field}.".startswith(f"{mark}.") for field in fields) for mark in kind.marks
+            )
+            return None if known else kind
+    return None
+
+
+def _has(data: Any, dotted: str) -> bool:
+    for part in dotted.split("."):
+        if not isinstance(data, Mapping) or part not in data:
+            return False
+        data = data[part]
+    return True

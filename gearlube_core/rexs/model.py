@@ -13,7 +13,14 @@ from typing import Any
 from lxml import etree
 
 from gearlube_core.errors import ParameterError, unread
-from gearlube_core.rexs.units import converted
+from gearlube_core.units import DEGREE
+
+# unit of the data base of [fva_2022] and how much of it one of another is
+_SAME = {
+    "mm": {"mm": 1.0, "m": 1e3, "cm": 10.0, "mum": 1e-3, "um": 1e-3, "µm": 1e-3, "in": 25.4},
+    "deg": {"deg": 1.0, "°": 1.0, "rad": 1.0 / DEGREE},
+    "none": {"none": 1.0},
+}
 
 _MODELS = (".rexs", ".rexsj", ".xml")  # files of an archive that hold a model
 _LARGEST = 500_000_000  # bytes of an unpacked model
@@ -198,3 +205,35 @@ def _component(element: etree._Element) -> Component:
     return Component(
         int(element.get("id")), element.get("type", ""), element.get("name", ""), attributes
     )
+
+
+def converted(value: float, unit: str, wanted: str, what: str) -> float:
+    """Return a value in the unit that is wanted.
+
+    Parameters
+    ----------
+    value : float
+    unit : str
+        As the file says; empty: that of the data base, which is the one that is wanted.
+    wanted : str
+        "mm", "deg" or "none".
+    what : str
+        Names the attribute in errors.
+
+    Raises
+    ------
+    ParameterError
+        The unit is of another kind.
+
+    Examples
+    --------
+    >>> converted(0.25, "m", "mm", "face_width")
+    250.0
+    """
+    factors = _SAME[wanted]
+    if unit and unit not in factors:
+        raise ParameterError(
+            f"{what} must have a unit out of {', '.join(factors)}, got {value:g} {unit!r}. Correct "
+            "the unit in the file"
+        )
+    return value * factors[unit or wanted]

@@ -43,21 +43,6 @@ class Filtered(Generic[S]):
     ends: str
 
 
-def transmission(wavelength: Array, cutoff: float) -> Array:
-    """Return which share of a wave's amplitude the mean line keeps [-].
-
-    exp(-pi (alpha lambda_c/lambda)^2), alpha = sqrt(ln 2/pi) [iso_16610_21]
-
-    Parameters
-    ----------
-    wavelength
-        [m], any shape, above 0.
-    cutoff
-        lambda_c [m].
-    """
-    return np.asarray(np.exp(-math.pi * (ALPHA * cutoff / wavelength) ** 2))
-
-
 def filtered(
     surface: S,
     *,

@@ -272,15 +272,6 @@ class MovingRoughness:
         self._grids[key](time, height)
         return height
 
-    def of_surface(self, number: int, time: float) -> Array:
-        """Return the heights of surface 0 or 1 alone [m], shape (nx, ny)."""
-        height = np.zeros((self.x.size, self.y.size))
-        one = self.surfaces[number]
-        turns = one.lay.turns * self.y / one.lay.width
-        moved = _moved(one, self.feed, time)
-        add_moved_heights(one.coefficients(self.y), self.x, turns, moved, height)
-        return height
-
     def _on(self, x: Array, y: Array) -> Callable[[float, Array], None]:
         parts = [(s, s.coefficients(y), s.lay.turns * y / s.lay.width) for s in self.surfaces]
         nodes, feed = np.array(x, dtype=np.float64), self.feed

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import LinAlgError, cholesky, solve_triangular
 from scipy.sparse import coo_array, csr_array
 from skfem import Basis, ElementHexS2, FacetBasis
 
 from gearlube_core.arrays import Array, Indices
 from gearlube_core.contact.solid import Solid
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.tooth_compliance.hat_grid import hat_values
-from gearlube_core.tooth_compliance.layer_elimination import energy_products
 from gearlube_core.tooth_compliance.tooth_mesh import ToothMesh
 
 _ELEMENT = ElementHexS2()
@@ -134,3 +134,56 @@ def tooth_model(mesh: ToothMesh, solid: Solid) -> ToothModel:
     free = np.flatnonzero(np.repeat(~held, 3))
     layer = np.repeat(np.floor(station + 0.25).astype(int), 3)[free]
     return ToothModel(mesh, stiffness[free][:, free], free, layer)
+
+
+def energy_products(matrix: csr_array, loads: Array, layer: Indices) -> Array:
+    """Return F^T K^-1 F of a symmetric positive definite K.
+
+    Parameters
+    ----------
+    matrix
+        K, sparse (n, n); entries between layers more than one apart must be zero.
+    loads
+        F, (n, r).
+    layer
+        Layer of each unknown, from 0 upwards, (n,).
+
+    Returns
+    -------
+    ndarray
+        (r, r), symmetric; in the units of F^2/K.
+
+    Raises
+    ------
+    ConvergenceError
+        When K is not positive definite: a body that is not held, or a mesh turned inside out.
+    """
+    count = loads.shape[1]
+    products = np.zeros((count, count))
+    members = [np.flatnonzero(layer == k) for k in range(int(layer.max()) + 1)]
+    here = members[0]
+    schur = matrix[here][:, here].toarray()
+    right = loads[here]
+    for k, here in enumerate(members):
+        try:
+            lower = cholesky(schur, lower=True, overwrite_a=True, check_finite=False)
+        except LinAlgError:
+            raise ConvergenceError(
+                f"the stiffness is not positive definite in layer {k}. "
+                "The base must be held and every element's Jacobian must be positive."
+            ) from None
+        reduced = solve_triangular(lower, right, lower=True, check_finite=False)
+        products += reduced.T @ reduced
+        if k + 1 == len(members):
+            break
+        after = members[k + 1]
+        coupling = matrix[here][:, after]
+        touched = np.unique(coupling.indices)
+        panel = solve_triangular(
+            lower, coupling[:, touched].toarray(), lower=True, check_finite=False
+        )
+        schur = matrix[after][:, after].toarray()
+        schur[np.ix_(touched, touched)] -= panel.T @ panel
+        right = loads[after]
+        right[touched] -= panel.T @ reduced
+    return 0.5 * (products + products.T)

@@ -50,18 +50,6 @@ class MeshDensity:
         check_within("thickness", self.thickness, 2, 50)
         check_within("growth", self.growth, 1.0, 4.0)
 
-    def refined(self) -> MeshDensity:
-        """Return twice the numbers, with the growth that keeps the grading."""
-        return MeshDensity(
-            profile=2 * self.profile,
-            lengthwise=2 * self.lengthwise,
-            thickness=2 * self.thickness,
-            growth=self.growth**0.5,
-            fillet=2 * self.fillet,
-            slot=2 * self.slot,
-            rim=2 * self.rim,
-        )
-
 
 @dataclass(frozen=True, slots=True)
 class ToothMesh:

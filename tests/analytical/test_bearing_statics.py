@@ -5,13 +5,13 @@ import pytest
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
-from gearlube_core.bearings.statics import (
+from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.errors import ConvergenceError
+from tests.references.bearing_statics import (
     natural_frequencies,
     static_displacement,
     stiffness,
 )
-from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
-from gearlube_core.errors import ConvergenceError
 
 P = TaperedRollerBearing.mohammadpour_2015(film="off").with_preload(2500.0).parameters()
 OIL = (0.0171, 2.383e-8)

@@ -11,15 +11,15 @@ from drivetrain.driveline.equations import STATES
 from drivetrain.driveline.model import COMMUNICATION_STEP, Driveline
 from drivetrain.driveline.modes import driveline_modes
 from drivetrain.driveline.parameters import DrivelineParameters
-from drivetrain.driveline.stability import (
+from drivetrain.engine import Engine
+from drivetrain.road_load import mohammadpour_2015_road_load
+from gearlube_core.errors import ConvergenceError
+from tests.references.communication_stability import (
+    TorsionalAxle,
     communication_map,
     communication_stability,
     largest_stable_step,
 )
-from drivetrain.driveline.torsional_axle import TorsionalAxle
-from drivetrain.engine import Engine
-from drivetrain.road_load import mohammadpour_2015_road_load
-from gearlube_core.errors import ConvergenceError
 
 RATIO = 36 / 13
 SMOOTH = DrivelineParameters(road_load=mohammadpour_2015_road_load(), engine=Engine(orders=()))

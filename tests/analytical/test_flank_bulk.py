@@ -8,13 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle.flank_bulk import SETTLED, bulk_temperature
 from gearlube_core.dynamics.hypoid_axle.losses import (
     FAILURES,
     LOSS_SOURCES,
+    SETTLED,
     TOO_HOT,
     AxleLosses,
     axle_losses,
+    bulk_temperature,
 )
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle

@@ -1,6 +1,5 @@
 """Tip relief, crown and slopes against their closed forms."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -97,7 +96,7 @@ def test_slopes_act_where_and_as_much_as_stated():
     assert at_gear == pytest.approx(-at_pinion, abs=1e-17)
 
 
-def test_removals_of_both_members_add_and_turn_normal_by_the_base_helix():
+def test_removals_of_both_members_add():
     pair = named_pair("jamali_2015_a")
     one = FlankModification(tip_relief=relief(0.5), crown=Crown(amount=8e-6, start=0.0))
     both = ModifiedPair(pair=pair, pinion=one, gear=one)
@@ -105,8 +104,6 @@ def test_removals_of_both_members_add_and_turn_normal_by_the_base_helix():
     z = np.linspace(-0.5, 0.5, 9) * pair.face_width
     total = both.pinion_removal(x, z) + both.gear_removal(pair.tangent_length - x, z)
     assert both.removal(x, z) == pytest.approx(total, abs=1e-18)
-    normal = total * math.cos(pair.base_helix_angle)
-    assert both.normal_removal(x, z) == pytest.approx(normal, abs=1e-18)
     alone = ModifiedPair(pair=pair, pinion=replace(one, tip_relief=None), gear=one)
     assert alone.contact_end == pytest.approx(pair.contact_end, rel=1e-14)
     assert alone.contact_start == pytest.approx(both.contact_start, rel=1e-14)

@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.helical_contact.involute_gap import edge, engagement, roll_beside
-from gearlube_core.helical_contact.strips import line_gap
+from gearlube_core.helical_contact.strips import edge, engagement, line_gap, roll_beside
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
 from tests.helpers.helical_contact_cases import HE_2007, SPUR

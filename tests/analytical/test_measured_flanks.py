@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.hypoid_contact.flank_deviation import flank_deviation
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
+from gearlube_core.hypoid_contact.settings_fit import flank_deviation
 from gearlube_core.hypoid_contact.strips import StripSettings
 from gearlube_core.hypoid_geometry.flank.correction import FlankCorrection
 from gearlube_core.hypoid_geometry.measured.deviation_grid import DeviationGrid, GridPlaces
-from gearlube_core.hypoid_geometry.measured.smooth_surface import smooth_surface
+from gearlube_core.hypoid_geometry.measured.measured_flanks import smooth_surface
 from tests.helpers.contact_cases import shipped_pair
 from tests.helpers.loaded_cases import FILE, stiffness
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_contact.flank_deviation import flank_deviation
-from gearlube_core.hypoid_contact.settings_fit import fit_settings
+from gearlube_core.hypoid_contact.settings_fit import fit_settings, flank_deviation
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.measured.deviation_grid import DeviationGrid, GridPlaces
 from tests.helpers.loaded_cases import FILE

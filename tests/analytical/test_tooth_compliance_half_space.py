@@ -8,9 +8,12 @@ from scipy.integrate import dblquad
 from skfem import Basis, ElementHexS2
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
-from gearlube_core.tooth_compliance.half_space_hats import half_space_compliance
-from gearlube_core.tooth_compliance.layer_elimination import energy_products
-from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, stiffness_matrix
+from gearlube_core.tooth_compliance.flank_compliance import half_space_compliance
+from gearlube_core.tooth_compliance.tooth_fe import (
+    energy_products,
+    normal_hat_loads,
+    stiffness_matrix,
+)
 from gearlube_core.tooth_compliance.tooth_section import Flank
 from tests.helpers.compliance_cases import box_mesh
 

@@ -11,8 +11,8 @@ from skfem import Basis, ElementHexS2
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.tooth_compliance.layer_elimination import energy_products
 from gearlube_core.tooth_compliance.tooth_fe import (
+    energy_products,
     normal_hat_loads,
     stiffness_matrix,
     tooth_model,

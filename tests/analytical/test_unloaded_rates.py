@@ -9,8 +9,8 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.ease_off import ease_off
 from gearlube_core.hypoid_contact.placement import ALIGNED
+from gearlube_core.hypoid_contact.sensitivity.analysis import error_rates
 from gearlube_core.hypoid_contact.sensitivity.ease_off_rates import ease_off_rates
-from gearlube_core.hypoid_contact.sensitivity.error_rates import error_rates
 from gearlube_core.hypoid_contact.sensitivity.parameter import Parameter, usual_parameters
 from gearlube_core.hypoid_contact.sensitivity.path_rates import path_rates
 from gearlube_core.hypoid_contact.sensitivity.variations import Variations

@@ -2,7 +2,7 @@
 
 from numba import types
 
-from fmu_src.object_code import array_at, lower_to_object
+from fmu_src.object_code import LINUX, array_at, intermediate_code, object_code
 from tests.helpers.object_code import FREESTANDING, LIBM, undefined_in_object
 
 POINTER = types.CPointer(types.float64)
@@ -14,5 +14,6 @@ def allocating_step(s):
 
 
 def test_an_allocation_would_be_seen():
-    code, _ = lower_to_object(allocating_step, types.float64(POINTER), "allocates")
+    text = intermediate_code(allocating_step, types.float64(POINTER), "allocates")
+    code, _ = object_code(text, LINUX)
     assert undefined_in_object(code) - LIBM - FREESTANDING

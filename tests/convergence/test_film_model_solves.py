@@ -11,7 +11,8 @@ from typer.testing import CliRunner
 
 from gearlube.command import app
 from gearlube.studies.film_model.audit import audit
-from gearlube.studies.film_model.samples import DOMAIN, axle_contacts, box_contacts, widened_box
+from gearlube.studies.film_model.draws import widened
+from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, axle_contacts, box_contacts
 from gearlube.studies.film_model.solve import solve_contact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
@@ -26,7 +27,7 @@ def test_bounds_hold_at_contacts_that_were_never_drawn_before():
     mesh = shipped_mesh_table("mohammadpour_2015")
     contacts = [
         *axle_contacts(6, 777, mesh, OILS, DOMAIN),
-        *box_contacts(widened_box(OILS), 4, 778, random=True),
+        *box_contacts(widened(HYPOID_BOX, OILS), 4, 778, random=True),
     ]
     found = audit(FilmModel.named("hypoid_flank"), contacts)
     assert found.outside == 0

@@ -7,11 +7,11 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.tooth_compliance.flank_compliance import (
     CondensationSettings,
     FlankCompliance,
+    half_space_compliance,
     interpolation_weights,
     projected,
     tooth_compliance,
 )
-from gearlube_core.tooth_compliance.half_space_hats import half_space_compliance
 from gearlube_core.tooth_compliance.hat_grid import lengthwise_nodes, profile_nodes
 from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, tooth_model
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity, tooth_mesh

@@ -13,7 +13,7 @@ import xarray as xr
 from PIL import Image
 
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube.studies.films.rough import plan, run
+from gearlube.studies.films.rough import run
 from gearlube.studies.films.rough.files import frame_files, read_frames
 from gearlube.studies.films.rough.run import run_rough, statistics_again
 from gearlube_core.ehl.case.rough_case import RoughCase
@@ -175,14 +175,14 @@ def test_a_full_disk_is_told_and_the_last_record_stays(case, tmp_path, monkeypat
 
 def test_too_small_a_disk_is_told_before_the_march(case, tmp_path, monkeypatch, caplog):
     usage = shutil.disk_usage(tmp_path)._replace(free=1_000_000)
-    monkeypatch.setattr(plan.shutil, "disk_usage", lambda _: usage)
+    monkeypatch.setattr(run.shutil, "disk_usage", lambda _: usage)
     ended = command("rough", str(case), "--out", str(tmp_path / "out"))
     assert ended.exit_code == BAD_ARGUMENT
     assert "MB free space, got 1 MB. Keep fewer films" in caplog.text
 
 
 def test_the_disk_need_bounds_what_is_written(whole, case):
-    need = plan.disk_need(RoughCase.from_toml(case), whole)
+    need = run.disk_need(RoughCase.from_toml(case), whole)
     written = sum(path.stat().st_size for path in whole.rglob("*") if path.is_file())
     # the estimate is no less, and kept films are counted to the byte but for their headers
     assert need.total > written

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 
-from gearlube.studies.helical.figures.geometry_catalogue import (
+from gearlube.studies.helical.figures.catalogue import (
     GEOMETRY_CATALOGUE,
     drawn_datasets,
     save_geometry_figures,

@@ -28,5 +28,12 @@ def test_mesh_frequency_follows_the_vehicle_speed(tmp_path):
     np.testing.assert_allclose(results["mesh_frequency"].sel(preload=2500.0), expected, rtol=5e-3)
     report = (tmp_path / "report.html").read_text()
     figures = set(re.findall('<figure id="(.+?)"', report))
-    assert figures >= {"operating_points", "dte_map", "dte_orders", "radial_map", "efficiency", "film"}
+    assert figures >= {
+        "operating_points",
+        "dte_map",
+        "dte_orders",
+        "radial_map",
+        "efficiency",
+        "film",
+    }
     assert figures >= {"bearing_force_map", "bearing_force_orders", "roller_map", "roller_zone"}

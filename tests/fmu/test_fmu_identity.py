@@ -22,7 +22,7 @@ import sys
 opened = set()
 sys.addaudithook(lambda event, args: opened.add(str(args[0])) if event == "open" else None)
 from {slave} import {name} as Slave
-from fmu_src.compile_ahead import compile_ahead
+from fmu_src.slave_base import compile_ahead
 from pathlib import Path
 assert compile_ahead(Slave.definition_of(Path())) == ""
 for module in list(sys.modules.values()):

@@ -13,7 +13,7 @@ import numpy as np
 from elftools.elf.elffile import ELFFile
 
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel, Operation
-from fmu_src.object_code import lower_to_object
+from fmu_src.object_code import LINUX, intermediate_code, object_code
 
 LIBM = {"exp", "expm1", "log", "pow", "sin", "cos", "tan", "sqrt", "asinh", "tanh", "erfc", "ceil"}
 LIBM |= {"floor", "hypot", "log1p", "acos", "cosh", "sinh", "fmod", "exp2", "sincos"}
@@ -68,7 +68,8 @@ class LoadedModel:
 
     def __init__(self, model: NativeModel) -> None:
         self.model = model
-        self.code, self.declared = lower_to_object(model.entry, ENTRY_SIGNATURE, "entry_under_test")
+        code = intermediate_code(model.entry, ENTRY_SIGNATURE, "entry_under_test")
+        self.code, self.declared = object_code(code, LINUX)
         target = llvm.Target.from_default_triple().create_target_machine()
         self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target)
         self._engine.add_object_file(llvm.ObjectFileRef.from_data(self.code))

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from gearlube_core.bearings.standalone import RotorOnBearing
-from gearlube_core.bearings.statics import (
-    natural_frequencies,
-    static_displacement,
-    stiffness,
-)
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.film.mostofi_gohar_1983 import (
     central_film,
     dimensionless_groups_as_printed,
     squeeze_factor,
+)
+from tests.references.bearing_statics import (
+    natural_frequencies,
+    static_displacement,
+    stiffness,
 )
 
 

@@ -21,9 +21,9 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import (
     pinion_cut,
     reference_plane_distance,
 )
-from gearlube_core.hypoid_geometry.flank.pressure_angle import pressure_angle_mismatch
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.references.pressure_angle import pressure_angle_mismatch
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 # the settings as printed: nothing completed

@@ -22,8 +22,8 @@ from gearlube_core.hypoid_geometry.blank.iso_23509 import (
     method_2,
     method_3,
 )
-from gearlube_core.hypoid_geometry.blank.member_profile import MemberProfile
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
+from tests.references.member_profile import MemberProfile
 
 RAD = math.radians
 

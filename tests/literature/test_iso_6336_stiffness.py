@@ -8,7 +8,6 @@ from scipy.optimize import brentq
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
-    gear_blank_factor,
     iso_stiffness,
     rack_dedendum_of,
     stiffness_density,
@@ -130,15 +129,6 @@ def test_cast_iron_against_steel_follows_the_harmonic_mean_of_the_moduli():
     steel = iso_stiffness(pair, line_load=LOAD)
     mixed = iso_stiffness(pair, line_load=LOAD, modulus=(206e9, 103e9))
     assert mixed.single / steel.single == pytest.approx(2.0 / 3.0, rel=1e-12)
-
-
-def test_webbed_blank_is_softer_the_thinner_web_and_rim():
-    assert gear_blank_factor(1.0, 0.02, 4e-3) == 1.0
-    # By hand: 1 + ln(0.3)/(5 exp(2/5)).
-    assert gear_blank_factor(0.3, 8e-3, 4e-3) == pytest.approx(0.83859, abs=1e-5)
-    assert gear_blank_factor(0.3, 4e-3, 4e-3) < gear_blank_factor(0.3, 8e-3, 4e-3)
-    # The standard stops at a web of a fifth and a rim of one module.
-    assert gear_blank_factor(0.01, 1e-3, 4e-3) == gear_blank_factor(0.2, 4e-3, 4e-3)
 
 
 def test_limits_of_the_fit_that_a_pair_exceeds_are_named():

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.helical_geometry.facets import facet_data
+from gearlube_core.helical_geometry.involute import involute_flank
 from gearlube_core.helical_geometry.lay_angle import (
     equal_radius_line,
     lay_angle_limits,
@@ -112,13 +112,15 @@ def test_steps_are_those_in_which_the_line_exceeds_its_share():
 def test_facets_at_the_centre_of_the_largest_load_have_the_derived_size(
     count, length, sagitta, slope
 ):
-    # at s_i = -7.5 mm; to the last digit written
+    # at s_i = -7.5 mm; to the last digit written; l = R arc/r_b, sagitta = l^2 cos(beta_b)/(8 R)
     pair = named_pair("jamali_2015_a")
     half_lag = 0.5 * pair.face_width * math.tan(pair.base_helix_angle)
-    data = facet_data(pair, count, pair.pitch_point - 7.5e-3 + half_lag)
-    assert 1e3 * data.length == pytest.approx(length, abs=5.1e-4)
-    assert 1e6 * data.sagitta == pytest.approx(sagitta, abs=5e-3)
-    assert data.slope_step == pytest.approx(slope, abs=5e-5)
+    roll, flank = pair.pitch_point - 7.5e-3 + half_lag, involute_flank(pair, "pinion")
+    long = roll * (flank.roll_high - flank.roll_low) / count / flank.base_radius
+    turn = long * math.cos(pair.base_helix_angle) / roll
+    assert 1e3 * long == pytest.approx(length, abs=5.1e-4)
+    assert 1e6 * 0.125 * long * turn == pytest.approx(sagitta, abs=5e-3)
+    assert turn == pytest.approx(slope, abs=5e-5)
 
 
 @pytest.mark.parametrize("form", ["parabola", "involute"])

@@ -15,9 +15,9 @@ from gearlube_core.bearings import (
     palmgren_1959,
     roller_contact,
     roller_loads,
-    rotor_kernels,
     shaft_energy,
     shaft_forces,
+    standalone,
 )
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
@@ -27,7 +27,7 @@ from gearlube_core.film import mostofi_gohar_1983 as film
 P = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()
 OIL = (0.0171, 2.383e-8)
 MOTION = ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
-ROTOR = rotor_kernels.Rotor(50.0, 1500.0, 209.0, 159.0, *OIL, P)
+ROTOR = standalone.Rotor(50.0, 1500.0, 209.0, 159.0, *OIL, P)
 SHAFT = (MOTION, 300.0, *OIL, P)
 CASES = [
     (film.squeeze_factor, (1e-3, 2.0)),
@@ -95,7 +95,7 @@ def test_films_of_rollers_are_those_of_the_formula_under_their_loads():
 
 def test_compiled_rotor_equals_its_source():
     results = []
-    for function in (rotor_kernels.rotor_history, rotor_kernels.rotor_history.py_func):
+    for function in (standalone.rotor_history, standalone.rotor_history.py_func):
         states, loads = np.zeros((5, 6)), np.zeros((5, 12))
         s = np.array([1e-6, 0, 0, 1e-3, 0, 0])
         args = (s, 1e-5, 2, ROTOR, states, loads, np.zeros((5, 6)))
@@ -104,8 +104,8 @@ def test_compiled_rotor_equals_its_source():
     assert results[0] == pytest.approx(results[1], rel=1e-12, abs=1e-15)
     rate = np.zeros((2, 6))
     args = (s, 0.1, ROTOR)
-    rotor_kernels.rotor_rate(*args, rate[0])
-    rotor_kernels.rotor_rate.py_func(*args, rate[1])
+    standalone.rotor_rate(*args, rate[0])
+    standalone.rotor_rate.py_func(*args, rate[1])
     assert rate[0] == pytest.approx(rate[1], rel=1e-13)
 
 

@@ -5,7 +5,6 @@ import math
 import pytest
 
 from gearlube_core.bearings.catalogue_rollers import (
-    load_rating,
     rating_factor,
     roller_length_of_rating,
     usual_roller_count,
@@ -30,16 +29,15 @@ def test_the_factor_is_that_of_the_standards_table(gamma, factor):
 
 
 def test_the_rating_of_printed_rollers_is_that_of_catalogues():
-    # 32216: rollers of Wingertszahn et al. 2023; C of catalogues 187 kN, 10 % between makers
+    # 32216: rollers of Wingertszahn et al. 2023; C of catalogues 187 kN, 10 % between makers,
+    # which are 13 % of the length, as it goes with C^(9/7)
     rollers = {
         "rollers": 16,
         "diameter": 17e-3,
         "contact_angle": math.radians(15.64),
         "pitch": 108.5e-3,
     }
-    rating = load_rating(length=22.7e-3, **rollers)
-    assert rating == pytest.approx(187e3, rel=0.1)
-    assert roller_length_of_rating(rating, **rollers) == pytest.approx(22.7e-3, rel=1e-12)
+    assert roller_length_of_rating(187e3, **rollers) == pytest.approx(22.7e-3, rel=0.13)
 
 
 @pytest.mark.parametrize(

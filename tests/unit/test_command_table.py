@@ -10,8 +10,7 @@ import typer
 from typer.testing import CliRunner
 
 from gearlube.cli.exit_codes import FAILED, exit_on_error
-from gearlube.cli.lazy_commands import LazyCommand
-from gearlube.command import COMMANDS, command_line
+from gearlube.command import COMMANDS, LazyCommand, command_line
 from gearlube_core.errors import FileError
 from gearlube_core.storage.atomic_file import write_text
 

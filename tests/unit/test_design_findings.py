@@ -9,7 +9,7 @@ import xarray as xr
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.design.findings import findings, missed_targets, numbers
-from gearlube.studies.design.report import design_report
+from gearlube.studies.design.run import design_report
 
 THIN = "pinion topland is thin: 0.40 mm at the toe, below 0.3 of the normal module (2.64 mm)."
 UNMET = "The transmission error of the coast flanks came to 95 urad, asked 80 urad. Relax: more."

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 import gearlube as gl
 from gearlube.command import COMMANDS, command_line
-from gearlube.studies.drive_cycle.nedc import EXTRA_URBAN, URBAN
+from gearlube.studies.drive_cycle.traces import EXTRA_URBAN, URBAN
 from gearlube_core.errors import ParameterError
 from tests.helpers.units import without_units
 

@@ -11,13 +11,14 @@ import pytest
 
 from gearlube.studies.film_model.audit import Audit, AuditRow, audit_lines
 from gearlube.studies.film_model.calibration import conformal_bounds
+from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.fit import fit_model
 from gearlube.studies.film_model.fit_settings import FitSettings
 from gearlube.studies.film_model.kinds import BEARING_ROLLER, HYPOID_FLANK
 from gearlube.studies.film_model.limiting import limits_of
 from gearlube.studies.film_model.net_fit import fit_net, net_values
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
-from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, box_contacts, widened_box
+from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, box_contacts
 from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
 from gearlube.studies.film_model.targets import expected_friction
@@ -94,10 +95,10 @@ def test_random_contacts_lie_in_the_domain_and_spread_over_the_box():
 
 def test_the_box_widens_for_an_oil_beyond_it_and_only_there():
     thin = Lubricant.named("jamali_2015")  # 3.6 mPa s at 120 degC
-    wide = widened_box([thin])
+    wide = widened(HYPOID_BOX, [thin])
     assert wide["viscosity [Pa s]"][0] < 0.0036
     assert wide["Roelands Z"] == HYPOID_BOX["Roelands Z"]
-    assert widened_box([Lubricant.named("mohammadpour_2015")]) == HYPOID_BOX
+    assert widened(HYPOID_BOX, [Lubricant.named("mohammadpour_2015")]) == HYPOID_BOX
 
 
 def test_a_table_comes_back_and_half_a_row_is_solved_again(rows, tmp_path):

@@ -7,9 +7,14 @@ from PIL import Image
 
 import gearlube as gl
 from gearlube.plotting.drawn_tooth import DrawnTooth
-from gearlube.studies.contact.figures.flank_films import animate_films
-from gearlube.studies.contact.film_option import film_request
-from gearlube.studies.contact.flank_films import FilmRequest, _places, axle_around, flank_films
+from gearlube.studies.contact.film_option import (
+    FilmRequest,
+    _places,
+    animate_films,
+    axle_around,
+    film_request,
+    flank_films,
+)
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_contact import likely_cause as module
-from gearlube_core.hypoid_contact.likely_cause import likely_changes
+from gearlube_core.hypoid_contact import refusal as module
+from gearlube_core.hypoid_contact.refusal import likely_changes
 from gearlube_core.hypoid_contact.setting_slips import Change
 
 FIRST, SECOND, TEETH = "pinion.machine.tilt_deg", "gear.machine.offset_mm", "gear.teeth"

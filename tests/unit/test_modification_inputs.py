@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.helical_geometry.facets import facet_data
 from gearlube_core.helical_geometry.lay_angle import lay_angles
 from gearlube_core.helical_geometry.meshing_steps import (
     MeshingSteps,
@@ -37,7 +36,6 @@ PAIR = named_pair("jamali_2015_a")
         (lambda: UndeformedGap(modified=jamali_2015("a"), form="circle"), "form"),
         (lambda: lay_angles(0.0, PAIR, form="chord"), "form"),
         (lambda: lay_angles(0.0, PAIR, distance=0.0), "distance"),
-        (lambda: facet_data(PAIR, 0, 0.03), "count"),
         (lambda: meshing_steps(jamali_2015("a"), 4e-5, 0.95), "smallest_share"),
         (lambda: MeshingSteps(pair=PAIR, first_position=0.0, step=0.0, count=3), "step"),
     ],

@@ -6,11 +6,11 @@ import pytest
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.measured.measured_flanks import read_measured_flanks
-from gearlube_core.hypoid_geometry.measured.nominal_points import (
+from gearlube_core.hypoid_geometry.measured.measured_flanks import (
     COLUMNS,
     check_nominal_points,
     fit_points,
+    read_measured_flanks,
 )
 
 FILE = HypoidGearFile.named("mohammadpour_2015")

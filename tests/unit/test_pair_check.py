@@ -15,9 +15,9 @@ from gearlube_core.hypoid_contact.setting_slips import setting
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.machine_check import edge_misfits, reference_misfit
 from gearlube_core.hypoid_geometry.flank.machine_frames import pinion_cut
-from gearlube_core.hypoid_geometry.flank.pressure_angle import pressure_angle
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
+from tests.references.pressure_angle import pressure_angle
 
 GEARS = Path(__file__).parents[2] / "examples" / "gears"
 SHIPPED = HypoidGearFile.named("mohammadpour_2015")

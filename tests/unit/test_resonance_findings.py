@@ -6,7 +6,6 @@ import xarray as xr
 
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
-from gearlube.studies.resonance.figures.charts import response_chart
 from gearlube.studies.resonance.findings import (
     findings,
     jumps,
@@ -14,7 +13,7 @@ from gearlube.studies.resonance.findings import (
     numbers,
     unstable_ranges,
 )
-from gearlube.studies.resonance.report import resonance_report
+from gearlube.studies.resonance.report import resonance_report, response_chart
 
 # a branch that leans to low frequency: up to 0.95, back unstable to 0.85, and on with teeth apart
 RELATIVE = np.array([0.5, 0.8, 0.9, 0.95, 0.92, 0.88, 0.85, 0.9, 1.0, 1.1, 1.2])

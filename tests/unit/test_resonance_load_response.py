@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gearlube.studies.resonance import load_response
+from gearlube.studies.resonance import run as load_response
 from gearlube.studies.resonance.figures.load_curves import load_curves
 from gearlube.studies.resonance.response import Response, follow_response
 from gearlube.studies.resonance.settings import ResonanceSettings

@@ -10,7 +10,6 @@ import xarray as xr
 from PIL import Image
 
 from gearlube.studies.films.figures.rough import (
-    rough_difference,
     rough_distributions,
     rough_frame,
     rough_history,
@@ -86,21 +85,6 @@ def test_thin_films_stand_in_their_bins_beside_each_other(runs):
     assert len(high) == 1
     assert high[0].get_height() == pytest.approx(25.0, rel=1e-9)
     assert 4.0 < high[0].get_x() < 5.0
-
-
-def test_difference_is_the_first_less_the_second_at_the_place_asked_for():
-    first, second = frames(4.5e-9), frames(2e-7)
-    upper, lower = rough_difference(first, second, x=1e-4).axes
-    assert len(lower.lines) == 3
-    assert lower.lines[0].get_ydata()[::4] == pytest.approx(np.full(4, -0.1955), rel=1e-9)
-    assert upper.lines[0].get_ydata() == pytest.approx(np.zeros(16), abs=1e-12)
-    assert "x = 100 µm" in upper.get_title()
-
-
-def test_runs_on_other_nodes_have_no_difference():
-    other = frames(2e-7).assign_coords(y=1.01 * Y)
-    with pytest.raises(ParameterError, match="y of both runs must be the same"):
-        rough_difference(frames(2e-7), other)
 
 
 def test_frame_shows_pressure_film_and_a_row():

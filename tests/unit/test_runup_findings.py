@@ -9,10 +9,10 @@ from scipy.interpolate import CubicSpline
 
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.studies.runup import levels
+from gearlube.studies.runup.dataset import operating_shape
 from gearlube.studies.runup.figures.tracks import order_tracks
 from gearlube.studies.runup.findings import findings, numbers
 from gearlube.studies.runup.modes import RampModes
-from gearlube.studies.runup.operating_shape import operating_shape
 from gearlube.studies.runup.peaks import critical_speeds, peaks
 from gearlube.studies.runup.report import tables
 from gearlube.studies.runup.run import run_runup

@@ -8,8 +8,7 @@ import pyuff
 
 from gearlube.studies.sound.force_record import read_forces
 from gearlube.studies.sound.pressure import sound_pressure
-from gearlube.studies.sound.read_path import read_transfer
-from gearlube.studies.sound.run import run_sound
+from gearlube.studies.sound.run import read_transfer, run_sound
 from gearlube.studies.sound.settings import SoundSettings
 from gearlube.studies.sound.wav import wav_names, write_wav
 from gearlube_core.errors import FileError, ParameterError

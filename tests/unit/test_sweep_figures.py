@@ -10,7 +10,7 @@ import xarray as xr
 
 from gearlube.plotting.style import cell_edges
 from gearlube.report.page import report_html
-from gearlube.studies.sweep.datasets import merge
+from gearlube.studies.sweep.datasets import merge, summary_table
 from gearlube.studies.sweep.figures import CATALOGUE, spectrum_bubbles
 from gearlube.studies.sweep.figures.bubbles import all_lines, highest, lines_of
 from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
@@ -18,7 +18,6 @@ from gearlube.studies.sweep.figures.spectrum_map import DTE, default_top
 from gearlube.studies.sweep.point import failed_point, summarise
 from gearlube.studies.sweep.report import sweep_report, write_sweep_report
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
-from gearlube.studies.sweep.summary import summary_table
 from tests.helpers import sweep_stand_in as stand_in
 
 SPEEDS, PRELOADS = [20.0, 60.0, 100.0], [2500.0, 6000.0]

@@ -12,7 +12,7 @@ from gearlube.studies.film_model.visited import visited_points
 from gearlube.studies.sound.transfer_csv import read_csv_path
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.traction_measurements import read_traction
-from gearlube_core.hypoid_geometry.measured.tooth_error_files import read_pitch, read_waves
+from gearlube_core.hypoid_geometry.measured.measured_file import read_pitch, read_waves
 from gearlube_core.input_file import table
 from gearlube_core.surface.measured_heights import read_profile
 

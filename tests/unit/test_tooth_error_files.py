@@ -5,10 +5,10 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
-from gearlube_core.hypoid_geometry.measured.tooth_error_files import (
+from gearlube_core.hypoid_geometry.measured.measured_file import (
     PITCH_COLUMNS,
     WAVE_COLUMNS,
+    MeasuredFile,
     read_pitch,
     read_waves,
 )

@@ -3,25 +3,120 @@
 from __future__ import annotations
 
 import logging
+import shutil
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
 
+import numpy as np
 import xarray as xr
 
-from gearlube.output.exports.mat import write_dataset_mat
-from gearlube.output.exports.mdf4 import write_mdf4
-from gearlube.output.exports.source import Span, chosen, dataset_file, read_dataset, without_unit
+from gearlube.output.exports.packages import needed
+from gearlube.output.exports.records import Record, record_names, records
 from gearlube.output.exports.tables import write_tables
 from gearlube.output.exports.uff58 import write_uff58
 from gearlube.output.exports.vtk import write_vtk
-from gearlube_core.errors import ParameterError
+from gearlube.output.mat_file import write_mat
+from gearlube.output.units import is_text, unit_of
+from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.storage.atomic_file import atomic_write
+
+_VERSION = "4.10"
+_PLAIN = ("1", "not stated")  # units that are left empty
+
+Span = tuple[str, str]  # first and last value as text; an empty text is no limit
+
+_STRUCTS = ("units", "meanings", "dimensions", "attributes")
 
 logger = logging.getLogger("gearlube")
 
 
 def _mat(dataset: xr.Dataset, path: Path) -> list[Path]:
-    write_dataset_mat(dataset, path)
+    _write_dataset_mat(dataset, path)
     return [path]
+
+
+def _write_dataset_mat(dataset: xr.Dataset, path: Path) -> None:
+    """Write every variable as an array, and the structs units, meanings, dimensions, attributes.
+
+    `units.NAME` is the unit of NAME, "not stated" where the dataset has none; `dimensions.NAME`
+    the names of its dimensions in order.
+    """
+    content: dict[str, Any] = {str(name): v.values for name, v in dataset.variables.items()}
+    units = {name: unit_of(dataset[name]) for name in content}
+    structs = (
+        {name: "not stated" if unit is None else unit for name, unit in units.items()},
+        {name: str(dataset[name].attrs.get("long_name", "")) for name in content},
+        {name: " ".join(map(str, dataset[name].dims)) for name in content},
+        {str(key): value for key, value in dataset.attrs.items()},
+    )
+    write_mat({**content, **dict(zip(_STRUCTS, structs, strict=True))}, path)
+
+
+def _channel_name(record: Record) -> str:
+    """Return the name of a history: the variable, then names and numbers of its place."""
+    places = (
+        str(value) if isinstance(value, str) else f"{name}_{value:g}"
+        for name, _, value, _ in record.places
+    )
+    return ".".join((record.name, *places))
+
+
+def _write_mdf4(dataset: xr.Dataset, path: Path) -> list[Path]:
+    """Write a channel for each time history, a group for each time axis; return the path.
+
+    Values keep their type. A value that is not there is marked as invalid.
+
+    Raises
+    ------
+    FileError
+        The package asammdf is missing.
+    ParameterError
+        There is no time history, or a time axis does not rise.
+    """
+    asammdf = needed("asammdf", "export", "A measurement file (MDF 4)")
+    found = [record for name in record_names(dataset) for record in records(dataset, name)]
+    groups: dict[str, list[Record]] = {}
+    for record in found:
+        if record.axis_unit == "s":
+            groups.setdefault(record.axis, []).append(record)
+    if not groups:
+        raise ParameterError(
+            "A measurement file (MDF 4) must hold time histories, got "
+            f"{', '.join(map(str, dataset.data_vars)) or 'none'}. Choose another format, such as "
+            "csv or mat."
+        )
+    held = {record.name for group in groups.values() for record in group}
+    if others := [str(name) for name in dataset.data_vars if name not in held]:
+        logger.info("No time history, left out: %s", ", ".join(others))
+    for axis, group in groups.items():
+        if np.any(np.diff(group[0].x) <= 0.0):
+            raise ParameterError(
+                f"The time of a measurement file must rise, got {axis} that does not. Leave out "
+                f"{', '.join(sorted({record.name for record in group}))} with --variable."
+            )
+    with TemporaryDirectory() as folder, asammdf.MDF(version=_VERSION) as file:
+        file.header.comment = str(dataset.attrs.get("title") or dataset.attrs.get("name") or "")
+        for axis, group in groups.items():
+            signals = [_signal(asammdf, dataset, record) for record in group]
+            file.append(signals, acq_name=axis, comment=axis, common_timebase=True)
+        made = file.save(Path(folder, "made.mf4"), overwrite=True)
+        with atomic_write(path) as partial:
+            shutil.copyfile(made, partial)
+    return [path]
+
+
+def _signal(asammdf: Any, dataset: xr.Dataset, record: Record) -> Any:
+    lacking = np.isnan(record.y)
+    return asammdf.Signal(
+        samples=record.y.astype(dataset[record.name].dtype),
+        timestamps=record.x,
+        name=_channel_name(record),
+        unit="" if record.unit in _PLAIN else record.unit,
+        comment=record.meaning,
+        invalidation_bits=lacking if lacking.any() else None,
+    )
 
 
 # format: ending of the file, or of the folder where there are several, and what writes it
@@ -29,7 +124,7 @@ FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], list[Path]]]] = {
     "csv": ("_csv", write_tables),
     "mat": (".mat", _mat),
     "uff58": (".uff", write_uff58),
-    "mdf4": (".mf4", write_mdf4),
+    "mdf4": (".mf4", _write_mdf4),
     "vtk": ("_vtk", write_vtk),
 }
 
@@ -84,10 +179,126 @@ def export_results(
     if path.exists() and path.is_dir() != ending.startswith("_"):
         wanted = "a folder" if ending.startswith("_") else "a file"
         raise ParameterError(f"--out must be {wanted} for {to}, got {path}. Choose another.")
-    with read_dataset(file) as dataset:
+    with _read_dataset(file) as dataset:
         part = chosen(dataset, variables, spans)
-        if unknown := without_unit(part):
+        if unknown := _without_unit(part):
             logger.warning("These variables have no unit: %s", ", ".join(unknown))
         if not path.parent.is_dir():
             path.parent.mkdir(parents=True)
         return write(part, path)
+
+
+def dataset_file(run: Path) -> Path:
+    """Return the NetCDF file that `run` is, or the only one in the folder `run`.
+
+    Raises
+    ------
+    FileError
+        There is no such file.
+    ParameterError
+        The folder holds several.
+    """
+    if run.is_file():
+        return run
+    if not run.is_dir():
+        raise FileError(
+            f"RUN must be a folder of results or a NetCDF file, but {run} does not exist."
+        )
+    found = sorted(run.glob("*.nc"))
+    if not found:
+        raise FileError(
+            f"The folder {run} must hold a NetCDF file (.nc), got none. Name the folder where a "
+            "study wrote its results."
+        )
+    if len(found) > 1:
+        names = ", ".join(path.name for path in found)
+        raise ParameterError(
+            f"One dataset can be exported at a time, but {run} has {len(found)}: {names}. Give one "
+            f"of them, for example {found[0]}."
+        )
+    return found[0]
+
+
+def _read_dataset(file: Path) -> xr.Dataset:
+    """Return the dataset in a NetCDF file; values are read when they are used.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read.
+    """
+    try:
+        return xr.open_dataset(file, decode_times=False)
+    except (OSError, ValueError, RuntimeError, KeyError, TypeError) as error:
+        raise FileError(f"{file} must be a NetCDF file, got {error}.") from error
+
+
+def chosen(
+    dataset: xr.Dataset, variables: Iterable[str] = (), spans: Mapping[str, Span] | None = None
+) -> xr.Dataset:
+    """Return the wanted variables within the wanted spans.
+
+    Parameters
+    ----------
+    dataset : Dataset
+    variables : iterable of str
+        Names; empty: all.
+    spans : mapping
+        First and last value, both inside, by the name of a dimension or of a variable over one
+        dimension. In the unit of the dataset; a dimension without values counts from 0.
+
+    Raises
+    ------
+    ParameterError
+        An unknown name, or a span in which nothing lies.
+    """
+    wanted = list(variables)
+    for name in wanted:
+        if name not in dataset.variables:
+            known = ", ".join(map(str, dataset.data_vars))
+            raise ParameterError(f"The dataset has no variable {name}. It has: {known}.")
+    for name, span in (spans or {}).items():
+        dataset = _within(dataset, name, span)
+    return dataset[wanted] if wanted else dataset
+
+
+def _within(dataset: xr.Dataset, name: str, span: Span) -> xr.Dataset:
+    known = [str(n) for n, v in dataset.variables.items() if v.ndim == 1]
+    known += [str(dim) for dim in dataset.dims if dim not in known]
+    if name not in known:
+        raise ParameterError(
+            f"--span must name a dimension or a variable over one dimension, got {name}. "
+            f"Known: {', '.join(known)}."
+        )
+    values = np.asarray(dataset[name].values)
+    inside = np.ones(values.shape, dtype=bool)
+    if is_text(dataset[name]):
+        inside = np.isin(values.astype(str), [span[0], span[1]])
+    else:
+        first, last = (_number(name, text) for text in span)
+        if first is not None:
+            inside &= values >= first
+        if last is not None:
+            inside &= values <= last
+    if not inside.any():
+        has = f"{values.min()} to {values.max()}" if values.dtype.kind in "fiu" else list(values)
+        raise ParameterError(
+            f"--span {name} must hold a value of the dataset, got {' to '.join(span)}; the dataset "
+            f"has {has} {unit_of(dataset[name]) or ''}".rstrip()
+            + "."
+        )
+    return dataset.isel({dataset[name].dims[0]: np.flatnonzero(inside)})
+
+
+def _number(name: str, text: str) -> float | None:
+    if not text:
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        raise ParameterError(f"--span {name} must have numbers, got {text!r}.") from None
+
+
+def _without_unit(dataset: xr.Dataset) -> list[str]:
+    """Return the names of all numbers whose unit is not stated."""
+    return [str(name) for name, v in dataset.variables.items() if unit_of(v) is None]

@@ -2,23 +2,51 @@
 
 from __future__ import annotations
 
+import json
+import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from gearlube.output.toml_text import toml_text
-from gearlube.report.pictures import save_pictures
+from gearlube.report.charts import Axis, Line, add_line, panels
+from gearlube.report.inputs import stored_inputs
+from gearlube.report.page import write_report
+from gearlube.report.parts import Cell, Column, Report, Table
+from gearlube.report.pictures import pictured, save_pictures
 from gearlube.studies.design.dataset import design_dataset
 from gearlube.studies.design.figures import DESIGN_CATALOGUE
+from gearlube.studies.design.findings import findings, numbers
 from gearlube.studies.design.problem import PROBLEM, problem_text
-from gearlube.studies.design.report import write_design_report
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.design import Design, design_pair
+from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm, tooth_form
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 from gearlube_core.storage.file_names import pair_stem
+from gearlube_core.units import DEGREE, MILLIMETRE
+
+_MICRO = 1e-6
+
+_LIMITS = (
+    "Contact without load of flanks as cut. `gearlube contact` computes it under load, with teeth "
+    "that bend and reliefs.",
+    "Blank by ISO 23509 with uniform depth; strength of the teeth is not checked.",
+    "The settings are the nearest that the search found; others may exist.",
+    "Undercut, topland and slot are those of ideal cutters with sharp points.",
+)
+
+_ASKED = (
+    ("error", "transmission error", "µrad", _MICRO),
+    ("path_angle", "path direction", "°", DEGREE),
+    ("length", "ellipse length", "mm", MILLIMETRE),
+    ("s", "mean contact, s", "", 1.0),
+    ("t", "mean contact, t", "", 1.0),
+)
 
 _SHARE = 0.9  # of the time for the settings
 
@@ -112,5 +140,155 @@ def write_design(results: DesignResults, folder: Path, command_line: str = "") -
     write_text(problem_text(results.design), folder / PROBLEM)
     write_dataset(results.dataset, folder / "design.nc")
     save_pictures(DESIGN_CATALOGUE, folder / "figures", results.dataset)
-    write_design_report(results.dataset, folder, command_line)
+    _write_design_report(results.dataset, folder, command_line)
     return path
+
+
+def _write_design_report(dataset: xr.Dataset, folder: Path | str, command_line: str = "") -> Path:
+    """Write report.html beside the figures that lie in FOLDER/figures; return its path.
+
+    Examples
+    --------
+    >>> found = xr.load_dataset("gearlube_design/design.nc")  # doctest: +SKIP
+    >>> _write_design_report(found, "gearlube_design")  # doctest: +SKIP
+    """
+    folder = Path(folder)
+    return write_report(design_report(dataset, folder / "figures", command_line), folder)
+
+
+def design_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> Report:
+    """Return the report of a design; `figures` is the folder of its pictures."""
+    attributes = dataset.attrs
+    charts = {"transmission_error": _error_chart(dataset), "tooth_widths": _width_chart(dataset)}
+    return Report(
+        study="design",
+        title=f"Designed pair {attributes['name']}",
+        subtitle=f"Blank by ISO 23509, method {attributes['method']}, uniform depth. Gear "
+        f"{attributes['cut']}, pinion generated with cutter tilt.",
+        findings=findings(dataset),
+        numbers=numbers(dataset),
+        figures=pictured(DESIGN_CATALOGUE, figures, charts),
+        tables=[_contact(dataset), _teeth(dataset), _blank(dataset), _settings(dataset)],
+        inputs=stored_inputs(attributes, "inputs"),
+        limits=_LIMITS,
+        facts=[("command", command_line)] if command_line else [],
+        files=(
+            f"{pair_stem(attributes['name'])}.toml",
+            "axle.toml",
+            "problem.toml",
+            "design.nc",
+            "figures/",
+        ),
+    )
+
+
+def _error_chart(dataset: xr.Dataset) -> Any:
+    x, y = Axis("pinion rotation", "mesh periods"), Axis("gear lags", "µrad")
+    figure = panels([f"{side} flanks" for side in SIDES], x, [y] * len(SIDES), height=280)
+    for row, side in enumerate(SIDES, 1):
+        part = dataset.sel(side=side)
+        error = part["error"].values
+        zero = np.nanmin(error) if side == "drive" else np.nanmax(error)
+        phase = np.append(part["mesh_phase"].values, part["mesh_phase"].values + 1.0)
+        single = part["path_error"].values
+        for number, (name, place, values) in enumerate(
+            (
+                ("mesh", phase, np.tile(error, 2)),
+                ("one pair alone", part["path_phase"].values + 1.0, single),
+            )
+        ):
+            line = Line(name=name, x=place, y=(values - zero) / _MICRO, dash=number)
+            add_line(figure, line, number, x, y, row=row, col=1)
+            figure.data[-1].update(mode="lines", legendgroup=name, showlegend=row == 1)
+        span = max(float(np.nanmax(error) - np.nanmin(error)) / _MICRO, 1.0)
+        low = float(np.nanmin(error) - zero) / _MICRO
+        figure.update_yaxes(range=[low - 0.4 * span, low + 1.4 * span], row=row, col=1)
+    figure.update_xaxes(range=[0.0, 2.0])
+    figure.update_layout(showlegend=True)
+    return figure
+
+
+def _width_chart(dataset: xr.Dataset) -> Any:
+    x, y = Axis("face width, toe 0 to heel 1"), Axis("width", "mm")
+    figure = panels(("Topland", "Slot at the root"), x, (y, y), height=260)
+    for row, name in enumerate(("topland", "slot"), 1):
+        for number, member in enumerate(dataset["member"].values):
+            values = dataset[name].sel(member=member).values / MILLIMETRE
+            line = Line(name=str(member), x=dataset["face"].values, y=values)
+            add_line(figure, line, number, x, y, row=row, col=1)
+            figure.data[-1].update(mode="lines", legendgroup=line.name, showlegend=row == 1)
+    figure.update_yaxes(rangemode="tozero")
+    figure.update_layout(showlegend=True)
+    return figure
+
+
+def _contact(dataset: xr.Dataset) -> Table:
+    rows: list[list[Cell]] = []
+    for side in SIDES:
+        part = dataset.sel(side=side)
+        for name, words, unit, scale in _ASKED:
+            asked, found = (float(part[f"{one}_{name}"]) / scale for one in ("asked", "found"))
+            rows.append([side, words, _text(asked), _text(found), unit])
+        centre = float(part["missed_centre"]) / MILLIMETRE
+        relieved = float(part["relieved_error"]) / _MICRO
+        rows += [
+            [side, "mean contact off by", "", _text(centre), "mm"],
+            [side, "transmission error with relief", "", _text(relieved), "µrad"],
+            [side, "path of contact", "", _text(float(part["path_contact_ratio"])), "pitches"],
+        ]
+    return Table(
+        title="Contact: wanted and found",
+        caption="Path directions on the gear flank, from the root line towards the heel and "
+        "positive towards the tip. s: root 0 to tip 1; t: toe 0 to heel 1.",
+        columns=[Column(one) for one in ("flanks", "", "asked", "found", "unit")],
+        rows=rows,
+    )
+
+
+def _text(value: float) -> str:
+    return "none" if math.isnan(value) else f"{value:.4g}"
+
+
+def _teeth(dataset: xr.Dataset) -> Table:
+    rows: list[list[Cell]] = []
+    for member in dataset["member"].values:
+        part = dataset.sel(member=member)
+        for name, words in (("topland", "topland"), ("slot", "slot at the root")):
+            width = part[name].values / MILLIMETRE
+            rows.append(
+                [str(member), f"{words}, toe to heel", f"{width[0]:.2f} to {width[-1]:.2f} mm"]
+            )
+        rows.append(
+            [
+                str(member),
+                "blade points at most",
+                f"{float(part['slot'].min()) / MILLIMETRE:.2f} mm",
+            ]
+        )
+        for side in SIDES:
+            deepest = float(part["undercut"].sel(side=side))
+            cut = "none" if math.isnan(deepest) else f"below s = {deepest:.2f}"
+            rows.append([str(member), f"undercut of the {side} flank", cut])
+        rows.append([str(member), "reach of the mate's tip, s", f"{float(part['active']):.2f}"])
+    return Table(title="Teeth", columns=[Column("member"), Column(""), Column("value")], rows=rows)
+
+
+def _blank(dataset: xr.Dataset) -> Table:
+    return Table(
+        title="Blank",
+        columns=[Column("what"), Column("value"), Column("unit")],
+        rows=[
+            [field, value, unit] for field, value, unit, *_ in json.loads(dataset.attrs["blank"])
+        ],
+        folded=True,
+    )
+
+
+def _settings(dataset: xr.Dataset) -> Table:
+    return Table(
+        title="Machine settings and cutters",
+        columns=[Column("field"), Column("value"), Column("origin")],
+        rows=json.loads(dataset.attrs["settings"]),
+        caption="As in the gear file.",
+        folded=True,
+    )

@@ -4,16 +4,128 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from gearlube.studies.drive_cycle.nedc import nedc
-from gearlube.studies.drive_cycle.packaged_cycles import ftp75, wltc
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.table import TABLES
+
+_KMH = 1.0 / 3.6
+_COLD_PHASE = 505  # s, that a hot start repeats
+_WLTC_SUM = 83758.6  # km/h, of all 1801 speeds of class 3b
+_FTP75_DISTANCE = 17_769.0  # m
+
+# Seconds and the speed at their end [km/h]; between the ends the speed is a straight line.
+# [unece_2012 Annex 4a, tables 1 and 2]; while gears are changed the speed is held.
+URBAN = (
+    (11, 0), (4, 15), (8, 15), (2, 10), (3, 0),
+    (21, 0), (5, 15), (2, 15), (5, 32), (24, 32), (8, 10), (3, 0),
+    (21, 0), (5, 15), (2, 15), (9, 35), (2, 35), (8, 50), (12, 50), (8, 35), (13, 35), (2, 35),
+    (7, 10), (3, 0), (7, 0),
+)  # fmt: skip
+
+EXTRA_URBAN = (
+    (20, 0), (5, 15), (2, 15), (9, 35), (2, 35), (8, 50), (2, 50), (13, 70), (50, 70),
+    (8, 50), (69, 50), (13, 70), (50, 70), (35, 100), (30, 100), (20, 120), (10, 120),
+    (16, 80), (8, 50), (10, 0), (20, 0),
+)  # fmt: skip
+
+
+def nedc() -> tuple[Array, Array]:
+    """Return time [s] and speed [m/s] at 1 Hz: four urban cycles and one extra-urban.
+
+    Notes
+    -----
+    1180 s, up to 120 km/h [unece_2012 Annex 4a]. Straight lines between the ends make 11.028 km;
+    the regulation states 4.052 and 6.955 km, 0.2 % less.
+
+    Examples
+    --------
+    >>> time, speed = nedc()
+    >>> time[-1], round(float(np.trapezoid(speed, time)))  # s, m
+    (np.float64(1180.0), 11028)
+    """
+    seconds, ends = np.array((*URBAN,) * 4 + EXTRA_URBAN, dtype=float).T
+    corners = np.concatenate([[0.0], np.cumsum(seconds)])
+    time = np.arange(corners[-1] + 1.0)
+    return time, np.interp(time, corners, np.concatenate([[0.0], ends])) / 3.6
+
+
+def ftp75() -> tuple[Array, Array]:
+    """Return time [s] and speed [m/s] of FTP-75 [epa_2014], from the UDDS of `fastsim`.
+
+    Notes
+    -----
+    The UDDS, then its first 505 s again. The soak of 10 min between them is left out.
+
+    Raises
+    ------
+    ParameterError
+        The package is missing, or its trace is not the one of the regulation.
+    """
+    module = _package("fastsim", "ftp75")
+    held = _read("fastsim", lambda: module.Cycle.from_resource("udds.csv").to_dict())
+    time = np.array(_read("fastsim", lambda: held["time_seconds"]), dtype=float)
+    speed = np.array(_read("fastsim", lambda: held["speed_meters_per_second"]), dtype=float)
+    if not np.array_equal(time, np.arange(1370.0)) or speed.size != time.size:
+        raise _wrong("fastsim", f"{time.size} speeds", "1370, one each second")
+    whole = np.concatenate([speed, speed[1 : _COLD_PHASE + 1]])
+    seconds = np.arange(float(whole.size))
+    distance = float(np.trapezoid(whole, seconds))
+    if abs(distance - _FTP75_DISTANCE) > 5.0:
+        raise _wrong("fastsim", f"{distance:.0f} m", f"{_FTP75_DISTANCE:.0f} m")
+    return seconds, whole
+
+
+def wltc() -> tuple[Array, Array]:
+    """Return time [s] and speed [m/s] of the WLTC of class 3b [unece_2014], from `wltp`.
+
+    Raises
+    ------
+    ParameterError
+        The package is missing, or its trace is not the one of the regulation.
+    """
+    module = _package("wltp.cycles.class3", "wltc")
+    kmh = np.array(_read("wltp", lambda: module.class_data_b()["cycle"]), dtype=float)
+    total = float(kmh.sum())
+    if kmh.size != 1801 or abs(total - _WLTC_SUM) > 0.05:
+        raise _wrong("wltp", f"{kmh.size} speeds with sum {total:.1f} km/h", f"1801, {_WLTC_SUM}")
+    return np.arange(1801.0), kmh * _KMH
+
+
+def _read(package: str, held: Callable[[], Any]) -> Any:
+    try:
+        return held()
+    except (AttributeError, KeyError, TypeError, OSError) as reason:
+        raise ParameterError(
+            f"The package {package} does not hold its trace where it should: {reason!r}. Install "
+            "the version that gearlube asks for: pip install 'gearlube[cycles]'."
+        ) from None
+
+
+def _package(module: str, cycle: str) -> Any:
+    package = module.split(".")[0]
+    try:
+        return import_module(module)
+    except ImportError:
+        raise ParameterError(
+            f"The cycle {cycle} is read from the package {package}, which is not installed. "
+            f"Install it: pip install 'gearlube[cycles]'. Or give the trace as a CSV file with "
+            "the columns time_s and speed_kmh, or take nedc, which needs no package."
+        ) from None
+
+
+def _wrong(package: str, got: str, limit: str) -> ParameterError:
+    return ParameterError(
+        f"The trace of the package {package} must have {limit}; got {got}. Install the version "
+        "that gearlube asks for: pip install 'gearlube[cycles]', or give a CSV file."
+    )
+
 
 NAMED: dict[str, Callable[[], tuple[Array, Array]]] = {"nedc": nedc, "wltc": wltc, "ftp75": ftp75}
 MOST_ROWS = 200_000

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from gearlube.studies.film_model import line_samples, roller_samples, samples
 from gearlube.studies.film_model.draws import Box, Limits
-from gearlube.studies.film_model.line_solve import solve_line_contact, solve_roller_contact
-from gearlube.studies.film_model.solve import Solved, solve_contact
+from gearlube.studies.film_model.solve import Solved, contact_oil, contact_solid, solve_contact
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.thermal import (
+    ThermalLineSolution,
+    ThermalSettings,
+    thermal_line_on_grid,
+)
 from gearlube_core.film_model.groups import (
     FilmContact,
     FilmGroups,
@@ -43,6 +50,9 @@ from gearlube_core.film_model.solved_film import SolvedFilm, solved_film
 from gearlube_core.film_model.solved_line import solved_line
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.lubricant import Lubricant
+
+_TOLERANCE = 1e-7
+_HEAT = ThermalSettings(tolerance=3e-3, max_turns=80)
 
 Contact = Any  # FilmContact or LineContact
 
@@ -177,6 +187,64 @@ HYPOID_FLANK = ContactKind(
     predict=solved_film,
 )
 
+
+def _solve_line_contact(contact: LineContact, nodes: tuple[int, int]) -> Solved:
+    """Return the thermal film of a line contact; `converged` tells whether it was found.
+
+    Parameters
+    ----------
+    contact
+        Its limiting stress is left out.
+    nodes
+        Across the line, and 1.
+
+    Raises
+    ------
+    ParameterError
+        The contact is out of the solver's range.
+    """
+    return _solved(contact, nodes, _sliding_friction)
+
+
+def line_problem(contact: LineContact) -> LineProblem:
+    """Return the problem of a contact."""
+    u, slip = contact.entrainment_speed, contact.sliding_speed
+    return LineProblem(
+        lubricant=contact_oil(contact),
+        radius=contact.R,
+        line_load=contact.line_load,
+        reduced_modulus=2.0 * contact.contact_modulus,
+        speed_1=u - 0.5 * slip,
+        speed_2=u + 0.5 * slip,
+    )
+
+
+def _solved(
+    contact: LineContact,
+    nodes: tuple[int, int],
+    friction: Callable[[ThermalLineSolution], float],
+) -> Solved:
+    begin = time.process_time()
+    solid = contact_solid(contact)
+    settings = LineSettings(nodes=nodes[0], tolerance=_TOLERANCE)
+    warm = thermal_line_on_grid(line_problem(contact), (solid, solid), settings, _HEAT)
+    film = warm.film
+    return Solved(
+        film.central_film,
+        film.minimum_film,
+        friction(warm),
+        film.maximum_pressure,
+        warm.max_temperature - contact.temperature,
+        math.nan,  # not asked for
+        float(warm.converged),
+        time.process_time() - begin,
+    )
+
+
+def _sliding_friction(warm: ThermalLineSolution) -> float:
+    return warm.film.friction_coefficient
+
+
 HELICAL_LINE = ContactKind(
     name=LINE,
     words="line, entrainment and sliding across it: helical and spur flanks",
@@ -191,13 +259,30 @@ HELICAL_LINE = ContactKind(
     box_contacts=line_samples.line_box_contacts,
     edge_contacts=line_samples.line_edge_contacts,
     visits=line_samples.pair_contacts,
-    solve=solve_line_contact,
+    solve=_solve_line_contact,
     groups=line_contact_groups,
     reference_film=_line_film,
     reference_friction=_line_friction,
     predict=solved_line,
     smooth=False,
 )
+
+
+def _solve_roller_contact(contact: RollerContact, nodes: tuple[int, int]) -> Solved:
+    """Return the thermal film of a roller on its race; its friction is that of rolling, 2 F/w.
+
+    F = int h/2 dp/dx dx, the force of the film on either surface per length, from one relative
+    radius ahead of the contact on; the rest as in `_solve_line_contact`.
+    """
+    return _solved(rolling_line(contact), nodes, _rolling_friction)
+
+
+def _rolling_friction(warm: ThermalLineSolution) -> float:
+    # rollers and races end about one relative radius from the contact: no oil is rolled beyond it
+    film, problem = warm.film, warm.film.problem
+    beyond = 12.0 * problem.lubricant.eta0 * problem.entrainment_speed
+    return 2.0 * (film.rolling_force - beyond) / problem.line_load
+
 
 BEARING_ROLLER = ContactKind(
     name=ROLLER,
@@ -213,7 +298,7 @@ BEARING_ROLLER = ContactKind(
     box_contacts=roller_samples.roller_box_contacts,
     edge_contacts=roller_samples.roller_edge_contacts,
     visits=roller_samples.roller_contacts,
-    solve=solve_roller_contact,
+    solve=_solve_roller_contact,
     groups=rolling_groups,
     reference_film=_roller_film,
     reference_friction=_roller_friction,

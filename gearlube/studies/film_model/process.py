@@ -8,15 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from gearlube.studies.film_model.features import film_features
 from gearlube_core.arrays import Array
 from gearlube_core.errors import GearLubeError
+from gearlube_core.film_model.groups import FilmGroups
 
+# E* of steel over the pressure of Roelands' law; other solids are outside the domain
+_MODULUS_OVER_ROELANDS = 588.5
 _LENGTHS = (0.3, 300.0)  # limits, in standard deviations of a feature
 _ROUGH_LENGTHS = (0.7, 100.0)
 _NOISE = (1e-9, 0.1)  # limits of its variance over that of the values
 _ROUGH_NOISE = 1e-3  # first guess
-
 _LEARNT = 500  # values, about, of which lengths and noise are learnt; all give the mean
 _ROUGHNESS = 2.5  # of Matern: twice differentiable
 
@@ -34,7 +35,7 @@ class FilmProcess:
 
     def __call__(self, groups: Array) -> Array:
         """Return the mean (n,) at groups (n, N_GROUPS)."""
-        x = ((film_features(groups) - self.shift) / self.scale)[:, self.varies]
+        x = ((_film_features(groups) - self.shift) / self.scale)[:, self.varies]
         return np.asarray(_lines(x) @ self.straight + self.spread * self.process.predict(x))
 
     def left_out(self) -> Array:
@@ -77,7 +78,7 @@ def fit_process(
             "Fitting a film model needs scikit-learn, which is not installed. Install it with "
             "pip install 'gearlube[film-model]'."
         ) from error
-    x = film_features(groups)
+    x = _film_features(groups)
     shift, scale = x.mean(axis=0), x.std(axis=0)
     varies = scale > 1e-9 * np.abs(shift)
     scale = np.where(varies, scale, 1.0)
@@ -103,3 +104,42 @@ def fit_process(
 
 def _lines(x: Array) -> Array:
     return np.hstack([np.ones((len(x), 1)), x])
+
+
+def _film_features(groups: Array) -> Array:
+    """Return inputs (n, 17) in which films vary simply, from groups (n, N_GROUPS).
+
+    In order: thickness, material group as of Moes with u cos(psi), alpha p, tau0/p, ellipticity,
+    entrainment angle, slide-roll ratio, sliding angle, heating number of the oil, Z, S0, Peclet
+    number of the solids, conductivity and heat capacity ratio, viscosity, ln(eta(p)/eta0),
+    ln[eta0 slip/(h tau0)] up to a function of the ellipticity.
+    """
+    g = FilmGroups(*groups.T)
+    alpha = g.exponent + np.log(g.viscosity)  # ln(alpha over that of Roelands' pressure)
+    speed = g.rate + g.viscosity + np.log(np.cos(g.psi))  # ln(eta0 u cos(psi)/(E* R_x))
+    pressure = np.exp(g.pressure) * _MODULUS_OVER_ROELANDS
+    growth = g.viscosity * np.expm1(np.exp(g.exponent) * np.log1p(pressure))
+    slip = g.viscosity + g.rate + g.slide_roll - g.stress
+    shear = slip - 2.0 * (np.log(g.thickness) + g.pressure)
+    return np.stack(
+        [
+            g.thickness,
+            alpha + 0.25 * speed,
+            alpha + g.pressure,
+            g.stress - g.pressure,
+            g.ellipse,
+            g.psi,
+            g.slide_roll,
+            g.delta,
+            g.heat,
+            g.exponent,
+            g.cooling,
+            g.peclet,
+            g.conductivity,
+            g.capacity,
+            g.viscosity,
+            growth,
+            shear,
+        ],
+        axis=1,
+    )

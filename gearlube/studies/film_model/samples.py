@@ -16,7 +16,6 @@ from gearlube.studies.film_model.draws import (
     numbers_of,
     oil_of_draw,
     oil_temperatures,
-    widened,
 )
 from gearlube_core.arrays import Array
 from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
@@ -57,11 +56,6 @@ HYPOID_BOX: Box = {
     "conductivity [W/(m K)]": (0.105, 0.155, "log"),
     "heat capacity [MJ/(m3 K)]": (1.6, 1.9, "log"),
 }
-
-
-def widened_box(oils: Sequence[Lubricant]) -> Box:
-    """Return the box, widened where an oil between 40 and 120 degC lies beyond it."""
-    return widened(HYPOID_BOX, oils)
 
 
 def box_contacts(box: Box, count: int, seed: int, *, random: bool = False) -> list[FilmContact]:

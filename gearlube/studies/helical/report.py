@@ -8,24 +8,22 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.report.charts import Axis, Line, line_chart, mark_level
 from gearlube.report.inputs import file_inputs, origin_of, remark_findings
 from gearlube.report.page import write_report
 from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
-from gearlube.studies.helical.figures.charts import (
-    error_orders_chart,
-    harris_chart,
-    separation_chart,
-)
 from gearlube.studies.helical.figures.layout import distinct
-from gearlube.studies.helical.findings import ORDERS, findings, numbers
+from gearlube.studies.helical.findings import ORDERS, findings, numbers, order_amplitudes
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM
 from gearlube.studies.helical.summary import loss_model, losses_rows
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL, gear_file_oil
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 
+_ORDERS = 5
+_SPEED = Axis("pinion speed", "rpm")
 _DEFAULT = ASSUMED, "default"
 _LIMITS = (
     "Response and sweep are linear with a stiffness that varies over the mesh: they are valid "
@@ -36,7 +34,57 @@ _LIMITS = (
     "Pressures are those of an elastic half-space on cells; at sharp edges they have no finite "
     "value.",
 )
-_CHARTS = {"harris_map": ("contact", harris_chart), "separation": ("separation", separation_chart)}
+
+
+def _harris_chart(contact: xr.Dataset) -> Any:
+    """Return range and mesh orders of the loaded transmission error over torque."""
+    torque = contact["torque"].values
+    error = 1e6 * contact["transmission_error"].transpose("phase", "torque").values
+    orders = 2.0 * np.abs(np.fft.rfft(error, axis=0)) / error.shape[0]
+    lines = [Line(name="peak to peak", x=torque, y=np.ptp(error, axis=0))]
+    lines += [
+        Line(name=f"order {order}", x=torque, y=orders[order])
+        for order in range(1, min(4, orders.shape[0] - 1))
+    ]
+    chart = line_chart(lines, Axis("pinion torque", "N·m"), Axis("loaded transmission error", "µm"))
+    mark_level(chart, float(contact.attrs["pinion_torque"]), "operating point", across=False)
+    return chart
+
+
+def _separation_chart(separation: xr.Dataset) -> Any:
+    """Return the transmission error over speed with teeth that can separate, and without."""
+    lines = []
+    for group, ratio in enumerate(separation["damping"].values):
+        part = separation.sel(damping=ratio)
+        for number in range(2):
+            rows = np.flatnonzero(part["segment"].values == number)
+            if rows.size:
+                lines.append(
+                    Line(
+                        name=f"can separate, damping {ratio:g}",
+                        x=part["speed"].values[rows] / RPM,
+                        y=1e6 * part["peak_to_peak"].values[rows],
+                        group=group,
+                    )
+                )
+        lines.append(
+            Line(
+                name=f"always in contact, damping {ratio:g}",
+                x=separation["linear_speed"].values / RPM,
+                y=1e6 * part["linear_peak_to_peak"].values,
+                group=group,
+                dash=2,
+            )
+        )
+    chart = line_chart(lines, _SPEED, Axis("transmission error, peak to peak", "µm", log=True))
+    chart.update_xaxes(exponentformat="none")
+    return chart
+
+
+_CHARTS = {
+    "harris_map": ("contact", _harris_chart),
+    "separation": ("separation", _separation_chart),
+}
 
 
 def write_helical_report(results: HelicalResults, folder: Path) -> Path:
@@ -82,7 +130,7 @@ def _error_orders(results: HelicalResults) -> Figure:
         title="Dynamic transmission error over speed",
         caption="Mesh orders of the motion along the line of action that stiffness and friction "
         "excite. Dotted: mesh order 1 meets a natural frequency, numbered as in the table.",
-        chart=error_orders_chart(results.datasets["sweep"]),
+        chart=_error_orders_chart(results.datasets["sweep"]),
     )
 
 
@@ -159,3 +207,23 @@ def _inputs(results: HelicalResults) -> list[Input]:
         Input("composite roughness", f"{rough:.3g}", "µm", *origin_of("roughness_um")),
         *(one for one in file_inputs(file) if named or not one.name.startswith("oil.")),
     ]
+
+
+def _error_orders_chart(sweep: xr.Dataset) -> Any:
+    """Return mesh orders of the dynamic transmission error over speed, resonances of order 1."""
+    amplitude, _ = order_amplitudes(sweep)
+    speed = sweep["speed"].values / RPM
+    lines = [
+        Line(name=f"order {order}", x=speed, y=amplitude[:, column])
+        for column, order in enumerate(sweep["harmonic"].values[:_ORDERS])
+    ]
+    chart = line_chart(lines, _SPEED, Axis("dynamic transmission error", "µm", log=True))
+    place = distinct(sweep["natural_frequency"].values, 0.05) / float(sweep["mesh_frequency"][-1])
+    for number, one in enumerate(place * speed[-1], 1):
+        if one <= speed[-1]:
+            mark_level(chart, float(one), f"{number}", across=False)
+    own = sweep.attrs["pinion_speed"] / RPM
+    if own <= speed[-1]:
+        mark_level(chart, float(own), "operating point", across=False)
+    chart.update_xaxes(exponentformat="none")
+    return chart

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from gearlube.report.churning import REGIME, churning_regime
 from gearlube.studies.runup.modes import COORDINATES, RampModes, engine_orders, ramp_modes
-from gearlube.studies.runup.operating_shape import CHANNELS, loudest, operating_shape
 from gearlube.studies.runup.record import AXES, BEARINGS, DIRECTIONS, RampRecord
 from gearlube.studies.runup.rollers import roller_variables
 from gearlube.studies.runup.settings import RunupSettings
@@ -20,6 +20,40 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.input_file.input_note import notes_as_text
 from gearlube_core.spectra import OrderBlocks, order_blocks, samples_for, waterfall
+
+# channels of the record in the order of modes.COORDINATES; the shafts' speeds give their turning
+CHANNELS = (
+    "pinion.speed",
+    *(f"pinion.displacement.{axis}" for axis in "xyz"),
+    "wheel.speed",
+    *(f"wheel.displacement.{axis}" for axis in "xyz"),
+)
+
+_TURNING = (0, 4)  # of these
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _OperatingShape:
+    """Operating deflection shape.
+
+    Parameters
+    ----------
+    speed : float
+        Of the pinion [rad/s].
+    mesh_order : int
+        Cycles per mesh period [-].
+    motion : array of complex
+        Amplitude and phase of every coordinate, turning as displacement at the contact [m], shape
+        (8,).
+    share : array
+        Of each mode in the kinetic energy of this motion [-], shape (modes,).
+    """
+
+    speed: float
+    mesh_order: int
+    motion: NDArray[np.complex128]
+    share: Array
+
 
 MESH_ORDERS = (1, 2, 3, 4)
 HIGHEST_MESH_ORDER = 6.5  # of the order maps
@@ -321,3 +355,34 @@ def _attributes(settings: RunupSettings, record: RampRecord) -> dict[str, object
         "engine_orders": np.array(engine),
         **{f"setting_{name}": value for name, value in settings.as_dict().items()},
     }
+
+
+def loudest(force_track: Array) -> tuple[int, int]:
+    """Return block and place of the mesh order with the largest force over all directions.
+
+    `force_track` has shape (blocks, orders, directions).
+    """
+    total = np.sqrt(np.sum(force_track**2, axis=2))
+    block, order = np.unravel_index(int(np.argmax(total)), total.shape)
+    return int(block), int(order)
+
+
+def operating_shape(
+    blocks: OrderBlocks, block: int, mesh_order: int, teeth: int, modes: RampModes
+) -> _OperatingShape:
+    """Return the motion in a block of the order analysis of `CHANNELS`."""
+    order = teeth * mesh_order
+    place = int(np.argmin(np.abs(blocks.order - order)))
+    speed = float(blocks.speed[block])
+    motion = blocks.amplitude[block, place].copy()
+    for at, radius in zip(_TURNING, modes.radii, strict=True):
+        motion[at] *= radius / (1j * order * speed)
+    # shapes have modal mass 1, so that this is the modal amplitude
+    modal = np.abs(modes.shape.T @ (modes.mass * motion)) ** 2
+    total = float(np.sum(modes.mass * np.abs(motion) ** 2))
+    return _OperatingShape(
+        speed=speed,
+        mesh_order=mesh_order,
+        motion=motion,
+        share=modal / total if total > 0.0 else np.full(modal.size, math.nan),
+    )

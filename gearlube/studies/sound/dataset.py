@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sound.a_weighting import a_weighted, a_weighting
+from gearlube.studies.sound.a_weighting import REFERENCE, a_weighted, a_weighting
 from gearlube.studies.sound.force_record import ForceRecord
-from gearlube.studies.sound.levels import decibels, fast_level
 from gearlube.studies.sound.metrics import METRICS, Curve
 from gearlube.studies.sound.order_tracks import OrderTracks
 from gearlube.studies.sound.pressure import RATE, Pressure
@@ -18,6 +17,10 @@ from gearlube.studies.sound.settings import SoundSettings
 from gearlube.studies.sound.transfer_path import TransferPath
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
+
+FAST = 0.125  # s, time weighting F
+
+_SILENCE = 1e-9  # Pa, -86 dB: what silence counts as
 
 STEP = 0.05  # s between two rows
 
@@ -166,3 +169,30 @@ def level_range(datasets: Sequence[xr.Dataset]) -> tuple[float, float]:
     high = max(float(np.nanmax(one)) for one in found if one is not None)
     low = min(float(np.nanpercentile(one, 2.0)) for one in found if one is not None)
     return max(high - _RANGE, low - 5.0), high + 4.0
+
+
+def decibels(pressure: Array | float) -> Array:
+    """Return the level of an rms pressure [dB re 20 uPa].
+
+    Examples
+    --------
+    >>> float(decibels(1.0).round(2))
+    93.98
+    """
+    return np.asarray(20.0 * np.log10(np.maximum(pressure, _SILENCE) / REFERENCE))
+
+
+def fast_level(pressure: Array, rate: float, times: Array) -> Array:
+    """Return the level with time weighting F [dB re 20 uPa] at `times` [s from the first sample].
+
+    The weighting is exponential with 0.125 s [iec_61672_1], and starts at the mean of the first
+    0.125 s.
+    """
+    from scipy.signal import lfilter
+
+    decay = np.exp(-1.0 / (FAST * rate))
+    square = pressure**2
+    start = float(np.mean(square[: max(1, int(FAST * rate))]))
+    smooth, _ = lfilter([1.0 - decay], [1.0, -decay], square, zi=[decay * start])
+    at = np.clip(np.round(times * rate).astype(int), 0, pressure.size - 1)
+    return decibels(np.sqrt(np.maximum(smooth[at], 0.0)))

@@ -84,11 +84,3 @@ def write_wav(pressure: Array, file: Path, *, full_scale: float, rate: int = RAT
     samples = np.round(signal * (_LARGEST / full_scale)).astype(np.int16)
     with atomic_write(file) as partial:
         wavfile.write(partial, rate, samples)
-
-
-def read_wav(file: Path, *, full_scale: float) -> tuple[Array, int]:
-    """Return the pressure [Pa] and the rate [Hz] of a WAV that `write_wav` made."""
-    from scipy.io import wavfile
-
-    rate, samples = wavfile.read(file)
-    return samples.astype(np.float64) * (full_scale / _LARGEST), int(rate)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
@@ -15,19 +16,22 @@ from pathlib import Path
 import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.driveline.parameters import DrivelineParameters
 from gearlube.report.churning import churning_regime
 from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
     car_axle_at,
+    car_axle_of,
     check_operation,
     chosen_axle,
     settings_of,
 )
-from gearlube.studies.sweep.compile_axle import compile_axle
+from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.datasets import merge, save
-from gearlube.studies.sweep.engine_lines import crank_frequencies
+from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
+from gearlube.studies.sweep.operating_point import operation
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.provenance import code_version
 from gearlube.studies.sweep.quantities import GRID, described
@@ -41,11 +45,30 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.result_store import DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results
+from gearlube_core.units import kmh_to_ms
+
+_SPEED_KMH = 50.0
 
 logger = logging.getLogger(__name__)
 
 MOST_JOBS = 1024
 _PRELOAD_CURE = "A preload must press; the paper uses 2500 and 6000 N."
+
+
+def _compile_axle(fmu: Path, settings: SweepSettings) -> None:
+    """Initialise the FMU and take two steps.
+
+    The machine code stays in numba's cache on disk, from where the workers load it.
+    """
+    with unpacked(fmu) as directory, FmuAxle(directory, CHANNELS) as axle:
+        where = operation(settings, _SPEED_KMH, car_axle_of(directory).driveline)
+        axle.set_parameters(settings.fmu_parameters)
+        axle.set_parameters({"pinion.speed_start": where.pinion_speed})
+        torques = where.driver.initial_torques()
+        axle.initialise(*torques, settings.lowest_oil_temperature[1])
+        for _ in range(2):
+            axle.step(settings.communication_step, *torques)
+            axle.read()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +86,7 @@ class SweepModel:
     """
 
     point: PointFunction = run_point
-    compile_first: Callable[[Path, SweepSettings], None] | None = compile_axle
+    compile_first: Callable[[Path, SweepSettings], None] | None = _compile_axle
     natural_frequencies: (
         Callable[[Sequence[float], float, SweepSettings, CarAxle], xr.DataArray] | None
     ) = natural_frequencies
@@ -194,7 +217,7 @@ def run_sweep(
     if mode_frequency is not None:
         sweep["mode_frequency"] = mode_frequency
     if settings.driver == "vehicle":
-        crank = crank_frequencies(car_axle.driveline, speeds)
+        crank = _crank_frequencies(car_axle.driveline, speeds)
         sweep["crank_frequency"] = ("speed", crank)
     described(with_churning_regime(sweep, of_axle.axle))
     if folder is not None:
@@ -324,3 +347,26 @@ def _failure(place: Place, error: Exception) -> xr.Dataset:
     if isinstance(error, BrokenExecutor):
         return failed_point(*place, f"The process of this point died several times: {error}")
     return failed_point(*place, f"{type(error).__name__}: {error}")
+
+
+def _crank_frequencies(driveline: DrivelineParameters, speeds_kmh: Sequence[float]) -> list[float]:
+    """Return the rotation frequency of the crankshaft [Hz] in the gear of each speed [km/h].
+
+    Examples
+    --------
+    >>> from drivetrain.axle_file.read_axle import read_axle
+    >>> car = read_axle("mohammadpour_2015").driveline
+    >>> [round(one, 1) for one in _crank_frequencies(car, [40.0, 80.0])]  # gears 2 and 5
+    [32.1, 24.5]
+    """
+    road = driveline.road_load
+    return [_crank(driveline, road.pinion_speed(kmh_to_ms(one))) for one in speeds_kmh]
+
+
+def _crank(driveline: DrivelineParameters, shaft: float) -> float:
+    """Return the crank frequency [Hz] at a propshaft speed [rad/s]; NaN where no gear suits."""
+    try:
+        gear = driveline.gearbox.gear_for(shaft, driveline.engine)
+    except ParameterError:
+        return math.nan
+    return driveline.gearbox.ratios[gear - 1] * shaft / (2.0 * math.pi)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.flank_bulk import bulk_temperature
 from gearlube_core.dynamics.hypoid_axle.integrate import work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
@@ -33,6 +34,8 @@ from gearlube_core.dynamics.packed_mesh import pack_mesh
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.progress import Progress, no_progress
+
+SETTLED = 0.01  # K, error of the temperature
 
 # in the order of the energies of the state
 LOSS_SOURCES = (
@@ -260,3 +263,52 @@ def _warm_flanks(
         return _Warm(temperature, TOO_HOT, power[0], np.full(N_EXTREMES, np.nan))
     friction(temperature)
     return _Warm(temperature, int(status[0]), power[0], found[0])
+
+
+def bulk_temperature(
+    friction: Callable[[float], float], oil: float, resistance: float, highest: float
+) -> float:
+    """Return the temperature of the flanks at which their friction keeps them warm [K].
+
+    T = T_oil + R P(T)
+
+    Parameters
+    ----------
+    friction
+        Mean power lost in friction of the flanks [W] with films at a temperature [K].
+    oil
+        Temperature of the oil around the teeth [K].
+    resistance
+        From the flanks to that oil [K/W].
+    highest
+        Highest temperature at which the friction is known [K].
+
+    Returns
+    -------
+    float
+        The lowest such temperature within `SETTLED`; nan: above `highest`.
+
+    Notes
+    -----
+    One temperature for both members, steady. Thin hot films may rub more: the friction need not
+    fall with temperature.
+
+    Examples
+    --------
+    >>> round(bulk_temperature(lambda T: 700.0 - T, 300.0, 0.25, 400.0), 2)
+    380.0
+    """
+
+    def missing(temperature: float) -> float:
+        return oil + resistance * friction(temperature) - temperature
+
+    low, gap = oil, missing(oil)
+    if gap <= SETTLED:
+        return oil + max(gap, 0.0)
+    while low < highest:
+        high = min(low + 1.05 * gap + SETTLED, highest)
+        above = missing(high)
+        if above <= 0.0:
+            return float(brentq(missing, low, high, xtol=SETTLED, rtol=1e-12))
+        low, gap = high, above
+    return math.nan

@@ -14,11 +14,12 @@ from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.grid_error import twice_as_wide
 from gearlube_core.ehl.point.far_field import FarField
-from gearlube_core.ehl.point.line_scales import hertz_line, line_film
 from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
+from gearlube_core.film.groups import line_groups
+from gearlube_core.film.moes_1992 import central_film_group
 from gearlube_core.film.nijenbanning_1994 import regime_films
 from gearlube_core.oil.film_oil import FilmOil, pressure_viscosity
 
@@ -273,3 +274,40 @@ def expected_film(problem: PointContactProblem) -> float:
     # that of light loads bounds the elastic film; the rigid one is above it there
     soft = min(films.elastic_isoviscous, films.light_load) * R_e * math.sqrt(2.0 * U)
     return max(elastic, rigid, soft if R_e <= R_s else 0.0, touching)
+
+
+def hertz_line(radius: float, contact_modulus: float, line_load: float) -> tuple[float, float]:
+    """Return the half width a = [4 w R/(pi E*)]^(1/2) [m] and the pressure 2 w/(pi a) [Pa].
+
+    Parameters
+    ----------
+    radius
+        Relative radius of curvature R [m].
+    contact_modulus
+        E* [Pa].
+    line_load
+        w [N/m].
+
+    Examples
+    --------
+    >>> a, pressure = hertz_line(0.014, 1.1375e11, 3.6e5)
+    >>> round(1e6 * a, 1), round(1e-9 * pressure, 3)  # um, GPa
+    (237.5, 0.965)
+    """
+    a = math.sqrt(4.0 * line_load * radius / (math.pi * contact_modulus))
+    return a, 2.0 * line_load / (math.pi * a)
+
+
+def line_film(
+    radius: float, contact_modulus: float, line_load: float, lubricant: FilmOil, speed: float
+) -> float:
+    """Return the central film [m] of a line contact by [moes_1992], entrained at `speed` [m/s]."""
+    groups = line_groups(
+        viscosity=lubricant.eta0,
+        pressure_viscosity=pressure_viscosity(lubricant),
+        entrainment_speed=speed,
+        line_load=line_load,
+        radius=radius,
+        reduced_modulus=2.0 * contact_modulus,
+    )
+    return radius * math.sqrt(2.0 * groups.U) * central_film_group(groups.M, groups.L)

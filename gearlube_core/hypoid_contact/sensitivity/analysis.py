@@ -14,23 +14,25 @@ import xarray as xr
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
+from gearlube_core.hypoid_contact.contact_path import ContactPath, contact_path
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE, SIDES
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_contact.refusal import check_pair
 from gearlube_core.hypoid_contact.sensitivity.ease_off_rates import ease_off_rates
-from gearlube_core.hypoid_contact.sensitivity.error_rates import error_rates
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import (
     QUANTITIES,
     LoadedQuantities,
     loaded_rates,
 )
 from gearlube_core.hypoid_contact.sensitivity.parameter import usual_parameters
+from gearlube_core.hypoid_contact.sensitivity.path_rates import PathRates, angle_rates, path_rates
 from gearlube_core.hypoid_contact.sensitivity.sensitivity_dataset import sensitivity_dataset
 from gearlube_core.hypoid_contact.sensitivity.variations import Variations
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
-from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
+from gearlube_core.hypoid_contact.unloaded_error import UnloadedError, unloaded_error
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
@@ -39,6 +41,37 @@ from gearlube_core.storage.result_store import Record
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import compute_positions, stack_records
+
+
+@dataclass(frozen=True, slots=True)
+class _ErrorRates:
+    """Derivatives of the unloaded mesh over a period, per unit of each of P parameters.
+
+    Parameters
+    ----------
+    gear_angle : ndarray of shape (N,)
+        From handover to handover [rad].
+    transmission_error : ndarray of shape (P, N)
+        Of the pair in contact, at fixed gear angle [rad/unit].
+    peak_to_peak : ndarray of shape (P,)
+        Of the error between its extreme and the handover [rad/unit].
+    handover_angle, extreme_angle : ndarray of shape (P,)
+        Gear angles of the first handover and of the extreme [rad/unit].
+    s, t : ndarray of shape (P,)
+        Of the mean contact on the gear flank: where the error is extreme [1/unit].
+    path : PathRates
+        Of the contacts.
+    """
+
+    gear_angle: Array
+    transmission_error: Array
+    peak_to_peak: Array
+    handover_angle: Array
+    extreme_angle: Array
+    s: Array
+    t: Array
+    path: PathRates
+
 
 EASE_S, EASE_T = np.linspace(0.2, 1.0, 9), np.linspace(0.0, 1.0, 13)
 _ERROR_POSITIONS = 33
@@ -236,3 +269,62 @@ def _key(
         for part in (stiffness[side].pinion, stiffness[side].gear):
             digest.update(np.ascontiguousarray(part.image).tobytes())
     return digest.hexdigest()[:16]
+
+
+def error_rates(variations: Variations, error: UnloadedError) -> _ErrorRates:
+    """Return the derivatives of the unloaded transmission error by parameters.
+
+    At the handover the errors e of the leaving and the entering pair are equal, and move the angle
+    by -(e_p1 - e_p0) / (e'_1 - e'_0), with e_p at fixed angle and e' along the path. At the extreme
+    R_g / R_p is the teeth ratio.
+
+    Parameters
+    ----------
+    variations : Variations
+        Of the error's pair.
+    error : UnloadedError
+    """
+    pair = error.path.pair
+    angles = np.append(error.gear_angle, error.extreme_angle)
+    rates = path_rates(variations, contact_path(pair, angles))
+    by_setting = rates.transmission_error
+    k = error.kinematics
+    slope = k.R_g / k.R_p - pair.ratio
+    handover = -(by_setting[:, -2] - by_setting[:, 0]) / (slope[-1] - slope[0])
+    at_handover = by_setting[:, 0] + slope[0] * handover
+    extreme, (s, t) = _extreme(variations, rates)
+    highest = error.angular[0] > 0.0
+    return _ErrorRates(
+        gear_angle=error.gear_angle,
+        transmission_error=by_setting[:, :-1],
+        peak_to_peak=(1.0 if highest else -1.0) * (at_handover - by_setting[:, -1]),
+        handover_angle=handover,
+        extreme_angle=extreme,
+        s=s,
+        t=t,
+        path=rates,
+    )
+
+
+def _extreme(variations: Variations, rates: PathRates) -> tuple[Array, tuple[Array, Array]]:
+    """Return how the angle of the extreme moves, the last of the path, and its place (s, t)."""
+    lower, upper, angle = angle_rates(rates.path)
+
+    def along(values: tuple[Array, Array]) -> float:
+        return float((values[1][-1] - values[0][-1]) / (2.0 * angle))
+
+    bend = along((_mismatch(lower), _mismatch(upper)))
+    by_setting = variations.difference(
+        np.array([_mismatch(one)[-1] for one in rates.lower]),
+        np.array([_mismatch(one)[-1] for one in rates.upper]),
+    )
+    moved = -by_setting / bend
+    return moved, (
+        rates.gear_s[:, -1] + along((lower.gear_s, upper.gear_s)) * moved,
+        rates.gear_t[:, -1] + along((lower.gear_t, upper.gear_t)) * moved,
+    )
+
+
+def _mismatch(path: ContactPath) -> Array:
+    k = path_kinematics(path)
+    return k.R_g / k.R_p - path.pair.ratio

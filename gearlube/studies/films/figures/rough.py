@@ -179,54 +179,6 @@ def rough_frame(
     return figure
 
 
-def rough_difference(first: xr.Dataset, second: xr.Dataset, x: float = 0.0) -> Any:
-    """Draw how films and pressures along y differ between two runs at the same times.
-
-    Parameters
-    ----------
-    first, second
-        Frames over `time`, `x` and `y` on the same nodes; drawn is the first less the second.
-    x
-        Place of the section [m]; the nearest node is taken.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        As [jamali_2015 Fig. 7.36, 7.45].
-
-    Raises
-    ------
-    ParameterError
-        The runs have other nodes or times.
-    """
-    for name in ("time", "x", "y"):
-        one, other = (np.atleast_1d(run[name].values) for run in (first, second))
-        if one.shape != other.shape or not np.allclose(one, other, rtol=1e-9, atol=1e-12):
-            raise ParameterError(
-                f"{name} of both runs must be the same. Compare runs of the same case."
-            )
-    difference = (first[["film", "pressure"]] - second[["film", "pressure"]]).sel(
-        x=x, method="nearest"
-    )
-    y = difference["y"].values / _MILLIMETRE
-    with house_style():
-        figure = new_figure(8.0, 5.6)
-        upper, lower = figure.subplots(2, 1, sharex=True)
-        for k, time in enumerate(np.atleast_1d(difference["time"].values)):
-            row = difference.sel(time=time) if "time" in difference.dims else difference
-            line = {"color": SERIES[k % len(SERIES)], "ls": _DASHES[k // len(SERIES) % 4]}
-            upper.plot(y, row["pressure"] / _GIGAPASCAL, **line)
-            lower.plot(y, row["film"] / _MICROMETRE, label=f"{time / _MICROMETRE:.4g} µs", **line)
-        upper.set_ylabel("pressure, difference\n[GPa]")
-        lower.set_ylabel("film, difference\n[µm]")
-        lower.set_xlabel("y [mm]")
-        lower.legend(ncols=4)
-        place = 1e6 * float(difference["x"])
-        upper.set_title(f"First run less second run, along the line at x = {place:.0f} µm")
-        upper.margins(x=0.0)
-    return figure
-
-
 def _mark_rough(axes: Any, run: xr.Dataset, scale: float) -> None:
     """Mark the time [s, over `scale`] from which the whole contact is rough."""
     if "rough_time" not in run.attrs:

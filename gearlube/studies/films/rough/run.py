@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import errno
 import logging
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -14,7 +16,6 @@ import xarray as xr
 from gearlube.studies.films.results import begin
 from gearlube.studies.films.rough.files import read_frames, write_frame, write_rough_results
 from gearlube.studies.films.rough.gather import Gathered, new_statistics
-from gearlube.studies.films.rough.plan import disk_need
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.statistics.rough_film import statistics_of_run
@@ -23,6 +24,40 @@ from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ConvergenceError, FileError, InterruptedRunError, ParameterError
 from gearlube_core.progress import Progress, no_progress
+
+_FIELDS_KEPT = 2  # film and pressure, in single precision
+_FIELDS_RECORDED = 9  # pressure, rh h at three times, its error, inflow, rise and copies
+_RECORDS = 2  # an older one stays until the new one is whole
+_FIGURES = 4_000_000  # B, figures and statistics
+_PICTURE = 300_000  # B, of a kept film
+_STEP = 400  # B, of the statistics of a step
+_MEGABYTE = 1e6
+
+
+class _DiskNeed(NamedTuple):
+    """Bytes of the files of a march."""
+
+    frames: int
+    records: int
+    others: int
+    free: int
+
+    @property
+    def total(self) -> int:
+        """All files [B]."""
+        return self.frames + self.records + self.others
+
+    @property
+    def sentence(self) -> str:
+        """Return the need in words."""
+        parts = (
+            (self.frames, "of kept films"),
+            (self.records, "of records to go on from"),
+            (self.others, "of statistics and figures"),
+        )
+        told = ", ".join(f"{one / _MEGABYTE:.1f} MB {words}" for one, words in parts)
+        return f"It will take {self.total / _MEGABYTE:.0f} MB on the disk: {told}."
+
 
 logger = logging.getLogger("gearlube")
 
@@ -248,3 +283,29 @@ def _with_attributes(dataset: xr.Dataset, case: RoughCase, key: str) -> xr.Datas
         "outcome": outcome,
     }
     return dataset
+
+
+def disk_need(case: RoughCase, folder: Path) -> _DiskNeed:
+    """Return what the files of a march take.
+
+    Raises
+    ------
+    ParameterError
+        The disk has less.
+    """
+    nodes, kept = case.solver.nodes_x * (case.solver.rows + 2), len(case.kept_steps())
+    steps = case.schedule().steps + 1
+    near = next(one for one in (folder, *folder.absolute().parents) if one.exists())
+    need = _DiskNeed(
+        frames=kept * (4 * _FIELDS_KEPT * nodes + _PICTURE),
+        records=_RECORDS * (8 * _FIELDS_RECORDED * nodes + _STEP * steps),
+        others=_FIGURES + 3 * _STEP * steps,
+        free=shutil.disk_usage(near).free,
+    )
+    if need.total > need.free:
+        raise ParameterError(
+            f"{folder} must have {need.total / _MEGABYTE:.0f} MB free space, got "
+            f"{need.free / _MEGABYTE:.0f} MB. Keep fewer films ([frames]), or give --out on "
+            "another disk."
+        )
+    return need

@@ -3,27 +3,88 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
-from gearlube.output.csv_text import csv_text
+from gearlube.output.csv_text import csv_text, number_text
+from gearlube.output.mat_file import write_mat
+from gearlube.studies.loss_map.datasets import GRID
 from gearlube.studies.loss_map.exports.gem import gem_text
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_text
-from gearlube.studies.loss_map.exports.mat import write_map_mat
-from gearlube.studies.loss_map.exports.table import table_rows
-from gearlube.studies.loss_map.exports.vtlm import regulation_text, vtlm_text
-from gearlube.studies.loss_map.regulation import OIL_DEGC, regulation_map
+from gearlube.studies.loss_map.regulation import OIL_DEGC, RegulationMap, regulation_map
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_text
 
+_COLUMNS = {
+    "loss_torque": "loss_torque_n_m",
+    "loss_torque_low": "loss_torque_low_n_m",
+    "loss_torque_high": "loss_torque_high_n_m",
+    "efficiency": "efficiency",
+    "wheel_torque": "wheel_torque_n_m",
+    "film_ratio": "film_ratio",
+    "flank_temperature": "flank_temperature_degc",
+    "share_outside": "share_outside",
+    "rollers_outside": "rollers_outside",
+    "range_exceeded": "range_exceeded",
+}
+
+_STEADY = {
+    "steady_temperature": "steady_oil_temperature_degc",
+    "steady_loss_torque": "steady_loss_torque_n_m",
+}  # of speed and torque alone
+
+_ORDER = ("speed", "torque", "temperature")
+
+HEAD = "Input Speed [rpm],Input Torque [Nm],Torque Loss [Nm]"
+
+_LEAST_ROWS = 4
+
 logger = logging.getLogger("gearlube")
 
 
+def _vtlm_text(dataset: xr.Dataset) -> str:
+    """Return the lines of a .vtlm file: input is the pinion, coast torque negative, loss positive.
+
+    The torque of the wheels is (torque - loss) times the ratio. Points that failed are left out.
+    Rows at 0 rpm repeat the lowest speed, as in VECTO's generic axles: VECTO starts from rest, and
+    friction from rest is not computed.
+
+    Raises
+    ------
+    ParameterError
+        Fewer than four points are left; VECTO refuses such a map.
+    """
+    loss = dataset["loss_torque"].transpose("speed", "torque").values
+    rows = [
+        (float(speed), float(torque), float(loss[j, k]))
+        for j, speed in enumerate(dataset["speed"].values)
+        for k, torque in enumerate(dataset["torque"].values)
+        if np.isfinite(loss[j, k])
+    ]
+    if len(rows) >= _LEAST_ROWS and rows[0][0] > 0.0:
+        lowest = rows[0][0]
+        rows = [(0.0, torque, lost) for speed, torque, lost in rows if speed == lowest] + rows
+    return _text(rows)
+
+
+def _text(rows: Iterable[tuple[float, float, float]]) -> str:
+    lines = [HEAD]
+    lines += [f"{speed:.4f},{torque:.4f},{loss:.4f}" for speed, torque, loss in rows]
+    if len(lines) <= _LEAST_ROWS:
+        raise ParameterError(
+            f"A .vtlm map must have at least {_LEAST_ROWS} points, got {len(lines) - 1}. Take more "
+            "torques or speeds."
+        )
+    return "\n".join(lines) + "\n"
+
+
 _OF_A_TEMPERATURE = {
-    "vecto_{}.vtlm": vtlm_text,
+    "vecto_{}.vtlm": _vtlm_text,
     "gem_{}.csv": gem_text,
     "lossy_gear_{}.mo": lossy_gear_text,
 }
@@ -39,7 +100,7 @@ def write_exports(dataset: xr.Dataset, folder: Path) -> None:
             old.unlink()
     head, rows = table_rows(dataset)
     write_text(csv_text(head, rows), folder / "map.csv")
-    write_map_mat(dataset, folder / "map.mat")
+    _write_map_mat(dataset, folder / "map.mat")
     for temperature in dataset["temperature"].values:
         one = dataset.sel(temperature=temperature)
         name = f"{temperature:g}degC"
@@ -60,5 +121,66 @@ def write_regulation_map(
     """Write the map on the grid of heavy-duty axle tests for VECTO; return its path."""
     kind = "raised_" if raised else ""
     path = folder / f"vecto_regulation_{kind}{OIL_DEGC:g}degC.vtlm"
-    write_text(regulation_text(regulation_map(settings, raised=raised, progress=progress)), path)
+    write_text(_regulation_text(regulation_map(settings, raised=raised, progress=progress)), path)
     return path
+
+
+def _regulation_text(found: RegulationMap) -> str:
+    """Return the lines of a .vtlm file of a map over speeds and torques of the wheels."""
+    return _text(zip(found.speed, found.torque, found.loss, strict=True))
+
+
+def _write_map_mat(dataset: xr.Dataset, path: Path) -> None:
+    """Write breakpoints and tables over (speed, torque, temperature).
+
+    `torque_loss_Nm` for a look-up of the loss; `efficiency` is NaN near zero torque, where a table
+    of efficiency cannot hold a drag.
+    """
+    content = {
+        "speed_rpm": dataset["speed"].values,
+        "torque_Nm": dataset["torque"].values,
+        "temperature_degC": dataset["temperature"].values,
+        "torque_loss_Nm": dataset["loss_torque"].transpose(*_ORDER).values,
+        "efficiency": dataset["efficiency"].transpose(*_ORDER).values,
+        "ratio": float(dataset.attrs["ratio"]),
+    }
+    write_mat(content, path)
+
+
+def table_rows(dataset: xr.Dataset) -> tuple[tuple[str, ...], Iterator[tuple[str, ...]]]:
+    """Return the names of the columns and the rows; a point that failed says why."""
+    kept = {name: column for name, column in _COLUMNS.items() if name in dataset}
+    steady = {name: column for name, column in _STEADY.items() if name in dataset}
+    sources = [str(one) for one in dataset["source"].values]
+    head = (
+        "oil_temperature_degc",
+        "pinion_speed_rpm",
+        "pinion_torque_n_m",
+        *kept.values(),
+        *(f"loss_{one}_w" for one in sources),
+        *steady.values(),
+        "reason",
+    )
+    return head, _rows(dataset, tuple(kept), tuple(steady))
+
+
+def _rows(
+    dataset: xr.Dataset, names: tuple[str, ...], steady: tuple[str, ...]
+) -> Iterator[tuple[str, ...]]:
+    reasons = dict(part.split(": ", 1) for part in dataset.attrs["reasons"].split("; "))
+    values = [dataset[name].values for name in names]
+    at_rest = [dataset[name].transpose(*GRID[1:]).values for name in steady]
+    losses, statuses = dataset["loss"].values, dataset["status"].values
+    temperatures, speeds, torques = (dataset[name].values for name in GRID)
+    for i, temperature in enumerate(temperatures):
+        for j, speed in enumerate(speeds):
+            for k, torque in enumerate(torques):
+                yield (
+                    f"{temperature:.10g}",
+                    f"{speed:.10g}",
+                    f"{torque:.10g}",
+                    *(number_text(one[i, j, k]) for one in values),
+                    *(number_text(one) for one in losses[i, j, k]),
+                    *(number_text(one[j, k]) for one in at_rest),
+                    reasons.get(str(int(statuses[i, j, k])), ""),
+                )

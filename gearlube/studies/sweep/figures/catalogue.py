@@ -8,15 +8,21 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
+from gearlube.plotting.style import preload_label
+from gearlube.report.charts import Axis, panels
 from gearlube.studies.sweep.figures import bubbles, charts, extremes, spectrum_map
-from gearlube.studies.sweep.figures.bubble_chart import bubble_chart
 from gearlube.studies.sweep.figures.efficiency import efficiency
 from gearlube.studies.sweep.figures.film import film_over_mesh_cycle
 from gearlube.studies.sweep.figures.operation import operating_points
 from gearlube.studies.sweep.figures.order_cuts import BEARING_CUTS, order_cuts
+from gearlube.studies.sweep.figures.spectrum_map import MapChannel, default_top
 from gearlube.studies.sweep.figures.waveforms import roller_zone, waveforms
+
+_SPEED = Axis("vehicle speed", "km/h")
+_LARGEST = 15.0  # pixels
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,7 +54,7 @@ def _map(channel: spectrum_map.MapChannel, top: float | None = None) -> Callable
 
 
 def _map_chart(channel: spectrum_map.MapChannel) -> Callable[..., Any]:
-    return partial(bubble_chart, channel=channel)
+    return partial(_bubble_chart, channel=channel)
 
 
 def _band(channel: extremes.ExtremesChannel) -> Callable[..., Any]:
@@ -61,6 +67,55 @@ _BUBBLES = (
     "each speed."
 )
 _CAGE_TOP = 80.0  # Hz, shows the cage frequency, its multiples and the pinion rotation
+
+
+def _bubble_chart(dataset: xr.Dataset, channel: MapChannel) -> Any:
+    """Return the lines of a spectrum over speed and frequency, a panel for each preload."""
+    top = default_top(dataset)
+    preloads = [preload_label(float(one)) for one in dataset["preload"].values]
+    chart = panels(preloads, _SPEED, [Axis("frequency", "Hz") for _ in preloads], height=400)
+    points = bubbles.all_lines(dataset, channel, top)
+    peak = bubbles.highest(points, top)
+    speeds = dataset["speed_kmh"].values
+    for kind, words in enumerate(bubbles.KINDS):
+        for row in range(len(preloads)):
+            found = [points[row, column] for column in range(speeds.size)]
+            seen = [(one.kind == kind) & (one.level > peak - bubbles.RANGE) for one in found]
+            level = np.concatenate([one.level[s] for one, s in zip(found, seen, strict=True)])
+            share = np.clip((level - peak + bubbles.RANGE) / bubbles.RANGE, 0.0, 1.0)
+            chart.add_scatter(
+                x=np.repeat(speeds, [int(s.sum()) for s in seen]),
+                y=np.concatenate([one.frequency[s] for one, s in zip(found, seen, strict=True)]),
+                mode="markers",
+                name=words,
+                legendgroup=words,
+                showlegend=row == 0 and level.size > 0,
+                marker={
+                    "size": 2.0 + _LARGEST * share,
+                    "color": bubbles.COLOURS[kind],
+                    "line": {"width": 0.5, "color": "white"},
+                },
+                customdata=level,
+                hovertemplate="%{customdata:.1f} dB re "
+                f"{channel.reference_text}, %{{y:.0f}} Hz at %{{x:g}} km/h<extra>{words}</extra>",
+                row=row + 1,
+                col=1,
+            )
+    for row in range(len(preloads)):
+        modes = bubbles.modes_below(dataset.isel(preload=row), top)
+        # names of neighbours at opposite ends, where they do not touch
+        for number, mode in enumerate(sorted(modes, key=modes.__getitem__)):
+            chart.add_hline(
+                modes[mode],
+                line={"dash": "dot", "width": 1.0, "color": "#808080"},
+                annotation={"text": mode, "font": {"size": 10}},
+                annotation_position=("top left", "top right")[number % 2],
+                row=row + 1,
+                col=1,
+            )
+        chart.update_yaxes(range=[0.0, top], row=row + 1, col=1)
+    return chart
+
 
 CATALOGUE = (
     Entry(

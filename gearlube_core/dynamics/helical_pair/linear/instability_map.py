@@ -52,18 +52,8 @@ class InstabilityMap:
 
     @property
     def unstable(self) -> np.ndarray:
-        """Where disturbances grow, shape (V, F)."""
+        """Where disturbances grow, (V, F): from 2 f_i/k on [nayfeh_mook_1979 sec. 5.3]."""
         return np.asarray(self.growth > 0.0)
-
-    def principal_frequencies(self, largest: int = 4) -> Array:
-        """Return 2 f_i/k and (f_i + f_j)/k, k = 1 to `largest` [Hz], rising.
-
-        Mesh frequencies from which tongues of instability grow, of one mode and of two in
-        combination ([nayfeh_mook_1979 sec. 5.3] [nayfeh_mook_1979 sec. 6.2]).
-        """
-        f = self.natural_frequencies
-        sums = (f[:, None] + f[None, :])[np.triu_indices(f.size)]
-        return np.sort(np.concatenate([sums / k for k in range(1, largest + 1)]))
 
 
 def instability_map(

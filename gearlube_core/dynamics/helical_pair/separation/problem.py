@@ -13,6 +13,9 @@ with it, so that the system is not autonomous and needs no phase condition.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 
 from gearlube_core.arrays import Array
@@ -32,7 +35,6 @@ from gearlube_core.dynamics.helical_pair.separation.march import (
     march_separating,
     march_work,
 )
-from gearlube_core.dynamics.helical_pair.separation.orbit import SeparationOrbit
 from gearlube_core.dynamics.helical_pair.separation.points import (
     SeparationPoints,
     separation_points,
@@ -42,8 +44,78 @@ from gearlube_core.dynamics.helical_pair.separation.system import (
     separation_system,
     static_state,
 )
+from gearlube_core.dynamics.helical_pair.supports.bearing_forces import bearing_forces
 from gearlube_core.errors import ParameterError
 from gearlube_core.periodic.problem import PeriodicProblem
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _SeparationOrbit:
+    """Samples at the start of each time step; of equal phase but at the mesh's kinks.
+
+    Parameters
+    ----------
+    parameters : HelicalPairParameters
+    pinion_torque, pinion_speed : float
+        [N.m], [rad/s]
+    phase, weight : ndarray of shape (N,)
+        From 0 [mesh periods], and share of the motion's period that a sample stands for [-].
+    displacement, rate : ndarray of shape (N, 11)
+        Of the coordinates `RELATIVE` [m, rad] and [m/s, rad/s]; zero where held.
+    flank_force : ndarray of shape (N,)
+        Sum of the line loads, normal to the flanks, negative on the back flanks [N].
+    friction_force : ndarray of shape (N,)
+        On the pinion off the line of action [N].
+    damping_force : ndarray of shape (N,)
+        Of the mesh against psi, along the line of action [N].
+    contact_share : ndarray of shape (N,)
+        Stiffness of the lines where they touch over that of all lines [-].
+    """
+
+    parameters: HelicalPairParameters
+    pinion_torque: float
+    pinion_speed: float
+    phase: Array
+    weight: Array
+    displacement: Array
+    rate: Array
+    flank_force: Array
+    friction_force: Array
+    damping_force: Array
+    contact_share: Array
+
+    def signal(self, name: str) -> Array:
+        """Return the history of a coordinate of `RELATIVE`, shape (N,) [m, rad]."""
+        return np.asarray(self.displacement[:, RELATIVE.index(name)])
+
+    @property
+    def delta_z(self) -> Array:
+        """Dynamic transmission error psi - u_xp + u_xg, negative under load, shape (N,) [m]."""
+        return self.signal("psi") - self.signal("u_xp") + self.signal("u_xg")
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Of `delta_z` [m]."""
+        return float(np.ptp(self.delta_z))
+
+    @property
+    def separation_share(self) -> float:
+        """Share of the time without any contact [-]."""
+        return self._share(self.contact_share == 0.0)
+
+    @property
+    def lift_off_share(self) -> float:
+        """Share of the time in which part of the lines or all of them are off [-]."""
+        return self._share(self.contact_share < 1.0 - 1e-12)
+
+    def _share(self, when: np.ndarray[Any, np.dtype[np.bool_]]) -> float:
+        return float(self.weight @ when)
+
+    @property
+    def bearing_force(self) -> Array:
+        """Forces and moments of both members' bearings on them, see `bearing_forces`."""
+        return bearing_forces(self.parameters.support_arrays(), self.displacement, self.rate)
+
 
 _STEP = 1e-4  # of the torque, in the difference of mesh data that are linear between levels
 _DIVERGED = 1e3  # static deflections
@@ -238,7 +310,7 @@ class SeparationProblem:
             parameter_scale=self.parameters.pinion_torque,
         )
 
-    def orbit(self, z: Array, speed: float, torque: float | None = None) -> SeparationOrbit:
+    def orbit(self, z: Array, speed: float, torque: float | None = None) -> _SeparationOrbit:
         """Return the motion over the period that starts at z, at a speed [rad/s], torque [N.m]."""
         n, torque = self.size // 2, self._torque_or(torque)
         table = self._table_at(torque)
@@ -248,7 +320,7 @@ class SeparationProblem:
         displacement, rate = np.zeros((2, record.shape[0], len(RELATIVE)))
         displacement[:, places], rate[:, places] = record[:, :n], record[:, n : 2 * n]
         extra = record[:, self.size :]
-        return SeparationOrbit(
+        return _SeparationOrbit(
             parameters=self.parameters,
             pinion_torque=torque,
             pinion_speed=speed,

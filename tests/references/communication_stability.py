@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
+import casadi as ca
 import numpy as np
 from scipy.linalg import expm
 
 from drivetrain.driveline.equations import INDEX, STATES
 from drivetrain.driveline.model import Driveline
-from drivetrain.driveline.torsional_axle import TorsionalAxle
+from drivetrain.driveline.stepper import LONGEST_INNER_STEP, MEMORY, driveline_stepper
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ConvergenceError
+from tests.references.torsional_axle import TorsionalAxle
 
 _Matrix = Array
 
@@ -147,7 +151,7 @@ def largest_stable_step(
 def communication_map(driveline: Driveline, h: float, axle: TorsionalAxle) -> _Matrix:
     """Return the linear map of one interval on (driveline states but crank angle, axle states)."""
     check_within("h", h, 1e-7, 1e-2, "s", "A communication step of 1e-4 s keeps a margin.")
-    free, torque_rows = driveline.interval_jacobian(h)
+    free, torque_rows = steady_interval(driveline, h)
     size = len(STATES) - 1
     a, b, speeds = axle.matrices(driveline.parameters.axle_ratio)
     n = len(a)
@@ -173,8 +177,6 @@ def communication_map(driveline: Driveline, h: float, axle: TorsionalAxle) -> _M
 
 def coupled_jacobian(driveline: Driveline, axle: TorsionalAxle) -> _Matrix:
     """Return the Jacobian of driveline and axle coupled without delay."""
-    import casadi as ca
-
     steady = driveline.steady
     a, b, speeds = axle.matrices(driveline.parameters.axle_ratio)
     y = ca.MX.sym("y", len(STATES) - 1 + len(a))
@@ -189,3 +191,45 @@ def coupled_jacobian(driveline: Driveline, axle: TorsionalAxle) -> _Matrix:
     motion = [steady.pinion_speed, steady.wheel_speed]
     point = np.concatenate([steady.state[1:], np.zeros(len(a) - len(motion[: len(a)])), motion])
     return np.array(function(point[: len(STATES) - 1 + len(a)]))
+
+
+def steady_interval(driveline: Driveline, h: float) -> tuple[Array, Array]:
+    """Return the linear map of one interval of `h` [s] at the smooth steady state.
+
+    Returns
+    -------
+    tuple of array
+        Derivatives of the states but the crank angle, shape (9, 11), and of the mean torques,
+        shape (2, 11), by these states, pinion speed and wheel speed.
+    """
+    steady, inputs, a = driveline.steady, driveline.inputs, driveline.parameters
+    interval = driveline_stepper(
+        driveline.equations,
+        max(1, math.ceil(h / LONGEST_INNER_STEP)),
+        a.propshaft_stiffness,
+        a.half_shaft_stiffness,
+    )
+    inputs[2] = 0.0
+    point = np.concatenate([steady.state[1:], [steady.pinion_speed, steady.wheel_speed]])
+    states, torques = interval_jacobian(interval)(point, h, inputs)
+    return np.array(states), np.array(torques)
+
+
+def interval_jacobian(interval: Any) -> Any:
+    """Return the derivatives of a map from `driveline_stepper` as a casadi Function.
+
+    Returns
+    -------
+    casadi.Function
+        (y, h, p) -> (d states / d y, d mean torques / d y), with y the states but the crank angle,
+        pinion speed and wheel speed. The axle's angles are those that were expected.
+    """
+    size = len(STATES) - 1
+    y, h, p = ca.MX.sym("y", size + 2), ca.MX.sym("h"), ca.MX.sym("p", 3)
+    memory = ca.vertcat(0.0, y[:size], ca.DM.zeros(len(MEMORY) - len(STATES)))
+    end, torques = interval(memory, ca.vertcat(h, 0.0, y[size], 0.0, y[size + 1]), p)
+    return ca.Function(
+        "interval_jacobian",
+        [y, h, p],
+        [ca.jacobian(end[1 : len(STATES)], y), ca.jacobian(torques[:2], y)],
+    )
