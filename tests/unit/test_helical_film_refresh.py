@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.march.line_points import point_load
-from gearlube_core.dynamics.helical_pair.march.mesh_data import STATIONS_AT
+from gearlube_core.dynamics.helical_pair.march.mesh_data import STATIONS_AT, density_at
 
 PHASES, LINES, STATIONS = 5, 2, 4
 
@@ -27,7 +27,9 @@ def test_load_lies_between_stations_and_phases_and_a_line_goes_on_as_the_next(ph
     rng = np.random.default_rng(1)
     station = np.array([0.0, 0.2, 0.7, 1.0])
     density, offset = 1.0 + rng.random((2, PHASES, LINES, STATIONS))
-    data = np.concatenate([np.full(STATIONS_AT, 7.0), station, density.ravel(), offset.ravel()])
+    moments = np.full(density_at(station.size, density.size) - STATIONS_AT - station.size, np.nan)
+    head = np.full(STATIONS_AT, 7.0)
+    data = np.concatenate([head, station, moments, density.ravel(), offset.ravel()])
 
     def between(values, at_line):
         # after the last phase a line is where the next one begins; the last line has none after it

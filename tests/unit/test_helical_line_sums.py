@@ -1,6 +1,7 @@
 """Sums over contact lines against dense sums of the definition, with friction of its own each."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,11 @@ import pytest
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.helical_pair.march import line_sums as module
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums, pair_slot
-from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    mesh_at_torque,
+    pack_march_mesh,
+    pair_data,
+)
 from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE
 from gearlube_core.kernels.places import place_below
 from gearlube_core.mesh_table import kernels
@@ -114,6 +119,49 @@ def test_friction_between_its_points_falls_to_zero_and_no_further(monkeypatch):
     # load varies along the lines by a fifth, and pieces with the kink take two points
     ratio = cut.F / even.F
     assert ratio == pytest.approx(mean / 0.05, rel=0.05)
+
+
+@pytest.mark.parametrize(("tilt", "dip"), [(0.0, 0.0), (1e-4, 0.0), (0.0, 30e-6), (2e-4, 30e-6)])
+def test_parts_that_touch_all_along_carry_what_their_pieces_carry(monkeypatch, tilt, dip):
+    """Moments against Gauss points piece by piece; with a dip the middle of line 1 stays open."""
+    offset = WAVY.mesh.offset.copy()
+    offset[:, :, 1, 2] += dip
+    mesh = replace(WAVY.mesh, offset=offset)
+    data = pair_data(CONSTANTS, mesh, WAVY.film_model())
+    even = np.full(24, 0.06)
+    interpret(monkeypatch, module)
+    for phase in np.linspace(-1.0, 1.0, 9) + 0.013:
+        found = source_of(line_sums)(20e-6, tilt, phase, data, even, 0)
+        with monkeypatch.context() as context:
+            context.setattr(module, "_FEW_STATIONS", 99)
+            pieces = source_of(line_sums)(20e-6, tilt, phase, data, even, 0)
+        scale = np.abs(pieces)
+        scale[2:6] = scale[0]
+        scale[7] = 1e-3 * scale[0]  # `moving`: a small difference of lines that grow and shrink
+        np.testing.assert_array_less(np.abs(np.subtract(found, pieces)), 1e-12 * scale)
+
+
+def test_moments_follow_the_mesh_to_another_load():
+    mesh = replace(
+        WAVY.mesh, torque=np.array([100.0, 200.0]),
+        density=np.concatenate([WAVY.mesh.density, 2.0 * WAVY.mesh.density]),
+        offset=np.concatenate([WAVY.mesh.offset, 0.5 * WAVY.mesh.offset]),
+    )  # fmt: skip
+    data = pair_data(CONSTANTS, mesh, WAVY.film_model())
+    packed = pack_march_mesh(mesh)
+    before = line_sums(20e-6, 0.0, 0.3, data, MU, MU_AT)
+    mesh_at_torque(200.0, (packed.torque, packed.density, packed.offset), data)
+    after = line_sums(20e-6, 0.0, 0.3, data, MU, MU_AT)
+    assert after.whole == pytest.approx(2.0 * before.whole, rel=1e-12)
+    # softer offsets carry more
+    assert after.N > 2.0 * before.N
+
+
+def test_friction_is_finite_where_a_line_ends_at_the_pitch_line():
+    """Whole lines on one side, with coefficients left from when they had two."""
+    for phase in np.linspace(-0.9, 2.9, 400):
+        assert math.isfinite(line_sums(20e-6, 0.0, phase, DATA, MU, MU_AT).Fz)
+        assert math.isfinite(line_sums(0.5e-6, 2e-4, phase, DATA, MU, MU_AT).Fz)
 
 
 @pytest.mark.parametrize("phase", [0.11, 0.985, 2.6])

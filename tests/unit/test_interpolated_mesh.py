@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.march import mesh_data
-from gearlube_core.dynamics.helical_pair.march.mesh_data import LEAST_OFFSET
+from gearlube_core.dynamics.helical_pair.march.mesh_data import LEAST_OFFSET, LEVEL
 from gearlube_core.dynamics.helical_pair.supports import support_matrices
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
 from gearlube_core.friction.heated_film import bracketed_secant_step
@@ -32,7 +32,8 @@ def test_mesh_is_linear_in_torque_between_levels_and_constant_beyond(count: int,
     assert data[-12:-6] == pytest.approx(at(densities))
     assert data[-6:] == pytest.approx(at(offsets))
     assert data[LEAST_OFFSET] == pytest.approx(min(at(offsets)))
-    untouched = np.delete(data[:-12], LEAST_OFFSET)
+    assert data[LEVEL] == torque
+    untouched = np.delete(data[:-12], [LEAST_OFFSET, LEVEL])
     assert np.isnan(untouched).all()
 
 
@@ -107,14 +108,19 @@ def test_printed_support_is_two_bearings_seen_from_the_gear(monkeypatch):
 
 def test_stations_of_a_mesh_have_both_ends(monkeypatch):
     interpret(monkeypatch, mesh_data)
-    data = np.full(LEAST_OFFSET + 40, np.nan)
-    assert mesh_data.data_size(3, 6) == mesh_data.STATIONS_AT + 3 + 12
+    # two lines of three stations: moments up to each, what heads a line, density and offset
+    of_moments = 6 * mesh_data.N_MOMENTS + 2 * mesh_data.LINE_HEAD
+    at = mesh_data.STATIONS_AT
+    assert mesh_data.data_size(3, 6) == at + 3 + of_moments + 12
     densities, offsets = RNG.random((2, 2, 6))
     data = np.full(mesh_data.data_size(3, 6), np.nan)
     levels = np.array([10.0, 30.0])
     mesh_data.place_mesh(np.array([0.0, 0.4, 1.0]), (levels, densities, offsets), data)
-    at = mesh_data.STATIONS_AT
     assert data[at : at + 3] == pytest.approx([0.0, 0.4, 1.0])
-    assert data[at + 3 : at + 9] == pytest.approx(densities[0])
-    assert data[at + 9 :] == pytest.approx(offsets[0])
+    assert mesh_data.density_at(3, 6) == at + 3 + of_moments
+    assert data[-12:-6] == pytest.approx(densities[0])
+    assert data[-6:] == pytest.approx(offsets[0])
     assert data[LEAST_OFFSET] == offsets[0].min()
+    # other densities at the same level take the place of those that were there
+    mesh_data.place_mesh(np.array([0.0, 0.4, 1.0]), (levels, 2.0 * densities, offsets), data)
+    assert data[-12:-6] == pytest.approx(2.0 * densities[0])

@@ -25,12 +25,14 @@ from gearlube_core.dynamics.helical_pair.march.kept_films import (
     middle_of,
     place_of,
 )
+from gearlube_core.dynamics.helical_pair.march.line_moments import cell_ends
 from gearlube_core.dynamics.helical_pair.march.line_sums import GAUSS
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     FILM_AT,
     KEPT_AT,
     LEAST_OFFSET,
     STATIONS_AT,
+    density_at,
 )
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
 from gearlube_core.film_model import net
@@ -91,8 +93,8 @@ def point_load(
     n_s = int(p.stations)
     n_phase = int(p.phases)
     lines = int(p.lines)
-    at_density = STATIONS_AT + n_s
     to_offset = n_phase * lines * n_s
+    at_density = density_at(n_s, to_offset)
     at_phase = (phase - np.floor(phase)) * n_phase
     row = place_below(at_phase, n_phase)
     part = at_phase - row
@@ -104,14 +106,9 @@ def point_load(
     while c < n_s - 2 and at_line > data[STATIONS_AT + c + 1]:
         c += 1
     t = (at_line - data[STATIONS_AT + c]) / (data[STATIONS_AT + c + 1] - data[STATIONS_AT + c])
-    k_here = data[here + c] + t * (data[here + c + 1] - data[here + c])
-    k_after = data[after + c] + t * (data[after + c + 1] - data[after + c])
-    here += to_offset
-    after += to_offset
-    e_here = data[here + c] + t * (data[here + c + 1] - data[here + c])
-    e_after = data[after + c] + t * (data[after + c + 1] - data[after + c])
-    k = k_here + part * (k_after - k_here)
-    e = e_here + part * (e_after - e_here)
+    cell = cell_ends(here + c, after + c, to_offset, part, data)
+    k = cell.k_a + t * (cell.k_b - cell.k_a)
+    e = cell.e_a + t * (cell.e_b - cell.e_a)
     return max(k * (g - e), 0.0)
 
 

@@ -9,9 +9,23 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.helical_pair.march.constants import MotionConstants
-from gearlube_core.dynamics.helical_pair.march.mesh_data import STATIONS_AT
+from gearlube_core.dynamics.helical_pair.march.line_moments import (
+    LINEAR,
+    built_up_stations,
+    cell_ends,
+    energy_and_growth,
+    fill_moments,
+    load_moment,
+    moment,
+)
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    LEVEL,
+    LINE_HEAD,
+    N_MOMENTS,
+    STATIONS_AT,
+    density_at,
+)
 from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE
-from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import built_up
 from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
@@ -20,6 +34,9 @@ from gearlube_core.kernels.places import place_below
 GAUSS = 0.21132486540518713  # (1 - 1/sqrt(3))/2: first of two points between 0 and 1
 _HALF_APART = 0.28867513459481287  # 1/(2 sqrt(3)): of the two points
 _PER_APART = 1.7320508075688772  # sqrt(3): reciprocal of their distance
+_LEAST_SIDE = 1e-5  # share of a line; a side of the pitch line below it has one mean friction
+_PER_BUILD_UP = 1.0 / DAMPING_BUILD_UP  # 1/m, as `mesh_damping.built_up`
+_FEW_STATIONS = 3  # up to so many, moments save nothing
 
 
 class LineSums(NamedTuple):
@@ -44,6 +61,22 @@ def pair_slot(phase: float, line: int, lines: int) -> int:
     first = np.floor(phase)
     slot = place_below(first - lines * np.floor(first / lines), lines) - line
     return slot + lines if slot < 0 else slot
+
+
+@kernel
+def friction_law(mu_1: float, mu_2: float, start: float, end: float) -> tuple[float, float, float]:
+    """Return mu at station 0, its slope, and its least value on one side of the pitch line.
+
+    It is a straight line through `mu_1` and `mu_2` at the Gauss points of the side, which lies
+    between the stations `start` and `end`.
+    """
+    size = end - start
+    if mu_1 == mu_2 or size < _LEAST_SIDE:
+        mean = 0.5 * (mu_1 + mu_2)
+        return mean, 0.0, mean
+    slope = (mu_2 - mu_1) * _PER_APART / size
+    origin = mu_1 - slope * (start + GAUSS * size)
+    return origin, slope, origin + min(slope * start, slope * end)
 
 
 @kernel
@@ -80,9 +113,11 @@ def line_sums(
     Notes
     -----
     Within a piece between stations, the pitch line and the end of contact, all integrands are
-    polynomials of at most third degree: two Gauss points are exact. `moving` keeps the energy
-    balance: a spring that enters or leaves loaded takes or gives work, which the pinion feels as
-    a torque -r_bp moving. It is about 1e-4 of the mesh torque and missing in He et al. 2007.
+    polynomials of at most third degree, fourth in Fz where mu varies: two Gauss points are exact.
+    The part of a line that touches all along takes no points, see `line_moments`. `moving` keeps
+    the energy balance: a spring that enters or leaves loaded takes or gives work, which the pinion
+    feels as a torque -r_bp moving. It is about 1e-4 of the mesh torque and missing in He et al.
+    2007.
     """
     motion: MotionConstants = tuple_from_array(data, MotionConstants)
     p = motion.flanks
@@ -93,8 +128,9 @@ def line_sums(
     lines = int(p.lines)
     n_s = int(p.stations)
     n_phase = int(p.phases)
-    at_density = STATIONS_AT + n_s
     to_offset = n_phase * lines * n_s
+    at_density = density_at(n_s, to_offset)
+    per_X = n_phase / plane.pitch
     fraction = phase - np.floor(phase)
     row = place_below(fraction * n_phase, n_phase)
     part = fraction * n_phase - row
@@ -119,27 +155,80 @@ def line_sums(
         here = at_density + (row * lines + i) * n_s
         after = here + lines * n_s
         if row == n_phase - 1:  # the line is the next older one when the phase starts anew
-            after = at_density + (i + 1) * n_s if i + 1 < lines else here
+            after = at_density + (i + 1) * n_s if i + 1 < lines and n_phase > 1 else here
         N_line = Nz_line = F_line = Fz_line = energy_line = 0.0
-        for c in range(n_s - 1):
+        per_span = 1.0 / span
+        t_pitch = (z_pitch - z_low) * per_span
+        mu_0, mu_slope, least = friction_law(mu[at_mu], mu[at_mu + 1], 0.0, t_pitch)
+        mu_1, mu_slope_1, least_1 = friction_law(mu[at_mu + 2], mu[at_mu + 3], t_pitch, 1.0)
+        low = high = n_s
+        if n_s > _FEW_STATIONS and min(least, least_1) >= 0.0:
+            b0 = base + slope * z_low
+            b1 = slope * span
+            at = STATIONS_AT + n_s + (row * lines + i) * (LINE_HEAD + N_MOMENTS * n_s)
+            if data[at] != data[LEVEL]:
+                fill_moments(here, after, to_offset, at, n_s, data)
+            # from station `low` to `high` the line touches everywhere, its damping is built up
+            low, high = 0, n_s - 1
+            if not min(b0, b0 + b1) - data[at + 1] >= DAMPING_BUILD_UP:
+                low, high = built_up_stations(b0, b1, here, after, to_offset, part, n_s, data)
+        if low < high:
+            at += LINE_HEAD
+            at_low = at + N_MOMENTS * low
+            at_high = at + N_MOMENTS * high
+            weight = span * per_cos
+            touched = weight * (
+                moment(0, at_low, at_high, data) + part * moment(LINEAR, at_low, at_high, data)
+            )
+            stiffness += touched
+            whole += touched
+            built += touched
+            w = load_moment(0, b0, b1, at_low, at_high, part, data)
+            w_t = load_moment(1, b0, b1, at_low, at_high, part, data)
+            w_tt = load_moment(2, b0, b1, at_low, at_high, part, data)
+            energy_line, growth = energy_and_growth(b0, b1, at_low, at_high, part, data)
+            energy_line *= weight
+            moving += 0.5 * weight * growth * per_X
+            N_line = weight * w
+            Nz_line = z_low * N_line + weight * span * w_t
+            # what of it lies before the pitch line
+            c = low
+            while c < high and data[STATIONS_AT + c + 1] <= t_pitch:
+                c += 1
+            at_pitch = at + N_MOMENTS * c
+            before = load_moment(0, b0, b1, at_low, at_pitch, part, data)
+            before_t = load_moment(1, b0, b1, at_low, at_pitch, part, data)
+            before_tt = load_moment(2, b0, b1, at_low, at_pitch, part, data)
+            t_a = data[STATIONS_AT + c]
+            if c < high and t_a < t_pitch:
+                cell = cell_ends(here + c, after + c, to_offset, part, data)
+                size = t_pitch - t_a
+                per_cell = 1.0 / (data[STATIONS_AT + c + 1] - t_a)
+                for point in range(2):
+                    t = (0.5 + (2 * point - 1) * _HALF_APART) * size
+                    u = t * per_cell
+                    t += t_a
+                    g = b0 + b1 * t - cell.e_a - u * (cell.e_b - cell.e_a)
+                    load = 0.5 * size * (cell.k_a + u * (cell.k_b - cell.k_a)) * g
+                    before += load
+                    before_t += load * t
+                    before_tt += load * t * t
+            drag = mu_1 * (w - before) + mu_slope_1 * (w_t - before_t)
+            drag -= mu_0 * before + mu_slope * before_t
+            drag_t = mu_1 * (w_t - before_t) + mu_slope_1 * (w_tt - before_tt)
+            drag_t -= mu_0 * before_t + mu_slope * before_tt
+            F_line = weight * drag
+            Fz_line = z_low * F_line + weight * span * drag_t
+        done = high - low
+        for n in range(n_s - 1 - done):
+            c = n if n < low else n + done
             t_a = data[STATIONS_AT + c]
             t_size = data[STATIONS_AT + c + 1] - t_a
             z_a = z_low + t_a * span
             width = t_size * span
-            k_a = data[here + c]
-            k_b = data[here + c + 1]
-            e_a = data[here + to_offset + c]
-            e_b = data[here + to_offset + c + 1]
-            dk_a = dk_b = de_a = de_b = 0.0
-            if n_phase > 1:
-                dk_a = data[after + c] - k_a
-                dk_b = data[after + c + 1] - k_b
-                de_a = data[after + to_offset + c] - e_a
-                de_b = data[after + to_offset + c + 1] - e_b
-                k_a += part * dk_a
-                k_b += part * dk_b
-                e_a += part * de_a
-                e_b += part * de_b
+            k_a, k_b, e_a, e_b, dk_a, dk_b, de_a, de_b = cell_ends(
+                here + c, after + c, to_offset, part, data
+            )
             whole += 0.5 * (k_a + k_b) * width * per_cos
             g_a = base + slope * z_a - e_a
             g_b = base + slope * (z_a + width) - e_b
@@ -174,29 +263,21 @@ def line_sums(
                 stiffness += touched_1 + touched_2
                 load_1 = touched_1 * g_1
                 load_2 = touched_2 * g_2
-                built += touched_1 * built_up(g_1, DAMPING_BUILD_UP)
-                built += touched_2 * built_up(g_2, DAMPING_BUILD_UP)
+                built += touched_1 * min(1.0, g_1 * _PER_BUILD_UP)
+                built += touched_2 * min(1.0, g_2 * _PER_BUILD_UP)
                 N_line += load_1 + load_2
                 Nz_line += load_1 * z_1 + load_2 * z_2
                 energy_line += load_1 * g_1 + load_2 * g_2
                 if n_phase > 1:
-                    per_X = n_phase / plane.pitch
                     moving -= load_1 * (de_a + t_1 * (de_b - de_a)) * per_X
                     moving -= load_2 * (de_a + t_2 * (de_b - de_a)) * per_X
                     stiffening = (dk_a + t_1 * (dk_b - dk_a)) * g_1 * g_1
                     stiffening += (dk_a + t_2 * (dk_b - dk_a)) * g_2 * g_2
                     moving += 0.5 * weight * stiffening * per_X
-                mu_1 = mu[at_mu + 2 * side]
-                mu_2 = mu[at_mu + 2 * side + 1]
-                drag_1 = mu_1
-                drag_2 = mu_2
-                if mu_1 != mu_2:
-                    side_low = z_low if side == 0 else z_pitch
-                    side_span = z_pitch - z_low if side == 0 else z_high - z_pitch
-                    gradient = (mu_2 - mu_1) * _PER_APART / side_span
-                    ahead = side_low + GAUSS * side_span
-                    drag_1 = max(mu_1 + gradient * (z_1 - ahead), 0.0)
-                    drag_2 = max(mu_1 + gradient * (z_2 - ahead), 0.0)
+                origin = mu_0 if side == 0 else mu_1
+                gradient = mu_slope if side == 0 else mu_slope_1
+                drag_1 = max(origin + gradient * (t_a + t_1 * t_size), 0.0)
+                drag_2 = max(origin + gradient * (t_a + t_2 * t_size), 0.0)
                 if side == 0:
                     drag_1 = -drag_1
                     drag_2 = -drag_2
@@ -212,6 +293,6 @@ def line_sums(
         energy += 0.5 * energy_line
         moving += (tilt * plane.sin_b + slope * rate_low) * N_line
         if rate_high != rate_low:
-            growth = (rate_high - rate_low) / span
+            growth = (rate_high - rate_low) * per_span
             moving += growth * (0.5 * energy_line + slope * (Nz_line - z_low * N_line))
     return LineSums(N, Nx, Nz, F, Fx, Fz, energy, moving, stiffness, whole, built)

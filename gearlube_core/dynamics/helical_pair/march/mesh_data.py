@@ -3,15 +3,16 @@
 Kernels take constants and line mesh as one float64 array, the *pair data*: handing over more arrays
 and tuples costs a call more than its work. Layout:
 
-    MarchConstants | film model | kept films | least offset [m] | stations | density [N/m2] |
-    offset [m]
+    MarchConstants | film model | kept films | least offset [m] | level [N.m] | stations |
+    moments | density [N/m2] | offset [m]
 
-density and offset have shape (phases, lines, stations), flattened. The kept films are what
-`kept_films` remembers.
+density and offset have shape (phases, lines, stations), flattened, at the level, a torque. The kept
+films are what `kept_films` remembers, the moments what `line_sums` does.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -27,7 +28,10 @@ from gearlube_core.mesh_table.line_mesh import LineMesh
 FILM_AT = count_floats(MarchConstants)  # numbers of a film model of lines; zeros with formulas
 KEPT_AT = FILM_AT + N_ARRAY  # `kept_films`; zeros: nothing is kept
 LEAST_OFFSET = KEPT_AT + N_KEPT_FILMS
-STATIONS_AT = LEAST_OFFSET + 1
+LEVEL = LEAST_OFFSET + 1
+STATIONS_AT = LEVEL + 1
+N_MOMENTS = 21  # of a part of a line, from its start to a station
+LINE_HEAD = 2  # before the moments of a line: the level that they hold for, the greatest offset
 
 
 class MarchMesh(NamedTuple):
@@ -75,9 +79,15 @@ def pair_data(constants: MarchConstants, mesh: LineMesh, film_model: Array) -> A
 
 
 @kernel
+def density_at(stations: int, size: int) -> int:
+    """Return the place of the density, of `size` numbers, in the pair data."""
+    return STATIONS_AT + stations + N_MOMENTS * size + LINE_HEAD * (size // stations)
+
+
+@kernel
 def data_size(stations: int, size: int) -> int:
     """Return the length of pair data; `size` is that of the density at one level."""
-    return STATIONS_AT + stations + 2 * size
+    return density_at(stations, size) + 2 * size
 
 
 @kernel
@@ -90,6 +100,8 @@ def mesh_at_torque(
 
     Outside the levels the nearest one holds. `mesh` has the fields of `MarchMesh`.
     """
+    if torque == data[LEVEL]:
+        return
     levels, densities, offsets = mesh
     last = levels.size - 1
     low = 0
@@ -108,11 +120,14 @@ def mesh_at_torque(
         data[at_density + size + j] = e
         least = min(least, e)
     data[LEAST_OFFSET] = least
+    data[LEVEL] = torque
 
 
 @kernel
 def place_mesh(station: Array, mesh: MeshFields, data: Array) -> None:
     """Write stations and the mesh at its lowest level into the pair data behind its constants."""
+    for i in range(LEVEL, data.size):
+        data[i] = math.nan  # what was there is of another mesh
     for i in range(station.size):
         data[STATIONS_AT + i] = station[i]
     mesh_at_torque(mesh[0][0], mesh, data)
