@@ -20,6 +20,7 @@ from gearlube_core.hypoid_geometry.measured.tooth_error_files import (
 )
 from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, ToothErrors, Wave
 from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.storage.file_names import Name
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
@@ -45,7 +46,7 @@ class MeasuredFile(InputFile):
         "waviness",
     )
 
-    name: Text = Field(description="Name of the measured pair in reports and figures")
+    name: Name = Field(description="Name of the measured pair in reports and figures")
     source: Text = Field(description="Who measured what; say so if the data are made up")
     gear_file: Text = Field(
         description="Gear file of the nominal flanks, or the name of a shipped one; its path is "
