@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
@@ -83,6 +84,15 @@ def lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
             if self.listing or cmd_name not in table:
                 return super().get_command(ctx, cmd_name)
             return table[cmd_name].load()
+
+        def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+            # an empty path would stand for the folder where one is
+            if "--out=" in args or ("--out", "") in itertools.pairwise(args):
+                raise typer.BadParameter(
+                    "must be a path, got an empty text. Write . for this folder, or leave it out.",
+                    param_hint="--out",
+                )
+            return super().resolve_command(ctx, args)
 
         def format_help(self, ctx: Any, formatter: Any) -> None:
             self.listing = True

@@ -13,6 +13,7 @@ files say which blocks are finished; nothing else is read to go on after a stop.
 from __future__ import annotations
 
 import json
+import secrets
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -95,8 +96,9 @@ class BlockStore:
 
     def _make(self, study: PointStudy, design: Design, key: str) -> None:
         """Write the group under another name first, so that it is complete or not there."""
-        partial = self.path.with_name(f"{self.path.name}.part")
-        shutil.rmtree(partial, ignore_errors=True)
+        for old in self.path.parent.glob(f"{self.path.name}.*part"):  # of runs that were killed
+            shutil.rmtree(old, ignore_errors=True)
+        partial = self.path.with_name(f"{self.path.name}.{secrets.token_hex(8)}.part")
         group = zarr.open_group(str(partial), mode="w", zarr_format=_FORMAT)
         quantities = study.quantities
         group.attrs.update(

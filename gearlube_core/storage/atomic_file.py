@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import secrets
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
@@ -38,7 +39,9 @@ def atomic_write(path: Path) -> Iterator[Path]:
             f"{path.name} must be written into a folder that is there, got {path.parent}. Make the "
             "folder, or choose another one."
         )
-    partial = path.with_name(f"{path.name}.{os.getpid()}.part")
+    # a name that nobody can foresee, and no link that lies there is followed
+    partial = path.with_name(f"{path.name[:200]}.{secrets.token_hex(8)}.part")
+    os.close(os.open(partial, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
     try:
         yield partial
         os.replace(partial, path)
