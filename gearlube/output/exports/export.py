@@ -10,11 +10,12 @@ import xarray as xr
 
 from gearlube.output.exports.mat import write_dataset_mat
 from gearlube.output.exports.mdf4 import write_mdf4
-from gearlube.output.exports.source import Span, chosen, dataset_file, read_dataset, without_unit
+from gearlube.output.exports.source import Span, chosen, dataset_file, without_unit
 from gearlube.output.exports.tables import write_tables
 from gearlube.output.exports.uff58 import write_uff58
 from gearlube.output.exports.vtk import write_vtk
 from gearlube_core.errors import ParameterError
+from gearlube_core.storage.atomic_file import loaded, open_dataset
 
 logger = logging.getLogger("gearlube")
 
@@ -84,8 +85,8 @@ def export_results(
     if path.exists() and path.is_dir() != ending.startswith("_"):
         wanted = "a folder" if ending.startswith("_") else "a file"
         raise ParameterError(f"--out must be {wanted} for {to}, got {path}. Choose another.")
-    with read_dataset(file) as dataset:
-        part = chosen(dataset, variables, spans)
+    with open_dataset(file, decode_times=False) as dataset:
+        part = loaded(chosen(dataset, variables, spans), file)
         if unknown := without_unit(part):
             logger.warning("These variables have no unit: %s", ", ".join(unknown))
         if not path.parent.is_dir():

@@ -45,20 +45,6 @@ def dataset_file(run: Path) -> Path:
     return found[0]
 
 
-def read_dataset(file: Path) -> xr.Dataset:
-    """Return the dataset in a NetCDF file; values are read when they are used.
-
-    Raises
-    ------
-    FileError
-        The file cannot be read.
-    """
-    try:
-        return xr.open_dataset(file, decode_times=False)
-    except (OSError, ValueError, RuntimeError, KeyError, TypeError) as error:
-        raise FileError(f"{file} must be a NetCDF file, got {error}.") from error
-
-
 def chosen(
     dataset: xr.Dataset, variables: Iterable[str] = (), spans: Mapping[str, Span] | None = None
 ) -> xr.Dataset:

@@ -12,7 +12,7 @@ import xarray as xr
 from gearlube.studies.sweep.quantities import GRID, described
 from gearlube.studies.sweep.summary import summary_csv
 from gearlube_core.storage.atomic_file import (
-    read_compressed_dataset,
+    read_dataset,
     write_compressed_dataset,
     write_text,
 )
@@ -110,5 +110,5 @@ def load_sweep(path: Path | str) -> xr.Dataset:
     >>> load_sweep("gearlube_sweep").sel(speed_kmh=60.0, preload=2500.0)  # doctest: +SKIP
     """
     path = Path(path)
-    dataset = read_compressed_dataset(path / "sweep.nc" if path.is_dir() else path)
+    dataset = read_dataset(path / "sweep.nc" if path.is_dir() else path)
     return dataset.set_xindex("speed_kmh") if "speed_kmh" not in dataset.xindexes else dataset

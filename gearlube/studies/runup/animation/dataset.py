@@ -17,7 +17,7 @@ from gearlube_core import __version__
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import read_compressed_dataset, write_compressed_dataset
+from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset
 from gearlube_core.units import rads_to_rpm
 
 logger = logging.getLogger(__name__)
@@ -214,4 +214,4 @@ def load_animation(path: Path | str) -> xr.Dataset:
     --------
     >>> load_animation("gearlube_runup/animation/runup.nc")["roller_load"]  # doctest: +SKIP
     """
-    return read_compressed_dataset(Path(path))
+    return read_dataset(Path(path))
