@@ -5,6 +5,7 @@ This module lists the commands and defines the options that they share.
 
 from __future__ import annotations
 
+import itertools
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -283,6 +284,15 @@ def _lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
 
         def list_commands(self, ctx: Any) -> list[str]:
             return list(table)
+
+        def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+            # an empty path would stand for the folder where one is
+            if "--out=" in args or ("--out", "") in itertools.pairwise(args):
+                raise typer.BadParameter(
+                    "must be a path, got an empty text. Write . for this folder, or leave it out.",
+                    param_hint="--out",
+                )
+            return super().resolve_command(ctx, args)
 
         def get_command(self, ctx: Any, cmd_name: str) -> Any:
             if self.listing or cmd_name not in table:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+import stat
 from collections.abc import Iterable
 from pathlib import Path
 
 from gearlube_core.errors import GearLubeError, ParameterError, unread
+
+LARGEST_FILE = 50_000_000_000  # bytes of results that are not read at once
 
 
 def _quantity(value: float, unit: str) -> str:
@@ -58,8 +61,47 @@ def check_option(name: str, value: str, options: Iterable[str]) -> str:
     return value
 
 
+def check_file(
+    path: str | Path,
+    what: str,
+    error: type[GearLubeError] = ParameterError,
+    cure: str = "",
+    largest: int = LARGEST_FILE,
+) -> None:
+    """Raise `error` unless there is an ordinary file of at most `largest` bytes.
+
+    A device or a pipe may never end; a larger file is not what it should be. Parameters as of
+    `read_content`.
+    """
+    try:
+        found = Path(path).stat()
+        if stat.S_ISDIR(found.st_mode):
+            raise IsADirectoryError
+    except ValueError:  # NUL
+        raise error(
+            f"The path of the {what} must be without control characters, got "
+            f"{str(path)[:100]!r}. {cure}".strip()
+        ) from None
+    except OSError as reason:
+        raise error(f"{unread(what, path, reason)}. {cure}".strip()) from None
+    if not stat.S_ISREG(found.st_mode):
+        raise error(
+            f"The {what} {path} must be an ordinary file, got a device or a pipe. Write its "
+            "content into a file first."
+        )
+    if found.st_size > largest:
+        raise error(
+            f"The {what} {path} must have at most {largest / 1e6:g} MB, got "
+            f"{found.st_size / 1e6:.3g} MB. {cure}".strip()
+        )
+
+
 def read_content(
-    path: str | Path, what: str, error: type[GearLubeError] = ParameterError, cure: str = ""
+    path: str | Path,
+    what: str,
+    error: type[GearLubeError] = ParameterError,
+    cure: str = "",
+    largest: int = 50_000_000,
 ) -> bytes:
     """Return the bytes of a file; raise `error` where it cannot be read, with its folder.
 
@@ -73,9 +115,13 @@ def read_content(
         Class of the error.
     cure
         Sentence at the end of the error, on what to do.
+    largest
+        Bytes that the file may have.
     """
+    check_file(path, what, error, cure, largest)
     try:
-        return Path(path).read_bytes()
+        with Path(path).open("rb") as file:
+            return file.read(largest)
     except OSError as reason:
         raise error(f"{unread(what, path, reason)}. {cure}".strip()) from None
 

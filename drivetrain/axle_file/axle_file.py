@@ -43,6 +43,7 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import DescribedOil, read_oil_file
 from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
 from gearlube_core.rough_patch.table import GreenwoodTrippFit
+from gearlube_core.storage.file_names import Name
 
 Text = Annotated[str, Field(min_length=1)]
 
@@ -112,7 +113,7 @@ class AxleFile(InputFile):
     )
     absolute_files: ClassVar[bool] = False  # methods that read them take the folder
 
-    name: Text = Field(default="axle", description="Name of the axle in reports")
+    name: Name = Field(default="axle", description="Name of the axle in reports")
     source: Text | None = Field(default=None, description="Where the numbers come from")
     gear_set: GearSet = Field(default={}, validate_default=True)  # type: ignore[arg-type]
     pinion: Member = Member()

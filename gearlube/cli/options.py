@@ -6,6 +6,19 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube_core.checks import check_within
+
+MOST_JOBS = 1024
+
+
+def _checked_jobs(jobs: int | None) -> int | None:
+    with exit_on_error():
+        if jobs is not None:
+            check_within("--jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all processors.")
+    return jobs
+
+
 CaseArgument = Annotated[
     str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
 ]
@@ -43,7 +56,11 @@ FilmRoughnessOption = Annotated[
 ]
 JobsOption = Annotated[
     int | None,
-    typer.Option(help="Number of parallel processes. Default: all processors.", metavar="N"),
+    typer.Option(
+        help="Number of parallel processes. Default: all processors.",
+        metavar="N",
+        callback=_checked_jobs,
+    ),
 ]
 OverwriteOption = Annotated[
     bool,

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryFile
 
 from gearlube_core import __version__
 from gearlube_core.errors import ParameterError
@@ -55,9 +56,7 @@ def written_folder(out: Path) -> Iterator[None]:
     try:
         try:
             out.mkdir(parents=True, exist_ok=True)
-            trial = out / f"{MARK}.trial"
-            trial.touch()
-            trial.unlink()
+            TemporaryFile(dir=out).close()
         except OSError as reason:
             why = reason.strerror or str(reason)
             if any(part.exists() and not part.is_dir() for part in (out, *out.parents)):

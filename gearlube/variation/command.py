@@ -109,7 +109,7 @@ def vary(
     from gearlube.variation.figures import save_variation_figures
     from gearlube.variation.file_variants import GEAR_FILE
     from gearlube.variation.report import variation_report
-    from gearlube.variation.run import MOST_BLOCK, MOST_JOBS, run_variation
+    from gearlube.variation.run import MOST_BLOCK, run_variation
     from gearlube.variation.studies import OF_AXLE, point_study, prepared
     from gearlube.variation.studies import scatter as scatter_of_study
     from gearlube.variation.summary import write_summary
@@ -122,8 +122,6 @@ def vary(
     from gearlube_core.checks import check_address, check_within
 
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
-        if jobs is not None:
-            check_within("--jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all.")
         if study in OF_AXLE:
             bring_gears_up_to_date(file, jobs=jobs)
         chosen = point_study(study, file, quick=quick)

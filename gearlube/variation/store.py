@@ -6,14 +6,18 @@ results.zarr has one array over the points for each varied parameter, and over t
 - `status`: 1 finished, 0 failed, -1 not computed;
 - `message`: why a point failed.
 
-A block of points is one chunk of each. The chunk of `status` is written last, so the names of its
-files say which blocks are finished; nothing else is read to go on after a stop.
+A block of points is one chunk of each. results.zarr.sha256 beside it has the checksum of each
+file, as `sha256sum --check` takes them. A block is finished once its three files are listed there;
+one whose files have another content is damaged, and the next run computes it again.
 """
 
 from __future__ import annotations
 
 import json
+import logging
+import secrets
 import shutil
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -26,6 +30,10 @@ from gearlube.variation.block import Block
 from gearlube.variation.design import Axis, Design
 from gearlube.variation.point_study import PointStudy, Quantity
 from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.storage.atomic_file import write_text
+from gearlube_core.storage.checksums import file_hash
+
+logger = logging.getLogger(__name__)
 
 MISSING = -1  # status of a point that has not been computed
 FILE = "results.zarr"
@@ -75,6 +83,9 @@ class BlockStore:
             return None
         attributes = _attributes(path)
         if attributes.get("key") == key:
+            if lost := [name for name in _damaged(path) if not _is_of_block(name)]:
+                logger.warning("%s is damaged. All is computed again.", path / lost[0])
+                return None
             return cls(path, design.size, int(attributes["block"]))
         if overwrite:
             return None
@@ -95,8 +106,9 @@ class BlockStore:
 
     def _make(self, study: PointStudy, design: Design, key: str) -> None:
         """Write the group under another name first, so that it is complete or not there."""
-        partial = self.path.with_name(f"{self.path.name}.part")
-        shutil.rmtree(partial, ignore_errors=True)
+        for old in self.path.parent.glob(f"{self.path.name}.*part"):  # of runs that were killed
+            shutil.rmtree(old, ignore_errors=True)
+        partial = self.path.with_name(f"{self.path.name}.{secrets.token_hex(8)}.part")
         group = zarr.open_group(str(partial), mode="w", zarr_format=_FORMAT)
         quantities = study.quantities
         group.attrs.update(
@@ -134,6 +146,8 @@ class BlockStore:
             fill_value=np.nan,
         )
         shutil.rmtree(self.path, ignore_errors=True)
+        files = (one.relative_to(partial) for one in partial.rglob("*") if one.is_file())
+        write_text(_lines(partial, map(Path.as_posix, files)), _checksums(self.path))
         partial.rename(self.path)
 
     def _input(
@@ -161,21 +175,39 @@ class BlockStore:
         return range(number * self.block, min((number + 1) * self.block, self.size))
 
     def finished(self) -> set[int]:
-        """Return the blocks that are there, by the names of their files."""
-        names = (entry.name for entry in (self.path / "status").iterdir())
-        return {int(name) for name in names if name.isdecimal()}
+        """Return the blocks that are computed and whose files are as they were written.
+
+        Damaged blocks are logged.
+        """
+        listed, damaged = _listed(self.path), set(_damaged(self.path))
+        there = {n for n in range(self.blocks) if listed.keys() >= set(_files(n))}
+        good = {n for n in there if damaged.isdisjoint(_files(n))}
+        if there - good:
+            logger.warning(
+                "%d of %d blocks in %s are damaged or missing. They are computed again.",
+                len(there - good),
+                self.blocks,
+                self.path,
+            )
+        status: Any = zarr.open_array(str(self.path / "status"), mode="r")
+        at = {n: self.points(n) for n in good}
+        return {n for n, one in at.items() if MISSING not in status[one.start : one.stop]}
 
     def write(self, number: int, block: Block) -> None:
         """Write a block; it counts once the last of its files is there."""
         group = zarr.open_group(str(self.path), mode="r+")
         at = self.points(number)
         where = slice(at.start, at.stop)
-        arrays: dict[str, Any] = {name: group[name] for name in ("results", "message", "status")}
-        arrays["results"][where] = block.values
-        if any(block.messages):
-            texts = [text.encode()[:_LETTERS] for text in block.messages]
+        texts = [text.encode()[:_LETTERS] for text in block.messages]
+        with zarr.config.set({"array.write_empty_chunks": True}):  # a missing file is a lost one
+            arrays: dict[str, Any] = {
+                name: group[name] for name in ("results", "message", "status")
+            }
+            arrays["results"][where] = block.values
             arrays["message"][where] = np.array(texts, dtype=f"S{_LETTERS}")
-        arrays["status"][where] = block.status
+            arrays["status"][where] = block.status
+        with _checksums(self.path).open("a", encoding="utf-8") as stream:
+            stream.write(_lines(self.path, _files(number)))
 
 
 def _array(group: Any, name: str, dimensions: list[str], **options: Any) -> Any:
@@ -183,6 +215,40 @@ def _array(group: Any, name: str, dimensions: list[str], **options: Any) -> Any:
         name, attributes={_DIMENSIONS: dimensions}, config={"write_empty_chunks": True}, **options
     )
     return array
+
+
+def _checksums(path: Path) -> Path:
+    return path.with_name(f"{path.name}.sha256")
+
+
+def _files(number: int) -> tuple[str, ...]:
+    """Return the files of a block, from the folder of the group."""
+    return f"results/{number}.0", f"message/{number}", f"status/{number}"
+
+
+def _is_of_block(name: str) -> bool:
+    folder, _, file = name.partition("/")
+    return folder in ("results", "message", "status") and not file.startswith(".")
+
+
+def _lines(path: Path, names: Iterable[str]) -> str:
+    return "".join(f"{file_hash(path / name)}  {name}\n" for name in names)
+
+
+def _listed(path: Path) -> dict[str, str]:
+    """Return the checksums of the files of a group by their names; the last of a name counts."""
+    try:
+        text = _checksums(path).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return {}
+    rows = (line.partition("  ") for line in text.splitlines())
+    return {name: digest for digest, _, name in rows}
+
+
+def _damaged(path: Path) -> list[str]:
+    """Return the files that lack, or have another content than was written, in rising order."""
+    listed = _listed(path)
+    return sorted(name for name, one in listed.items() if file_hash(path / name) != one)
 
 
 def _attributes(path: Path) -> dict[str, Any]:
@@ -210,7 +276,7 @@ def open_variation(folder: Path | str) -> xr.Dataset:
     Raises
     ------
     FileError
-        There are no such results.
+        There are no such results, or a file of them is damaged.
 
     Examples
     --------
@@ -224,6 +290,13 @@ def open_variation(folder: Path | str) -> xr.Dataset:
         raise FileError(
             f"{folder} must be a folder of `gearlube vary`, got none with {FILE}. Run it first."
         )
+    if damaged := _damaged(path):
+        raise FileError(
+            f"{path / damaged[0]} is damaged or missing, and {len(damaged) - 1} other files "
+            "with it. Run the same command again: it computes these points again."
+        )
+    if not _listed(path):
+        logger.warning("%s has no checksums, so damage to it would not be seen.", path)
     raw = xr.open_zarr(str(path), **_AS_WRITTEN)
     found = raw.drop_vars("results")
     for column, row in enumerate(attributes["quantities"]):

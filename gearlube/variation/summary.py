@@ -15,7 +15,7 @@ from gearlube.output.csv_text import csv_text
 from gearlube.variation.block import FINISHED
 from gearlube.variation.store import open_variation, read_points
 from gearlube_core.arrays import Array
-from gearlube_core.storage.atomic_file import write_compressed_dataset, write_text
+from gearlube_core.storage.atomic_file import atomic_write, write_compressed_dataset, write_text
 
 PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)
 STATISTICS = ("mean", "deviation", "low", *(f"p{p:g}" for p in PERCENTILES), "high")
@@ -198,8 +198,7 @@ def _write_points(results: xr.Dataset, folder: Path) -> None:
     block = int(results.attrs["block"])
     together = block * max(1, _ROWS // block)
     path = folder / "points.csv"
-    partial = path.with_name(f"{path.name}.part")
-    with partial.open("w", encoding="utf-8", newline="") as stream:
+    with atomic_write(path) as partial, partial.open("w", encoding="utf-8", newline="") as stream:
         stream.write(csv_text(head, []))
         for first in range(0, results.sizes["point"], together):
             points = slice(first, first + together)
@@ -211,4 +210,3 @@ def _write_points(results: xr.Dataset, folder: Path) -> None:
             )
             rows = [[*row[:-2], *row[-2], row[-1]] for row in columns]
             stream.write(csv_text(head, rows).partition("\n")[2])
-    partial.replace(path)

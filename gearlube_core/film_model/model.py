@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 import re
 from dataclasses import dataclass
 from functools import cache
@@ -31,6 +32,9 @@ _CUT_DOMAIN = {FLANK: (0.014, 0.106), LINE: (0.004, 0.08), ROLLER: (0.012, 0.115
 MOST_OUTSIDE = 0.05
 _SHIPPED = Path(__file__).parent / "data"
 _CURE = "Make one with `gearlube film-model fit`, or name a model of the package."
+
+_ENTRIES = {"format", "version", "provenance", "checksum", "numbers"}
+logger = logging.getLogger(__name__)
 
 # blocks of the numbers with their shapes, in order
 _BLOCKS: dict[str, tuple[int, ...]] = {
@@ -224,7 +228,7 @@ class FilmModel:
         """Return the model in the bytes of a file; `where` names it in errors, as of `read`."""
         try:
             content = json.loads(data.decode("utf-8"))
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise FileError(
                 f"{where} must be a film model in JSON, got a file that is not JSON or is cut off "
                 f"({error}). {_CURE}"
@@ -245,6 +249,18 @@ class FilmModel:
             raise FileError(
                 f"Film model {where} is damaged: its numbers do not belong to its checksum "
                 f"{checksum}. Do not edit it. {_CURE}"
+            )
+        whole = content.pop("file_checksum", None)
+        if content.keys() != _ENTRIES or whole not in (None, _hash_of(content)):
+            raise FileError(
+                f"Film model {where} is damaged: its entries do not belong to the checksum of the "
+                f"file. Do not edit it. {_CURE}"
+            )
+        if whole is None:
+            logger.warning(
+                "Film model %s has no checksum of the whole file, so damage to its provenance "
+                "would not be seen. Write it again with this version.",
+                where,
             )
         return model
 
@@ -280,10 +296,15 @@ class FilmModel:
             "checksum": self.checksum,
             "numbers": {name: block.tolist() for name, block in self.blocks.items()},
         }
-        text = json.dumps(content, indent=1)
+        text = json.dumps({**content, "file_checksum": _hash_of(content)}, indent=1)
         # rows of numbers on one line each
         rows = re.sub(r"\[[-+\s\d.,e]*\]", lambda row: re.sub(r"\s+", " ", row.group()), text)
         write_text(rows + "\n", Path(path))
+
+
+def _hash_of(content: dict[str, Any]) -> str:
+    """Return the first 16 digits of SHA-256 of all entries, however they are laid out."""
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
 
 
 def read_model_content(path: Path | str) -> bytes:

@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.storage.file_names import Name
 
 Text = Annotated[str, Field(min_length=1)]
 Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
@@ -182,7 +183,7 @@ class OptimisationFile(InputFile):
     title: ClassVar[str] = "problem file"
     files: ClassVar[tuple[str, ...]] = ("gear",)
 
-    name: Text = Field(description="Name of the optimised pair")
+    name: Name = Field(description="Name of the optimised pair")
     gear: Text = Field(
         description="Name of a shipped gear pair, or a gear file (.toml), its path relative to "
         "this file"

@@ -28,6 +28,7 @@ from gearlube_core.helical_geometry.tooth_limits import profile_shift_sum
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
+from gearlube_core.storage.file_names import Name
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
@@ -68,7 +69,7 @@ class HelicalGearFile(InputFile):
     package: ClassVar[str] = "gearlube_core.helical_geometry"
     files: ClassVar[tuple[str, ...]] = ("film.oil_file", "film.line_model")
 
-    name: Text = Field(description="Name of the pair in reports and figures")
+    name: Name = Field(description="Name of the pair in reports and figures")
     source: Text = Field(description="Where the numbers come from")
     compared_with: Names = Field(
         default=(),

@@ -20,6 +20,7 @@ from gearlube_core.hypoid_geometry.gear_file_sections import UNMODELLED
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.storage.file_names import Name
 
 Text = Annotated[str, Field(min_length=1)]
 Method = Annotated[int, Field(ge=0, le=3)]
@@ -54,7 +55,7 @@ class BlankFile(InputFile):
     title: ClassVar[str] = "blank file"
     unmodelled: ClassVar[Mapping[str, str]] = UNMODELLED
 
-    name: Text = Field(description="Name of the pair in reports and in the designed gear file")
+    name: Name = Field(description="Name of the pair in reports and in the designed gear file")
     method: Method | None = Field(
         None,
         description="Method of ISO 23509 for the pitch cones; left out: the method to which the "

@@ -28,6 +28,7 @@ from gearlube_core.hypoid_geometry.gear_file_sections import (
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
+from gearlube_core.storage.file_names import Name
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
@@ -53,7 +54,7 @@ class HypoidGearFile(InputFile):
     package: ClassVar[str] = "gearlube_core.hypoid_geometry"
     unmodelled: ClassVar[Mapping[str, str]] = UNMODELLED
 
-    name: Text = Field(description="Name of the pair in reports and figures")
+    name: Name = Field(description="Name of the pair in reports and figures")
     source: Text = Field(description="Where the numbers come from")
     pair: Pair
     pinion: Pinion

@@ -9,6 +9,7 @@ from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.rexs.bevel_document import member_attributes
 from gearlube_core.rexs.stage import Stage
+from gearlube_core.storage.file_names import as_name
 from gearlube_core.units import DEGREE
 
 _RIGHT_ANGLE = 1e-3  # deg
@@ -38,7 +39,7 @@ def blank_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
     [fva_2022]; [iso_23509 6].
     """
     name = "".join(c if c.isalnum() or c in "_+-. " else "_" for c in stage.stage.name)
-    data: dict[str, Any] = {"name": name.lstrip(". ") or stage.model.path.stem}
+    data: dict[str, Any] = {"name": as_name(name.lstrip(". ") or stage.model.path.stem)}
     _check_shafts(stage)
     for role, one in stage.members().items():
         place = (one, "number_of_teeth", "none")

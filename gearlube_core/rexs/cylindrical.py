@@ -11,6 +11,7 @@ from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.rexs.document import Document
 from gearlube_core.rexs.model import Component
 from gearlube_core.rexs.stage import ExchangeNote, Stage
+from gearlube_core.storage.file_names import as_name
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 _AGREE = 1e-4  # of numbers that both gears must have alike
@@ -38,7 +39,7 @@ def helical_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
     ----------
     [fva_2022]; tip diameter from addendum and profile shift: [iso_21771].
     """
-    data: dict[str, Any] = {"name": stage.stage.name or stage.model.path.stem}
+    data: dict[str, Any] = {"name": as_name(stage.stage.name or stage.model.path.stem)}
     data["source"] = stage.model.source
     teeth = {
         role: stage.required(f"{role}.teeth", (one, "number_of_teeth", "none"), given=given)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
+import secrets
+import struct
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
@@ -13,10 +16,31 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gearlube_core.checks import check_file
 from gearlube_core.errors import FileError
+from gearlube_core.storage.checksums import check_seal, seal
 
 if TYPE_CHECKING:  # not every user of this module has datasets
     import xarray as xr
+
+LARGEST_ARRAYS = 200_000_000  # bytes of one file's arrays in memory
+# what NumPy, SciPy, netCDF4 and xarray raise on files that are cut off or have wrong bytes
+DAMAGED = (
+    OSError,
+    ValueError,
+    TypeError,
+    LookupError,
+    AttributeError,
+    AssertionError,
+    ArithmeticError,
+    MemoryError,
+    EOFError,
+    RuntimeError,
+    RecursionError,
+    struct.error,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 
 Arrays = dict[str, Any]  # ndarrays by name; texts and numbers are arrays of no dimension
 
@@ -38,7 +62,9 @@ def atomic_write(path: Path) -> Iterator[Path]:
             f"{path.name} must be written into a folder that is there, got {path.parent}. Make the "
             "folder, or choose another one."
         )
-    partial = path.with_name(f"{path.name}.{os.getpid()}.part")
+    # a name that nobody can foresee, and no link that lies there is followed
+    partial = path.with_name(f"{path.name[:200]}.{secrets.token_hex(8)}.part")
+    os.close(os.open(partial, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
     try:
         yield partial
         os.replace(partial, path)
@@ -53,46 +79,76 @@ def write_text(text: str, path: Path) -> None:
 
 
 def write_arrays(path: Path, arrays: Mapping[str, Any], *, compress: bool = False) -> None:
-    """Write arrays as an npz file, flushed to the disk."""
+    """Write arrays as an npz file with a checksum, flushed to the disk."""
     save = np.savez_compressed if compress else np.savez
-    with atomic_write(path) as partial, partial.open("wb") as stream:
-        save(stream, **arrays)
-        stream.flush()
-        os.fsync(stream.fileno())
+    with atomic_write(path) as partial:
+        with partial.open("wb") as stream:
+            save(stream, **arrays)
+        seal(partial)
 
 
-def read_arrays(path: Path) -> Arrays:
+def read_arrays(path: Path, *, sealed: bool = False) -> Arrays:
     """Return the arrays of an npz file.
+
+    What it holds is read from its heads before any array is: no file takes more memory than it
+    may. `sealed` says that it must have a checksum, see `write_arrays`.
 
     Raises
     ------
     FileError
-        The file is missing, damaged or of another kind.
+        The file is missing, damaged or of another kind, or its arrays are too large.
     """
+    check_file(path, "npz file", FileError)
     try:
-        with np.load(path, allow_pickle=False) as stored:
+        with path.open("rb") as stream, np.load(path, allow_pickle=False) as stored:
+            _check_sealed(check_seal(stream, str(path)) or not sealed, path)
+            _check_claims(path, sum(_claimed(stored.zip, one) for one in stored.zip.infolist()))
             return {name: stored[name] for name in stored.files}
-    except (
-        OSError,
-        ValueError,
-        KeyError,
-        AttributeError,
-        EOFError,
-        zipfile.BadZipFile,
-        zlib.error,
-        TokenError,
-    ) as error:
-        raise FileError(f"{path} must be an npz file, got {error}. Remove it.") from error
+    except (*DAMAGED, TokenError) as error:
+        raise FileError(f"{path} must be an npz file, got {_why(error)}. Remove it.") from error
+
+
+def _claimed(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> int:
+    """Return the bytes of an array in memory, at least 8 for each number."""
+    with archive.open(entry) as member:
+        version = np.lib.format.read_magic(member)
+        old = version == (1, 0)
+        read = np.lib.format.read_array_header_1_0 if old else np.lib.format.read_array_header_2_0
+        shape, _, dtype = read(member)
+    count = math.prod(shape)
+    if min(shape, default=0) < 0 or count * dtype.itemsize > entry.file_size:
+        raise ValueError(f"{entry.filename} with {shape} numbers in {entry.file_size} bytes")
+    return count * max(dtype.itemsize, 8)
+
+
+def _check_claims(path: Path, size: int) -> None:
+    """Refuse arrays that are large and much larger than their file: results do not pack so well."""
+    if size > max(LARGEST_ARRAYS, 10 * path.stat().st_size):
+        raise ValueError(
+            f"one that claims arrays of {size / 1e6:.0f} MB, more than {LARGEST_ARRAYS / 1e6:g} MB "
+            "and ten times its size"
+        )
+
+
+def _check_sealed(good: bool, path: Path) -> None:
+    if not good:
+        raise FileError(f"{path} has no checksum at its end, so it may be cut off.")
+
+
+def _why(error: BaseException) -> str:
+    lines = str(error).strip().splitlines() or [type(error).__name__]
+    return lines[0][:200].rstrip(".")
 
 
 def write_dataset(dataset: xr.Dataset, path: Path) -> None:
-    """Write a dataset as NetCDF 3, which needs no library beside scipy."""
+    """Write a dataset as NetCDF 3 with a checksum; it needs no library beside scipy."""
     with atomic_write(path) as partial:
         dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
+        seal(partial)
 
 
 def write_compressed_dataset(dataset: xr.Dataset, path: Path) -> None:
-    """Write a dataset as NetCDF 4 with compressed floats; texts may have any length."""
+    """Write a dataset as NetCDF 4 with compressed floats and a checksum; texts have any length."""
     encoding = {
         str(name): {"zlib": True, "complevel": 1}
         for name, variable in dataset.data_vars.items()
@@ -100,19 +156,42 @@ def write_compressed_dataset(dataset: xr.Dataset, path: Path) -> None:
     }
     with atomic_write(path) as partial:
         dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+        seal(partial)
 
 
-def read_compressed_dataset(path: Path) -> xr.Dataset:
-    """Return the dataset in a NetCDF 4 file.
+def open_dataset(path: Path, *, sealed: bool = False, **options: Any) -> xr.Dataset:
+    """Return the dataset in a NetCDF file; values are read when they are used.
+
+    A checksum at its end is checked; `sealed` says that there must be one. Options are those of
+    `xarray.open_dataset`.
 
     Raises
     ------
     FileError
-        The file is missing, damaged or of another kind.
+        The file is missing, damaged or of another kind, or its arrays are too large.
     """
     import xarray as xr
 
+    check_file(path, "NetCDF file", FileError)
     try:
-        return xr.load_dataset(path, engine="netcdf4")
-    except (OSError, ValueError, RuntimeError, KeyError) as error:
-        raise FileError(f"{path} must be a NetCDF file, got {error}. Remove it.") from error
+        with path.open("rb") as stream:
+            _check_sealed(check_seal(stream, str(path)) or not sealed, path)
+        dataset = xr.open_dataset(path, **options)
+        _check_claims(path, dataset.nbytes)
+    except DAMAGED as error:
+        raise FileError(f"{path} must be a NetCDF file, got {_why(error)}. Remove it.") from error
+    return dataset
+
+
+def read_dataset(path: Path, *, sealed: bool = False, **options: Any) -> xr.Dataset:
+    """Return the dataset in a NetCDF file with its values; options and errors: `open_dataset`."""
+    with open_dataset(path, sealed=sealed, **options) as dataset:
+        return loaded(dataset, path)
+
+
+def loaded(dataset: xr.Dataset, path: Path) -> xr.Dataset:
+    """Return a dataset, or a part of it, with its values; raise FileError for damaged ones."""
+    try:
+        return dataset.load()
+    except DAMAGED as error:
+        raise FileError(f"{path} is damaged: {_why(error)}. Remove it.") from error

@@ -11,7 +11,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import FileError
 from gearlube_core.storage.atomic_file import (
     read_arrays,
-    read_compressed_dataset,
+    read_dataset,
     write_arrays,
     write_compressed_dataset,
 )
@@ -34,7 +34,7 @@ class FileFormat(Protocol[Result]):
         """Write a result and its key, atomically."""
         ...
 
-    def read(self, path: Path) -> tuple[str | None, Result]:
+    def read(self, path: Path) -> tuple[str, Result]:
         """Return key and result; raise FileError when the file cannot be read."""
         ...
 
@@ -46,10 +46,9 @@ class _Arrays:
     def write(self, path: Path, key: str, result: Record) -> None:
         write_arrays(path, {**result, self._KEY: key})
 
-    def read(self, path: Path) -> tuple[str | None, Record]:
-        arrays = read_arrays(path)
-        stored = arrays.pop(self._KEY, None)  # older files lack it: the name must do
-        return None if stored is None else str(stored), arrays
+    def read(self, path: Path) -> tuple[str, Record]:
+        arrays = read_arrays(path, sealed=True)
+        return str(arrays.pop(self._KEY, "")), arrays
 
 
 class _Datasets:
@@ -60,7 +59,7 @@ class _Datasets:
         write_compressed_dataset(result.assign_attrs({self._KEY: key}), path)
 
     def read(self, path: Path) -> tuple[str | None, xr.Dataset]:
-        dataset = read_compressed_dataset(path)
+        dataset = read_dataset(path, sealed=True)
         return str(dataset.attrs.get(self._KEY, "")), dataset
 
 
@@ -92,7 +91,7 @@ class ResultStore(Generic[Result]):
         except FileError as error:
             logger.warning("%s It will be computed again.", error)
             return None
-        if stored not in (None, key):
+        if stored != key:
             logger.warning(
                 "%s has another result than its name says. It will be computed again.", path
             )

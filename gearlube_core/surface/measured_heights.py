@@ -7,20 +7,22 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 from scipy.sparse import coo_array, diags_array
 from scipy.sparse.linalg import spsolve
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError, unread, why
+from gearlube_core.checks import check_file
+from gearlube_core.errors import FileError, ParameterError, why
 from gearlube_core.input_file.table import read_table
+from gearlube_core.storage.atomic_file import DAMAGED, open_dataset, read_arrays
 from gearlube_core.units import MILLIMETRE
 
 _MICROMETRE = 1e-6  # m
 _FEWEST = 4  # points of a cubic spline
 _HEAD = ("x_mm", "height_um")
 _ROUNDING = 1e-6  # of an interval or a range
+LARGEST = 100_000_000  # bytes of a file of heights
 _MOST_MISSING = 0.2  # share of points that may be filled
 logger = logging.getLogger(__name__)
 
@@ -129,15 +131,14 @@ def read_map(path: str | Path) -> MeasuredMap:
         The file is missing or not such a file.
     """
     where = Path(path)
+    check_file(where, "height map", largest=LARGEST)
     try:
         x, y, height = _from_npz(where) if where.suffix == ".npz" else _from_netcdf(where)
     except KeyError as missing:
         raise ParameterError(
             f"{path} must hold x and y in mm and height in um, {missing} is missing."
         ) from None
-    except FileNotFoundError as reason:
-        raise ParameterError(f"{unread('height map', path, reason)}.") from None
-    except (OSError, ValueError, TypeError) as reason:
+    except (*DAMAGED, FileError) as reason:
         raise ParameterError(
             f"{path} is not a readable NetCDF or npz file: {why(reason)}."
         ) from None
@@ -196,13 +197,13 @@ def filled(height: Array, name: str) -> Array:
 
 
 def _from_npz(path: Path) -> tuple[Array, Array, Array]:
-    with np.load(path, allow_pickle=False) as stored:
-        x, y, height = (np.asarray(stored[name], dtype=float) for name in ("x", "y", "height"))
+    stored = read_arrays(path)
+    x, y, height = (np.asarray(stored[name], dtype=float) for name in ("x", "y", "height"))
     return x, y, height
 
 
 def _from_netcdf(path: Path) -> tuple[Array, Array, Array]:
-    with xr.open_dataset(path) as stored:
+    with open_dataset(path) as stored:
         height = stored["height"].transpose("x", "y")
         x, y = stored["x"], stored["y"]
         return tuple(np.asarray(one.values, dtype=float) for one in (x, y, height))  # type: ignore[return-value]

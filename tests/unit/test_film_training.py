@@ -112,7 +112,29 @@ def test_a_table_comes_back_and_half_a_row_is_solved_again(rows, tmp_path):
     assert again.rows[row_key(failed.task)].failure == "ValueError: too fast, by far"
     whole = (tmp_path / "solves.csv").read_text()
     (tmp_path / "solves.csv").write_text(whole[: len(whole) - 60])
-    assert len(SolveTable(tmp_path / "solves.csv").rows) == 3
+    torn = SolveTable(tmp_path / "solves.csv")
+    assert len(torn.rows) == 3
+    torn.keep(row_key(rows[3].task), rows[3])
+    assert len(SolveTable(tmp_path / "solves.csv").rows) == 4
+
+
+def test_a_row_with_a_wrong_digit_is_solved_again(rows, tmp_path, caplog):
+    table = SolveTable(tmp_path / "solves.csv")
+    for row in rows[:3]:
+        table.keep(row_key(row.task), row)
+    lines = (tmp_path / "solves.csv").read_text().splitlines()
+    cells = lines[2].split(",")
+    cells[6] = cells[6].replace(cells[6][-1], "7" if cells[6][-1] != "7" else "8")
+    (tmp_path / "solves.csv").write_text("\n".join([*lines[:2], ",".join(cells), lines[3], ""]))
+    kept = SolveTable(tmp_path / "solves.csv").rows
+    assert list(kept.values()) == [rows[0], rows[2]]
+    assert "solves.csv, line 3 is damaged. Its film is solved again." in caplog.text
+    # a table of an earlier version has no checksums and stays as it is
+    older = "".join(line.rpartition(",")[0] + "\n" for line in lines)
+    (tmp_path / "solves.csv").write_text(older)
+    table = SolveTable(tmp_path / "solves.csv")
+    table.keep(row_key(rows[3].task), rows[3])
+    assert list(SolveTable(tmp_path / "solves.csv").rows.values()) == rows[:4]
 
 
 def test_a_foreign_table_and_another_plan_are_refused_in_words(tmp_path):

@@ -20,7 +20,7 @@ from gearlube.output.exports.vtk import write_vtk
 from gearlube.output.mat_file import write_mat
 from gearlube.output.units import is_text, unit_of
 from gearlube_core.errors import FileError, ParameterError
-from gearlube_core.storage.atomic_file import atomic_write
+from gearlube_core.storage.atomic_file import atomic_write, loaded, open_dataset
 
 _VERSION = "4.10"
 _PLAIN = ("1", "not stated")  # units that are left empty
@@ -179,8 +179,8 @@ def export_results(
     if path.exists() and path.is_dir() != ending.startswith("_"):
         wanted = "a folder" if ending.startswith("_") else "a file"
         raise ParameterError(f"--out must be {wanted} for {to}, got {path}. Choose another.")
-    with _read_dataset(file) as dataset:
-        part = chosen(dataset, variables, spans)
+    with open_dataset(file, decode_times=False) as dataset:
+        part = loaded(chosen(dataset, variables, spans), file)
         if unknown := _without_unit(part):
             logger.warning("These variables have no unit: %s", ", ".join(unknown))
         if not path.parent.is_dir():
@@ -217,20 +217,6 @@ def dataset_file(run: Path) -> Path:
             f"of them, for example {found[0]}."
         )
     return found[0]
-
-
-def _read_dataset(file: Path) -> xr.Dataset:
-    """Return the dataset in a NetCDF file; values are read when they are used.
-
-    Raises
-    ------
-    FileError
-        The file cannot be read.
-    """
-    try:
-        return xr.open_dataset(file, decode_times=False)
-    except (OSError, ValueError, RuntimeError, KeyError, TypeError) as error:
-        raise FileError(f"{file} must be a NetCDF file, got {error}.") from error
 
 
 def chosen(

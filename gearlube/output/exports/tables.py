@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from gearlube.output.csv_text import csv_text, number_text
 from gearlube.output.units import heading, is_text, unit_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.storage.atomic_file import write_text
+from gearlube_core.storage.file_names import file_stem, told_apart
 
 ROW_LIMIT = 1_000_000  # a spreadsheet holds 1 048 576
 _CHUNK = 10_000  # rows that are text at one time
@@ -52,9 +53,10 @@ def write_tables(dataset: xr.Dataset, folder: Path) -> list[Path]:
                 "--span."
             )
     folder.mkdir(parents=True, exist_ok=True)
+    files = _file_names(groups)
     paths = []
     for dims, names in groups.items():
-        path = folder / _file_name(dims)
+        path = folder / files[dims]
         if dims:
             columns = [*_places(dataset, dims), *_columns(dataset, dims, names)]
             text = csv_text([c.heading for c in columns], _rows(columns))
@@ -63,12 +65,17 @@ def write_tables(dataset: xr.Dataset, folder: Path) -> list[Path]:
         write_text(text, path)
         paths.append(path)
     head = ("variable", "unit", "meaning", "dimensions", "table")
-    write_text(csv_text(head, _described(dataset, groups)), folder / INDEX)
+    write_text(csv_text(head, _described(dataset, groups, files)), folder / INDEX)
     return [folder / INDEX, *paths]
 
 
-def _file_name(dims: tuple[str, ...]) -> str:
-    return f"{'_'.join(dims)}.csv" if dims else SINGLE
+def _file_names(groups: Iterable[tuple[str, ...]]) -> dict[tuple[str, ...], str]:
+    """Return the file of each table, never that of another one or of the list of tables."""
+    named = [dims for dims in groups if dims]
+    own = [INDEX.removesuffix(".csv"), SINGLE.removesuffix(".csv")]
+    stems = told_apart([*own, *(file_stem("_".join(dims), "table") for dims in named)])
+    files = zip(named, stems[len(own) :], strict=True)
+    return {(): SINGLE, **{dims: f"{stem}.csv" for dims, stem in files}}
 
 
 def _named_dims(dataset: xr.Dataset) -> set[str]:
@@ -141,7 +148,9 @@ def _single(dataset: xr.Dataset, names: list[str]) -> Iterator[tuple[str, str, s
 
 
 def _described(
-    dataset: xr.Dataset, groups: dict[tuple[str, ...], list[str]]
+    dataset: xr.Dataset,
+    groups: dict[tuple[str, ...], list[str]],
+    files: dict[tuple[str, ...], str],
 ) -> Iterator[tuple[str, ...]]:
     for dims, names in groups.items():
         for name in (*dims, *names):
@@ -151,4 +160,4 @@ def _described(
             unit, words = unit_of(variable), str(variable.attrs.get("long_name", ""))
             over = " ".join(map(str, variable.dims))
             unit = "not stated" if unit is None else unit
-            yield name, unit, words, over, _file_name(dims)
+            yield name, unit, words, over, files[dims]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.hypoid_design.design import Design
+from gearlube_core.storage.file_names import pair_stem
 
 PROBLEM = "problem.toml"
 SHARES = (0.15, 0.3)  # of the torque of the relief: steady driving, where whine is heard
@@ -24,13 +25,14 @@ def problem_text(design: Design) -> str:
     >>> print(problem_text(design))  # doctest: +SKIP
     """
     file, torque = design.file, design.relief.torque
+    stem = pair_stem(file.name)
     torques = [float(f"{share * torque:.2g}") for share in SHARES]
     lines = [
-        f"# How {file.name} may become quieter, as `gearlube design` proposes it. Change what you",
+        f"# How {stem} may become quieter, as `gearlube design` proposes it. Change what you",
         "# like and run `gearlube optimise` on it. docs/problem_file.md explains each field.",
         "",
-        f'name = "{file.name}_quiet"',
-        f'gear = "{file.name}.toml"',
+        f'name = "{stem[:90]}_quiet"',
+        f'gear = "{stem}.toml"',
         f"torques_n_m = {torques}  # of the pinion: 15 and 30 % of {torque:g} N.m, for which the",
         "                            # relief was chosen",
         'side = "drive"',

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Sequence
-from io import StringIO
 from typing import NamedTuple
 
 import numpy as np
 from scipy.stats import binom
 
+from gearlube.output.csv_text import csv_text
 from gearlube.studies.film_model.calibration import CONFIDENCE, Misses
 from gearlube.studies.film_model.kinds import Contact, kind_of
 from gearlube_core.errors import GearLubeError, ParameterError
@@ -173,27 +172,23 @@ def audit_lines(found: Audit) -> list[str]:
 
 def audit_table(found: Audit) -> str:
     """Return the contacts of an audit as CSV: groups, films [m], frictions, errors [%]."""
-    stream = StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(
-        (
-            *FilmGroups._fields,
-            "film_model_m",
-            "film_solved_m",
-            "friction_model",
-            "friction_solved",
-            "failure",
-        )
+    head = (
+        *FilmGroups._fields,
+        "film_model_m",
+        "film_solved_m",
+        "friction_model",
+        "friction_solved",
+        "failure",
     )
-    for row in found.rows:
-        writer.writerow(
-            (
-                *(f"{value:.6g}" for value in kind_of(row.contact).groups(row.contact)),
-                f"{row.model.central_film:.6g}",
-                f"{row.film:.6g}",
-                f"{row.model.friction_coefficient:.6g}",
-                f"{row.friction:.6g}",
-                row.failure,
-            )
+    rows = (
+        (
+            *(f"{value:.6g}" for value in kind_of(row.contact).groups(row.contact)),
+            f"{row.model.central_film:.6g}",
+            f"{row.film:.6g}",
+            f"{row.model.friction_coefficient:.6g}",
+            f"{row.friction:.6g}",
+            row.failure,
         )
-    return stream.getvalue()
+        for row in found.rows
+    )
+    return csv_text(head, rows)

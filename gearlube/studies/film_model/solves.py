@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import logging
+import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -11,6 +13,13 @@ from gearlube.studies.film_model.kinds import HYPOID_FLANK, ContactKind
 from gearlube.studies.film_model.plan import FilmTask
 from gearlube.studies.film_model.solve import Solved
 from gearlube_core.errors import FileError
+
+CHECK = "crc32"  # last column: of the cells before it
+logger = logging.getLogger("gearlube")
+
+
+def _check_of(cells: list[str]) -> str:
+    return f"{zlib.crc32(','.join(cells).encode()):08x}"
 
 
 def head(kind: ContactKind) -> tuple[str, ...]:
@@ -53,22 +62,30 @@ class SolveTable:
     path: Path
     kind: ContactKind = HYPOID_FLANK
     rows: dict[str, SolveRow] = field(default_factory=dict)
+    names: tuple[str, ...] = ()
+    torn: bool = False  # the last row has no end
 
     def __post_init__(self) -> None:
+        own = head(self.kind)
+        self.names = (*own, CHECK)
         if not self.path.exists():
             return
-        with self.path.open(newline="", encoding="utf-8") as stream:
-            reader = csv.reader(stream)
-            if tuple(next(reader, ())) != head(self.kind):
-                raise FileError(
-                    f"{self.path} must be a table of solved films of this version, got other "
-                    "columns. Give another folder, or remove the file to solve anew."
+        text = self.path.read_text(encoding="utf-8", errors="replace")
+        lines, self.torn = text.splitlines(), not text.endswith("\n")
+        self.names = tuple(lines[0].split(",")) if lines else ()
+        if self.names not in (own, (*own, CHECK)):  # of an earlier version: without checksums
+            raise FileError(
+                f"{self.path} must be a table of solved films of this version, got other "
+                "columns. Give another folder, or remove the file to solve anew."
+            )
+        for number, line in enumerate(lines[1:], start=2):
+            row = self._row(line)
+            if row is not None:
+                self.rows[row_key(row.task)] = row
+            elif line:  # damaged, or the half row of a run that was killed
+                logger.warning(
+                    "%s, line %d is damaged. Its film is solved again.", self.path, number
                 )
-            for cells in reader:
-                # a run that was killed may leave half a row at the end: it is solved again
-                row = self._row(cells)
-                if row is not None:
-                    self.rows[row_key(row.task)] = row
 
     def read(self, key: str) -> SolveRow | None:
         """Return a row; None when it is absent."""
@@ -80,15 +97,23 @@ class SolveTable:
         self.path.parent.mkdir(parents=True, exist_ok=True)
         new = not self.path.exists()
         with self.path.open("a", newline="", encoding="utf-8") as stream:
-            writer = csv.writer(stream, lineterminator="\n")
-            if new:
-                writer.writerow(head(self.kind))
+            if new or self.torn:
+                stream.write(",".join(self.names) + "\n" if new else "\n")
+            self.torn = False
             task = result.task
             numbers = (*task.contact, *result.solved)
             texts = (repr(float(value)) for value in numbers)
-            writer.writerow([task.kind, task.number, *task.nodes, *texts, result.failure])
+            cells = [task.kind, str(task.number), *map(str, task.nodes), *texts, result.failure]
+            checks = [_check_of(cells)] if self.names[-1] == CHECK else []
+            csv.writer(stream, lineterminator="\n").writerow([*cells, *checks])
 
-    def _row(self, cells: list[str]) -> SolveRow | None:
+    def _row(self, line: str) -> SolveRow | None:
+        try:
+            cells = next(csv.reader([line]), [])
+        except csv.Error:
+            return None
+        if self.names[-1] == CHECK and (len(cells) < 2 or cells.pop() != _check_of(cells)):
+            return None
         if len(cells) != len(head(self.kind)):
             return None
         try:

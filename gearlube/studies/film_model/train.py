@@ -78,8 +78,13 @@ def check_plan(plan: FilmPlan, folder: Path) -> None:
     path = folder / PLAN
     if not path.exists():
         return
-    # a plan of before has no names that were added since
-    stored = {**FilmPlan().described(), **json.loads(path.read_text(encoding="utf-8"))}
+    try:
+        # a plan of before has no names that were added since
+        stored = {**FilmPlan().described(), **json.loads(path.read_text(encoding="utf-8"))}
+    except (OSError, ValueError, TypeError) as reason:
+        raise ParameterError(
+            f"{path} must be the plan of the films in its folder, got {reason}. Give another --out."
+        ) from None
     wanted = plan.described()
     other = [name for name in wanted if stored.get(name) != wanted[name]]
     if other:

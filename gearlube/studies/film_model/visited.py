@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
 
 from gearlube.studies.film_model.samples import flank_contact_of
 from gearlube_core.arrays import Array
@@ -16,6 +15,7 @@ from gearlube_core.ehl.gears.hypoid_window import pair_contact
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.film_model.groups import FilmContact
 from gearlube_core.input_file.table import TABLES, read_table
+from gearlube_core.storage.atomic_file import DAMAGED, open_dataset
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 COLUMNS = ("pinion_speed_rpm", "pinion_torque_n_m", "oil_temperature_degc")
@@ -67,14 +67,14 @@ def visited_points(run: Path) -> OperatingPoints:
 def _of_dataset(path: Path) -> tuple[Array, Array, Array]:
     """Return speed [rpm], torque [N.m] and oil temperature [degC]."""
     try:
-        with xr.open_dataset(path) as dataset:
+        with open_dataset(path) as dataset:
             if path.name == "map.nc":
                 axes = (dataset[name].values for name in ("temperature", "speed", "torque"))
                 temperature, speed, torque = np.meshgrid(*axes, indexing="ij")
                 return speed.ravel(), torque.ravel(), temperature.ravel()
             speed, torque = dataset["pinion_speed"].values, dataset["pinion_torque"].values
             return speed, torque, dataset["oil_temperature"].values[: speed.size]
-    except (OSError, KeyError, ValueError) as error:
+    except (*DAMAGED, FileError) as error:
         raise FileError(f"{path} cannot be read: {error}. {_CURE}") from error
 
 

@@ -9,9 +9,9 @@ import xarray as xr
 from gearlube.studies.films.figures.catalogue import save_film_figures
 from gearlube.studies.films.hypoid.summary import ratio_csv, ratio_rows
 from gearlube.studies.films.summary import summary_csv, summary_rows
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.storage.atomic_file import read_dataset, write_dataset, write_text
 
 _NAMES = {
     "line": "line",
@@ -92,8 +92,8 @@ def read_march(path: Path) -> xr.Dataset:
     """
     path = path / "cycle.nc" if path.is_dir() else path
     try:
-        dataset = xr.load_dataset(path, engine="scipy")
-    except (OSError, ValueError, TypeError) as reason:
+        dataset = read_dataset(path, engine="scipy")
+    except FileError as reason:
         raise ParameterError(
             f"{path} is not the cycle of a march: {reason}. Run gearlube ehl helical --march first."
         ) from None

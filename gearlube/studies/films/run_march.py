@@ -25,7 +25,7 @@ from gearlube_core.ehl.transient.march import MARCH_SETTINGS
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import write_dataset
+from gearlube_core.storage.atomic_file import read_dataset, write_dataset
 
 logger = logging.getLogger("gearlube")
 
@@ -175,7 +175,7 @@ def run_helical_march(
 def _finish_snapshot(folder: Path, step: int, key: str, steady: FilmSolution) -> None:
     """Add the steady film to the snapshot written by the march `key`, and draw both."""
     path = step_file(folder, step)
-    stored = xr.load_dataset(path, engine="scipy") if path.exists() else None
+    stored = read_dataset(path, engine="scipy") if path.exists() else None
     if stored is None or stored.attrs.get("march") != key:
         logger.warning(
             "The march has already passed step %d, so its film cannot be kept. For %s, run it "

@@ -175,8 +175,6 @@ def helical(
     began = time.monotonic()
     with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
         file = HelicalGearFile.given(gear)
-        if jobs is not None:
-            check_within("--jobs", jobs, 1, 1024)
         given = file.operation
         torque = torque if torque is not None or given is None else given.pinion_torque_n_m
         speed_rpm = speed_rpm if speed_rpm is not None or given is None else given.pinion_speed_rpm

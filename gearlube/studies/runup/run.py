@@ -11,7 +11,7 @@ from gearlube.studies.runup.dataset import runup_dataset
 from gearlube.studies.runup.record import record_ramp
 from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core.progress import Progress, no_progress, part_of
-from gearlube_core.storage.atomic_file import read_compressed_dataset, write_compressed_dataset
+from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset
 
 FILES = {"run-up": "runup.nc", "coast-down": "coastdown.nc"}
 _OF_MARCH = 0.9  # share of the work
@@ -83,4 +83,4 @@ def load_runup(path: Path | str) -> xr.Dataset:
     >>> load_runup("gearlube_runup")["bearing_force"]  # doctest: +SKIP
     """
     path = Path(path)
-    return read_compressed_dataset(path / FILES["run-up"] if path.is_dir() else path)
+    return read_dataset(path / FILES["run-up"] if path.is_dir() else path)

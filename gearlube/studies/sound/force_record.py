@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import FileError, ParameterError, unread
+from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.storage.atomic_file import open_dataset
 
 FORCE, TIME, SPEED = "bearing_force", "time", "pinion_speed"
 _UNITS = {
@@ -91,12 +92,9 @@ def read_forces(source: Path | str | xr.Dataset, name: str = "") -> ForceRecord:
 
 def _opened(file: Path) -> xr.Dataset:
     try:
-        return xr.open_dataset(file, decode_times=False)
-    except (OSError, ValueError) as reason:
-        words = unread("run", file, reason)
-        if not isinstance(reason, OSError):
-            words = f"The run {file} cannot be read: it is no NetCDF file"
-        raise FileError(f"{words}. {_CURE}") from None
+        return open_dataset(file, decode_times=False)
+    except FileError as reason:
+        raise FileError(f"{reason} {_CURE}") from None
 
 
 def _file_in(folder: Path) -> Path:

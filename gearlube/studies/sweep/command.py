@@ -171,8 +171,6 @@ def sweep(
         TemporaryDirectory(prefix="gearlube-") as folder,
     ):
         own_axle = axle is not None
-        if jobs is not None:
-            check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")
         if fmu is None and mesh_table is None:
             bring_gears_up_to_date(axle, jobs=jobs)
         if oil is not None and oil.endswith(".toml"):

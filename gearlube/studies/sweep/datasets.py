@@ -13,7 +13,7 @@ from gearlube.output.csv_text import csv_text, number_text
 from gearlube.output.units import heading
 from gearlube.studies.sweep.quantities import GRID, described
 from gearlube_core.storage.atomic_file import (
-    read_compressed_dataset,
+    read_dataset,
     write_compressed_dataset,
     write_text,
 )
@@ -111,7 +111,7 @@ def load_sweep(path: Path | str) -> xr.Dataset:
     >>> load_sweep("gearlube_sweep").sel(speed_kmh=60.0, preload=2500.0)  # doctest: +SKIP
     """
     path = Path(path)
-    dataset = read_compressed_dataset(path / "sweep.nc" if path.is_dir() else path)
+    dataset = read_dataset(path / "sweep.nc" if path.is_dir() else path)
     return dataset.set_xindex("speed_kmh") if "speed_kmh" not in dataset.xindexes else dataset
 
 

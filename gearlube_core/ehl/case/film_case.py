@@ -10,6 +10,7 @@ from pydantic import Field
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.storage.file_names import Name
 
 Text = Annotated[str, Field(min_length=1)]
 Heat = Literal["isothermal", "thermal"]
@@ -21,7 +22,7 @@ class FilmCase(InputFile):
 
     package: ClassVar[str] = "gearlube_core.ehl.case"
 
-    name: Text = Field(description="Name of the case in reports and figures")
+    name: Name = Field(description="Name of the case in reports and figures")
     source: Text = Field(description="Where the numbers come from")
 
 

@@ -20,6 +20,7 @@ from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, To
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.input_file.table import read_table
+from gearlube_core.storage.file_names import Name
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 PITCH_COLUMNS = ("member", "flank", "tooth", "deviation_um")
@@ -115,7 +116,7 @@ class MeasuredFile(InputFile):
         "waviness",
     )
 
-    name: Text = Field(description="Name of the measured pair in reports and figures")
+    name: Name = Field(description="Name of the measured pair in reports and figures")
     source: Text = Field(description="Who measured what; say so if the data are made up")
     gear_file: Text = Field(
         description="Gear file of the nominal flanks, or the name of a shipped one; its path is "

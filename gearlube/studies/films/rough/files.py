@@ -17,8 +17,8 @@ from gearlube.studies.films.figures.rough import (
     rough_thin_films,
 )
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.errors import ParameterError
-from gearlube_core.storage.atomic_file import atomic_write, write_dataset, write_text
+from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.storage.atomic_file import atomic_write, read_dataset, write_dataset, write_text
 
 DATASET, FRAMES = "rough.nc", "frames"
 
@@ -78,9 +78,9 @@ def read_frames(folder: Path, key: str, most: int | None = None) -> Iterator[xr.
         files = [files[k * (len(files) - 1) // (most - 1)] for k in range(most)]
     for path in files:
         try:
-            frame = xr.load_dataset(path, engine="scipy")
-        except (OSError, ValueError, TypeError) as reason:
-            raise ParameterError(f"{path} must be a kept film, got {reason}. Remove it.") from None
+            frame = read_dataset(path, engine="scipy")
+        except FileError as reason:
+            raise ParameterError(f"{path} must be a kept film: {reason}") from None
         if frame.attrs.get("march") != key:
             raise ParameterError(
                 f"{path} must be a film of this case, got one of another. Give the case from which "
@@ -133,7 +133,7 @@ def write_rough_results(dataset: xr.Dataset, folder: Path) -> list[Path]:
         drawn["distributions"] = rough_distributions(runs)
         drawn["thin_films"] = rough_thin_films(runs)
     for path in frame_files(folder):
-        frame = xr.load_dataset(path, engine="scipy")
+        frame = read_dataset(path, engine="scipy")
         if frame.attrs.get("march") == dataset.attrs["march"]:
             drawn[path.stem] = rough_frame(frame.isel(time=0))
     written = [folder / DATASET, folder / "summary.csv"]

@@ -24,7 +24,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.kernels import load_bracket, pair_node
 from gearlube_core.mesh_table.table import PAIRS, TOOTH_UNITS, MeshTable
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import read_compressed_dataset, write_compressed_dataset
+from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset
 from gearlube_core.units import rads_to_rpm
 
 _LARGEST_OVER_MEAN = 1.5  # pressure of a Hertz ellipse
@@ -224,7 +224,7 @@ def load_animation(path: Path | str) -> xr.Dataset:
     --------
     >>> load_animation("gearlube_runup/animation/runup.nc")["roller_load"]  # doctest: +SKIP
     """
-    return read_compressed_dataset(Path(path))
+    return read_dataset(Path(path))
 
 
 def _flank_variables(frames: Frames) -> Variables:
