@@ -3,11 +3,11 @@
 results.zarr has one array over the points for each varied parameter, and over the points
 
 - `results` (point, quantity): what the study gives, NaN where a point failed;
-- `status`: 1 finished, 0 failed, -1 not computed;
-- `message`: why a point failed.
+- `status`: 1 finished, 0 failed, -1 not computed or lost to the machine;
+- `message`: why a point failed or was lost.
 
-A block of points is one chunk of each. The chunk of `status` is written last, so the names of its
-files say which blocks are finished; nothing else is read to go on after a stop.
+A block of points is one chunk of each. The chunk of `status` is written last, so it says which
+blocks are finished; nothing else is read to go on after a stop.
 """
 
 from __future__ import annotations
@@ -22,12 +22,11 @@ import numpy as np
 import xarray as xr
 import zarr
 
-from gearlube.variation.block import Block
+from gearlube.variation.block import MISSING, Block
 from gearlube.variation.design import Axis, Design
 from gearlube.variation.point_study import PointStudy, Quantity
 from gearlube_core.errors import FileError, ParameterError
 
-MISSING = -1  # status of a point that has not been computed
 FILE = "results.zarr"
 _FORMAT: Literal[2] = (
     2  # of Zarr: read by every library, with names of dimensions as xarray writes them
@@ -88,7 +87,6 @@ class BlockStore:
         cls, folder: Path, study: PointStudy, design: Design, *, key: str, block: int
     ) -> BlockStore:
         """Return a new, empty store in `folder`, in the place of any that is there."""
-        folder.mkdir(parents=True, exist_ok=True)
         store = cls(folder / FILE, design.size, block)
         store._make(study, design, key)
         return store
@@ -161,9 +159,12 @@ class BlockStore:
         return range(number * self.block, min((number + 1) * self.block, self.size))
 
     def finished(self) -> set[int]:
-        """Return the blocks that are there, by the names of their files."""
+        """Return the blocks all of whose points are computed."""
         names = (entry.name for entry in (self.path / "status").iterdir())
-        return {int(name) for name in names if name.isdecimal()}
+        there = [int(name) for name in names if name.isdecimal()]
+        array: Any = zarr.open_array(str(self.path / "status"), mode="r")
+        status = array[:]
+        return {one for one in there if MISSING not in status[self.points(one)]}
 
     def write(self, number: int, block: Block) -> None:
         """Write a block; it counts once the last of its files is there."""
