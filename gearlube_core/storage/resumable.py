@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    wait,
+)
 from itertools import islice
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
 from gearlube_core.errors import is_of_machine
 from gearlube_core.storage.interrupts import deferred_interrupts
-from gearlube_core.storage.process_pool import Pool, single_threaded
+from gearlube_core.storage.process_pool import Pool, check_alive, single_threaded
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -79,6 +86,8 @@ def resumable_results(
         wait for them.
     BrokenExecutor
         A process died several times and `failed` is not given.
+    MemoryError
+        There is too little memory for the threads of a pool.
     """
     due = []
     for task in tasks:
@@ -113,7 +122,9 @@ def _computed(
                     yield task, result, is_final
         except BrokenExecutor as error:
             if attempt < _ATTEMPTS:
-                logger.warning("A worker process died. Its tasks are tried again: %s", error)
+                logger.warning(
+                    "A worker process died, perhaps for want of memory. Its tasks are tried again."
+                )
                 continue
             if failed is None:
                 raise
@@ -152,6 +163,8 @@ def _in_pool(
                 )
                 waiting = {f: task for f, task in waiting.items() if not f.cancel()}
             done, _ = wait(waiting, timeout=_POLL, return_when=FIRST_COMPLETED)
+            if not done:
+                check_alive(executor)
             for future in done:
                 task = waiting.pop(future)
                 yield task, *_result(task, future.result, failed)
@@ -166,7 +179,7 @@ def _result(
 ) -> tuple[Result, bool]:
     try:
         return get(), True
-    except BrokenExecutor:
+    except (BrokenExecutor, CancelledError):  # the second where a cluster is gone
         raise
     except Exception as error:
         if failed is None:

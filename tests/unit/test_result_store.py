@@ -1,6 +1,12 @@
 """Results kept in a folder: found by their key, and never taken for another's."""
 
+import multiprocessing.queues
+import subprocess
+import sys
+import time
+
 import numpy as np
+import psutil
 import pytest
 import xarray as xr
 
@@ -141,6 +147,47 @@ def test_an_error_can_be_a_result_which_is_tried_again_in_the_next_run(tmp_path)
         assert str(results[-1.0].result["message"]) == "-1 has no root"
         assert not results[-1.0].stored
     assert results[4.0].stored
+
+
+def test_a_pool_without_its_thread_ends_and_leaves_no_worker(monkeypatch):
+    def no_thread(self):
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(multiprocessing.queues.Queue, "_start_thread", no_thread)
+    monkeypatch.setattr("threading.excepthook", lambda arguments: None)
+    tasks = resumable_results([1, 2], str, abs, ResultStore(None, ARRAYS), ProcessPool(jobs=2))
+    with pytest.raises(MemoryError, match="start no thread"):
+        list(tasks)
+    limit = time.monotonic() + 20.0
+    while multiprocessing.active_children() and time.monotonic() < limit:
+        time.sleep(0.05)
+    assert multiprocessing.active_children() == []
+
+
+PARENT = """
+import time
+from gearlube_core.storage.process_pool import ProcessPool
+if __name__ == "__main__":
+    with ProcessPool(jobs=2).open(2) as pool:
+        tasks = [pool.submit(time.sleep, 60.0) for _ in range(2)]
+        print(*pool._processes, flush=True)
+        tasks[0].result()
+"""
+
+
+def test_workers_end_with_a_parent_that_is_killed(tmp_path):
+    (tmp_path / "parent.py").write_text(PARENT)
+    command = [sys.executable, str(tmp_path / "parent.py")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdout is not None
+        workers = [psutil.Process(int(pid)) for pid in parent.stdout.readline().split()]
+        assert len(workers) == 2
+        time.sleep(2.0)  # they have begun
+        parent.kill()
+    _, left = psutil.wait_procs(workers, timeout=10.0)
+    for worker in left:
+        worker.kill()
+    assert left == []
 
 
 def test_without_a_folder_nothing_is_kept():
