@@ -1,9 +1,12 @@
 """Results kept in a folder: found by their key, and never taken for another's."""
 
+import errno
 import multiprocessing.queues
+import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import psutil
@@ -11,7 +14,7 @@ import pytest
 import xarray as xr
 
 from gearlube_core.errors import ConvergenceError, FileError
-from gearlube_core.storage import process_pool
+from gearlube_core.storage import cache_folder, process_pool
 from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays
 from gearlube_core.storage.process_pool import ProcessPool
 from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
@@ -88,6 +91,39 @@ def test_a_write_that_fails_leaves_the_older_file_and_nothing_else(tmp_path):
         write_half(partial)
     np.testing.assert_array_equal(read_arrays(path)["force"], ONE["force"])
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no limit on the size of files")
+def test_a_full_disk_is_named_by_the_library_that_does_not_say_it(tmp_path):
+    import resource
+    import signal
+
+    big = xr.Dataset({"noise": ("x", np.random.default_rng(1).random(100_000))})
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, before[1]))
+    try:
+        with pytest.raises(OSError, match="File too large") as refused:
+            DATASETS.write(tmp_path / "big.nc", "key", big)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, handler)
+    assert refused.value.errno == errno.EFBIG
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_a_home_a_temporary_folder_is_taken_and_said_once(tmp_path, monkeypatch, caplog):
+    (tmp_path / "file").touch()
+    monkeypatch.delenv(cache_folder.FOLDER_VARIABLE, raising=False)
+    for home in (Path("~") / "cache", tmp_path / "file" / "cache"):
+        caplog.clear()
+        monkeypatch.setattr("platformdirs.user_cache_path", lambda name, home=home: home)
+        monkeypatch.setattr(os, "access", lambda path, mode: path.is_dir())
+        found = cache_folder.cache_folder("contact")
+        assert cache_folder.cache_folder("contact") == found
+        found.mkdir(parents=True)
+        assert not found.is_relative_to(home)
+        assert caplog.text.count(f"{home} cannot be written") == 1
 
 
 def test_a_damaged_file_is_named_wherever_the_damage_is(tmp_path):
