@@ -42,17 +42,16 @@ def cached_hypoid_axle(
     -----
     The folder's name changes with everything that decides the results.
     """
-    from platformdirs import user_cache_path
-
     from fmu_src.build import axle_definition, build_models
     from fmu_src.identity import guid_of
     from fmu_src.native.build import NativeOptions
     from fmu_src.native.platforms import platform_of_this_machine
+    from gearlube_core.storage.cache_folder import user_folder
 
     definition = axle_definition(mesh_table, axle)
     native = can_build_native() if native is None else native
     key = f"native-{_native_digest()}-" if native else ""
-    folder = user_cache_path("gearlube") / "fmu" / f"{key}{guid_of(definition)}"
+    folder = user_folder() / "fmu" / f"{key}{guid_of(definition)}"
     path = folder / f"{definition.name}.fmu"
     if not path.is_file():
         folder.mkdir(parents=True, exist_ok=True)

@@ -50,6 +50,24 @@ class FileError(GearLubeError):
     """A file is missing, damaged or of another kind."""
 
 
+def is_of_machine(error: BaseException) -> bool:
+    """Return whether an error comes from memory, disk or a fault of the program, not from physics.
+
+    What fails so may succeed when it is computed again.
+
+    Examples
+    --------
+    >>> is_of_machine(MemoryError()), is_of_machine(ConvergenceError("no equilibrium"))
+    (True, False)
+    """
+    behind = error.__cause__ or error.__context__
+    return (
+        not isinstance(error, GearLubeError)
+        or isinstance(error, FileError)
+        or isinstance(behind, (OSError, MemoryError))
+    )
+
+
 def why(error: Exception) -> str:
     """Return the reason of an error in words: of the operating system's without its number.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import logging
 from collections.abc import Iterator
+from concurrent.futures import BrokenExecutor
 from contextlib import contextmanager
 
 import typer
@@ -43,6 +44,15 @@ def exit_on_error(when_stopped: str = "Stopped.") -> Iterator[None]:
         raise typer.Exit(BAD_ARGUMENT) from None
     except GearLubeError as error:
         _LOGGER.error("%s", error)
+        raise typer.Exit(FAILED) from None
+    except (MemoryError, RuntimeError) as error:
+        if not isinstance(error, MemoryError | BrokenExecutor) and "new thread" not in str(error):
+            raise
+        _LOGGER.error(
+            "There is too little memory for this: %s. Take fewer --jobs or free some memory, then "
+            "run the same command again; what is finished is kept.",
+            str(error).rstrip(".") or "none is left",
+        )
         raise typer.Exit(FAILED) from None
     except BrokenPipeError:  # head and its like have read enough; typer ends without a word
         raise

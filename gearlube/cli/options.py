@@ -65,6 +65,7 @@ JobsOption = Annotated[
 OverwriteOption = Annotated[
     bool,
     typer.Option(
-        "--overwrite", help="Write into OUT even if it holds results of another study or version."
+        "--overwrite",
+        help="Write into OUT even if it holds results of another study, version or input.",
     ),
 ]

@@ -164,6 +164,12 @@ def vary(
             results, summary = write_summary(out, limits)
             save_variation_figures(results, summary, out / "figures")
         logger.info("%d points computed in %.1f s.", done.computed, done.seconds)
+        if done.lost:
+            logger.warning(
+                "%d points are lost to memory, disk or program, not to physics. Run the same "
+                "command again to compute them.",
+                done.lost,
+            )
         logger.info("Results: %s, %s, %s", done.store.path, out / "summary.csv", out / "figures")
         finish_with_report(variation_report(results, summary), out, done.seconds)
         failures = int(summary["failed"].sum())

@@ -7,7 +7,6 @@ import json
 import logging
 import time
 from collections.abc import Callable
-from concurrent.futures import BrokenExecutor
 from dataclasses import asdict, dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -18,7 +17,7 @@ import drivetrain
 import fmu_src
 import gearlube
 import gearlube_core
-from gearlube.variation.block import FINISHED, Block, computed_block
+from gearlube.variation.block import FAILED, MISSING, Block, computed_block
 from gearlube.variation.design import Design
 from gearlube.variation.point_study import PointStudy
 from gearlube.variation.store import BlockStore
@@ -26,6 +25,7 @@ from gearlube_core import __version__
 from gearlube_core.checks import check_within
 from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
 from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.folder_lock import locked_folder
 from gearlube_core.storage.process_pool import Pool, ProcessPool
 from gearlube_core.storage.resumable import resumable_results
 
@@ -48,7 +48,8 @@ class VariationRun:
     computed, failed : int
         Points computed now; points of them that failed.
     lost : int
-        Points whose process died several times; another run computes them again.
+        Points whose process died several times, or that had no memory, disk or program for them;
+        another run computes them again.
     seconds : float
         For all of it.
     """
@@ -95,7 +96,8 @@ def run_variation(
     Raises
     ------
     ParameterError
-        A point of the design is wrong; nothing has been computed then.
+        A point of the design is wrong, or another run writes to the folder; nothing has been
+        computed then.
     InterruptedRunError
         After Ctrl-C, when the blocks that were being computed have been saved.
 
@@ -120,10 +122,26 @@ def run_variation(
     points = int(check_within("--block", usual if block is None else block, 1, MOST_BLOCK))
     key = key_of(study, design)
     folder = Path(out)
-    store = BlockStore.found(folder, design, key=key, overwrite=overwrite)
-    if store is None:
+    if BlockStore.found(folder, design, key=key, overwrite=overwrite) is None:
         check_all(study, design, progress)
-        store = BlockStore.made(folder, study, design, key=key, block=points)
+    folder.mkdir(parents=True, exist_ok=True)
+    with locked_folder(folder):  # only now is it sure what the folder holds
+        store = BlockStore.found(folder, design, key=key, overwrite=overwrite)
+        store = store or BlockStore.made(folder, study, design, key=key, block=points)
+        tally = _run(store, study, design, key, jobs, scheduler, progress)
+    return VariationRun(store, tally.computed, tally.failed, tally.lost, time.monotonic() - began)
+
+
+def _run(
+    store: BlockStore,
+    study: PointStudy,
+    design: Design,
+    key: str,
+    jobs: int | None,
+    scheduler: str | None,
+    progress: Progress,
+) -> _Tally:
+    """Compute the blocks that the store has not."""
     kept = store.finished()
     due = [number for number in range(store.blocks) if number not in kept]
     if kept and due:
@@ -148,7 +166,7 @@ def run_variation(
                 f"Stopped: {there} of {design.size} points are kept in {store.path}. Run the same "
                 "command again to compute the rest."
             ) from None
-    return VariationRun(store, tally.computed, tally.failed, tally.lost, time.monotonic() - began)
+    return tally
 
 
 def key_of(study: PointStudy, design: Design) -> str:
@@ -209,14 +227,13 @@ class _Tally:
     lost: int = 0
 
     def add(self, number: int, result: Block) -> None:
-        points = len(self.store.points(number))
         self.blocks += 1
-        if not result.status.size:
-            self.lost += points
-            logger.warning("Block %d of points is lost: %s", number, result.messages[0])
-        else:
-            self.computed += points
-            self.failed += int((result.status != FINISHED).sum())
+        computed = int((result.status != MISSING).sum())
+        self.computed += computed
+        self.failed += int((result.status == FAILED).sum())
+        self.lost += len(self.store.points(number)) - computed
+        for row in np.flatnonzero(result.status == MISSING):
+            logger.warning("A point is lost: %s", result.messages[row].rstrip(": "))
         done = 1.0 - (self.due - self.blocks) / self.store.blocks
         self.progress(done, f"{self.failed} failed" if self.failed else "points")
 
@@ -236,8 +253,7 @@ class _Keeper:
 
 def _lost(number: int, error: Exception) -> Block:
     """Return the empty block of one whose process died several times, or that no worker had."""
-    reason = "its process died several times" if isinstance(error, BrokenExecutor) else str(error)
-    return Block(np.empty((0, 0)), np.empty(0, dtype=np.int8), [reason or type(error).__name__])
+    return Block(np.empty((0, 0)), np.empty(0, dtype=np.int8), [])
 
 
 def _compile(study: PointStudy, design: Design) -> None:

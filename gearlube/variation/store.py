@@ -3,8 +3,8 @@
 results.zarr has one array over the points for each varied parameter, and over the points
 
 - `results` (point, quantity): what the study gives, NaN where a point failed;
-- `status`: 1 finished, 0 failed, -1 not computed;
-- `message`: why a point failed.
+- `status`: 1 finished, 0 failed, -1 not computed or lost to the machine;
+- `message`: why a point failed or was lost.
 
 A block of points is one chunk of each. results.zarr.sha256 beside it has the checksum of each
 file, as `sha256sum --check` takes them. A block is finished once its three files are listed there;
@@ -26,7 +26,7 @@ import numpy as np
 import xarray as xr
 import zarr
 
-from gearlube.variation.block import Block
+from gearlube.variation.block import MISSING, Block
 from gearlube.variation.design import Axis, Design
 from gearlube.variation.point_study import PointStudy, Quantity
 from gearlube_core.errors import FileError, ParameterError
@@ -35,7 +35,6 @@ from gearlube_core.storage.checksums import file_hash
 
 logger = logging.getLogger(__name__)
 
-MISSING = -1  # status of a point that has not been computed
 FILE = "results.zarr"
 _FORMAT: Literal[2] = (
     2  # of Zarr: read by every library, with names of dimensions as xarray writes them
@@ -99,7 +98,6 @@ class BlockStore:
         cls, folder: Path, study: PointStudy, design: Design, *, key: str, block: int
     ) -> BlockStore:
         """Return a new, empty store in `folder`, in the place of any that is there."""
-        folder.mkdir(parents=True, exist_ok=True)
         store = cls(folder / FILE, design.size, block)
         store._make(study, design, key)
         return store

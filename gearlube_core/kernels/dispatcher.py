@@ -15,7 +15,7 @@ from numba.core import config
 from numba.core.compiler import Compiler
 from numba.core.registry import CPUDispatcher
 
-from gearlube_core.kernels.compiled_cache import LinkedCache, SourceCache
+from gearlube_core.kernels.compiled_cache import LinkedCache, SourceCache, cache_of
 from gearlube_core.kernels.linked_code import LinkedCodeCompiler
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -34,10 +34,10 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
         options = {**(targetoptions or {}), "nopython": True, "no_cfunc_wrapper": True}
         locals = locals or {}
         super().__init__(py_func, locals, options, pipeline_class)
-        self._cache: Any = SourceCache(py_func)
+        self._cache: Any = cache_of(SourceCache, py_func)
         linked_options = options | {"no_cpython_wrapper": True}
         linked: Any = CPUDispatcher(py_func, locals, linked_options, LinkedCodeCompiler)
-        linked._cache = LinkedCache(py_func)
+        linked._cache = cache_of(LinkedCache, py_func)
         self._linked = linked
 
     def get_call_template(self, args: Any, kws: Any) -> Any:

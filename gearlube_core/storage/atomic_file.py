@@ -41,6 +41,7 @@ DAMAGED = (
     zipfile.BadZipFile,
     zlib.error,
 )
+_OVERHEAD = 1 << 24  # [byte] that a file of many small variables may have beside its numbers
 
 Arrays = dict[str, Any]  # ndarrays by name; texts and numbers are arrays of no dimension
 
@@ -148,14 +149,26 @@ def write_dataset(dataset: xr.Dataset, path: Path) -> None:
 
 
 def write_compressed_dataset(dataset: xr.Dataset, path: Path) -> None:
-    """Write a dataset as NetCDF 4 with compressed floats and a checksum; texts have any length."""
+    """Write a dataset as NetCDF 4 with compressed floats and a checksum; texts have any length.
+
+    Raises
+    ------
+    OSError
+        The disk is full, or the file system refuses in another way.
+    FileError
+        The library cannot write for another reason.
+    """
     encoding = {
         str(name): {"zlib": True, "complevel": 1}
         for name, variable in dataset.data_vars.items()
         if variable.dtype.kind == "f" and variable.ndim > 0
     }
     with atomic_write(path) as partial:
-        dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+        try:
+            dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+        except RuntimeError as error:  # the library does not say that the disk is full: this does
+            partial.write_bytes(bytes(dataset.nbytes + _OVERHEAD))
+            raise FileError(f"{path} cannot be written: {error}. Check the disk.") from error
         seal(partial)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Iterator
-from concurrent.futures import Executor
+from concurrent.futures import CancelledError, Executor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import metadata
@@ -46,7 +46,8 @@ class DaskPool:
         Raises
         ------
         GearLubeError
-            No scheduler answers at the address, or a worker has not this version of the package.
+            No scheduler answers at the address or it ends, or a worker has not this version of the
+            package.
         """
         try:
             client = Client(self.scheduler, timeout=_CONNECT_TIMEOUT, set_as_default=False)
@@ -61,6 +62,8 @@ class DaskPool:
         watch.start()
         try:
             while not _workers(client):
+                if client.status == "closed":
+                    raise CancelledError
                 time.sleep(_POLL)
             self._check_packages(client)
             client.register_plugin(self.plugin, name=self.plugin.name)
@@ -69,7 +72,17 @@ class DaskPool:
                 yield executor
             finally:
                 executor.shutdown(wait=False)
-                client.unregister_worker_plugin(self.plugin.name)
+                if client.status == "running":
+                    client.unregister_worker_plugin(self.plugin.name)
+        except CancelledError:
+            logging.getLogger("distributed.client").setLevel(
+                logging.CRITICAL
+            )  # it ends in a traceback
+            raise GearLubeError(
+                f"The Dask scheduler at {self.scheduler} has ended, or cannot be reached any more. "
+                "What is finished is kept: start it and its workers again, then run the same "
+                "command again."
+            ) from None
         finally:
             ended.set()
             watch.join()
@@ -105,4 +118,4 @@ class DaskPool:
 
 
 def _workers(client: Client) -> bool:
-    return bool(client.scheduler_info()["workers"])
+    return bool(client.scheduler_info().get("workers"))  # {} without a scheduler

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import ctypes
+import mmap
+import multiprocessing
 import os
 import signal
+import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
-from multiprocessing import get_context
+from threading import Thread
 from typing import Any, Protocol
 
 from threadpoolctl import threadpool_limits
+
+_END_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)
+_ROOM = 1 << 28  # [byte], less than any worker needs
+_THREADS = "OPENBLAS_NUM_THREADS"
 
 
 class Pool(Protocol):
@@ -58,23 +66,42 @@ class ProcessPool:
             return
         executor = ProcessPoolExecutor(
             max(count, 1),
-            mp_context=get_context("spawn"),
+            mp_context=multiprocessing.get_context("spawn"),
             initializer=_start_worker,
             initargs=(self.prepare, self.arguments),
         )
+        own = os.environ.get(_THREADS)
+        os.environ.setdefault(_THREADS, "1")  # each thread takes memory before it is limited
         try:
             yield executor
         except KeyboardInterrupt:
             _end_workers(executor)
             raise
         finally:
-            executor.shutdown(wait=True, cancel_futures=True)
+            if own is None:
+                os.environ.pop(_THREADS, None)
+            dead = _is_dead(executor)
+            if dead:
+                _end_workers(executor)
+            executor.shutdown(wait=not dead, cancel_futures=True)
 
 
 def _end_workers(executor: ProcessPoolExecutor) -> None:
     """End the processes at once: nobody waits for what they still compute."""
     for process in list((getattr(executor, "_processes", None) or {}).values()):
         process.terminate()
+
+
+def check_alive(executor: Executor) -> None:
+    """Raise MemoryError where nobody would ever hand the tasks to the workers of a pool."""
+    if _is_dead(executor):
+        raise MemoryError("the pool of processes can start no thread")
+
+
+def _is_dead(executor: Executor) -> bool:
+    """Return whether the pool's own thread has ended: it says nothing where it starts no other."""
+    thread = getattr(executor, "_executor_manager_thread", None)
+    return isinstance(thread, Thread) and not thread.is_alive()
 
 
 def processors() -> int:
@@ -94,12 +121,33 @@ def single_threaded() -> threadpool_limits:
 
 def stop_on_interrupt() -> None:
     """Let Ctrl-C end this process at once: for a worker whose result nobody then waits for."""
+    _end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     single_threaded()
 
 
 def _start_worker(prepare: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:
+    try:
+        _end_with_parent()
+        mmap.mmap(-1, _ROOM).close()
+    except (OSError, RuntimeError):  # OpenBLAS would wait for memory without end
+        os._exit(1)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the parent, which stops us
     single_threaded()
     if prepare is not None:
         prepare(*arguments)
+
+
+def _end_with_parent() -> None:
+    """Let this process end when its parent does, also when that is killed."""
+    parent = multiprocessing.parent_process()
+    if parent is None:
+        return
+
+    def watch() -> None:
+        parent.join()
+        os._exit(1)
+
+    Thread(target=watch, daemon=True).start()
+    if sys.platform == "linux":  # also while a kernel runs, when no other thread gets a turn
+        ctypes.CDLL(None).prctl(_END_WITH_PARENT, signal.SIGKILL)

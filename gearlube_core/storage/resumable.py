@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    wait,
+)
 from itertools import islice
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
+from gearlube_core.errors import is_of_machine
 from gearlube_core.storage.interrupts import deferred_interrupts
-from gearlube_core.storage.process_pool import Pool, single_threaded
+from gearlube_core.storage.process_pool import Pool, check_alive, single_threaded
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -66,8 +74,8 @@ def resumable_results(
     pool
         Where the tasks run.
     failed
-        Result of a task that raised an error or whose process died several times. Without it such
-        an error ends the run.
+        Result of a task that raised an error or whose process died several times; kept only where
+        the error is of physics, see `is_of_machine`. Without it such an error ends the run.
     worth_keeping
         Whether the store keeps a result.
 
@@ -78,6 +86,8 @@ def resumable_results(
         wait for them.
     BrokenExecutor
         A process died several times and `failed` is not given.
+    MemoryError
+        There is too little memory for the threads of a pool.
     """
     due = []
     for task in tasks:
@@ -86,8 +96,8 @@ def resumable_results(
             due.append(task)
         else:
             yield Finished(task, result, True)
-    for task, result in _computed(due, compute, pool, failed):
-        if worth_keeping(result):
+    for task, result, is_final in _computed(due, compute, pool, failed):
+        if is_final and worth_keeping(result):
             store.keep(key(task), result)
         yield Finished(task, result, False)
 
@@ -97,24 +107,29 @@ def _computed(
     compute: Callable[[Task], Result],
     pool: Pool,
     failed: Callable[[Task, Exception], Result] | None,
-) -> Iterator[tuple[Task, Result]]:
-    """Compute all tasks; those whose process died are tried again in a new pool."""
+) -> Iterator[tuple[Task, Result, bool]]:
+    """Compute all tasks; those whose process died are tried again in a new pool.
+
+    The third value is False where another run may find another result.
+    """
     due, attempt = dict.fromkeys(tasks), 0
     while due:
         attempt += 1
         try:
             with pool.open(len(due)) as executor:
-                for task, result in _in_pool(executor, list(due), compute, failed):
+                for task, result, is_final in _in_pool(executor, list(due), compute, failed):
                     del due[task]
-                    yield task, result
+                    yield task, result, is_final
         except BrokenExecutor as error:
             if attempt < _ATTEMPTS:
-                logger.warning("A worker process died. Its tasks are tried again: %s", error)
+                logger.warning(
+                    "A worker process died, perhaps for want of memory. Its tasks are tried again."
+                )
                 continue
             if failed is None:
                 raise
             for task in due:
-                yield task, failed(task, error)
+                yield task, *_failure(task, error, failed)
             return
 
 
@@ -123,12 +138,12 @@ def _in_pool(
     tasks: list[Task],
     compute: Callable[[Task], Result],
     failed: Callable[[Task, Exception], Result] | None,
-) -> Iterator[tuple[Task, Result]]:
+) -> Iterator[tuple[Task, Result, bool]]:
     if executor is None:
         for task in tasks:
             with single_threaded():
                 result = _result(task, lambda task=task: compute(task), failed)  # type: ignore[misc]
-            yield task, result
+            yield task, *result
         return
     with deferred_interrupts() as interrupt:
         left = iter(tasks)
@@ -148,9 +163,11 @@ def _in_pool(
                 )
                 waiting = {f: task for f, task in waiting.items() if not f.cancel()}
             done, _ = wait(waiting, timeout=_POLL, return_when=FIRST_COMPLETED)
+            if not done:
+                check_alive(executor)
             for future in done:
                 task = waiting.pop(future)
-                yield task, _result(task, future.result, failed)
+                yield task, *_result(task, future.result, failed)
         if stopping:
             raise KeyboardInterrupt
 
@@ -159,13 +176,26 @@ def _result(
     task: Task,
     get: Callable[[], Result],
     failed: Callable[[Task, Exception], Result] | None,
-) -> Result:
+) -> tuple[Result, bool]:
     try:
-        return get()
-    except BrokenExecutor:
+        return get(), True
+    except (BrokenExecutor, CancelledError):  # the second where a cluster is gone
         raise
     except Exception as error:
         if failed is None:
             raise
-        logger.debug("%s failed", task, exc_info=error)
-        return failed(task, error)
+        return _failure(task, error, failed)
+
+
+def _failure(
+    task: Task, error: Exception, failed: Callable[[Task, Exception], Result]
+) -> tuple[Result, bool]:
+    logger.debug("%s failed", task, exc_info=error)
+    again = is_of_machine(error)
+    if again:
+        logger.warning(
+            "%s. This says nothing of the physics: it is not kept, and the next run of the same "
+            "command computes it again.",
+            f"{type(error).__name__}: {error}".rstrip(".: "),
+        )
+    return failed(task, error), not again

@@ -17,11 +17,13 @@ SHAPE = Key("shape", "text", "", "Of the tooth", "operand", "straight")
 
 @dataclass(frozen=True, kw_only=True)
 class AreaStudy:
-    """area = width times length; some widths fail, wait, kill their process or stop the run."""
+    """area = width times length; at some widths it fails, is lost, kills or stops."""
 
     fails_at: float | None = None
     dies_at: float | None = None  # while `folder` has no file "died"
     stops_at: float | None = None  # likewise
+    loses_at: float | None = None  # likewise, with this error
+    error: type[Exception] = MemoryError
     folder: Path = Path()
     seconds: float = 0.0
     extra: int = 0  # more quantities
@@ -58,6 +60,9 @@ class AreaStudy:
         if width == self.dies_at and not mark.exists():
             mark.touch()
             os._exit(9)
+        if width == self.loses_at and not mark.exists():
+            mark.touch()
+            raise self.error("no room")
         if width == self.stops_at and not mark.exists():
             mark.touch()
             raise KeyboardInterrupt

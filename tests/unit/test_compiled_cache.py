@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import random
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import gearlube_core
+from gearlube_core.kernels.compiled_cache import _CheckedFiles
 from gearlube_core.kernels.source_files import source_files, source_stamp
 
 ROOT = Path(str(gearlube_core.__file__)).parents[1]
@@ -92,6 +95,52 @@ def test_a_constant_in_another_file_reaches_compiled_callers(tmp_path: Path) -> 
     law = tmp_path / "package/law.py"
     law.write_text(law.read_text().replace("GAIN * ", "-GAIN * "))
     assert _run(tmp_path) == ([3.0, -30.0], [[1, 0], [0, 1]])
+
+
+def test_damaged_code_counts_as_absent_and_is_written_again(tmp_path: Path) -> None:
+    """numba alone unpickles it, and the process ends with "Aborted." or a wrong number."""
+    code = {"code": bytes(range(256))}
+    files = _CheckedFiles(str(tmp_path), "law.outer", "stamp")
+    files.save("float", code)
+    assert files.load("float") == code
+    assert files.load("int") is None
+    drawn = random.Random(1)
+    for path in sorted(tmp_path.iterdir()):
+        good = path.read_bytes()
+        for number in range(200):
+            bad = bytearray(good)
+            bad[drawn.randrange(len(good))] ^= 1 << drawn.randrange(8)
+            path.write_bytes(bad if number % 2 else good[: drawn.randrange(len(good))])
+            assert files.load("float") is None
+        files.save("float", code)
+        assert files.load("float") == code
+    # the index of one process, the code of another one
+    shutil.copy(tmp_path / "law.outer.1.nbc", tmp_path / "law.outer.2.nbc")
+    files._save_index({"float": "law.outer.1.nbc", "int": "law.outer.2.nbc"})
+    assert files.load("int") is None
+
+
+def test_kernels_run_without_any_folder_and_say_so_once(tmp_path: Path) -> None:
+    _package(tmp_path)
+    (tmp_path / "file").touch()
+    # places of a cache that cannot be made, whoever runs this
+    locators = "from numba.core.caching import UserProvidedCacheLocator as one, CacheImpl\n"
+    script = f"{locators}CacheImpl._locator_classes = [one]\nimport logging\n"
+    command = f"{script}logging.basicConfig(format='%(message)s')\nimport run"
+    done = subprocess.run(
+        [sys.executable, "-B", "-c", command],
+        env=dict(
+            os.environ,
+            PYTHONPATH=os.pathsep.join((str(tmp_path), str(ROOT))),
+            NUMBA_CACHE_DIR=str(tmp_path / "file" / "cache"),
+        ),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[0] == "2.0 20.0"
+    assert done.stderr.count("Compiled kernels are not kept") == 1
 
 
 def _write(folder: Path, **files: str) -> None:

@@ -1,11 +1,20 @@
 """Results kept in a folder: found by their key, and never taken for another's."""
 
+import errno
+import multiprocessing.queues
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
 import numpy as np
+import psutil
 import pytest
 import xarray as xr
 
 from gearlube_core.errors import ConvergenceError, FileError
-from gearlube_core.storage import process_pool
+from gearlube_core.storage import cache_folder, process_pool
 from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays
 from gearlube_core.storage.process_pool import ProcessPool
 from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
@@ -85,6 +94,39 @@ def test_a_write_that_fails_leaves_the_older_file_and_nothing_else(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no limit on the size of files")
+def test_a_full_disk_is_named_by_the_library_that_does_not_say_it(tmp_path):
+    import resource
+    import signal
+
+    big = xr.Dataset({"noise": ("x", np.random.default_rng(1).random(100_000))})
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, before[1]))
+    try:
+        with pytest.raises(OSError, match="File too large") as refused:
+            DATASETS.write(tmp_path / "big.nc", "key", big)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, handler)
+    assert refused.value.errno == errno.EFBIG
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_a_home_a_temporary_folder_is_taken_and_said_once(tmp_path, monkeypatch, caplog):
+    (tmp_path / "file").touch()
+    monkeypatch.delenv(cache_folder.FOLDER_VARIABLE, raising=False)
+    for home in (Path("~") / "cache", tmp_path / "file" / "cache"):
+        caplog.clear()
+        monkeypatch.setattr("platformdirs.user_cache_path", lambda name, home=home: home)
+        monkeypatch.setattr(os, "access", lambda path, mode: path.is_dir())
+        found = cache_folder.cache_folder("contact")
+        assert cache_folder.cache_folder("contact") == found
+        found.mkdir(parents=True)
+        assert not found.is_relative_to(home)
+        assert caplog.text.count(f"{home} cannot be written") == 1
+
+
 def test_a_damaged_file_is_named_wherever_the_damage_is(tmp_path):
     # zip, deflate and npy each have an error of their own for it
     path, force = tmp_path / "a.npz", np.arange(2000.0)
@@ -142,6 +184,47 @@ def test_an_error_can_be_a_result_which_is_tried_again_in_the_next_run(tmp_path)
         assert str(results[-1.0].result["message"]) == "-1 has no root"
         assert not results[-1.0].stored
     assert results[4.0].stored
+
+
+def test_a_pool_without_its_thread_ends_and_leaves_no_worker(monkeypatch):
+    def no_thread(self):
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(multiprocessing.queues.Queue, "_start_thread", no_thread)
+    monkeypatch.setattr("threading.excepthook", lambda arguments: None)
+    tasks = resumable_results([1, 2], str, abs, ResultStore(None, ARRAYS), ProcessPool(jobs=2))
+    with pytest.raises(MemoryError, match="start no thread"):
+        list(tasks)
+    limit = time.monotonic() + 20.0
+    while multiprocessing.active_children() and time.monotonic() < limit:
+        time.sleep(0.05)
+    assert multiprocessing.active_children() == []
+
+
+PARENT = """
+import time
+from gearlube_core.storage.process_pool import ProcessPool
+if __name__ == "__main__":
+    with ProcessPool(jobs=2).open(2) as pool:
+        tasks = [pool.submit(time.sleep, 60.0) for _ in range(2)]
+        print(*pool._processes, flush=True)
+        tasks[0].result()
+"""
+
+
+def test_workers_end_with_a_parent_that_is_killed(tmp_path):
+    (tmp_path / "parent.py").write_text(PARENT)
+    command = [sys.executable, str(tmp_path / "parent.py")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdout is not None
+        workers = [psutil.Process(int(pid)) for pid in parent.stdout.readline().split()]
+        assert len(workers) == 2
+        time.sleep(2.0)  # they have begun
+        parent.kill()
+    _, left = psutil.wait_procs(workers, timeout=10.0)
+    for worker in left:
+        worker.kill()
+    assert left == []
 
 
 def test_without_a_folder_nothing_is_kept():

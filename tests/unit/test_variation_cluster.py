@@ -3,7 +3,7 @@
 import signal
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from importlib import metadata
 
 import pytest
@@ -13,6 +13,8 @@ from gearlube.variation.run import run_variation
 from gearlube.variation.store import open_variation
 from gearlube_core.errors import GearLubeError
 from gearlube_core.storage import dask_pool
+from gearlube_core.storage.result_store import ARRAYS, ResultStore
+from gearlube_core.storage.resumable import resumable_results
 from tests.helpers.dask_cluster import dask_cluster
 from tests.helpers.variation_stand_in import AreaStudy
 
@@ -60,6 +62,7 @@ class StandInClient:
 
     version: object = "0.1.0"
     worker_from = 0.0
+    status = "running"
 
     def __init__(self, address, **_):
         self.began = time.monotonic()
@@ -100,6 +103,29 @@ def test_a_cluster_without_workers_is_said_once_and_waited_for(
     with pool.open(1) as executor:
         assert executor.submit(int, "3").result() == 3
     assert caplog.text.count("tcp://host:8786 has no workers. Start one with") == said
+
+
+class DroppingExecutor(ThreadPoolExecutor):
+    """What a client without its scheduler makes of tasks."""
+
+    def submit(self, *_arguments, **_named):
+        task = Future()
+        task.cancel()
+        task.set_running_or_notify_cancel()
+        return task
+
+
+def test_a_scheduler_that_ends_is_named_and_what_is_finished_stays(pool, monkeypatch):
+    monkeypatch.setattr(StandInClient, "get_executor", lambda self, **_: DroppingExecutor(1))
+    tasks = resumable_results(
+        [1, 2], str, abs, ResultStore(None, ARRAYS), pool, failed=lambda task, error: {}
+    )
+    with pytest.raises(GearLubeError, match=r"tcp://host:8786 has ended.* command again"):
+        list(tasks)
+    monkeypatch.setattr(StandInClient, "worker_from", 60.0)
+    monkeypatch.setattr(StandInClient, "status", "closed")
+    with pytest.raises(GearLubeError, match="has ended"), pool.open(1):
+        pass
 
 
 @pytest.mark.parametrize(

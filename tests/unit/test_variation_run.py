@@ -72,6 +72,21 @@ def test_a_point_that_fails_is_a_row_with_its_reason(tmp_path):
     }  # fmt: skip
 
 
+@pytest.mark.parametrize("error", [MemoryError, OSError, FileError, EOFError])
+def test_what_fails_by_the_machine_is_computed_by_the_next_run(tmp_path, caplog, error):
+    study = AreaStudy(loses_at=3.0, fails_at=5.0, folder=tmp_path, error=error)
+    done = varied(tmp_path / "out", study, block=4)
+    assert (done.computed, done.failed, done.lost) == (13, 2, 1)
+    assert "no room" in caplog.text
+    found = open_variation(tmp_path / "out")
+    assert found["status"].values.tolist() == [1, 1, -1, 1, 0, *4 * [1], 1, 1, 0, 1, 1]
+    assert np.isnan(found["area"].values[2])
+    # its block alone, and the failure of the physics stays
+    assert varied(tmp_path / "out", study).computed == 4
+    assert open_variation(tmp_path / "out")["area"].values[2] == 6.0
+    assert varied(tmp_path / "out", study).computed == 0
+
+
 def test_a_second_run_computes_nothing_and_a_lost_block_alone_again(tmp_path):
     varied(tmp_path, block=4)
     assert varied(tmp_path, block=4).computed == 0

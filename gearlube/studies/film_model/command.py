@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.options import JobsOption, OverwriteOption
 
 logger = logging.getLogger("gearlube")
@@ -110,6 +110,8 @@ def train(
             table = train(plan, out, pool=pool_of(jobs, scheduler), progress=progress)
         for line in (*failures_in_words(table), *limits_of(table)):
             logger.info("%s", line)
+        lost = plan.solves - len(table.rows)
+        exit_if_failed(f"{lost} films are lost. Run the same command again." if lost else "")
         logger.info("Films: %s. Now `gearlube film-model fit %s`.", out / "solves.csv", out)
 
 

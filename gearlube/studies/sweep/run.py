@@ -42,6 +42,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.input_file.input_note import notes_as_text
 from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.folder_lock import locked_folder
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.result_store import DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results
@@ -176,6 +177,9 @@ def run_sweep(
     check_operation(car_axle, settings, speeds)
     folder = None if out is None else Path(out)
     with ExitStack() as stack:
+        if folder is not None:
+            folder.mkdir(parents=True, exist_ok=True)
+            stack.enter_context(locked_folder(folder))
         modes = _modes_aside(stack, model, loads, speeds[len(speeds) // 2], settings, car_axle)
         if fmu is None:
             progress(0.0, "the FMU of the axle; it is built if none is kept")
