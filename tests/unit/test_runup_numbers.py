@@ -83,7 +83,7 @@ def test_a_ramp_has_its_known_key_numbers_and_findings():
         ("largest bearing forces of mesh order 3", 3.0, "N rms", "3.00"),
         ("pinion speed there, order 3", 1000.0, "rpm", "1000"),
         ("largest transmission error, all frequencies", 3.1, "µm rms", "3.10"),
-        ("critical speeds of orders 1 to 3 within the ramp", 2.0, "", "2.0"),
+        ("critical speeds of orders 1 to 3 within the ramp", 2.0, "", "2"),
         ("margin of the loudest order to the next critical speed", 10.0, "%", "10"),
         ("time without contact", 1.3, "%", "1.3"),
         ("loss at the fast end", 140.0, "W", "140"),
