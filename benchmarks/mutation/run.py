@@ -1,6 +1,7 @@
 """Put faults into a copy of the code, one after the other, and see whether a test fails.
 
     python -m benchmarks.mutation.run FOLDER [--count 500] [--by-hand] [--again [--thorough]]
+    python -m benchmarks.mutation.run FOLDER --code gearlube/studies gearlube/report
 
 FOLDER keeps the copy, its caches and `results.jsonl`. A run goes on where the last one stopped:
 the order of the mutants depends on the seed and on the text that each of them changes, so a
@@ -16,7 +17,7 @@ import gc
 import json
 import time
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from benchmarks.mutation.sites import Mutant, mutants_of
@@ -32,9 +33,9 @@ _ALL = 500.0  # [s] of tests and of processor time, where a survivor meets all t
 _LIMIT = 50.0  # [s] of processor time at each compiled stage
 
 
-def sampled(tree: Path, seed: int) -> list[Mutant]:
-    """Return all mutants of the code in the order in which they are taken."""
-    files = [path for top in _MUTATED for path in sorted((tree / top).rglob("*.py"))]
+def sampled(tree: Path, seed: int, code: Sequence[str] = _MUTATED) -> list[Mutant]:
+    """Return all mutants of the folders `code` in the order in which they are taken."""
+    files = [path for top in code for path in sorted((tree / top).rglob("*.py"))]
     found: list[Mutant] = []
     for path in files:
         if path.name != "errors.py":
@@ -112,6 +113,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--count", type=int, default=500, help="mutants of the sample")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--code", nargs="+", default=_MUTATED, help="folders of the code")
     parser.add_argument("--by-hand", action="store_true", help="those of by_hand.toml instead")
     parser.add_argument("--again", action="store_true", help="survivors once more, on new tests")
     parser.add_argument("--thorough", action="store_true", help="all tests that reach the file")
@@ -129,7 +131,7 @@ def main() -> None:
         place.seed_compiled_code(options.compiled_code_of.resolve())
     if options.durations:
         place.read_durations(options.durations)
-    wanted = sampled(place.tree, options.seed)[: options.count]
+    wanted = sampled(place.tree, options.seed, options.code)[: options.count]
     if options.by_hand:
         wanted = list(by_hand(place.tree))
     part, parts = map(int, options.part.split("/"))
