@@ -66,7 +66,9 @@ def by_hand(tree: Path) -> Iterator[Mutant]:
         )
 
 
-def outcome(place: Workplace, mutant: Mutant, thorough: bool) -> dict[str, object]:
+def outcome(
+    place: Workplace, mutant: Mutant, thorough: bool, limit: float = _LIMIT
+) -> dict[str, object]:
     """Return what became of a mutant."""
     source = (place.tree / mutant.file).read_bytes()
     changed = mutant.applied(source)
@@ -96,7 +98,7 @@ def outcome(place: Workplace, mutant: Mutant, thorough: bool) -> dict[str, objec
     for files, compiled, budget in stages:
         if not files:
             continue
-        plan = place.plan(files, compiled, budget, _ALL if thorough else _LIMIT)
+        plan = place.plan(files, compiled, budget, _ALL if thorough else limit)
         result = place.run_changed(plan, mutant.file, changed)
         spent += result.seconds
         if result.ended in ("failed", "too long"):
@@ -118,6 +120,7 @@ def main() -> None:
     parser.add_argument("--again", action="store_true", help="survivors once more, on new tests")
     parser.add_argument("--thorough", action="store_true", help="all tests that reach the file")
     parser.add_argument("--part", default="1/1", metavar="K/N", help="every N-th mutant, from K on")
+    parser.add_argument("--limit", type=float, default=_LIMIT, help="[s] of a compiled stage")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="end after")
     parser.add_argument("--compiled-code-of", type=Path, help="a tree whose compiled code to take")
     parser.add_argument("--durations", type=Path, help="output of pytest -n 0 --durations=0")
@@ -148,7 +151,7 @@ def main() -> None:
         done = before.get(mutant.key, "")
         if time.monotonic() > end or (done and (done == "killed" or not options.again)):
             continue
-        row = outcome(place, mutant, options.thorough)
+        row = outcome(place, mutant, options.thorough, options.limit)
         with results.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")
         said = f"{row['outcome']:>9} {row['seconds']:>6} s  {mutant.file}:{mutant.line}"
