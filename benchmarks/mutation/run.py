@@ -34,8 +34,9 @@ _LIMIT = 50.0  # [s] of processor time at each compiled stage
 
 
 def sampled(tree: Path, seed: int, code: Sequence[str] = _MUTATED) -> list[Mutant]:
-    """Return all mutants of the folders `code` in the order in which they are taken."""
-    files = [path for top in code for path in sorted((tree / top).rglob("*.py"))]
+    """Return all mutants of the folders or files `code` in the order in which they are taken."""
+    tops = [tree / one for one in code]
+    files = [one for top in tops for one in ([top] if top.is_file() else sorted(top.rglob("*.py")))]
     found: list[Mutant] = []
     for path in files:
         if path.name != "errors.py":
@@ -115,7 +116,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--count", type=int, default=500, help="mutants of the sample")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--code", nargs="+", default=_MUTATED, help="folders of the code")
+    parser.add_argument("--code", nargs="+", default=_MUTATED, help="folders or files")
     parser.add_argument("--by-hand", action="store_true", help="those of by_hand.toml instead")
     parser.add_argument("--again", action="store_true", help="survivors once more, on new tests")
     parser.add_argument("--thorough", action="store_true", help="all tests that reach the file")
