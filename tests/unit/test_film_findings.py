@@ -7,7 +7,7 @@ import xarray as xr
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.films.findings import findings, numbers
 from gearlube.studies.films.hypoid.summary import ratio_rows
-from gearlube.studies.films.report import film_inputs
+from gearlube.studies.films.report import _tables, film_inputs
 from gearlube.studies.films.summary import summary_csv, summary_rows
 from tests.helpers.known_answers import (
     assert_cells,
@@ -362,3 +362,12 @@ def test_the_summary_of_a_hypoid_flank_has_its_known_ratios():
     assert len(found) == len(expected)
     for got, row in zip(found, expected, strict=True):
         assert_cells(list(got), row, f"{row[0]}, {row[1]}")
+
+
+def test_the_table_of_a_film_has_everyday_units():
+    (table,) = _tables(line(**FULL))
+    shown = {(row[0], row[1]): row[2:] for row in table.rows}
+    assert shown["largest pressure", "Hertz"] == ["1", "GPa", "−9.1 %"]
+    assert shown["central film", "solution"] == ["0.2500", "µm", ""]
+    assert shown["force of the film on body 1", "solution"] == ["0.01100", "N/mm", ""]
+    assert shown["iterations", "solution"] == ["43", "", ""]

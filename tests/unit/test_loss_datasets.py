@@ -1,5 +1,6 @@
 """Every variable of a loss map and of a drive cycle: known answers of losses that are written."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -240,6 +241,14 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
     ends = [(1.0 - 0.0125 * kelvin) * whole for kelvin in (22.0, 6.0)]
     np.testing.assert_allclose([bare[f"{of}_low"], bare[f"{of}_high"]], ends, rtol=1e-12)
     assert set(expected) - set(bare.variables) == set(list(expected)[-4:])
+    # nothing turns: no share of the running time, and no loss
+    still = replace(demand, pinion_speed=np.zeros(4))
+    nothing = replace(losses, power=0.0 * losses.power, torque=0.0 * torque)
+    rest = cycle_dataset(settings, still, nothing, warming, others)
+    assert not rest["time_outside_range"].any()
+    assert not rest["energy_outside_range"].any()
+    assert np.isnan(rest["efficiency"])
+    assert np.isnan(rest["efficiency_bound"])
 
 
 def test_the_axle_of_these_datasets_has_what_they_read():

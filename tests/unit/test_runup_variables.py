@@ -1,6 +1,7 @@
 """Every variable of a run-up's dataset: known answers of a record that is written down."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -234,3 +235,23 @@ def test_every_curve_and_map_of_a_ramp_has_its_known_values_and_unit(found):
         near = abs(found["frequency"].values - hertz[:, None]) < 3.0 * RATE / bins
         crest = np.where(near, one.values, 0.0).max(axis=1)[1:]
         np.testing.assert_allclose(crest, 0.92 * sizes[1:], rtol=0.09)
+
+
+@pytest.mark.parametrize(
+    ("rise", "duration", "highest", "expected"),
+    [
+        (2.0 * np.pi / 13.0 * 36.0, 10.0, 4000.0, 6.0),  # root of 36 Hz/s
+        (1.0, 10.0, 4000.0, 4.0),  # the finest
+        (1.0, 0.5, 4000.0, 8.0),  # four slices at least
+        (1.0, 0.5, 2000.0, 5.0),  # 400 bins at least
+    ],
+)
+def test_bins_are_as_wide_as_the_first_order_moves_within_limits(rise, duration, highest, expected):
+    one = SimpleNamespace(
+        car_axle=read_axle("mohammadpour_2015"),
+        ramp=SimpleNamespace(acceleration=-rise),
+        duration=duration,
+        sample_rate=12000.0,
+        highest_frequency=highest,
+    )
+    assert made_from._resolution(one) == pytest.approx(expected, rel=1e-12)

@@ -3,12 +3,15 @@
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 import xarray as xr
 
 from gearlube.studies.bearing.dataset import bearing_dataset, bearing_rows
 from gearlube.studies.measured.flank_dataset import flank_dataset
 from gearlube.studies.measured.teeth import tooth_error_dataset
 from gearlube.studies.optimise.dataset import optimise_dataset
+from gearlube.studies.sound.dataset import sound_dataset
+from gearlube.studies.sound.metrics import Curve
 from gearlube.studies.sound.report import _numbers
 from gearlube.studies.whine import run as whine
 from gearlube_core.bearings.losses.loss import PARTS
@@ -299,3 +302,59 @@ def test_key_numbers_of_a_sound_are_known():
     # order 2 at 153.8 Hz: -13.4 dB at 160 Hz, -16.1 at 125 Hz
     assert pinion.name == "A: largest level of pinion order 2"
     assert 30.0 - 16.1 < pinion.value < 30.0 - 13.4
+
+
+def test_sound_variables_are_known():
+    """A tone of 1 kHz and 0.02 Pa rms, 60 dB with and without A-weighting; orders that end."""
+    at = np.arange(96000) / 48000.0
+    since = 5.0 + np.array([0.0, 2.0])
+    record = named(
+        time=since, speed=np.array([100.0, 300.0]), vehicle_speed=np.array([10.0, 30.0]), teeth=13,
+        name="A",
+    )  # fmt: skip
+    pressure = named(
+        signal=0.02 * 2.0**0.5 * np.sin(2000.0 * np.pi * at), early=0.1, band=(50.0, 4000.0)
+    )
+    tracks = named(
+        order=np.array([13.0, 26.0]),
+        time=np.array([0.0, 1.0, 2.0]),
+        rms=2e-5 * np.array([[10.0, 100.0], [10.0, 100.0], [10.0, np.nan]]),
+    )
+    curves = {
+        "loudness": Curve(np.array([0.0, 2.0]), np.array([3.0, 7.0]), 6.5, "a standard"),
+        "roughness": Curve(np.array([0.0, 2.0]), np.array([0.1, 0.3]), 0.28, "another"),
+    }
+    audible = np.array([0.0, 2.0]), np.array([[1.0, 3.0], [2.0, 4.0]]), np.array([5.0, 9.0])
+    path = named(source="made", generic=True)
+    made = sound_dataset(record, path, pressure, tracks, curves, audible, named(field="free"))
+    time = np.arange(0.025, 2.0, 0.05)
+    half = time / 2.0
+    expected = {
+        "time": ("s", time),
+        "order": ("1", [13.0, 26.0]),
+        "pinion_speed": ("rad/s", 100.0 + 200.0 * half),
+        "vehicle_speed": ("m/s", 10.0 + 20.0 * half),
+        "level": ("dB", np.full(40, 60.0)),
+        "level_a": ("dB", np.full(40, 60.0)),
+        "loudness": ("sone", 3.0 + 4.0 * half),
+        "loudness_single": ("sone", 6.5),
+        "roughness": ("asper", 0.1 + 0.2 * half),
+        "roughness_single": ("asper", 0.28),
+        # the second order leaves the band between 1 and 2 s: half of the gap is kept
+        "order_level": ("dB", [np.full(40, 20.0), np.where(time < 1.5, 40.0, np.nan)]),
+        "order_contribution": ("sone", [1.0 + 2.0 * half, 2.0 + 2.0 * half]),
+        "steady_loudness": ("sone", 5.0 + 4.0 * half),
+    }
+    # time weighting F rises with 0.125 s: 0.3 dB are left at 0.34 s
+    late = {"time": slice(0.4, None)}
+    rising = {"level", "level_a"}
+    assert_variables(made.drop_vars(rising), {k: v for k, v in expected.items() if k not in rising})
+    for name in rising:
+        assert made[name].attrs["units"] == "dB"
+        np.testing.assert_allclose(made[name].sel(late), 60.0, atol=0.3)
+        assert made[name][-1] == pytest.approx(60.0, abs=0.01)
+    known = {"early_share": 0.1, "transfer_path_generic": 1, "band_hz": [50.0, 4000.0]}
+    assert {name: made.attrs[name] for name in known} == known
+    assert made.attrs["peak_pa"] == pytest.approx(0.02 * 2.0**0.5)
+    assert made.attrs["level_mean_db"] == pytest.approx(60.0)
+    assert made.attrs["level_a_mean_db"] == pytest.approx(60.0, abs=0.02)

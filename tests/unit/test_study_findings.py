@@ -122,7 +122,21 @@ def test_loss_map_has_its_known_key_numbers_findings_and_tables(a_map):
             ["bearing drag", "factor 2", 30.0, "not measured"],
         ]
     }  # fmt: skip
-    assert_tables(loss_map_report(a_map).tables, tables)
+    report = loss_map_report(a_map)
+    assert_tables(report.tables, tables)
+    charts = {one.name: one.chart for one in report.figures}
+    assert list(charts) == ["loss_torque", "efficiency", "losses", "sensitivity"]
+    close = {"rtol": 1e-6}  # charts keep single precision
+    np.testing.assert_allclose(charts["sensitivity"].data[0].x, [30.0, 10.0], **close)
+    torque = 0.02 * np.array([[50.0], [0.0], [100.0]]) + 10.0 / np.array([W, 2.0 * W])
+    efficiency = 100.0 - 100.0 * torque / np.array([[50.0], [np.nan], [100.0]])
+    for name, shown in (("loss_torque", torque), ("efficiency", efficiency)):
+        np.testing.assert_allclose(charts[name].data[0].z, shown, **close)
+    # at 80 degC and 1000 rpm: flanks, bearings, and 0.7 and 1.4 times their sum
+    half = np.array([0.5 * 0.02 * W * np.array([50.0, 0.0, 100.0]), [5.0] * 3])
+    lines = [half[0], half[1], 0.7 * half.sum(axis=0), 1.4 * half.sum(axis=0)]
+    for drawn, shown in zip(charts["losses"].data, lines, strict=False):
+        np.testing.assert_allclose(drawn.y, shown, **close)
 
 
 def test_loss_map_says_failures_films_bulk_steady_oil_and_ranges(a_map):
@@ -279,6 +293,14 @@ def test_cycle_has_its_known_key_numbers_findings_tables_and_rows(a_cycle):
     }
     assert_tables(report.tables, tables)
     assert "30 s and 0.30 km" in report_html(report)  # 10 s at 10 m/s and 10 s at 20 m/s
+    drawn = {figure.name: [one.y for one in figure.chart.data] for figure in report.figures}
+    shown = {
+        "demand": [[36.0, 72.0, 0.0], [20.0, 40.0, 0.0]],
+        "losses": [[100.0, 200.0, 0.0], [50.0, 50.0, 0.0]],
+        "temperature": [[20.0, 22.0, 26.0, 25.0], [20, 21, 24, 23], [20, 23, 28, 29]],
+    }
+    for name, lines in shown.items():
+        np.testing.assert_array_equal(drawn[name], lines)
     head, rows = series_rows(a_cycle)
     assert ",".join(head) == (
         "time_s,step_s,vehicle_speed_kmh,pinion_speed_rpm,pinion_torque_n_m,wheel_torque_n_m,"
