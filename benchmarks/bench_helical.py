@@ -36,7 +36,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from tests.references.helical_accelerations import pair_accelerations
+from tests.helpers.helical_accelerations import pair_accelerations
 
 _LOGGER = logging.getLogger("bench_helical")
 SPEED = 1000.0 * RPM

@@ -1,6 +1,7 @@
 """Put faults into a copy of the code, one after the other, and see whether a test fails.
 
     python -m benchmarks.mutation.run FOLDER [--count 500] [--by-hand] [--again [--thorough]]
+    python -m benchmarks.mutation.run FOLDER --code gearlube/studies gearlube/report
 
 FOLDER keeps the copy, its caches and `results.jsonl`. A run goes on where the last one stopped:
 the order of the mutants depends on the seed and on the text that each of them changes, so a
@@ -16,7 +17,7 @@ import gc
 import json
 import time
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from benchmarks.mutation.sites import Mutant, mutants_of
@@ -32,9 +33,10 @@ _ALL = 500.0  # [s] of tests and of processor time, where a survivor meets all t
 _LIMIT = 50.0  # [s] of processor time at each compiled stage
 
 
-def sampled(tree: Path, seed: int) -> list[Mutant]:
-    """Return all mutants of the code in the order in which they are taken."""
-    files = [path for top in _MUTATED for path in sorted((tree / top).rglob("*.py"))]
+def sampled(tree: Path, seed: int, code: Sequence[str] = _MUTATED) -> list[Mutant]:
+    """Return all mutants of the folders or files `code` in the order in which they are taken."""
+    tops = [tree / one for one in code]
+    files = [one for top in tops for one in ([top] if top.is_file() else sorted(top.rglob("*.py")))]
     found: list[Mutant] = []
     for path in files:
         if path.name != "errors.py":
@@ -65,7 +67,9 @@ def by_hand(tree: Path) -> Iterator[Mutant]:
         )
 
 
-def outcome(place: Workplace, mutant: Mutant, thorough: bool) -> dict[str, object]:
+def outcome(
+    place: Workplace, mutant: Mutant, thorough: bool, limit: float = _LIMIT
+) -> dict[str, object]:
     """Return what became of a mutant."""
     source = (place.tree / mutant.file).read_bytes()
     changed = mutant.applied(source)
@@ -95,7 +99,7 @@ def outcome(place: Workplace, mutant: Mutant, thorough: bool) -> dict[str, objec
     for files, compiled, budget in stages:
         if not files:
             continue
-        plan = place.plan(files, compiled, budget, _ALL if thorough else _LIMIT)
+        plan = place.plan(files, compiled, budget, _ALL if thorough else limit)
         result = place.run_changed(plan, mutant.file, changed)
         spent += result.seconds
         if result.ended in ("failed", "too long"):
@@ -112,10 +116,12 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--count", type=int, default=500, help="mutants of the sample")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--code", nargs="+", default=_MUTATED, help="folders or files")
     parser.add_argument("--by-hand", action="store_true", help="those of by_hand.toml instead")
     parser.add_argument("--again", action="store_true", help="survivors once more, on new tests")
     parser.add_argument("--thorough", action="store_true", help="all tests that reach the file")
     parser.add_argument("--part", default="1/1", metavar="K/N", help="every N-th mutant, from K on")
+    parser.add_argument("--limit", type=float, default=_LIMIT, help="[s] of a compiled stage")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="end after")
     parser.add_argument("--compiled-code-of", type=Path, help="a tree whose compiled code to take")
     parser.add_argument("--durations", type=Path, help="output of pytest -n 0 --durations=0")
@@ -129,7 +135,7 @@ def main() -> None:
         place.seed_compiled_code(options.compiled_code_of.resolve())
     if options.durations:
         place.read_durations(options.durations)
-    wanted = sampled(place.tree, options.seed)[: options.count]
+    wanted = sampled(place.tree, options.seed, options.code)[: options.count]
     if options.by_hand:
         wanted = list(by_hand(place.tree))
     part, parts = map(int, options.part.split("/"))
@@ -146,7 +152,7 @@ def main() -> None:
         done = before.get(mutant.key, "")
         if time.monotonic() > end or (done and (done == "killed" or not options.again)):
             continue
-        row = outcome(place, mutant, options.thorough)
+        row = outcome(place, mutant, options.thorough, options.limit)
         with results.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")
         said = f"{row['outcome']:>9} {row['seconds']:>6} s  {mutant.file}:{mutant.line}"

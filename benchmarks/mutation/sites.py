@@ -5,8 +5,9 @@ Changed are operators (+ and -, * and /, ** and *), signs, comparisons (turned i
 pairs of functions (sin and cos, min and max), and sums and products lose a term.
 
 Left alone are texts, annotations, decorators, limits of inputs and what makes an error: these are
-the matter of tests of inputs. A comparison does not become one that differs at equality only,
-because of floats nearly all such changes are without effect.
+the matter of tests of inputs. Of the texts of `gearlube` the numbers in them are changed: they are
+its results. A comparison does not become one that differs at equality only, because of floats
+nearly all such changes are without effect.
 """
 
 from __future__ import annotations
@@ -71,7 +72,8 @@ def mutants_of(file: str, source: bytes, seed: int) -> list[Mutant]:
         lines.append(lines[-1] + len(line))
     found: list[Mutant] = []
     seen: dict[str, int] = {}
-    for scope, node in _places(ast.parse(source), ""):
+    texts = file.startswith("gearlube/")
+    for scope, node in _places(ast.parse(source), "", texts):
         before = ast.unparse(node)
         number = seen[place] = seen.get(place := f"{file} {scope} {before}", -1) + 1
         changes = [(_key(seed, place, number, after), after) for after in _changes(node)]
@@ -80,6 +82,8 @@ def mutants_of(file: str, source: bytes, seed: int) -> list[Mutant]:
         key, after = min(changes)
         start = lines[node.lineno - 1] + node.col_offset
         end = lines[(node.end_lineno or 0) - 1] + (node.end_col_offset or 0)
+        if texts and not _reads(source[start:end], before):
+            continue  # before Python 3.12 places in texts of several lines are wrong
         found.append(Mutant(key, file, node.lineno, scope, before, after, start, end))
     return found
 
@@ -88,7 +92,14 @@ def _key(*parts: object) -> str:
     return hashlib.sha256(repr(parts).encode()).hexdigest()[:12]
 
 
-def _places(node: ast.AST, scope: str) -> Iterator[tuple[str, ast.expr]]:
+def _reads(source: bytes, text: str) -> bool:
+    try:
+        return ast.unparse(ast.parse(b"(" + source + b")", mode="eval")) == text
+    except SyntaxError:
+        return False
+
+
+def _places(node: ast.AST, scope: str, texts: bool) -> Iterator[tuple[str, ast.expr]]:
     """Yield expressions with the scope they stand in, outer ones first."""
     if isinstance(node, ast.expr):
         yield scope, node
@@ -98,11 +109,11 @@ def _places(node: ast.AST, scope: str) -> Iterator[tuple[str, ast.expr]]:
         if name in ("annotation", "returns", "decorator_list", "type_params"):
             continue
         for child in value if isinstance(value, list) else [value]:
-            if isinstance(child, ast.AST) and not _is_left_alone(child):
-                yield from _places(child, scope)
+            if isinstance(child, ast.AST) and not _is_left_alone(child, texts):
+                yield from _places(child, scope, texts)
 
 
-def _is_left_alone(node: ast.AST) -> bool:
+def _is_left_alone(node: ast.AST, texts: bool) -> bool:
     if isinstance(node, ast.Call):
         name = getattr(node.func, "id", getattr(node.func, "attr", ""))
         return bool(_NOT_PHYSICS.fullmatch(name))
@@ -110,7 +121,9 @@ def _is_left_alone(node: ast.AST) -> bool:
         return "TYPE_CHECKING" in ast.unparse(node.test)
     if isinstance(node, ast.Subscript):  # a type
         return getattr(node.value, "id", "") in ("Annotated", "Literal", "Callable", "NDArray")
-    return isinstance(node, (ast.Raise, ast.Assert, ast.JoinedStr, ast.Import, ast.ImportFrom))
+    if isinstance(node, ast.JoinedStr):
+        return not texts
+    return isinstance(node, (ast.Raise, ast.Assert, ast.Import, ast.ImportFrom))
 
 
 def _changes(node: ast.expr) -> list[str]:

@@ -5,7 +5,7 @@ import pytest
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.errors import ParameterError
-from tests.references.deflection_differential import (
+from tests.helpers.deflection_differential import (
     DifferentialDeflection,
     laplacian_coefficients,
 )

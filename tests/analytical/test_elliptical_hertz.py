@@ -9,7 +9,6 @@ from scipy.special import ellipe, ellipk, ellipkm1
 
 from gearlube_core.contact.elliptic_integrals import complete_elliptic_k_d
 from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients, hertz_ellipse
-from gearlube_core.errors import ParameterError
 from tests.references.hertz_reference import HertzContact
 
 E_STAR = 115.4e9
@@ -106,11 +105,6 @@ def test_pressure_over_the_ellipse_carries_the_load() -> None:
 def test_an_unloaded_contact_has_no_area_and_no_pressure() -> None:
     assert hertz_ellipse(0.01, 0.2, E_STAR, 0.0) == (0.0, 0.0, 0.0)
     assert hertz_ellipse(0.01, 0.2, E_STAR, -5.0) == (0.0, 0.0, 0.0)
-
-
-def test_line_contact_is_refused_by_the_reference_class() -> None:
-    with pytest.raises(ParameterError, match="line contact"):
-        HertzContact(R_x=1e-3, R_y=1e6, contact_modulus=E_STAR, load=1.0)
 
 
 def test_ellipse_grows_more_slender_with_the_radius_ratio() -> None:

@@ -38,6 +38,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_P,
 )
 from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.helical_accelerations import points_damping
 from tests.helpers.helical_dynamics_cases import loaded_points
 from tests.helpers.helical_march_cases import (
     PERIOD,
@@ -49,7 +50,6 @@ from tests.helpers.helical_march_cases import (
     started,
     wavy_mesh,
 )
-from tests.references.helical_accelerations import points_damping
 
 MU = np.full(60, 0.1)
 

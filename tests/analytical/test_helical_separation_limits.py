@@ -29,8 +29,8 @@ from gearlube_core.dynamics.helical_pair.separation.system import relative_masse
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import symmetric_support
 from gearlube_core.periodic.shooting import solve_periodic
+from tests.helpers.helical_accelerations import pair_accelerations
 from tests.helpers.separation_cases import separated_motion, separating_pair, spur_geometry
-from tests.references.helical_accelerations import pair_accelerations
 
 
 @pytest.mark.parametrize("form", ["twelve_dof", "six_dof"])

@@ -216,9 +216,18 @@ def test_every_output_is_finite_after_a_wild_ride(host: Host) -> None:
     assert all(math.isfinite(value) for value in host.outputs())
 
 
-def test_freeing_an_instance_that_was_only_made_is_safe(fmu_folder: Path) -> None:
+def test_freeing_an_instance_that_was_only_made_leaves_the_next_one_sound(
+    fmu_folder: Path, host: Host
+) -> None:
+    host.start()
     for _ in range(20):
         Host(fmu_folder).close()
+    assert host.step(1e-4) == OK
+    after = Host(fmu_folder)
+    after.start()
+    assert after.step(1e-4) == OK
+    assert after.outputs() == host.outputs()
+    after.close()
 
 
 def test_errors_reach_python_logging_when_the_host_logs_nothing(

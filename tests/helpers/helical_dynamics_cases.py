@@ -33,7 +33,7 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.kernels.jit import kernel
-from tests.references.helical_accelerations import pair_accelerations
+from tests.helpers.helical_accelerations import pair_accelerations
 
 SPEED = 1000.0 * math.pi / 30.0  # rad/s
 

@@ -23,6 +23,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
 from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import mesh_stiffness_matrix
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import friction_power
 from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.helical_accelerations import points_damping
 from tests.helpers.helical_dynamics_cases import (
     SPEED,
     loaded_points,
@@ -30,7 +31,6 @@ from tests.helpers.helical_dynamics_cases import (
     spur_pair,
     summed_wrench,
 )
-from tests.references.helical_accelerations import points_damping
 
 phases = st.floats(min_value=0.0, max_value=1.0, exclude_max=True)
 seeds = st.integers(min_value=0, max_value=10_000)

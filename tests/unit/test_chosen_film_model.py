@@ -78,7 +78,11 @@ def test_a_missing_file_is_refused(tmp_path):
 def test_shipped_oils_are_in_the_shipped_domains():
     for name in ("mohammadpour_2015", "karagiannis_2012"):
         for kind in ("flank", "line", "roller"):
-            check_oil(shipped_model(kind), Lubricant.named(name), STEEL_MOHAMMADPOUR_2015, "model")
+            oil, model = Lubricant.named(name), shipped_model(kind)
+            assert check_oil(model, oil, STEEL_MOHAMMADPOUR_2015, "model") is None  # no refusal
+            thin = replace(oil, eyring_stress=100.0 * oil.eyring_stress)
+            with pytest.raises(ParameterError, match="Outside its domain: Eyring stress"):
+                check_oil(model, thin, STEEL_MOHAMMADPOUR_2015, "model")
 
 
 def test_an_oil_that_a_model_says_nothing_of_is_refused_and_what_differs_is_told():

@@ -3,10 +3,18 @@
 import numpy as np
 import pytest
 import xarray as xr
+from gearlube.studies.contact.report import _table
 
-from gearlube.report.parts import GOOD, WARNING
+from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.contact.figures.charts import stiffness_chart
 from gearlube.studies.contact.findings import edge_torque, findings, numbers, transmission_orders
+from gearlube.studies.contact.summary import contact_summary
+from tests.helpers.known_answers import (
+    assert_cells,
+    assert_findings,
+    assert_numbers,
+    assert_tables,
+)
 
 TORQUES, PHASES, ARM = (10.0, 80.0), 16, 0.02
 AMPLITUDE = (0.3, 0.9)  # um, first mesh order of the loaded error
@@ -82,9 +90,78 @@ def test_a_pattern_that_runs_off_the_heel_is_a_warning(heel, level):
     assert ("runs off the heel" in pattern.headline) == (level == WARNING)
 
 
-def test_key_numbers_have_everyday_units():
-    found = {one.name: (one.value, one.unit) for one in numbers(contact())}
-    # 1e-4 rad at an arm of 20 mm are 2 um
-    assert found["unloaded error, peak to peak, drive"] == (pytest.approx(2.0), "µm")
-    assert found["highest pressure, coast"] == (pytest.approx(1.0), "GPa")
-    assert found["mean secant stiffness at the highest torque, drive"][0] == pytest.approx(300.0)
+def known():
+    """Both sides unlike; the coast flanks are pressed by an edge at 80 N.m."""
+    both = contact()
+    both["rotation"][1] = 1e-3 + 2.0 * (both["rotation"][1] - 1e-3)
+    ones = np.ones((2, PHASES, 1))
+    for name, values in (
+        ("k_m", [[2e8, 3e8], [5e8, 7e8]]),
+        ("k_t", [[2.2e8, 3.3e8], [5.5e8, 7.7e8]]),
+    ):
+        both[name] = (("side", "phase", "torque"), ones * np.array(values)[:, None])
+    both["R_p"][1] = 0.03
+    both["rotation"][1] = 1e-3 + (both["rotation"][1] - 1e-3) * 0.02 / 0.03
+    both["share"][0, 5, 1, 3], both["share"][1, 5, 1, 3] = 0.6, 0.7
+    both["pressure_max"][0, 5, 1, 3], both["pressure_max"][1, 5, 1, 3] = 0.85e9, 0.9e9
+    both["pressure_max"][1, 3, 1, 2] = 4.2e9
+    both["error"][1] = [0.0, 3e-4, 1e-4, 2e-4]
+    both["pressure_map"][:, 0, :, 24:] = 0.0  # half of the face at 10 N.m
+    both["share"][0, :, 0, 1] = 0.1  # three pairs of the drive side
+    return both
+
+
+def test_key_numbers_and_findings_of_both_sides_are_known():
+    expected = []
+    for side, order, unloaded, pressure, edge, stiffness, path in (
+        # 1e-4 rad at an arm of 20 mm are 2 um, 3e-4 rad at 30 mm 9 um
+        ("drive", (0.9, "0.900"), (2.0, "2.00"), (1.0, "1.00"), (np.nan, "–"), (300.0, "300"),
+         (1.8, "1.80")),
+        ("coast", (1.8, "1.80"), (9.0, "9.00"), (4.2, "4.20"), (80.0, "80.0"), (700.0, "700"),
+         (1.7, "1.70")),
+    ):  # fmt: skip
+        for words, unit, (value, text) in (
+            ("largest first order of the loaded error", "µm", order),
+            ("unloaded error, peak to peak", "µm", unloaded),
+            ("highest pressure", "GPa", pressure),
+            ("least torque with edge contact", "N·m", edge),
+            ("mean secant stiffness at the highest torque", "N/µm", stiffness),
+            ("path of contact", "mesh periods", path),
+        ):
+            expected.append((f"{words}, {side}", value, unit, text))
+    assert_numbers(numbers(known()), expected)
+    # cells 10 to 33 of 48 at 80 N.m, 10 to 23 at 10 N.m
+    pattern = "80 N·m, 21, 71 %, 0, 100, 10 N·m, 29 %"
+    said = [
+        (GOOD, "No sharp edge presses into the drive flanks", "2.5 GPa, 80 N·m, 1.00 GPa"),
+        (NOTE, "first mesh order … (drive) is largest at … smallest at … Without load",
+         "80 N·m, 0.900 µm, 10 N·m, 0.300 µm, 2.00 µm"),
+        (GOOD, "the drive pattern stays on the face", pattern),
+        (WARNING, "Sharp edges press into the coast flanks",
+         "2.5 GPa, 80 N·m, 4.20 GPa, 80 N·m, 0.90 GPa"),
+        (NOTE, "first mesh order … (coast) is largest at … smallest at … Without load",
+         "80 N·m, 1.80 µm, 10 N·m, 0.600 µm, 9.00 µm"),
+        (GOOD, "the coast pattern stays on the face", pattern),
+        (NOTE, "mean mesh stiffness (drive, secant)",
+         "200 N/µm, 10 N·m, 300 N/µm, 80 N·m, 80 N·m, 2.0"),
+    ]  # fmt: skip
+    assert_findings(findings(known()), said)
+
+
+def test_the_table_of_the_loaded_contact_is_known():
+    found = [list(one) for one in contact_summary(known())]
+    expected = [
+        ["drive", 10.0, 2e8, 2.2e8, 0.02, 3.0, 0.8e9],
+        ["drive", 80.0, 3e8, 3.3e8, 0.02, 2.0, 1.0e9],
+        ["coast", 10.0, 5e8, 5.5e8, 0.03, 2.0, 0.8e9],
+        ["coast", 80.0, 7e8, 7.7e8, 0.03, 2.0, 4.2e9],
+    ]
+    for got, row in zip(found, expected, strict=True):
+        assert_cells(got, row, "contact summary")
+    scale = (1.0, 1e-6, 1e-6, 1e3, 1.0, 1e-9)
+    heads = [
+        "flanks", "torque [N·m]", "secant stiffness [N/µm]", "tangent stiffness [N/µm]",
+        "pinion arm [mm]", "pairs", "highest pressure [GPa]",
+    ]  # fmt: skip
+    rows = [[side, *(a * b for a, b in zip(row, scale, strict=True))] for side, *row in expected]
+    assert_tables([_table(known())], {"Loaded contact": [heads, *rows]})

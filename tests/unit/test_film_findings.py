@@ -6,9 +6,17 @@ import xarray as xr
 
 from gearlube.report.inputs import remark_attributes
 from gearlube.report.parts import GOOD, NOTE, WARNING
-from gearlube.studies.films.findings import findings, formula_ratios, mean_ratios, numbers
-from gearlube.studies.films.report import film_inputs, film_report
+from gearlube.studies.films.findings import findings, numbers
+from gearlube.studies.films.hypoid.summary import ratio_rows
+from gearlube.studies.films.report import _tables, film_inputs
+from gearlube.studies.films.summary import summary_csv, summary_rows
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers.known_answers import (
+    assert_cells,
+    assert_findings,
+    assert_numbers,
+    quantities,
+)
 
 
 def line(converged=1, error=0.01, **more):
@@ -115,27 +123,9 @@ def test_without_an_estimate_nothing_is_said_of_the_grid():
     assert not [one for one in findings(unknown) if "grid" in one.headline]
 
 
-def test_film_pressure_and_friction_of_a_line_are_told_in_everyday_units():
-    film = headline(line(), "smallest film")
-    assert "0.200 µm" in film.headline
-    assert "0.250 µm" in film.headline
-    pressure = headline(line(), "largest pressure")
-    assert "1.10 GPa" in pressure.headline
-    assert "+10.0 % relative to Hertz" in pressure.detail
-    assert "0.0300" in headline(line(), "friction").headline
-
-
 def test_rolling_without_sliding_has_no_finding_of_friction():
     rolling = line(friction_coefficient=0.0)
     assert not [one for one in findings(rolling) if "friction" in one.headline]
-
-
-def test_formulas_are_told_as_ratios_to_the_solution():
-    # 0.30 over 0.25 and 0.24 over 0.20, exact but for rounding
-    assert [one.ratio for one in formula_ratios(line())] == pytest.approx([1.2, 1.2], rel=1e-12)
-    one = headline(line(), "central film of A")
-    assert one.level == NOTE
-    assert "1.20 times" in one.headline
 
 
 def test_the_report_of_a_film_says_what_the_gear_file_says(tmp_path):
@@ -144,31 +134,6 @@ def test_the_report_of_a_film_says_what_the_gear_file_says(tmp_path):
     first, second, *_ = film_report(march, tmp_path).findings
     assert (first.level, first.headline, first.detail) == (WARNING, "Undercut.", "Look.")
     assert (second.level, second.headline[:26]) == (NOTE, "Profile shift coefficients")
-
-
-def test_a_march_tells_the_steps_of_its_extremes():
-    assert "0.100 µm, at step 12" in headline(cycle(), "smallest film").headline
-    assert "1.30 GPa, at step 11" in headline(cycle(), "largest pressure").headline
-
-
-def test_a_hypoid_flank_tells_its_extremes_and_ratios_by_load():
-    flank = hypoid()
-    assert "0.150 µm, at phase −0.50" in headline(flank, "smallest steady film").headline
-    assert "0.900 GPa, at phase 0.50" in headline(flank, "largest pressure").headline
-    assert "20 %" in headline(flank, "friction").detail
-    assert headline(flank, "14 % of the films").level == WARNING
-    # a quarter of 2 and three quarters of 1
-    (ratio,) = mean_ratios(flank)
-    assert ratio.ratio == pytest.approx(1.25, rel=1e-12)
-
-
-@pytest.mark.parametrize("dataset", [line(), cycle(), hypoid()], ids=["line", "cycle", "hypoid"])
-def test_key_numbers_hold_the_smallest_film_and_largest_pressure(dataset):
-    value = {one.name: one.value for one in numbers(dataset)}
-    expected = {"line": (0.2, 1.1), "helical_cycle": (0.1, 1.3), "hypoid": (0.15, 0.9)}
-    film, pressure = expected[dataset.attrs["contact"]]
-    assert value["smallest film"] == pytest.approx(film)
-    assert value["largest pressure"] == pytest.approx(pressure)
 
 
 def test_inputs_are_told_in_everyday_units():
@@ -213,3 +178,206 @@ def test_a_hypoid_flank_takes_its_thinnest_place():
     one = headline(flank, "film ratio λ of the central film")
     assert one.headline.endswith(" is 0.4.")  # 0.2 um over 0.5 um
     assert "smallest film has 0.3" in one.detail
+
+
+def test_a_line_has_its_known_key_numbers_and_findings():
+    full = line(
+        roughness_rms=0.1e-6,
+        domain_error_central_film=0.001,
+        domain_error_minimum_film=0.02,
+        sliding_power=55.0,
+        temperature_max=393.15,
+    )
+    full["formula_film"][1] = 0.26e-6
+    known = [
+        ("smallest film", 0.2, "µm", "0.200"),
+        ("central film", 0.25, "µm", "0.250"),
+        ("largest pressure", 1.1, "GPa", "1.10"),
+        ("film ratio λ, central film", 2.5, "", "2.5"),
+        ("film ratio λ, smallest film", 2.0, "", "2.0"),
+        ("coefficient of friction", 0.03, "", "0.0300"),
+        ("largest estimated error", 1.0, "%", "1.0"),
+        ("first formula over central film", 1.2, "", "1.20"),
+    ]
+    assert_numbers(numbers(full), known)
+    unknown = {one.name: one.value for one in numbers(line())}
+    assert np.isnan(unknown["film ratio λ, smallest film"])
+    said = [
+        (GOOD, "The film converged", "1.0·10⁻⁹, 1.0·10⁻¹²"),
+        (GOOD, "grid makes … of the central film", "1 %, 1 %, 0.5 %"),
+        (GOOD, "domain makes … of the smallest film … twice as wide", "2 %, 0.1 %, 2 %"),
+        (NOTE, "The smallest film is … the central one", "0.200 µm, 0.250 µm"),
+        (NOTE, "film ratio λ of the central film … mixed … smallest film has",
+         "2.5, 3, 0.10 µm, 2"),
+        (NOTE, "largest pressure … relative to Hertz", "1.10 GPa, +10.0 %"),
+        (NOTE, "coefficient of friction … lost by sliding. With heat", "0.0300, 55.0 W"),
+        (NOTE, "central film of A is … times the solved … A, central film: … B, minimum film:",
+         "1.20, 1.20, 1.30"),
+    ]  # fmt: skip
+    assert_findings(findings(full), said)
+    cold = full.assign_attrs(temperature_max=np.nan, pressure_max=0.9e9)
+    assert "Without heat" in findings(cold)[6].detail
+    assert quantities(findings(cold)[5].detail) == ["−10.0 %"]
+
+
+def test_a_march_has_its_known_key_numbers_and_findings():
+    known = [
+        ("smallest film", 0.1, "µm", "0.100"),
+        ("film ratio λ, smallest film", 0.5, "", "0.50"),
+        ("largest pressure", 1.3, "GPa", "1.30"),
+        ("largest estimated error", np.nan, "%", "–"),
+        ("films not converged", 2, "", "2"),
+    ]
+    marched = cycle(failures=2).assign_attrs(roughness_rms=0.2e-6)
+    assert_numbers(numbers(marched), known)
+    said = [
+        (WARNING, "films did NOT converge", "2"),
+        (NOTE, "smallest film is … at step … meshing cycle", "0.100 µm, 12, 10, 12"),
+        (WARNING, "film ratio λ of the smallest film", "0.5, 1, 0.20 µm"),
+        (NOTE, "largest pressure is … at step", "1.30 GPa, 11"),
+    ]
+    assert_findings(findings(marched), said)
+
+
+def test_a_hypoid_flank_has_its_known_key_numbers_and_findings():
+    known = [
+        ("smallest film", 0.15, "µm", "0.150"),
+        ("film ratio λ, central film", 0.4, "", "0.40"),
+        ("film ratio λ, smallest film", 0.3, "", "0.30"),
+        ("largest pressure", 0.9, "GPa", "0.900"),
+        ("largest estimated error", 14.0, "%", "14"),
+        ("films not converged", 0, "", "0"),
+        ("largest friction", 0.03, "", "0.0300"),
+        # a quarter of 2 and three quarters of 1
+        ("Chittenden et al. 1985 over central film", 1.25, "", "1.25"),
+    ]
+    flank = hypoid().assign_attrs(roughness_rms=0.5e-6)
+    assert_numbers(numbers(flank), known)
+    said = [
+        (GOOD, "as it ended", ""),
+        (WARNING, "grid makes … of the films … more nodes", "14 %, 14 %, 2%"),
+        (NOTE, "smallest steady film", "0.150 µm, −0.50, −0.50, 0.50, 0.300 µm"),
+        (WARNING, "film ratio λ of the central film … smallest film has", "0.4, 1, 0.50 µm, 0.3"),
+        (NOTE, "largest pressure", "0.900 GPa, 0.50"),
+        (NOTE, "coefficient of friction … asperities add up to", "0.0200, 0.0300, 20 %"),
+        (NOTE, "Chittenden et al. 1985 is on average", "1985, 1.25, 1985, 1.25"),
+    ]
+    assert_findings(findings(flank), said)
+
+
+FULL = {
+    "friction_1": 11.0, "friction_2": 13.0, "temperature_max": 393.15, "turns": 7.0,
+    "group_M": 17.0, "group_L": 19.0, "iterations": 43, "seconds": 47.0,
+    "domain_error_central_film": 0.03, "roughness_rms": 0.1e-6,
+}  # fmt: skip
+OF_BOTH = [
+    ["largest pressure", "solution", 1.1e9, "Pa", np.nan],
+    ["largest pressure", "Hertz{}", 1.0e9, "Pa", 1.0 / 1.1 - 1.0],
+    ["central film", "solution", 0.25e-6, "m", np.nan],
+    ["central film", "A{}", 0.30e-6, "m", 0.2],
+    ["minimum film", "solution", 0.2e-6, "m", np.nan],
+    ["minimum film", "B{}", 0.24e-6, "m", 0.2],
+    ["film ratio λ, central film", "solution", 2.5, "1", np.nan],
+    ["film ratio λ, smallest film", "solution", 2.0, "1", np.nan],
+    ["friction coefficient", "solution", 0.03, "1", np.nan],
+]
+ENDS = [
+    ("highest temperature above the inlet", 80.0, "K"),
+    ("turns of film and energy", 7.0, "1"),
+    ("group M", 17.0, "1"),
+    ("group L", 19.0, "1"),
+    ("estimated error, central film", 1.0, "%"),
+    ("estimated error, minimum film", 0.5, "%"),
+    ("estimated error of the domain, central film", 3.0, "%"),
+    ("unbalanced flow", 1e-9, "1"),
+    ("load error", 1e-12, "1"),
+    ("iterations", 43.0, "1"),
+    ("time", 47.0, "s"),
+]
+
+
+@pytest.mark.parametrize(
+    ("kind", "basis", "own", "attributes"),
+    [
+        ("line", "", [("force of the film on body 1", 11.0, "N/m"),
+                      ("force of the film on body 2", 13.0, "N/m")], {}),
+        ("helical", ", mean load",
+         [("power lost to sliding", 23.0, "W"), ("load of the line", 29.0, "N"),
+          ("loaded length", 31.0, "mm"), ("largest pressure at y", 37.0, "mm"),
+          ("minimum film at y", 41.0, "mm")],
+         {"sliding_power": 23.0, "load": 29.0, "loaded_length": 0.031, "pressure_max_y": 0.037,
+          "minimum_film_y": 0.041}),
+    ],
+)  # fmt: skip
+def test_the_summary_of_a_film_has_its_known_rows(kind, basis, own, attributes):
+    found = summary_rows(line(**FULL, **attributes).assign_attrs(contact=kind))
+    expected = [[name, who.format(basis), *rest] for name, who, *rest in OF_BOTH]
+    expected += [[name, "solution", value, unit, np.nan] for name, value, unit in [*own, *ENDS]]
+    assert [one.quantity for one in found] == [row[0] for row in expected]
+    for got, row in zip(found, expected, strict=True):
+        assert_cells(list(got), row, row[0])
+    head, first, second, *_ = summary_csv(found).splitlines()
+    assert head == "quantity,source,value,unit,deviation"
+    assert first == "largest pressure,solution,1.1e+09,Pa,"
+    assert second == f"largest pressure,{HERTZ[kind]},1e+09,Pa,-0.09091"
+
+
+HERTZ = {"line": "Hertz", "helical": '"Hertz, mean load"'}
+
+
+def test_the_summary_of_a_hypoid_flank_has_its_known_ratios():
+    """Each source is a prime times the solution at 100 N and twice this at 300 N."""
+    flank = hypoid()
+    at = "position"
+    given = {"psi": [0.1, 0.2], "chi": [0.3, 0.5], "R_y": [6.0, 12.0], "R_x": [3.0, 4.0]}
+    for name, values in given.items():
+        flank[f"steady_{name}"] = (at, np.array(values))
+    solved = {
+        "central film": "steady_central_film", "minimum film": "steady_minimum_film",
+        "largest pressure": "steady_pressure_max", "friction": "steady_traction_heated",
+    }  # fmt: skip
+    sources = [
+        ("central film", "Chittenden et al. 1985", "chittenden_central"),
+        ("central film", "Chittenden, minor-axis component", "component_central"),
+        ("central film", "Grubin 1949", "grubin"),
+        ("minimum film", "Chittenden et al. 1985", "chittenden_minimum"),
+        ("minimum film", "Chittenden, minor-axis component", "component_minimum"),
+        ("largest pressure", "Hertz", "hertz_pressure"),
+        ("friction", "Evans and Johnson 1986", "evans_johnson"),
+        ("friction", "Evans and Johnson, solved film", "evans_johnson_solved"),
+        ("friction", "Evans and Johnson, film and Roelands", "evans_johnson_roelands"),
+        ("friction", "axle, with asperities", "axle_friction"),
+        ("friction", "Eyring, isothermal", "steady_traction_eyring"),
+    ]
+    primes = (2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0)
+    for prime, (quantity, _, name) in zip(primes, sources, strict=True):
+        flank[name] = flank[solved[quantity]] * xr.DataArray([prime, 2.0 * prime], dims=at)
+    degrees = 180.0 / np.pi
+    expected = [
+        # least, largest, a quarter of the first and three quarters of the second
+        ["load", "solution", 100.0, 300.0, 250.0, "N"],
+        ["central film", "solution", 0.2e-6, 0.4e-6, 0.35e-6, "m"],
+        ["minimum film", "solution", 0.15e-6, 0.3e-6, 0.2625e-6, "m"],
+        ["film ratio λ, central film", "over roughness", 0.4, 0.8, 0.7, "1"],
+        ["film ratio λ, minimum film", "over roughness", 0.3, 0.6, 0.525, "1"],
+        ["largest pressure", "solution", 0.5e9, 0.9e9, 0.8e9, "Pa"],
+        ["friction", "solution, heated Eyring", 0.02, 0.03, 0.0275, "1"],
+        ["entrainment angle", "given", 0.1 * degrees, 0.2 * degrees, 0.175 * degrees, "deg"],
+        ["sliding angle", "given", 0.3 * degrees, 0.5 * degrees, 0.45 * degrees, "deg"],
+        ["R_y/R_x", "given", 2.0, 3.0, 2.75, "1"],
+        *([quantity, source, prime, 2.0 * prime, 1.75 * prime, "over solution"]
+          for prime, (quantity, source, _) in zip(primes, sources, strict=True)),
+    ]  # fmt: skip
+    found = ratio_rows(flank.assign_attrs(roughness_rms=0.5e-6))
+    assert len(found) == len(expected)
+    for got, row in zip(found, expected, strict=True):
+        assert_cells(list(got), row, f"{row[0]}, {row[1]}")
+
+
+def test_the_table_of_a_film_has_everyday_units():
+    (table,) = _tables(line(**FULL))
+    shown = {(row[0], row[1]): row[2:] for row in table.rows}
+    assert shown["largest pressure", "Hertz"] == ["1", "GPa", "−9.1 %"]
+    assert shown["central film", "solution"] == ["0.2500", "µm", ""]
+    assert shown["force of the film on body 1", "solution"] == ["0.01100", "N/mm", ""]
+    assert shown["iterations", "solution"] == ["43", "", ""]

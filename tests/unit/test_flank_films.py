@@ -155,10 +155,13 @@ def test_films_are_those_of_the_named_axle(films, contact, own_axle):
     mesh = gl.mohammadpour_2015_axle().mesh
     thick = flank_films(contact, mesh, film_request(2000.0, None, 90.0, own_axle), pictures=8)
     loaded = (films.load > 0.0) & (thick.load > 0.0)
-    # 320 in place of 109 mm2/s at 40 degC: 2.4 times as viscous at 90 degC; films rise by the
-    # power 0.67 of it, less what heat takes
+    # 320 in place of 109 mm2/s at 40 degC: 1.92 times as viscous at 90 degC; films rise by the
+    # power 0.67 of it. The other masses shift loads by some N, films by 1 %
+    oils = thick.request.oil, films.request.oil
+    viscosity = [one.dynamic_viscosity(363.15) for one in oils]
+    assert viscosity[0] / viscosity[1] == pytest.approx(1.92, rel=1e-3)
     ratio = thick.film[loaded] / films.film[loaded]
-    assert ratio.mean() == pytest.approx(2.4**0.67, rel=0.15)
+    assert ratio.mean() == pytest.approx(1.92**0.67, rel=0.02)
     soft = film_request(2000.0, "mohammadpour_2015", 90.0, own_axle)
     other = flank_films(contact, mesh, soft, pictures=8)
     assert np.abs(other.load[loaded] - films.load[loaded]).max() > 1.0  # N, from the masses

@@ -1,5 +1,7 @@
 """Findings and key numbers of a helical pair, from datasets with known answers."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -12,6 +14,9 @@ from gearlube.studies.helical.findings import (
     meeting,
     numbers,
 )
+from gearlube.studies.helical.summary import summary_rows
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers.known_answers import assert_cells, assert_findings, assert_numbers
 
 RPM = np.pi / 30.0
 SPEEDS, TEETH = np.array([1000.0, 2000.0, 3000.0]), 30  # rpm; mesh at 500, 1000, 1500 Hz
@@ -140,14 +145,6 @@ def test_a_resonance_at_ten_times_the_speed_of_the_pair_is_no_warning():
     assert "at 2000 rpm, 10 times the 200 rpm at which the pair runs" in one.headline
 
 
-def test_the_first_finding_is_about_the_speed_at_which_the_pair_runs():
-    first, *_ = findings({"sweep": sweep(), "response": response([3000.0])})
-    assert first.level == NOTE
-    assert "At 1000 rpm the largest order" in first.headline
-    assert "0.300 µm: mesh order 2, at 1.00 kHz" in first.headline
-    assert "Friction of the oil film" in first.detail
-
-
 def test_an_unstable_sweep_is_told():
     told = findings({"sweep": sweep(margin=-0.1)})
     assert [one.level for one in told] == [NOTE, WARNING]
@@ -209,21 +206,188 @@ def test_the_least_film_ratio_is_that_of_loaded_points(ratio, level):
     assert f"ratio λ is {ratio:.2f}" in one.headline
 
 
-def test_key_numbers_have_the_same_names_in_every_run():
-    everything = {
+def losses(outside=None):
+    """Two torques, speeds and temperatures; the largest loss is at the last of each."""
+    dims = ("temperature", "torque", "speed")
+    power = np.array([[[11.0, 13.0], [17.0, 19.0]], [[23.0, 29.0], [31.0, 60.0]]])
+    data = {"loss": (("part", *dims), np.stack([0.75 * power, 0.25 * power]))}
+    if outside is not None:
+        data["share_outside"] = (dims, outside)
+        data["loss_bound"] = (dims, 0.02 * power * (1.0 + (power == 60.0)))
+        data["by_formulas"] = (dims, np.asarray(outside) > 0.05)
+    return xr.Dataset(
+        data,
+        coords={
+            "part": ["sliding", "rolling"],
+            "temperature": [40.0, 90.0],
+            "torque": [100.0, 200.0],
+            "speed": [1000.0, 3000.0],
+        },
+        attrs={"not_modelled": "windage", "film_model_line": "mine"},
+    )
+
+
+def everything():
+    return {
         "response": response([3000.0]),
         "sweep": sweep(),
         "contact": contact(1.4e9),
         "separation": separation(0.25),
         "stability": stability(2.0),
         "film": film(1.3),
+        "losses": losses(),
     }
-    full, none = numbers(everything), numbers({})
-    assert [one.name for one in full] == [one.name for one in none]
-    assert all(np.isnan(one.value) for one in none)
-    value = {one.name: one.value for one in full}
-    assert value["dynamic transmission error in operation"] == pytest.approx(0.3)
-    assert value["largest dynamic transmission error in the sweep"] == pytest.approx(1.5)
-    assert value["mean mesh stiffness"] == pytest.approx(500.0)
-    assert value["loaded transmission error, peak to peak"] == pytest.approx(0.4)
-    assert value["longest time without contact"] == pytest.approx(25.0)
+
+
+def test_a_study_has_its_known_key_numbers_with_the_same_names_in_every_run():
+    expected = [
+        ("dynamic transmission error in operation", 0.3, "µm", "0.300"),
+        ("its mesh order", 2, "", "2"),
+        ("largest dynamic transmission error in the sweep", 1.5, "µm", "1.50"),
+        ("its mesh order there", 2, "", "2"),
+        ("its speed", 2000.0, "rpm", "2000"),
+        ("mean mesh stiffness", 500.0, "N/µm", "500"),
+        ("loaded transmission error, peak to peak", 0.4, "µm", "0.400"),
+        ("highest pressure", 1.4, "GPa", "1.40"),
+        ("longest time without contact", 25.0, "%", "25.0"),
+        ("least unstable factor on the swing of the stiffness", 2.0, "", "2.00"),
+        ("mean coefficient of friction", 0.04, "", "0.0400"),
+        ("power lost in the mesh", 150.0, "W", "150"),
+    ]
+    assert_numbers(numbers(everything()), expected)
+    none = [(name, np.nan, unit, "–") for name, _, unit, _ in expected]
+    assert_numbers(numbers({}), none)
+
+
+def test_a_study_has_its_known_findings():
+    said = [
+        (NOTE, "At … the largest order … oil film", "1000 rpm, 0.300 µm, 2, 1.00 kHz"),
+        (GOOD, "mesh order … is … below the natural frequency … nearest",
+         "1000 rpm, 3, 50.0 %, 3.00 kHz, 1, 3, 10 %"),
+        (NOTE, "Over the sweep the largest order … below the natural frequency … oil film",
+         "1.50 µm, 2, 2000 rpm, 10 %, 2000 rpm, 2.00 kHz, 50.0 %, 4.00 kHz, 1000, 3000 rpm"),
+        (WARNING, "teeth separate from … folds: the motion jumps",
+         "5000, 5000 rpm, 0.05, 25 %, 5000 rpm, 0.05, 2"),
+        (GOOD, "No sharp edge presses", "200 N·m, 1.40 GPa, 2.5 GPa"),
+        (GOOD, "Parametric instability begins at … itself is stable", "2"),
+        (NOTE, "smallest film ratio … mean coefficient of friction … loses … roughness",
+         "1.30, 0.0400, 150 W, 0.5 µm, 80 °C, 3"),
+        (NOTE, "teeth lose at most … sliding 75 % … windage",
+         "60.0 W, 200 N·m, 3000 rpm, 90 °C, 75 %"),
+    ]  # fmt: skip
+    assert_findings(findings(everything()), said)
+    own = everything()["sweep"].assign(film_share_outside=("speed", [0.0, 0.3, 0.2]))
+    own.attrs |= {"remarks": "Thin tips. Make them wider.", "guessed": "a guess"}
+    said = [
+        (WARNING, "Thin tips. Make them wider.", ""),
+        (NOTE, "a guess.", ""),
+        said[2],
+        (WARNING, "in part, are by formulas", "2, 3, 2000, 3000 rpm, 70, 80 %, 95 %"),
+    ]
+    assert_findings(findings({"sweep": own}), said)
+
+
+def test_solved_films_of_a_study_say_how_far_they_are_to_be_trusted():
+    of = film(3.2).assign_attrs(
+        film_model="solved",
+        film_model_line="mine",
+        operating_share_outside=0.03,
+        operating_power_loss_bound=4.5,
+        operating_efficiency_bound=0.0007,
+        pinion_speed=1200.0 * RPM,
+    )
+    said = [
+        (NOTE, "are those of solved films … efficiency … of the load … Model: mine",
+         "95 %, 3.0 %, 4.5 W, 0.070 %, 3 %")
+    ]  # fmt: skip
+    assert_findings(findings({"film": of})[1:], said)
+    beyond = of.assign_attrs(operating_share_outside=0.4)
+    said = [(WARNING, "by formulas", "1, 1, 1200, 1200 rpm, 60 %, 95 %")]
+    assert_findings(findings({"film": beyond})[1:], said)
+    outside = [[[0.0, 0.01], [0.02, 0.5]], [[0.0, 0.0], [0.3, 0.04]]]
+    said = [
+        # 4 % of 60 W at the bound, over the 75 % that slide
+        (NOTE, "solved films at … Model: mine", "6, 8, 95 %, 5.3 %, 4.0 %"),
+        (WARNING, "Losses are by formulas", "2, 8, 1000, 3000 rpm, 50, 70 %, 95 %"),
+    ]
+    assert_findings(findings({"losses": losses(outside)})[1:], said)
+
+
+def test_a_study_has_its_known_rows_of_the_summary():
+    of = everything()
+    of["contact"] = of["contact"].assign(
+        K_tangent=1.1 * of["contact"]["K"], corner_share=0.07 + 0.0 * of["contact"]["K"]
+    )
+    of["contact"].attrs["iso_mesh_stiffness"] = 4.2e8
+    moves = {
+        name: ("phase", [0.0, (k + 2) * scale])
+        for scale, names in (
+            (1e-6, ("delta_z", "u_xp", "u_yp", "u_zp")),
+            (10.0, ("F_xp", "F_yp", "F_zp")),
+        )
+        for k, name in enumerate(names)
+    }
+    of["response"] = of["response"].assign(moves).assign(friction_power=("case", [7.0, 11.0]))
+    of["response"].attrs["mean_mesh_stiffness"] = 4.4e8
+    sweep_forces = {
+        f"{name}_harmonic": factor * of["sweep"]["delta_z_harmonic"]
+        for name, factor in (("F_xp", 2e8), ("F_yp", 3e8), ("F_zp", np.nan))
+    }
+    of["sweep"] = of["sweep"].assign(sweep_forces)
+    of["stability"]["growth_variation_light"] = stability(1.0)["growth_variation"]
+    of["separation"]["peak_to_peak"] = 5e-5 * of["separation"]["separation_share"]
+    of["film"].attrs["loss_factor"] = 0.12
+    of["losses"] = losses(np.full((2, 2, 2), 0.02))
+    file = HelicalGearFile.named("he_2007")
+    results = SimpleNamespace(settings=SimpleNamespace(file=file), datasets=of)
+    pair, *rows = (list(one) for one in summary_rows(results)[2:])
+    assert pair[:2] == ["pair", "total contact ratio"]
+    unstable = "least factor on the mesh variation that is unstable"
+    expected = [
+        ["loaded contact", "mean mesh stiffness along x, secant, at 200 N.m", 5e8, "N/m"],
+        ["loaded contact", "mean mesh stiffness along x, tangent, at 200 N.m", 5.5e8, "N/m"],
+        ["loaded contact", "ISO 6336-1 mesh stiffness along x", 4.2e8, "N/m"],
+        ["loaded contact", "secant stiffness, range over mean, at 200 N.m", 0.4, "1"],
+        ["loaded contact", "transmission error, peak to peak, at 200 N.m", 0.4e-6, "m"],
+        ["loaded contact", "highest share outside the plane of contact, at 200 N.m", 0.07, "1"],
+        ["operating point", "mean mesh stiffness along x, of the vibrating pair", 4.4e8, "N/m"],
+        *(
+            row
+            for case, power in (("mu 0.1", 7.0), ("oil film", 11.0))
+            for row in (
+                *(["operating point", f"{name} peak to peak, {case}", values[1], unit]
+                  for name, (_, values) in moves.items()
+                  for unit in ("N" if name.startswith("F") else "m",)),
+                ["operating point", f"friction power, {case}", power, "W"],
+            )
+        ),
+        # 0.7 um at mu 0.1 and 3000 rpm
+        *(
+            ["speed sweep", f"{words}largest first mesh order of {name}, mu 0.1", value, unit]
+            for name, size, of_it in (
+                ("delta_z", 0.7e-6, "m"), ("F_xp", 140.0, "N"), ("F_yp", 210.0, "N")
+            )
+            for words, value, unit in (("", size, of_it), ("speed of the ", 3000.0, "rpm"))
+        ),
+        ["speed sweep", "least 1 - |Floquet multiplier|", 0.5, "1"],
+        ["stability", f"{unstable}, with the pair's damping", 2.0, "1"],
+        ["stability", f"{unstable}, with light damping", 1.0, "1"],
+        ["separation", "largest delta_z peak to peak, damping ratio 0.05", 1.25e-5, "m"],
+        ["separation", "longest time without contact, damping ratio 0.05", 0.25, "1"],
+        ["separation", "folds of the branch, damping ratio 0.05", 2.0, "1"],
+        ["oil film", "constant coefficient of friction of the same loss", 0.04, "1"],
+        ["oil film", "power loss, static loads", 150.0, "W"],
+        ["oil film", "loss factor H_V", 0.12, "1"],
+        *(
+            ["losses", f"power lost at {torque} N.m, {speed} rpm, {degc} degC, by solved films "
+             "(98 % of the load covered)", power, "W"]
+            for power, degc, torque, speed in (
+                (11.0, 40, 100, 1000), (13.0, 40, 100, 3000), (17.0, 40, 200, 1000),
+                (19.0, 40, 200, 3000), (23.0, 90, 100, 1000), (29.0, 90, 100, 3000),
+                (31.0, 90, 200, 1000), (60.0, 90, 200, 3000),
+            )
+        ),
+    ]  # fmt: skip
+    assert [one[1] for one in rows] == [one[1] for one in expected]
+    for got, row in zip(rows, expected, strict=True):
+        assert_cells(got, row, row[1])

@@ -38,8 +38,8 @@ from gearlube_core.dynamics.helical_pair.separation.points import (
 )
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
+from tests.helpers.helical_accelerations import pair_accelerations
 from tests.helpers.separation_cases import crowned_mesh, separating_pair
-from tests.references.helical_accelerations import pair_accelerations
 
 COARSE = {"steps_per_mesh_period": 16}
 

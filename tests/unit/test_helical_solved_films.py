@@ -96,7 +96,9 @@ def test_points_that_the_film_model_does_not_cover_are_those_of_the_formulas():
         [float(one[f"loss_torque_{end}"][0] / one["loss_torque"][0]) for end in ("low", "high")]
         for one in (solved, formula)
     ]
-    assert bars[0] == pytest.approx(bars[1], rel=0.25)
+    # solved films follow the same draws, about three quarters as far
+    moved = [(one - 1.0) / (other - 1.0) for one, other in zip(*bars, strict=True)]
+    assert moved == pytest.approx([0.75, 0.75], abs=0.05)
     told = " ".join(f.headline for f in findings({"losses": solved.expand_dims("temperature")}))
     assert "by formulas and not by solved films at 2 of 3 points, at 8000 to 10000 rpm" in told
     low, high = (100.0 * (1.0 - float(solved["share_outside"][k])) for k in (2, 1))
@@ -126,13 +128,14 @@ def test_periodic_response_has_the_friction_of_the_model():
         along = np.asarray(response.signal("u_yp"))
         return float(np.sqrt(np.mean((along - along.mean()) ** 2)))
 
-    # motion off the line of action is driven by friction alone, nearly in proportion (claim H9)
+    # motion off the line of action is driven by friction alone, nearly in proportion (claim H9);
+    # along the cycle the two frictions differ by some percent in shape
     ratio = rms(SOLVED, "film") / rms(FORMULA, "film")
     losses = [
         film_dataset(one, one.constant_mesh()).attrs["operating_mean_coefficient"]
         for one in (SOLVED, FORMULA)
     ]
-    assert ratio == pytest.approx(losses[0] / losses[1], rel=0.25)
+    assert ratio == pytest.approx(losses[0] / losses[1], rel=0.03)
 
 
 def test_the_gear_file_decides_where_nothing_is_given():

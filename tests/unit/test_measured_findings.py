@@ -15,6 +15,7 @@ from gearlube.studies.measured.findings import (
 )
 from gearlube.studies.measured.report import flank_report, tooth_report
 from tests.helpers.contact_cases import shipped_file
+from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
 
 TEETH, GEAR_TEETH, PHASES = 5, 3, 4
 
@@ -57,7 +58,7 @@ def flanks(rest=0.3e-6, fitted=False, uncertainty=0.01, single=0):
 
 def teeth():
     """Once a turn 8 µm; beside the mesh order of five teeth, order 6 has 0.5 µm at 100 N·m."""
-    amplitude = np.zeros((2, 10))
+    amplitude = 1e-9 * np.array([np.arange(10.0, 0.0, -1.0)] * 2)
     amplitude[:, 0], amplitude[:, 4], amplitude[:, 5] = 8e-6, 3e-6, [0.2e-6, 0.5e-6]
     return xr.Dataset(
         {
@@ -75,56 +76,88 @@ def teeth():
     )
 
 
-def test_the_largest_deviation_is_told_with_its_sign_and_what_the_surface_leaves():
-    (found,) = flank_findings(flanks())
+def test_measured_flanks_have_their_known_key_numbers_findings_and_tables(tmp_path):
+    known = [
+        ("largest deviation, gear drive", 6.0, "µm", "6.00"),
+        ("rest of the smooth surface, gear drive", 0.3, "µm rms", "0.300"),
+        ("teeth from their mean, gear drive", 0.5, "µm rms", "0.500"),
+    ]
+    assert_numbers(flank_numbers(flanks()), known)
     # rms of 0, 2, 1 and -6 um is sqrt(41 / 4) = 3.20 um
-    assert found.level == GOOD
-    assert "Gear drive deviates by at most −6.00 µm, 3.20 µm rms" in found.headline
-    assert "degree 3 leaves 0.30 µm rms" in found.headline
-    assert "4 teeth, which are 0.50 µm rms" in found.detail
-    numbers = {one.name: one.value for one in flank_numbers(flanks())}
-    assert numbers["largest deviation, gear drive"] == pytest.approx(6.0)
+    said = [
+        (GOOD, "Gear drive deviates by at most … rms; a surface of degree … leaves … Mean of",
+         "−6.00 µm, 3.20 µm rms, 3, 0.30 µm rms, 4, 0.50 µm rms"),
+        (NOTE, "explain the deviations from … pinion tilt angle … ±",
+         "5.00 µm rms, 0.40 µm, 0.0500, 0.010 °"),
+        (NOTE, "not in the gear file … --table", ""),
+    ]  # fmt: skip
+    assert_findings(flank_findings(flanks(fitted=True, single=1)), said)
+    (tmp_path / "flanks.png").write_bytes(b"a picture")
+    tables = {
+        "Settings that explain the deviations": [
+            ["setting", "unit", "nominal", "change", "uncertainty", "corrective"],
+            ["pinion.machine.tilt_angle_deg", "deg", "15", "0.05", "0.01", "14.95"],
+        ],
+        "Measured flanks": [
+            ["flank", "teeth", "least deviation [µm]", "largest deviation [µm]", "rest [µm rms]",
+             "apart [µm rms]"],
+            ["gear drive", 4, -6.0, 2.0, 0.3, 0.5],
+        ],
+    }  # fmt: skip
+    report = flank_report(flanks(fitted=True), tmp_path / "flanks.png")
+    assert_tables(report.tables, tables)
+    assert "Deviation of the gear drive flank" in report_html(report)
 
 
 def test_a_surface_that_leaves_as_much_as_a_mesh_order_is_a_warning():
-    assert flank_findings(flanks(rest=1.2e-6))[0].level == WARNING
+    found = flank_findings(flanks(rest=1.2e-6))[0]
+    said = (WARNING, "as large as a mesh order",
+            "−6.00 µm, 3.20 µm rms, 3, 1.2 µm rms, 4, 0.50 µm rms")  # fmt: skip
+    assert_findings([found], [said])
 
 
-@pytest.mark.parametrize(("uncertainty", "level"), [(0.01, NOTE), (0.03, WARNING)])
-def test_a_fitted_setting_is_told_and_doubted_within_three_times_its_uncertainty(
-    uncertainty, level
-):
-    told = flank_findings(flanks(fitted=True, uncertainty=uncertainty))[1]
-    assert told.level == level
-    assert "from 5.00 µm rms down to 0.40 µm: pinion tilt angle 0.0500 ±" in told.headline
-
-
-def test_errors_of_single_teeth_that_the_gear_file_lacks_are_told():
-    assert "--table" in flank_findings(flanks(single=1))[-1].detail
+def test_a_fitted_setting_within_three_times_its_uncertainty_is_doubted():
+    sure = flank_findings(flanks(fitted=True, uncertainty=0.0166))[1]
+    doubted = flank_findings(flanks(fitted=True, uncertainty=0.0167))[1]
+    assert [sure.level, doubted.level] == [NOTE, WARNING]
+    assert "Not significantly different from zero: pinion: tilt angle" in doubted.detail
 
 
 def test_the_largest_sideband_is_found_beside_the_mesh_order_and_not_on_it():
     # order 1 and the mesh order 5 are larger, but no sidebands
     assert largest_sideband(teeth(), "pinion") == (6, pytest.approx(0.5e-6), 100.0)
-    largest, sideband, hunting = tooth_findings(teeth())
-    assert "largest order of the pinion is 1: 8.00 µm" in largest.headline
-    assert "mesh order 5 is order 6: 0.500 µm at 100 N·m" in sideband.headline
-    assert "0.020 µm rms" in hunting.headline
-    numbers = {one.name: one.value for one in tooth_numbers(teeth())}
-    assert numbers["once a turn of the pinion, at most"] == pytest.approx(8.0)
+    said = [
+        (NOTE, "largest order of the pinion", "1, 8.00 µm, 50 N·m, 1, 5"),
+        (NOTE, "largest sideband of the pinion beside its mesh order",
+         "5, 6, 0.500 µm, 100 N·m"),
+        (NOTE, "hunting turn", "0.020 µm rms"),
+    ]  # fmt: skip
+    assert_findings(tooth_findings(teeth()), said)
+    known = [
+        ("once a turn of the pinion, at most", 8.0, "µm", "8.00"),
+        ("largest sideband of the pinion", 0.5, "µm", "0.500"),
+        ("hunting turn alone", 0.02, "µm rms", "0.0200"),
+    ]
+    assert_numbers(tooth_numbers(teeth()), known)
 
 
-def test_both_reports_have_figures_and_tables(tmp_path):
-    (tmp_path / "flanks.png").write_bytes(b"a picture")
-    html = report_html(flank_report(flanks(fitted=True), tmp_path / "flanks.png"))
-    for part in ("Deviation of the gear drive flank", "Settings that explain", "14.95"):
-        assert part in html
-    html = report_html(tooth_report(teeth()))
-    for part in ("Largest orders of the pinion", "Added error over a turn of the pinion"):
-        assert part in html
-    hunting = [one for one in tooth_report(teeth()).tables if "hunting" in one.title]
-    order = 1.0 + TEETH / GEAR_TEETH
-    assert hunting[0].rows[0][:2] == [f"{order:.4f}", f"{order * GEAR_TEETH / TEETH:.4f}"]
-    assert hunting[0].rows[0][2:] == pytest.approx([0.0123, 0.0456])
+def test_the_report_of_single_teeth_has_its_known_tables():
+    report = tooth_report(teeth())
+    order = 1.0 + TEETH / GEAR_TEETH  # 2.667 of the pinion, 1.6 of the gear
+    rows = {1: (8.0, 8.0), 5: (3.0, 3.0), 6: (0.2, 0.5)}
+    rows |= {one: 2 * (1e-3 * (11 - one),) for one in (2, 3, 4, 7, 8, 9, 10)}
+    tables = {
+        "Largest orders of the pinion": [
+            ["order", "50 N·m [µm]", "100 N·m [µm]"],
+            *([order, *sizes] for order, sizes in rows.items()),
+        ],
+        "Orders of the hunting turn alone": [
+            ["order of the pinion", "order of the gear", "50 N·m [µm]", "100 N·m [µm]"],
+            ["2.6667", "1.6000", 0.0123, 0.0456],
+        ],
+    }
+    assert order == teeth()["hunting_order"]
+    assert_tables(report.tables, tables)
+    assert "Added error over a turn of the pinion" in report_html(report)
     whole = teeth().isel(hunting_order=slice(0, 0))
-    assert not any("hunting" in one.title for one in tooth_report(whole).tables)
+    assert [one.title for one in tooth_report(whole).tables] == ["Largest orders of the pinion"]

@@ -1,7 +1,6 @@
 """Findings, key numbers and report of an optimisation, from a dataset with known answers."""
 
 import numpy as np
-import pytest
 import xarray as xr
 
 from gearlube.report.page import report_html
@@ -9,6 +8,7 @@ from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.optimise.findings import decibels, findings, numbers
 from gearlube.studies.optimise.report import optimise_report
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
 
 # what, unit, before, after, limit: the pressure just at its limit, the loss within, the last worse
 MEASURES = [
@@ -20,12 +20,20 @@ MEASURES = [
 
 
 def optimised(measures=MEASURES, after=(2.0, 10.0), value=3.0, improved=1):
-    """Two torques; all orders fall from 20 µrad to `after`; one field between 0 and 12 µm."""
-    whine = 1e-6 * np.array([[[20.0, 25.0], [20.0, 30.0]], [[after[0], 5.0], [after[1], 12.0]]])
+    """Two torques; all orders fall from 20 and 24 µrad to `after`; one field from 0 to 12 µm.
+
+    At the higher torque all measures are 1.5 times as large.
+    """
+    whine = 1e-6 * np.array([[[20.0, 25.0], [24.0, 30.0]], [[after[0], 5.0], [after[1], 12.0]]])
     phase = np.arange(8) / 8
     error = 1e-5 * np.cos(2.0 * np.pi * phase) * np.ones((2, 2, 2, 1))
     torque, name, unit, before, later, limit = zip(
-        *((at, *row) for at in (50.0, 100.0) for row in measures), strict=True
+        *(
+            (at, *row[:2], more * row[2], more * row[3], row[4])
+            for at, more in ((50.0, 1.0), (100.0, 1.5))
+            for row in measures
+        ),
+        strict=True,
     )
     return xr.Dataset(
         {
@@ -62,57 +70,92 @@ def optimised(measures=MEASURES, after=(2.0, 10.0), value=3.0, improved=1):
     )
 
 
-def told(dataset, part):
-    return next(one for one in findings(dataset) if part in one.headline)
-
-
-def test_the_change_at_each_torque_is_told_in_decibels():
-    # a tenth is -20 dB, a half -6.02 dB; with the error 25 to 5 is -13.98 dB, 30 to 12 is -7.96 dB
-    assert list(decibels(optimised()).values()) == pytest.approx([-20.0, -6.0206], abs=1e-3)
-    first, second = findings(optimised())[:2]
-    assert (first.level, second.level) == (GOOD, GOOD)
-    assert "−20.0 dB at 50 N·m, −6.0 dB at 100 N·m" in first.headline
-    assert "−14.0 dB at 50 N·m, −8.0 dB at 100 N·m" in second.headline
-    assert "lead slope +5 µm" in second.detail
-    assert findings(optimised(after=(2.0, 21.0)))[0].level == WARNING
-
-
-def test_a_limit_that_is_reached_is_active_and_one_that_is_passed_is_a_warning():
-    active = told(optimised(), "active")
-    assert active.level == NOTE
-    assert "2 of 4 limits are active: highest pressure at 50 N·m" in active.headline
+def test_a_limit_that_is_passed_is_a_warning_and_slack_ones_are_good():
     passed = [(*MEASURES[1][:3], 1.1, 1.0), *MEASURES[2:]]
-    broken = told(optimised(passed), "is not kept")
-    assert broken.level == WARNING
-    assert "1.10 GPa, allowed 1.00 GPa" in broken.headline
-    slack = [(*MEASURES[1][:3], 0.9, 1.0)]
-    assert told(optimised(slack), "none is active").level == GOOD
+    broken = findings(optimised(passed))[2:4]
+    said = [
+        (WARNING, "the limit of highest pressure is not kept … allowed",
+         "50 N·m, 1.10 GPa, 1.00 GPa"),
+        (WARNING, "the limit of highest pressure is not kept … allowed",
+         "100 N·m, 1.65 GPa, 1.50 GPa"),
+    ]  # fmt: skip
+    assert_findings(broken, said)
+    slack = findings(optimised([(*MEASURES[1][:3], 0.9, 1.0)]))[2:4]
+    assert_findings(
+        slack, [(GOOD, "kept, none is active", "2"), (GOOD, "No measure got worse", "")]
+    )
+    assert findings(optimised(after=(2.0, 25.0)))[0].level == WARNING
 
 
-def test_what_got_worse_is_named_with_its_growth():
-    worse = told(optimised(), "got worse")
-    assert worse.level == NOTE
-    assert "2 of 8 measures got worse" in worse.headline
-    assert "border at 50 N·m, 0.120 (+20.0 %)" in worse.headline
-    assert told(optimised(MEASURES[:3]), "No measure got worse").level == GOOD
+def test_fields_on_their_bounds_a_search_without_success_and_the_nominal_pair_are_told():
+    found = findings(optimised(value=12.0, improved=0))[4:]
+    said = [
+        (NOTE, "is at its bound: pinion.flank.crown_um", "1, 1, 12.0 µm"),
+        (WARNING, "found nothing better", ""),
+    ]
+    assert_findings(found, said)
+    pair = optimised()
+    nominal = pair.sel(design="better").assign_coords(design="nominal")
+    nominal["whine"] = 0.5 * nominal["whine"] + 7e-6 * (nominal["error"] != "none")
+    three = xr.concat(
+        [pair, nominal], "design", data_vars="different", coords="different", compat="equals"
+    )
+    # halves: 1 and 5 µrad without errors, 9.5 and 13 with
+    said = (NOTE, "best without errors has … the better pair",
+            "13.0 µrad, 12.0 µrad, −26.0 dB, 50 N·m, −13.6 dB, 100 N·m")  # fmt: skip
+    assert_findings(findings(three)[-1:], [said])
 
 
-def test_fields_on_their_bounds_and_a_search_without_success_are_told():
-    assert not [one for one in findings(optimised()) if "bound" in one.headline]
-    assert "pinion.flank.crown_um = 12.0 µm" in told(optimised(value=12.0), "bound").headline
-    assert told(optimised(improved=0), "found nothing better").level == WARNING
-
-
-def test_the_report_has_key_numbers_and_tables_before_and_after():
-    found = {one.name: one.value for one in numbers(optimised())}
-    assert found["change of all mesh orders at 50 N·m"] == pytest.approx(-20.0)
-    assert found["limits not kept"] == 0.0
-    dataset = optimised().assign_attrs(remarks="The pinion is undercut. Look.")
-    html = report_html(optimise_report(dataset, "gearlube optimise"))
-    for part in (
-        "The pinion is undercut.",
-        "Fields of the gear file",
-        "All measures before and after",
-        "−20.0 dB",
-    ):
-        assert part in html
+def test_an_optimisation_has_its_known_key_numbers_findings_and_tables():
+    assert list(decibels(optimised())) == [50.0, 100.0]
+    known = [
+        ("change of all mesh orders at 50 N·m", -20.0, "dB", "−20.0"),  # a tenth
+        ("change of all mesh orders at 100 N·m", 20.0 * np.log10(10.0 / 24.0), "dB", "−7.60"),
+        ("largest mesh orders before", 24.0, "µrad", "24.0"),
+        ("largest mesh orders after", 10.0, "µrad", "10.0"),
+        ("highest pressure before", 1.5, "GPa", "1.50"),
+        ("highest pressure after", 1.5 * 0.999, "GPa", "1.50"),
+        ("limits not kept", 0.0, "", "0"),
+    ]
+    assert_numbers(numbers(optimised()), known)
+    # with the error 25 to 5 is -13.98 dB, 30 to 12 is -7.96 dB
+    said = [
+        (GOOD, "All mesh orders together change by",
+         "−20.0 dB, 50 N·m, −7.6 dB, 100 N·m, 20.0, 2.00 µrad, 50 N·m, 24.0, 10.0 µrad, 100 N·m"),
+        (GOOD, "With the worst of … lead slope",
+         "1, −14.0 dB, 50 N·m, −8.0 dB, 100 N·m, +5 µm"),
+        (NOTE, "limits are active: highest pressure at 50 N·m; highest pressure",
+         "2, 4, 50 N·m, 100 N·m"),
+        (NOTE, "got worse … border", "2, 8, 50 N·m, 0.120, +20.0 %, 100 N·m, 0.180, +20.0 %"),
+    ]  # fmt: skip
+    assert_findings(findings(optimised()), said)
+    report = optimise_report(optimised(), "gearlube optimise")
+    texts = {  # after 1.5 times: GPa, and the share of the border
+        50: (("20", "2"), ("1", "0.999"), ("0.5", "0.4"), ("0.1", "0.12")),
+        100: (("30", "3"), ("1.5", "1.498"), ("0.75", "0.6"), ("0.15", "0.18")),
+    }
+    changes = ("-20.0 dB", "-0.1 %", "-20.0 %", "+20.0 %")
+    tables = {
+        "Fields of the gear file": [
+            ["field", "before", "after", "low", "high", "unit"],
+            ["pinion.flank.crown_um", "1", "3", "0", "12", "µm"],
+        ],
+        "All measures before and after": [
+            ["torque [N·m]", "measure", "unit", "before", "after", "change", "limit"],
+            *([f"{torque}", row[0], {"urad": "µrad", "1": ""}.get(row[1], row[1]), *pair, change,
+               "" if np.isnan(row[4]) else "kept"]
+              for torque, pairs in texts.items()
+              for row, pair, change in zip(MEASURES, pairs, changes, strict=True)),
+        ],
+        "With errors and without": [
+            ["torque [N·m]", "error", "before [µrad]", "after [µrad]"],
+            ["50", "none", 20.0, 2.0],
+            ["50", "lead_slope +5 um", 25.0, 5.0],
+            ["100", "none", 24.0, 10.0],
+            ["100", "lead_slope +5 um", 30.0, 12.0],
+        ],
+    }  # fmt: skip
+    assert_tables(report.tables, tables)
+    assert "−20.0 dB" in report_html(report)
+    undercut = optimised().assign_attrs(remarks="The pinion is undercut. Look.")
+    assert optimise_report(undercut).findings[0].headline == "The pinion is undercut."

@@ -57,8 +57,8 @@ def test_a_torque_beyond_the_table_is_named_with_value_limit_and_unit():
 
 
 def test_coasting_beyond_the_table_is_a_negative_torque():
-    # the static mesh force presses on an arm that depends on the phase, by a few per cent
-    assert axle_at(-450.0).output("range.torque") == pytest.approx(-450.0, rel=0.15)
+    # the arm of the force varies by less than a per cent
+    assert axle_at(-450.0).output("range.torque") == pytest.approx(-450.0, rel=1e-2)
 
 
 def test_the_torque_that_the_teeth_carry_counts_where_the_pinion_has_none():
@@ -170,9 +170,12 @@ def test_kernels_of_the_groups_equal_the_checked_functions():
     assert line_moes_groups(*numbers) == pytest.approx((line.M, line.L), rel=1e-12)
 
 
-@pytest.mark.parametrize(("end", "deviation"), [(MAP_RANGE[0], 0.15), (MAP_RANGE[1], 0.06)])
-def test_the_traction_formula_holds_to_the_ends_of_its_range(end, deviation):
-    """Exact maximum of a heated Eyring film: s sinh s = 4 X^2 exp(L), X^2 = 0.4392."""
+@pytest.mark.parametrize(("end", "low"), [(MAP_RANGE[0], 0.14), (MAP_RANGE[1], 0.054)])
+def test_the_traction_formula_is_as_low_at_the_ends_of_its_range_as_it_says(end, low):
+    """Exact maximum of a heated Eyring film: s sinh s = 4 X^2 exp(L), X^2 = 0.4392.
+
+    The formula is the straight line 1.74 (ln 1.2 + L/2) through it.
+    """
     s = end
     for _ in range(200):
         s = math.asinh(4.0 * 0.43923 * math.exp(end) / s) if end < 5 else (
@@ -181,4 +184,5 @@ def test_the_traction_formula_holds_to_the_ends_of_its_range(end, deviation):
     # eta0, K, beta and tau0 h such that the logarithm alone gives L
     h = 1e-6
     formula = plateau_stress_ratio(h, 0.0, math.exp(end) * 1e-6, 0.0, 2.0, 1e3, 1.0, 0.0)
-    assert formula == pytest.approx(s, rel=deviation)
+    assert formula == pytest.approx(1.74 * (math.log(1.2) + 0.5 * end), rel=1e-12)
+    assert 1.0 - formula / s == pytest.approx(low, abs=5e-4)

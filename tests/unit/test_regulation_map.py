@@ -109,10 +109,10 @@ def test_vecto_extends_the_map_by_a_loss_that_rises_with_torque(found, path):
     for sign in (1.0, -1.0):
         wheel = (sign * torque - loss) * RATIO
         assert extended.loss(100.0, wheel) == pytest.approx(loss, abs=1e-3)
-    # the axle itself at 500 N.m: the line is off by no more than some percent
+    # the axle itself at 500 N.m: beyond the map the loss bends by less than 1 % off the line
     pinion = torque * 0.8
     wheel = (pinion - direct(pinion, 100.0).sum()) * RATIO
-    assert extended.loss(100.0, wheel) == pytest.approx(direct(pinion, 100.0).sum(), rel=0.1)
+    assert extended.loss(100.0, wheel) == pytest.approx(direct(pinion, 100.0).sum(), rel=0.01)
 
 
 def test_the_raise_is_the_uncertainty_beyond_what_is_free(found):

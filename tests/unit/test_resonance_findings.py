@@ -13,7 +13,8 @@ from gearlube.studies.resonance.findings import (
     numbers,
     unstable_ranges,
 )
-from gearlube.studies.resonance.report import resonance_report, response_chart
+from gearlube.studies.resonance.report import resonance_report
+from tests.helpers.known_answers import assert_findings, assert_numbers
 
 # a branch that leans to low frequency: up to 0.95, back unstable to 0.85, and on with teeth apart
 RELATIVE = np.array([0.5, 0.8, 0.9, 0.95, 0.92, 0.88, 0.85, 0.9, 1.0, 1.1, 1.2])
@@ -72,34 +73,66 @@ def test_sweeps_jump_at_the_folds_and_land_on_the_next_stable_motion():
     assert unstable_ranges(response(), "two_dof") == [(0.88, 0.92)]
 
 
-def test_a_bent_resonance_is_told_with_its_peak_jumps_parted_teeth_and_unstable_range():
-    largest, jumped, parted, unstable = findings(response())
-    assert (largest.level, jumped.level, parted.level) == (WARNING, WARNING, WARNING)
-    assert "20.0 µm peak to peak, at 0.850" in largest.headline
-    # 20 um over 5 um; 60 0.85 1300 Hz / 13
-    assert "4.0 times" in largest.detail
-    assert "5100 rpm" in largest.detail
-    assert "twice: with rising speed at 0.950 (5700 rpm)" in jumped.headline
-    assert "rising speed from 1.000 to 1.000, with falling speed from 1.000 to 0.850" in (
-        parted.headline
+def test_a_bent_resonance_has_its_known_key_numbers_and_findings():
+    # 20 um over 5 um; 60 0.85 1300 Hz / 13 = 5100 rpm; a step is above 5 % of the larger motion
+    expected = [
+        (WARNING, "largest response … static deflection … Model: 2-DOF, dry",
+         "20.0 µm, 0.850, 4.0, 5100 rpm, 1300 Hz, 2"),
+        (WARNING, "jumps twice: with rising speed at … with falling speed at",
+         "0.950, 5700 rpm, 8.00 µm, 10.0 µm, 0.850, 5100 rpm, 20.0 µm, 2.00 µm"),
+        (WARNING, "teeth separate: with rising speed … with falling speed",
+         "1.000, 1.000, 1.000, 0.850, 40 %"),
+        (NOTE, "unstable from", "0.880, 0.920"),
+    ]  # fmt: skip
+    assert_findings(findings(response()), expected)
+    known = [
+        ("natural frequency", 1300.0, "Hz", "1300"),
+        ("largest response, 2-DOF, dry", 20.0, "µm", "20.0"),
+        ("mesh over natural frequency there, 2-DOF, dry", 0.85, "", "0.850"),
+        ("jumps, 2-DOF, dry", 2.0, "", "2"),
+        ("widest range of parted teeth, 2-DOF, dry", 0.15, "", "0.150"),
+    ]
+    assert_numbers(numbers(response()), known)
+
+
+def test_a_straight_response_has_its_known_key_numbers_and_findings():
+    straight = response(bent=False)
+    expected = [
+        # the seventh of eleven places from 0.5 to 1.2
+        (WARNING, "largest response", "20.0 µm, 0.920, 4.0, 5520 rpm, 1300 Hz, 2"),
+        (GOOD, "no jumps", ""),
+        (GOOD, "never separate", ""),
+        (GOOD, "are stable from", "0.5, 1.2"),
+    ]
+    assert_findings(findings(straight), expected)
+    assert [one.value for one in numbers(straight)] == pytest.approx([1300.0, 20.0, 0.92, 0.0, 0.0])
+    longer = straight.assign(periods=(("model", "row"), [[1.0] * 10 + [2.0]]))
+    assert findings(longer)[3].level == GOOD
+
+
+def test_what_happens_over_the_torque_is_told_from_stable_motions_alone():
+    torque = [20.0, 30.0, 50.0, 70.0]
+    load = xr.Dataset(
+        {
+            "separation_share": (("form", "row"), [[0.4, 0.3, 0.2, 0.0]]),
+            "stable": (("form", "row"), [[0.0, 1.0, 1.0, 1.0]]),
+            "torque": (("form", "row"), [torque]),
+        },
+        attrs={"relative_frequency": 0.9},
     )
-    assert "40 % of the time" in parted.detail
-    assert (unstable.level, "from 0.880 to 0.920" in unstable.headline) == (NOTE, True)
-
-
-def test_a_straight_response_has_no_jumps_and_no_parted_teeth():
-    _, jumped, parted, unstable = findings(response(bent=False))
-    assert [jumped.level, parted.level, unstable.level] == [GOOD, GOOD, GOOD]
-    found = {one.name: one.value for one in numbers(response(bent=False))}
-    assert found["jumps, 2-DOF, dry"] == 0.0
-    assert found["widest range of parted teeth, 2-DOF, dry"] == 0.0
+    last = findings(response(), load)[-1]
+    assert_findings([last], [(WARNING, "teeth apart exist from", "0.9, 30, 50 N·m")])
+    none = findings(response(), load.assign(stable=0.0 * load["stable"]))[-1]
+    assert_findings([none], [(GOOD, "no stable motion has teeth apart", "0.9")])
 
 
 def test_the_lubricated_model_leads_and_others_are_laid_beside_it():
     several = response(models=("two_dof", "one_dof", "two_dof_lubricated"))
     assert leading_model(several) == "two_dof_lubricated"
-    told = findings(several)[-1]
-    assert "without friction 20.0 µm (+0 %), with one degree of freedom 20.0 µm" in told.headline
+    several["peak_to_peak"][0], several["peak_to_peak"][1] = 1.1e-6 * SIZE, 0.75e-6 * SIZE
+    said = (NOTE, "simpler models is without friction … with one degree of freedom … lubricated",
+            "22.0 µm, +10 %, 15.0 µm, −25 %, 20.0 µm, 2")  # fmt: skip
+    assert_findings(findings(several)[4:], [said])
 
 
 def test_a_stopped_study_says_so_even_without_a_model():

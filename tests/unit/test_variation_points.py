@@ -98,8 +98,9 @@ def test_a_wrong_point_is_refused_by_its_check(study, point, said):
 
 
 def test_a_march_and_a_cycle_are_checked_where_all_is_right():
-    MarchPoint(axle=PAPER).check({"gear_set.backlash_um": 100.0})
-    CyclePoint(axle=PAPER).check({"vehicle.mass_kg": 1500.0})
+    points = {MarchPoint: ("gear_set.backlash_um", 100.0), CyclePoint: ("vehicle.mass_kg", 1500.0)}
+    for study, (key, value) in points.items():
+        assert study(axle=PAPER).check({key: value}) is None  # no refusal
 
 
 @pytest.mark.slow  # drives a cycle: two seconds

@@ -8,9 +8,16 @@ from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.whine.findings import findings, meeting_speed, movers, numbers
 from gearlube.studies.whine.report import whine_report
+from gearlube.studies.whine.run import whine_rows
 from tests.helpers.contact_cases import shipped_file
+from tests.helpers.known_answers import (
+    assert_cells,
+    assert_findings,
+    assert_numbers,
+    assert_tables,
+)
 
-RPM = np.array([1000.0, 2000.0, 3000.0])
+RPM, RPM_OF_RAD = np.array([1000.0, 2000.0, 3000.0]), 30.0 / np.pi
 NAMES = ["misalignment.pinion_axial", "pinion.machine.radial_setting_mm", "gear.machine.still"]
 # N per mm or per m: (speed, parameter, order)
 FORCE = np.array([[10.0, 5.0], [40.0, 90.0], [20.0, 30.0]])
@@ -66,23 +73,63 @@ def test_a_change_as_large_as_the_force_is_a_warning_that_the_size_is_rough():
     assert "the size is a rough estimate" in told.detail
 
 
-def test_the_largest_order_is_told_with_its_speed_and_where_it_meets_the_natural_frequency():
-    # 60 1300 Hz / (2 13)
-    assert meeting_speed(whine(), 2) == pytest.approx(3000.0)
-    first = findings(whine())[0]
-    assert "mesh order 2: 90.0 N, at 2000 rpm" in first.headline
-    assert "at 3000 rpm" in first.detail
-    found = {one.name: one.value for one in numbers(whine())}
-    assert found["largest change of the force by one tolerance, order 2"] == pytest.approx(9.0)
+def test_whine_has_its_known_key_numbers_findings_and_tables():
+    # 60 1300 Hz over 13 teeth and the order
+    assert [meeting_speed(whine(), order) for order in (1, 2)] == [6000.0, 3000.0]
+    known = [
+        ("natural frequency", 1300.0, "Hz", "1300"),
+        ("largest mesh force, order 1", 40.0, "N", "40.0"),
+        ("pinion speed of that force, order 1", 2000.0, "rpm", "2000"),
+        ("largest transmission error, order 1", 40.0, "µrad", "40.0"),
+        ("largest change of the force by one tolerance, order 1", 1.0, "N", "1.00"),
+        ("largest mesh force, order 2", 90.0, "N", "90.0"),
+        ("pinion speed of that force, order 2", 2000.0, "rpm", "2000"),
+        ("largest transmission error, order 2", 90.0, "µrad", "90.0"),
+        ("largest change of the force by one tolerance, order 2", 9.0, "N", "9.00"),
+    ]
+    assert_numbers(numbers(whine()), known)
+    said = [
+        (NOTE, "largest mesh force is that of … meets the natural frequency",
+         "2, 90.0 N, 2000 rpm, 1300 Hz, 3000 rpm, 1, 40.0 N, 2000 rpm"),
+        (NOTE, "most sensitive to misalignment",
+         "1, +0.01 mm, 1.00 N, 1000 rpm, 10 %"),
+        (NOTE, "most sensitive to pinion radial setting … Next",
+         "2, +0.01 mm, 9.00 N, 2000 rpm, 10 %, +0.01 mm, −2.00 N, 2000 rpm"),
+        (GOOD, "has a stable motion", "3"),
+    ]  # fmt: skip
+    assert_findings(findings(whine()), said)
+    heads = ["parameter", "grows by", "change of the force [N]", "at [rpm]", "force there [N]",
+             "change [%]"]  # fmt: skip
+    axial, radial = "misalignment P (pinion)", "pinion: radial setting"
+    tables = {
+        "What small errors change of mesh order 1": [
+            heads, [axial, "0.01 mm", 1.0, 1000.0, 10.0, 10.0]
+        ],
+        "What small errors change of mesh order 2": [
+            heads,
+            [radial, "0.01 mm", 9.0, 2000.0, 90.0, 10.0],
+            [axial, "0.01 mm", -2.0, 2000.0, 90.0, -100.0 * 2.0 / 90.0],
+        ],
+    }  # fmt: skip
+    assert_tables(whine_report(whine()).tables, tables)
+    # the largest change of order 1 of each: errors are a millionth of the forces
+    rows = [
+        [NAMES[0], 1e-5, "m", 1e-6, 1.0, 1000.0 / RPM_OF_RAD],
+        [NAMES[1], 0.01, "mm", 0.0, 0.0, 1000.0 / RPM_OF_RAD],
+        [NAMES[2], 0.01, "mm", 0.0, 0.0, 1000.0 / RPM_OF_RAD],
+    ]
+    for got, row in zip(whine_rows(whine()), rows, strict=True):
+        assert_cells(list(got), row, "whine.csv")
 
 
 def test_speeds_without_a_stable_motion_are_warnings():
-    assert findings(whine())[-1].level == GOOD
-    told = findings(whine(unstable=True))[-1]
-    assert (told.level, "At 1 of 3 speeds" in told.headline) == (WARNING, True)
-    gaps = whine()
+    gaps = whine(unstable=True)
     gaps["force"][2] = np.nan
-    assert any("no periodic motion" in one.headline for one in findings(gaps))
+    said = [
+        (WARNING, "no periodic motion was found, from", "1, 3, 3000, 3000 rpm"),
+        (WARNING, "the motion is not stable, from", "1, 3, 2000, 2000 rpm"),
+    ]
+    assert_findings(findings(gaps)[-2:], said)
 
 
 def test_the_report_has_its_figures_tables_and_inputs():

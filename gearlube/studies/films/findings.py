@@ -166,7 +166,7 @@ def _steady(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             NOTE,
             f"The largest pressure is {quantity_text(1e-9 * of['pressure_max'], 'GPa')}.",
-            f"{100.0 * hertz:+.1f} % relative to Hertz {dry}.",
+            f"{100.0 * hertz:+.1f} % relative to Hertz {dry}.".replace("-", "−"),
         ),
     ]
     friction = abs(of["friction_coefficient"])
@@ -297,7 +297,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
         *_ratio_numbers(dataset),
         Number("largest pressure", 1e-9 * float(dataset[f"{prefix}pressure_max"].max()), "GPa"),
         Number("largest estimated error", worst, "%", 2),
-        Number("films not converged", int(of["failures"])),
+        Number("films not converged", int(of["failures"]), digits=1),
     ]
     if prefix:
         found += [

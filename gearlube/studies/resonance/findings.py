@@ -207,7 +207,7 @@ def _beside(every: dict[str, ModelSummary], model: str) -> list[Finding]:
     own = every[model].peak
     told = [
         f"{words} {quantity_text(_MICRO * every[name].peak, 'µm')} "
-        f"({100.0 * (every[name].peak / own - 1.0):+.0f} %)"
+        f"({100.0 * (every[name].peak / own - 1.0):+.0f} %)".replace("-", "−")
         for name, words in _SIMPLER.items()
         if name in every and name != model
     ]

@@ -235,7 +235,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
             1e6 * float(dataset["dte_overall"].max()),
             "µm rms",
         ),
-        Number("critical speeds of orders 1 to 3 within the ramp", float(len(inside)), "", 2),
+        Number("critical speeds of orders 1 to 3 within the ramp", float(len(inside)), "", 1),
         Number(
             "margin of the loudest order to the next critical speed",
             100.0 * min(margins, default=np.nan),
