@@ -13,7 +13,7 @@ from gearlube.studies.resonance.findings import (
     numbers,
     unstable_ranges,
 )
-from gearlube.studies.resonance.report import resonance_report
+from gearlube.studies.resonance.report import resonance_report, response_chart
 from tests.helpers.known_answers import assert_findings, assert_numbers
 
 # a branch that leans to low frequency: up to 0.95, back unstable to 0.85, and on with teeth apart
