@@ -58,7 +58,7 @@ class _Datasets:
     def write(self, path: Path, key: str, result: xr.Dataset) -> None:
         write_compressed_dataset(result.assign_attrs({self._KEY: key}), path)
 
-    def read(self, path: Path) -> tuple[str | None, xr.Dataset]:
+    def read(self, path: Path) -> tuple[str, xr.Dataset]:
         dataset = read_dataset(path, sealed=True)
         return str(dataset.attrs.get(self._KEY, "")), dataset
 
