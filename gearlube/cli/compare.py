@@ -31,7 +31,9 @@ def compare(
     """
     from gearlube.cli.report_end import finish_with_report
     from gearlube.report.comparison import comparison
+    from gearlube.report.page import report_html
     from gearlube.report.stored import read_report
+    from gearlube_core.errors import GearLubeError, ParameterError
 
     with exit_on_error():
         names, data = [], []
@@ -42,6 +44,15 @@ def compare(
             data.append(read_report(where))
         if names[0] == names[1]:
             names = [str(Path(entry)) for entry in (first, second)]
-        report = comparison(data[0], data[1], (names[0], names[1]))
+        try:
+            report = comparison(data[0], data[1], (names[0], names[1]))
+            report_html(report)
+        except GearLubeError:
+            raise
+        except (LookupError, TypeError, ValueError, AttributeError, OverflowError) as reason:
+            raise ParameterError(
+                f"The reports of {names[0]} and {names[1]} must be as their studies wrote them, "
+                f"but one was changed or is damaged ({type(reason).__name__}). Run its study again."
+            ) from None
         with results_folder(out, "compare", overwrite=overwrite):
             finish_with_report(report, out)

@@ -62,11 +62,13 @@ def numbers_from(
                 f"The last value of {option} must be at least the first, {first:g}{space}, "
                 f"got {last:g}{space}. {cure}"
             )
-        count = math.floor((last - first) / step * (1.0 + 1e-9)) + 1
-        if count > most:
+        steps = (last - first) / step * (1.0 + 1e-9)
+        if not steps < most:
             raise ParameterError(
-                f"{option} must give at most {most} values, got {count}. Use a larger step."
+                f"{option} must give at most {most} values, got {steps + 1.0:.6g}. Use a larger "
+                "step."
             )
+        count = math.floor(steps) + 1
         values += [first + i * step for i in range(count)]
     rising = sorted({round(value, 12) for value in values})
     for value in rising:

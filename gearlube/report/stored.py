@@ -9,9 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from gearlube.report.parts import Figure, Report
+from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError, unread
 
 FORMAT = 1
+_LARGEST = 300_000_000  # bytes; pages with charts have some MB
 PAGE = "report.html"
 _DATA = re.compile(r'<script type="application/json" id="report-data">(.*?)</script>', re.DOTALL)
 
@@ -69,10 +71,16 @@ def read_report(folder: Path | str) -> dict[str, Any]:
         raise ParameterError(f"{unread('folder', path, FileNotFoundError())}. {cure}")
     if not page.is_file():
         raise ParameterError(f"{path} must hold a {PAGE}, got none. {cure}")
-    found = _DATA.search(page.read_text(encoding="utf-8", errors="replace"))
+    content = read_content(page, "report", cure=cure, largest=_LARGEST)
+    found = _DATA.search(content.decode("utf-8", errors="replace"))
     if found is None:
         raise ParameterError(f"{page} must hold the numbers of a report, got none. {cure}")
-    data: dict[str, Any] = json.loads(found.group(1))
+    try:
+        data: dict[str, Any] = json.loads(found.group(1))
+    except (ValueError, RecursionError) as reason:
+        raise ParameterError(f"{page} is damaged: {reason}. {cure}") from None
+    if not isinstance(data, dict):
+        raise ParameterError(f"{page} is damaged: its numbers have no names. {cure}")
     if data.get("format") != FORMAT:
         raise ParameterError(f"{page} must be of format {FORMAT}, got {data.get('format')}. {cure}")
     return data

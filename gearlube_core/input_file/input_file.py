@@ -59,6 +59,20 @@ logger = logging.getLogger(__name__)
 # a line whose value is a number with a comma
 _DECIMAL_COMMA = re.compile(r"^[^#\n=]*=[ \t]*(-?\d+),(\d+)[ \t]*(?:#.*)?$", re.MULTILINE)
 
+_LARGEST = 2_000_000  # bytes of a file
+_MOST = 50_000  # fields and numbers in it
+_LONGEST = 10_000  # characters of a text
+_GREATEST = 10**18  # whole number
+_SHOWN = 80  # characters of a wrong name or text
+_TOLD = 20  # wrong fields
+_DEEPEST = 20  # parts of a key
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
+# parts of bounded length, each taken once and whole, so that the search stays linear
+_DEEP_KEY = re.compile(
+    r"""(?<![\w-])(?:(?:[\w-]{1,200}+|"(?:[^"\\\n]|\\.){0,200}+"|'[^'\n]{0,200}+')"""
+    rf"[ \t]{{0,20}}+\.[ \t]{{0,20}}+){{{_DEEPEST},}}"
+)
+
 
 class Section(BaseModel):
     """A section of an input file: no unknown fields, no conversion of types."""
@@ -180,12 +194,15 @@ class InputFile(Section):
                     f"{where} is not the file that is asked for ({cls.title}): its fields are "
                     f"those of {other.words}. {other.use}"
                 ) from None
-            errors = [*reason.errors(), *cls._behind(data, reason)]
-            lines = [sentence(error, notes, cls.unmodelled) for error in errors]
+            errors = reason.errors()
+            if len(errors) <= _TOLD:
+                errors += cls._behind(data, reason)
+            lines = [sentence(error, notes, cls.unmodelled) for error in errors[:_TOLD]]
             known = {".".join(str(part) for part in error["loc"]) for error in errors}
             asked = [said for name, said in doubts(data, notes).items() if name not in known]
             raise ParameterError(
-                f"{where} has {len(lines)} wrong field(s). " + " ".join([*lines, *asked])
+                f"{where} has {len(errors)} wrong field(s). "
+                + " ".join(one if len(one) < 1000 else f"{one[:1000]}..." for one in lines + asked)
             ) from None
 
     @classmethod
@@ -223,7 +240,33 @@ def read_toml(path: str | Path, what: str = "file") -> dict[str, Any]:
 
     `what` is the kind of file in errors.
     """
-    return toml_data(read_content(path, what), str(path))
+    return toml_data(read_content(path, what, largest=_LARGEST), str(path))
+
+
+def _check_texts(data: dict[str, Any], head: str) -> None:
+    """Refuse more entries or longer texts than any file needs, and control characters in texts."""
+    found: list[tuple[str, Any]] = [("", data)]
+    for name, value in found:  # which grows by what each value holds
+        if isinstance(value, dict):
+            found += [(f"{name}.{key}".lstrip("."), one) for key, one in value.items()]
+        elif isinstance(value, list):
+            found += [(name, one) for one in value]
+        elif isinstance(value, str) and (len(value) > _LONGEST or _CONTROL.search(value)):
+            what = "a text without control characters"
+            if len(value) > _LONGEST:
+                what = f"a text of at most {_LONGEST} characters"
+            raise ParameterError(
+                f"{head} {name[:_SHOWN]} must be {what}, got {value[:_SHOWN]!r}. Shorten it."
+            )
+        elif isinstance(value, int) and abs(value) > _GREATEST:
+            raise ParameterError(
+                f"{head} {name[:_SHOWN]} must be a whole number of at most 18 digits, got one of "
+                f"{len(str(abs(value)))}. Write it as 1e20, for instance."
+            )
+        if len(found) > _MOST:
+            raise ParameterError(
+                f"{head} it must have at most {_MOST} entries, got more. Leave some out."
+            )
 
 
 def toml_data(content: bytes, where: str) -> dict[str, Any]:
@@ -236,7 +279,8 @@ def toml_data(content: bytes, where: str) -> dict[str, Any]:
     text = ""
     try:
         text = content.decode("utf-8-sig")
-        data = tomllib.loads(text)
+        deep = _DEEP_KEY.search(text)
+        data = {} if deep else tomllib.loads(text)
     except UnicodeDecodeError as reason:
         line = content.count(b"\n", 0, reason.start) + 1
         raise ParameterError(
@@ -247,6 +291,17 @@ def toml_data(content: bytes, where: str) -> dict[str, Any]:
         comma = _DECIMAL_COMMA.search(text)
         cure = f" Write {comma[1]}.{comma[2]}, with a point." if comma else ""
         raise ParameterError(f"{head} {reason}.{cure}") from None
+    except ValueError:
+        raise ParameterError(
+            f"{head} a whole number has too many digits. Write it as 1e20, for instance."
+        ) from None
+    except RecursionError:
+        raise ParameterError(
+            f"{head} its lists or tables are too deep. Write fewer levels."
+        ) from None
+    if deep:
+        raise ParameterError(f"{head} a key has more than {_DEEPEST} parts. Shorten it.")
+    _check_texts(data, head)
     if not data:
         raise ParameterError(f"{where} is empty: it has no field. Write the fields into it.")
     return data

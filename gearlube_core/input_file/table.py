@@ -15,7 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError, unread
+from gearlube_core.checks import read_content
+from gearlube_core.errors import ParameterError
 
 TABLES = (".csv", ".txt", ".tsv")  # endings of names of tables
 COMMENTS = ("#", "%", "//")  # a line that begins with one of them is no row
@@ -204,16 +205,7 @@ def read_table(
 
 
 def _text(path: str | Path, cure: str) -> str:
-    try:
-        with Path(path).open("rb") as file:
-            content = file.read(LARGEST + 1)
-    except OSError as reason:
-        raise ParameterError(f"{unread('table', path, reason)}. {cure}".rstrip()) from None
-    if len(content) > LARGEST:
-        raise ParameterError(
-            f"{path} must be a table of at most {LARGEST / 1e6:g} MB, got more. Leave out rows "
-            "or columns that are not needed."
-        )
+    content = read_content(path, "table", cure=cure, largest=LARGEST)
     wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     for encoding in ("utf-16",) if wide else ("utf-8-sig", "cp1252"):
         try:

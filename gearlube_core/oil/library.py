@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 
 from gearlube_core.checks import check_finite, check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_file import read_toml
 from gearlube_core.oil.walther_1931 import MM2_S, walther_coefficients, walther_double_log
 from gearlube_core.units import celsius_to_kelvin
 
@@ -33,11 +33,7 @@ def read_library(path: Path = LIBRARY_PATH) -> dict[str, Any]:
 
 @lru_cache(maxsize=8)
 def _read(path: Path, _changed: int) -> dict[str, Any]:
-    try:
-        with path.open("rb") as file:
-            return tomllib.load(file)
-    except tomllib.TOMLDecodeError as error:
-        raise ParameterError(f"{path} is not valid TOML: {error}.") from error
+    return read_toml(path, "lubricant library")
 
 
 def datum_value(table: Mapping[str, Any], key: str, where: str) -> Any:

@@ -12,6 +12,7 @@ from typing import Any
 
 from lxml import etree
 
+from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError, unread
 from gearlube_core.units import DEGREE
 
@@ -23,6 +24,7 @@ _SAME = {
 }
 
 _MODELS = (".rexs", ".rexsj", ".xml")  # files of an archive that hold a model
+_UNREADABLE = (ValueError, KeyError, TypeError, AttributeError, RecursionError)
 _LARGEST = 500_000_000  # bytes of an unpacked model
 
 
@@ -103,13 +105,14 @@ class RexsModel:
         """
         path = Path(path)
         try:
-            content = _unpacked(path) if zipfile.is_zipfile(path) else path.read_bytes()
+            whole = read_content(path, "REXS file", largest=_LARGEST)
+            content = _unpacked(path) if zipfile.is_zipfile(path) else whole
         except (OSError, zipfile.BadZipFile, RuntimeError, zlib.error) as reason:
             raise ParameterError(f"{unread('REXS file', path, reason)}.") from None
         kind = "JSON" if content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{" else "XML"
         try:
             root = _xml_of(json.loads(content)["model"]) if kind == "JSON" else _xml(content)
-        except (ValueError, KeyError, TypeError, AttributeError, etree.XMLSyntaxError) as reason:
+        except (*_UNREADABLE, etree.XMLSyntaxError) as reason:
             raise ParameterError(
                 f"{path} is not a readable {kind} file of REXS: {type(reason).__name__}, {reason}."
             ) from None

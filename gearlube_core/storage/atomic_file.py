@@ -131,6 +131,13 @@ def _check_claims(path: Path, size: int) -> None:
         )
 
 
+def check_unpacked(path: Path) -> None:
+    """Raise ValueError for a ZIP file whose parts claim too much memory; others pass."""
+    if zipfile.is_zipfile(path):
+        with zipfile.ZipFile(path) as archive:
+            _check_claims(path, sum(entry.file_size for entry in archive.infolist()))
+
+
 def _check_sealed(good: bool, path: Path) -> None:
     if not good:
         raise FileError(f"{path} has no checksum at its end, so it may be cut off.")

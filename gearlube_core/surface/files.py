@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError, unread, why
+from gearlube_core.checks import check_file
+from gearlube_core.errors import ParameterError, why
 from gearlube_core.input_file.table import TABLES
-from gearlube_core.storage.atomic_file import write_arrays, write_text
+from gearlube_core.storage.atomic_file import DAMAGED, check_unpacked, write_arrays, write_text
 from gearlube_core.surface.heights import MICROMETRE, HeightMap, Profile, Surface, evenly_spaced
-from gearlube_core.surface.measured_heights import filled, read_map, read_profile
+from gearlube_core.surface.measured_heights import LARGEST, filled, read_map, read_profile
 from gearlube_core.units import MILLIMETRE
 
 SUFFIXES = (*TABLES, ".npz", ".nc", ".sdf", ".x3p", ".sur", ".al3d")
@@ -156,9 +157,9 @@ def _package(name: str, path: Path) -> Any:
 
 
 def _read(path: Path, kind: str, read: Any, error: type[Exception]) -> Any:
+    check_file(path, f"{kind} file", largest=LARGEST)
     try:
+        check_unpacked(path)
         return read(path)
-    except FileNotFoundError as reason:
-        raise ParameterError(f"{unread(f'{kind} file', path, reason)}.") from None
-    except (error, OSError, ValueError, KeyError) as reason:
+    except (error, *DAMAGED) as reason:
         raise ParameterError(f"{path} is not a readable {kind} file: {why(reason)}.") from None

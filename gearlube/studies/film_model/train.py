@@ -11,7 +11,7 @@ from gearlube.studies.film_model.kinds import kind_of
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
-from gearlube_core.checks import check_address
+from gearlube_core.checks import check_address, read_content
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_text
@@ -80,8 +80,8 @@ def check_plan(plan: FilmPlan, folder: Path) -> None:
         return
     try:
         # a plan of before has no names that were added since
-        stored = {**FilmPlan().described(), **json.loads(path.read_text(encoding="utf-8"))}
-    except (OSError, ValueError, TypeError) as reason:
+        stored = FilmPlan().described() | json.loads(read_content(path, "plan"))
+    except (ValueError, TypeError, RecursionError) as reason:
         raise ParameterError(
             f"{path} must be the plan of the films in its folder, got {reason}. Give another --out."
         ) from None
@@ -105,7 +105,7 @@ def stored_plan(folder: Path) -> FilmPlan:
     """
     path = folder / PLAN
     try:
-        stored = json.loads(path.read_text(encoding="utf-8"))
+        stored = json.loads(read_content(path, "plan"))
         return FilmPlan.of(stored)
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise ParameterError(

@@ -174,6 +174,8 @@ def make(
         check_within("--seed", seed, 0, 2**63)
         check_within("--points", points, 16, 1_000_000)
         check_within("--rows", rows, 16, 100_000)
+        if width_mm is not None:
+            _check_size(points, rows)
         request = RoughnessRequest(
             arithmetic_mean=_height("--ra-um", ra_um),
             root_mean_square=_height("--rq-um", rq_um),
@@ -245,6 +247,7 @@ def extrude(
             angle = check_within("--angle-deg", angle_deg, -80.0, 80.0, "deg") * DEGREE
             lay = Lay.closing(profile.length, width, angle)
         logger.info("Lay: %.4f deg from y towards x.", lay.angle / DEGREE)
+        _check_size(profile.height.size, rows)
         drawn = ExtrudedProfile(profile=profile, lay=lay)
         return {
             "profile": profile,
@@ -325,6 +328,15 @@ def _period(file: str, part_um: str | None) -> Profile:
             f"--part-um must be start:length in um, got {part_um!r}. Write, for instance, 500:149."
         )
     return periodic_section(levelled(profile), start, length)
+
+
+_MOST_HEIGHTS = 4096**2  # of a map: some 500 MB while it is made
+
+
+def _check_size(points: int, rows: int) -> None:
+    check_within(
+        "--points times --rows", points * rows, 0, _MOST_HEIGHTS, "", "Take fewer of one of them."
+    )
 
 
 def _run(

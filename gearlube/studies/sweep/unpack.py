@@ -5,12 +5,17 @@ from __future__ import annotations
 import shutil
 import tempfile
 import zipfile
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from gearlube_core.errors import ParameterError
+from gearlube_core.checks import read_content
+from gearlube_core.errors import ParameterError, why
+
+_LARGEST, _MOST = 500_000_000, 10_000  # bytes and files of an unpacked FMU; ours has 30 MB
+_CURE = "Build it again with `gearlube build-fmu`."
 
 
 def unpack(fmu: Path, directory: Path) -> Path:
@@ -22,11 +27,18 @@ def unpack(fmu: Path, directory: Path) -> Path:
         )
     try:
         with zipfile.ZipFile(fmu) as archive:
+            entries = archive.infolist()
+            size = sum(entry.file_size for entry in entries)
+            if size > _LARGEST or len(entries) > _MOST:
+                raise ParameterError(
+                    f"{fmu} must unpack to at most {_LARGEST / 1e6:g} MB in {_MOST} files, got "
+                    f"{size / 1e6:.0f} MB in {len(entries)}. {_CURE}"
+                )
             archive.extractall(directory)
-    except zipfile.BadZipFile as error:
-        raise ParameterError(
-            f"{fmu} is no FMU: {error}. Build it again with `gearlube build-fmu`."
-        ) from error
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, ValueError, OSError, EOFError) as error:
+        if isinstance(error, ParameterError):
+            raise
+        raise ParameterError(f"{fmu} is no FMU: {why(error)}. {_CURE}") from error
     return directory
 
 
@@ -52,7 +64,18 @@ def _description(directory: Path) -> Any:
             f"{directory} is no unzipped FMU: modelDescription.xml is missing. "
             "Give the .fmu file, or unzip it again."
         )
-    return etree.parse(str(description)).getroot()
+    content = read_content(description, "model description")
+    parser = etree.XMLParser(resolve_entities=False, no_network=True)
+    try:
+        root = etree.fromstring(content, parser)
+    except (etree.XMLSyntaxError, ValueError) as error:
+        raise ParameterError(f"{directory} is no unzipped FMU: {error}. {_CURE}") from None
+    if root.tag != "fmiModelDescription" or not root.get("guid"):
+        raise ParameterError(
+            f"{directory} must hold an FMU of FMI 2 with a GUID, got <{str(root.tag)[:80]}> of "
+            f"version {root.get('fmiVersion', 'unknown')[:80]}. {_CURE}"
+        )
+    return root
 
 
 def fmu_guid(directory: Path) -> str:
