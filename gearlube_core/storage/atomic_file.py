@@ -85,7 +85,7 @@ def write_arrays(path: Path, arrays: Mapping[str, Any], *, compress: bool = Fals
     with atomic_write(path) as partial:
         with partial.open("wb") as stream:
             save(stream, **arrays)
-        seal(partial)
+        seal(partial, flush=True)
 
 
 def read_arrays(path: Path, *, sealed: bool = False) -> Arrays:

@@ -18,12 +18,13 @@ _LENGTH = len(_MARK) + 64 + 1  # of the last line: mark, hexadecimal digits, end
 _TOGETHER = 1 << 20  # bytes
 
 
-def seal(path: Path) -> None:
-    """Write the checksum of a whole file at its end."""
+def seal(path: Path, *, flush: bool = False) -> None:
+    """Write the checksum of a whole file at its end, and flush it to the disk if asked."""
     with path.open("r+b") as stream:
         stream.write(_last_line(stream, stream.seek(0, os.SEEK_END)))
-        stream.flush()
-        os.fsync(stream.fileno())
+        if flush:
+            stream.flush()
+            os.fsync(stream.fileno())
 
 
 def check_seal(stream: BinaryIO, where: str) -> bool:

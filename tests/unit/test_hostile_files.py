@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 from gearlube.cli.ranges import numbers_from
 from gearlube.command import app
+from gearlube.studies.sweep.run import run_sweep
 from gearlube.studies.sweep.unpack import fmu_guid, unpacked
 from gearlube_core.errors import FileError, GearLubeError, ParameterError
 from gearlube_core.film_model.model import FilmModel
@@ -167,6 +168,32 @@ def test_broken_fmus_are_refused_in_words(case, tmp_path):
         fmu_guid(folder)
 
 
+HEAD = '<fmiModelDescription fmiVersion="2.0" modelName="a" guid="{1}">'
+NO_AXLES = {
+    "no model": (HEAD + "</fmiModelDescription>", "no valid model description"),
+    "other version": (HEAD.replace("2.0", "9.0") + "</fmiModelDescription>", "no valid model"),
+    "no variables": (
+        HEAD + '<CoSimulation modelIdentifier="a"/><ModelVariables/><ModelStructure/>'
+        "</fmiModelDescription>",
+        "no valid model description",
+    ),
+    "other variables": (
+        HEAD + '<CoSimulation modelIdentifier="a"/><ModelVariables><ScalarVariable name="x" '
+        'valueReference="0" causality="local"><Real/></ScalarVariable></ModelVariables>'
+        "<ModelStructure/></fmiModelDescription>",
+        "must have the variables of a gearlube hypoid axle",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", NO_AXLES)
+def test_an_fmu_that_is_no_axle_is_refused_before_anything_is_computed(case, tmp_path):
+    content, said = NO_AXLES[case]
+    (tmp_path / "modelDescription.xml").write_text(content)
+    with pytest.raises(ParameterError, match=said):
+        run_sweep(speeds_kmh=[50.0], preloads=[4500.0], fmu=tmp_path)
+
+
 @pytest.mark.parametrize(
     "text", ["0:1e308:1e-308", "-1e308:1e308:1", "0:1:1e-300", "0:1e300:1", "nan:1:1"]
 )
@@ -233,6 +260,7 @@ def test_options_whose_product_is_too_large_are_refused(command, tmp_path, monke
 MEASURED = """
 import resource, sys, time
 from pathlib import Path
+from gearlube.studies.sweep.run import run_sweep
 from gearlube.studies.sweep.unpack import unpacked
 from gearlube_core.errors import GearLubeError
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

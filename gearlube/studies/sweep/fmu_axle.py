@@ -20,6 +20,32 @@ _WARNING = 1  # fmi2Warning
 _LOADER_NOTE = "Fatal py exception"  # added by pythonfmu's loader, without information
 
 
+def axle_description(directory: Path, channels: Sequence[str]) -> Any:
+    """Return the model description of an unzipped FMU.
+
+    Raises
+    ------
+    ParameterError
+        It is not valid, or not that of a hypoid axle for co-simulation.
+    """
+    from fmpy import read_model_description
+
+    cure = "Build it with `gearlube build-fmu`."
+    try:
+        description = read_model_description(str(directory))
+    except Exception as error:  # FMPy raises no other class
+        lines = " ".join(str(error).split())[:300]
+        raise ParameterError(f"The FMU has no valid model description: {lines} {cure}") from None
+    there = {variable.name for variable in description.modelVariables}
+    missing = [name for name in (*INPUTS, *channels) if name not in there]
+    if missing or description.coSimulation is None:
+        lack = f"{', '.join(missing)[:300]} is missing" if missing else "it has no co-simulation"
+        raise ParameterError(
+            f"The FMU must have the variables of a gearlube hypoid axle, {lack}. {cure}"
+        )
+    return description
+
+
 class FmuAxle:
     """One instance of the axle FMU.
 
@@ -37,20 +63,14 @@ class FmuAxle:
     """
 
     def __init__(self, directory: Path, channels: Sequence[str]) -> None:
-        from fmpy import fmi2, read_model_description
+        from fmpy import fmi2
         from fmpy.fmi1 import FMICallException
 
-        description = read_model_description(str(directory))
+        description = axle_description(directory, channels)
         self.guid = description.guid
         self.messages: list[str] = []
         self.warnings: list[str] = []  # each said once a run
         self._variables = {v.name: v for v in description.modelVariables}
-        missing = [name for name in (*INPUTS, *channels) if name not in self._variables]
-        if missing:
-            raise ParameterError(
-                f"The FMU must have the variables of a gearlube hypoid axle, "
-                f"{', '.join(missing)} is missing. Build it with `gearlube build-fmu`."
-            )
         self._fmi = fmi2
         self._call_error = FMICallException
         # The callbacks must outlive the instance, hence an attribute.

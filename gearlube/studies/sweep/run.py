@@ -29,7 +29,7 @@ from gearlube.studies.sweep.axle_in_fmu import (
 )
 from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.datasets import merge, save
-from gearlube.studies.sweep.fmu_axle import FmuAxle
+from gearlube.studies.sweep.fmu_axle import FmuAxle, axle_description
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.operating_point import operation
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
@@ -172,6 +172,9 @@ def run_sweep(
         raise ParameterError("A sweep needs at least one speed and one preload, got none.")
     if jobs is not None:
         check_within("jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all processors.")
+    if fmu is not None and model.compile_first is not None:
+        with unpacked(Path(fmu)) as directory:
+            axle_description(directory, CHANNELS)
     car_axle = chosen_axle(fmu, mesh_table, axle)
     settings = settings or settings_of(car_axle.axle)
     check_operation(car_axle, settings, speeds)
