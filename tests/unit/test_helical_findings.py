@@ -1,10 +1,7 @@
 """Findings and key numbers of a helical pair, from datasets with known answers."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.helical.findings import (
@@ -14,99 +11,18 @@ from gearlube.studies.helical.findings import (
     meeting,
     numbers,
 )
-from gearlube.studies.helical.summary import summary_rows
-from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from tests.helpers.known_answers import assert_cells, assert_findings, assert_numbers
-
-RPM = np.pi / 30.0
-SPEEDS, TEETH = np.array([1000.0, 2000.0, 3000.0]), 30  # rpm; mesh at 500, 1000, 1500 Hz
-
-
-def sweep(natural=(4000.0,), film=True, margin=0.5, runs_at=2000.0):
-    """Order 2 is largest at 2000 rpm, 2 kHz: 1.5 um with the film and 0.7 um at mu 0.1."""
-    amplitude = np.full((3, 3), 0.1e-6)
-    amplitude[1, 1] = 1.5e-6
-    constant = np.full((2, 3, 3), 0.2e-6)
-    constant[1, 2, 0] = 0.7e-6
-    constant[0, 0, 0] = 9e-6  # at mu 0, not shown
-    data = {
-        "delta_z_harmonic": (("mu", "speed", "harmonic"), constant),
-        "mesh_frequency": ("speed", SPEEDS / 60.0 * TEETH),
-        "natural_frequency": ("mode", np.array(natural)),
-        "stability_margin": (("mu", "speed"), np.full((2, 3), margin)),
-    }
-    if film:
-        data["film_delta_z_harmonic"] = (("speed", "harmonic"), amplitude)
-    return xr.Dataset(
-        data,
-        coords={"mu": [0.0, 0.1], "speed": SPEEDS * RPM, "harmonic": [1, 2, 3]},
-        attrs={"pinion_speed": runs_at * RPM},
-    )
-
-
-def response(natural):
-    """Order 2 is largest with the film, the last case: 0.3 um; order 1 at mu 0.1: 0.9 um."""
-    return xr.Dataset(
-        {
-            "natural_frequency": ("mode", np.array(natural)),
-            "delta_z_harmonic": (
-                ("case", "harmonic"),
-                np.array([[0.9e-6, 0.2e-6, 0.0], [0.1e-6, 0.3e-6, 0.2e-6]]),
-            ),
-        },
-        coords={"case": ["0.1", "film"], "harmonic": [1, 2, 3]},
-        attrs={"mesh_frequency": 500.0, "pinion_speed": 1000.0 * RPM},
-    )
-
-
-def separation(share, runs_at=5000.0):
-    return xr.Dataset(
-        {
-            "separation_share": (("damping", "row"), np.array([[0.0, share, 0.0]])),
-            "speed": (("damping", "row"), np.array([[4000.0, 5000.0, 6000.0]]) * RPM),
-            "special_kind": (("damping", "special"), np.array([["fold", "fold", ""]])),
-        },
-        coords={"damping": [0.05]},
-        attrs={"mesh_damping_ratio": 0.05, "pinion_speed": runs_at * RPM},
-    )
-
-
-def contact(pressure):
-    peaks = np.array([[[1.0e9]], [[1.2e9]]]) * np.ones((2, 2, 1))
-    peaks[0, 1, 0] = pressure
-    return xr.Dataset(
-        {
-            "pressure_max": (("phase", "torque", "line"), peaks),
-            "K": (("phase", "torque"), np.array([[1.0, 4e8], [1.0, 6e8]])),
-            "transmission_error_ptp": ("torque", np.array([9.0, 0.4e-6])),
-        },
-        coords={"torque": [10.0, 200.0]},
-        attrs={"pinion_torque": 200.0},
-    )
-
-
-def stability(unstable_from):
-    factor = np.array([0.0, 1.0, 2.0, 3.0])
-    growth = np.where(factor[:, None] >= unstable_from, [1.0, -1.0], -1.0)
-    return xr.Dataset(
-        {"growth_variation": (("variation", "mesh_frequency"), growth)},
-        coords={"variation": factor, "mesh_frequency": [1e3, 2e3]},
-    )
-
-
-def film(ratio):
-    return xr.Dataset(
-        {
-            "film_ratio": ("point", np.array([4.0, ratio, 0.1])),
-            "line_load": ("point", np.array([1.0, 1.0, 0.0])),  # the last carries nothing
-        },
-        attrs={
-            "operating_mean_coefficient": 0.04,
-            "operating_power_loss": 150.0,
-            "roughness_rms": 5e-7,
-            "oil_temperature": 353.15,
-        },
-    )
+from tests.helpers.helical_results import (
+    RPM,
+    contact,
+    everything,
+    film,
+    losses,
+    response,
+    separation,
+    stability,
+    sweep,
+)
+from tests.helpers.known_answers import assert_findings, assert_numbers
 
 
 def test_the_largest_order_is_that_of_the_film_where_there_is_one():
@@ -206,39 +122,6 @@ def test_the_least_film_ratio_is_that_of_loaded_points(ratio, level):
     assert f"ratio λ is {ratio:.2f}" in one.headline
 
 
-def losses(outside=None):
-    """Two torques, speeds and temperatures; the largest loss is at the last of each."""
-    dims = ("temperature", "torque", "speed")
-    power = np.array([[[11.0, 13.0], [17.0, 19.0]], [[23.0, 29.0], [31.0, 60.0]]])
-    data = {"loss": (("part", *dims), np.stack([0.75 * power, 0.25 * power]))}
-    if outside is not None:
-        data["share_outside"] = (dims, outside)
-        data["loss_bound"] = (dims, 0.02 * power * (1.0 + (power == 60.0)))
-        data["by_formulas"] = (dims, np.asarray(outside) > 0.05)
-    return xr.Dataset(
-        data,
-        coords={
-            "part": ["sliding", "rolling"],
-            "temperature": [40.0, 90.0],
-            "torque": [100.0, 200.0],
-            "speed": [1000.0, 3000.0],
-        },
-        attrs={"not_modelled": "windage", "film_model_line": "mine"},
-    )
-
-
-def everything():
-    return {
-        "response": response([3000.0]),
-        "sweep": sweep(),
-        "contact": contact(1.4e9),
-        "separation": separation(0.25),
-        "stability": stability(2.0),
-        "film": film(1.3),
-        "losses": losses(),
-    }
-
-
 def test_a_study_has_its_known_key_numbers_with_the_same_names_in_every_run():
     expected = [
         ("dynamic transmission error in operation", 0.3, "µm", "0.300"),
@@ -311,83 +194,3 @@ def test_solved_films_of_a_study_say_how_far_they_are_to_be_trusted():
         (WARNING, "Losses are by formulas", "2, 8, 1000, 3000 rpm, 50, 70 %, 95 %"),
     ]
     assert_findings(findings({"losses": losses(outside)})[1:], said)
-
-
-def test_a_study_has_its_known_rows_of_the_summary():
-    of = everything()
-    of["contact"] = of["contact"].assign(
-        K_tangent=1.1 * of["contact"]["K"], corner_share=0.07 + 0.0 * of["contact"]["K"]
-    )
-    of["contact"].attrs["iso_mesh_stiffness"] = 4.2e8
-    moves = {
-        name: ("phase", [0.0, (k + 2) * scale])
-        for scale, names in (
-            (1e-6, ("delta_z", "u_xp", "u_yp", "u_zp")),
-            (10.0, ("F_xp", "F_yp", "F_zp")),
-        )
-        for k, name in enumerate(names)
-    }
-    of["response"] = of["response"].assign(moves).assign(friction_power=("case", [7.0, 11.0]))
-    of["response"].attrs["mean_mesh_stiffness"] = 4.4e8
-    sweep_forces = {
-        f"{name}_harmonic": factor * of["sweep"]["delta_z_harmonic"]
-        for name, factor in (("F_xp", 2e8), ("F_yp", 3e8), ("F_zp", np.nan))
-    }
-    of["sweep"] = of["sweep"].assign(sweep_forces)
-    of["stability"]["growth_variation_light"] = stability(1.0)["growth_variation"]
-    of["separation"]["peak_to_peak"] = 5e-5 * of["separation"]["separation_share"]
-    of["film"].attrs["loss_factor"] = 0.12
-    of["losses"] = losses(np.full((2, 2, 2), 0.02))
-    file = HelicalGearFile.named("he_2007")
-    results = SimpleNamespace(settings=SimpleNamespace(file=file), datasets=of)
-    pair, *rows = (list(one) for one in summary_rows(results)[2:])
-    assert pair[:2] == ["pair", "total contact ratio"]
-    unstable = "least factor on the mesh variation that is unstable"
-    expected = [
-        ["loaded contact", "mean mesh stiffness along x, secant, at 200 N.m", 5e8, "N/m"],
-        ["loaded contact", "mean mesh stiffness along x, tangent, at 200 N.m", 5.5e8, "N/m"],
-        ["loaded contact", "ISO 6336-1 mesh stiffness along x", 4.2e8, "N/m"],
-        ["loaded contact", "secant stiffness, range over mean, at 200 N.m", 0.4, "1"],
-        ["loaded contact", "transmission error, peak to peak, at 200 N.m", 0.4e-6, "m"],
-        ["loaded contact", "highest share outside the plane of contact, at 200 N.m", 0.07, "1"],
-        ["operating point", "mean mesh stiffness along x, of the vibrating pair", 4.4e8, "N/m"],
-        *(
-            row
-            for case, power in (("mu 0.1", 7.0), ("oil film", 11.0))
-            for row in (
-                *(["operating point", f"{name} peak to peak, {case}", values[1], unit]
-                  for name, (_, values) in moves.items()
-                  for unit in ("N" if name.startswith("F") else "m",)),
-                ["operating point", f"friction power, {case}", power, "W"],
-            )
-        ),
-        # 0.7 um at mu 0.1 and 3000 rpm
-        *(
-            ["speed sweep", f"{words}largest first mesh order of {name}, mu 0.1", value, unit]
-            for name, size, of_it in (
-                ("delta_z", 0.7e-6, "m"), ("F_xp", 140.0, "N"), ("F_yp", 210.0, "N")
-            )
-            for words, value, unit in (("", size, of_it), ("speed of the ", 3000.0, "rpm"))
-        ),
-        ["speed sweep", "least 1 - |Floquet multiplier|", 0.5, "1"],
-        ["stability", f"{unstable}, with the pair's damping", 2.0, "1"],
-        ["stability", f"{unstable}, with light damping", 1.0, "1"],
-        ["separation", "largest delta_z peak to peak, damping ratio 0.05", 1.25e-5, "m"],
-        ["separation", "longest time without contact, damping ratio 0.05", 0.25, "1"],
-        ["separation", "folds of the branch, damping ratio 0.05", 2.0, "1"],
-        ["oil film", "constant coefficient of friction of the same loss", 0.04, "1"],
-        ["oil film", "power loss, static loads", 150.0, "W"],
-        ["oil film", "loss factor H_V", 0.12, "1"],
-        *(
-            ["losses", f"power lost at {torque} N.m, {speed} rpm, {degc} degC, by solved films "
-             "(98 % of the load covered)", power, "W"]
-            for power, degc, torque, speed in (
-                (11.0, 40, 100, 1000), (13.0, 40, 100, 3000), (17.0, 40, 200, 1000),
-                (19.0, 40, 200, 3000), (23.0, 90, 100, 1000), (29.0, 90, 100, 3000),
-                (31.0, 90, 200, 1000), (60.0, 90, 200, 3000),
-            )
-        ),
-    ]  # fmt: skip
-    assert [one[1] for one in rows] == [one[1] for one in expected]
-    for got, row in zip(rows, expected, strict=True):
-        assert_cells(got, row, row[1])

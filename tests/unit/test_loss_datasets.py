@@ -254,3 +254,12 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
 def test_the_axle_of_these_datasets_has_what_they_read():
     axle = mohammadpour_2015_axle()
     assert all(hasattr(axle, name) for name in vars(an_axle()))
+
+
+def test_the_regime_of_churning_is_that_of_the_oils_kinematic_viscosity(monkeypatch):
+    monkeypatch.setattr(datasets, "fast_regime", lambda speed, nu, p: p * speed * nu)
+    oil = SimpleNamespace(dynamic_viscosity=lambda kelvin: 1e-3 * kelvin, density=800.0)
+    axle = an_axle(oil=oil, kernel_parameters=lambda: SimpleNamespace(churning=2.0))
+    found = datasets._churning_regime(axle, np.array([300.0, 400.0]), np.array([10.0, 30.0]))
+    nu = np.array([[0.3 / 800.0], [0.4 / 800.0]])
+    np.testing.assert_allclose(found, 2.0 * nu * [10.0, 30.0], rtol=1e-12)

@@ -8,7 +8,7 @@ from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.optimise.findings import decibels, findings, numbers
 from gearlube.studies.optimise.report import optimise_report
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
+from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables, quantities
 
 # what, unit, before, after, limit: the pressure just at its limit, the loss within, the last worse
 MEASURES = [
@@ -129,7 +129,21 @@ def test_an_optimisation_has_its_known_key_numbers_findings_and_tables():
         (NOTE, "got worse … border", "2, 8, 50 N·m, 0.120, +20.0 %, 100 N·m, 0.180, +20.0 %"),
     ]  # fmt: skip
     assert_findings(findings(optimised()), said)
-    report = optimise_report(optimised(), "gearlube optimise")
+    better = optimised().assign(
+        front_whine=("front", [0.6, 0.8]),
+        front_loss=("front", [0.95, 0.9]),
+        front_value=(("front", "parameter"), [[7.0], [5.0]]),
+    )
+    report = optimise_report(better, "gearlube optimise")
+    charts = {one.name: [list(line.y) for line in one.chart.data] for one in report.figures}
+    np.testing.assert_allclose(charts["mesh_orders"], [[20.0], [2.0], [24.0], [10.0]])
+    shape = 10.0 * np.cos(2.0 * np.pi * np.arange(9) / 8)
+    np.testing.assert_allclose(charts["transmission_error"], np.tile(shape, (4, 1)), atol=1e-5)
+    errors = report.figures[2].chart.data
+    spread = [[20.0, 25.0], [2.0, 5.0], [24.0, 30.0], [10.0, 12.0]]
+    np.testing.assert_allclose([one.x for one in errors], spread)
+    np.testing.assert_allclose(np.ravel(charts["front"][0]), [0.95, 0.9])
+    assert quantities(report.subtitle) == ["1", "50", "100 N·m", "1", "8"]
     texts = {  # after 1.5 times: GPa, and the share of the border
         50: (("20", "2"), ("1", "0.999"), ("0.5", "0.4"), ("0.1", "0.12")),
         100: (("30", "3"), ("1.5", "1.498"), ("0.75", "0.6"), ("0.15", "0.18")),
@@ -153,6 +167,11 @@ def test_an_optimisation_has_its_known_key_numbers_findings_and_tables():
             ["50", "lead_slope +5 um", 25.0, 5.0],
             ["100", "none", 24.0, 10.0],
             ["100", "lead_slope +5 um", 30.0, 12.0],
+        ],
+        "Mesh orders against loss": [
+            ["mesh orders", "sliding loss", "pinion.flank.crown_um"],
+            [0.6, 0.95, 7.0],
+            [0.8, 0.9, 5.0],
         ],
     }  # fmt: skip
     assert_tables(report.tables, tables)

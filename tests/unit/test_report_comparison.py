@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 from gearlube.command import COMMANDS, command_line
 from gearlube.report.charts import Axis, Line, heat_map, line_chart
 from gearlube.report.comparison import changes_of, comparison, differing_inputs
+from gearlube.report.numbers import column_texts, number_text
 from gearlube.report.page import report_html, write_report
 from gearlube.report.parts import Figure, Finding, Input, Number, Report
 from gearlube.report.stored import read_report
@@ -106,3 +107,38 @@ def test_command_writes_a_report_and_refuses_other_studies(folders, caplog):
     assert not (folders / "not").exists()
     with pytest.raises(ParameterError, match="Both folders must be of one study"):
         comparison(read_report(folders / "a"), read_report(folders / "other"), ("a", "b"))
+
+
+def test_small_differences_show_and_long_lists_end(tmp_path):
+    """Six numbers differ; the largest five are told, with the digits that they need."""
+    values = {"a": 100.0, "b": 1000.0, "c": 5.0, "d": 8.0, "e": 16.0, "f": 0.0, "same": 3.0}
+    other = {"a": 100.3, "b": 1000.0001, "c": 6.0, "d": 4.0, "e": 12.0, "f": 2.0, "same": 3.0}
+    for name, chosen in (("a", values), ("b", other)):
+        numbers = [Number(key, value, "W") for key, value in chosen.items()]
+        inputs = [Input(f"i{k}", f"{k}{name}") for k in range(7)]
+        one = Report(study="map", title="T", numbers=numbers, inputs=inputs)
+        write_report(one, tmp_path / name)
+    found = comparison(*both(tmp_path), ("old", "new"))
+    assert [one.headline for one in found.findings] == [
+        "F: 0 W in A, 2.00 W in B.",
+        "D: 8.00 W in A, 4.00 W in B (−50.0 %).",
+        "E: 16.0 W in A, 12.0 W in B (−25.0 %).",
+        "C: 5.00 W in A, 6.00 W in B (+20.0 %).",
+        "A: 100.0 W in A, 100.3 W in B (+0.300 %).",
+        "6 of 7 key numbers differ; the table lists all.",
+        "7 inputs differ.",
+    ]
+    assert found.findings[-1].detail.endswith("i4: 4a in A, 4b in B; and 2 more.")
+    numbers, inputs, *_ = found.tables
+    assert numbers.rows[0] == ["a", "W", "100.0", "100.3", "+0.300", "+0.300"]
+    assert numbers.rows[1][2:4] == ["1000.00", "1000.00"]  # six digits at most
+    assert numbers.rows[5] == ["f", "W", "0", "2.00", "+2.00", "–"]
+    assert numbers.rows[6] == ["same", "W", "3.00", "3.00", "0", "0"]
+    assert inputs.rows[0] == ["i0", "0a", "0b"]
+
+
+def test_numbers_of_any_size_are_written_with_their_digits():
+    texts = {1.236e-5: "0.00001236", 9.9e-6: "9.900·10⁻⁶", 0.5: "0.5000", 123456.0: "123456"}
+    texts |= {-1.5: "−1.500", 1e7: "1.000·10⁷", -0.0: "0", math.inf: "∞", -math.inf: "−∞"}
+    assert {value: number_text(value, 4) for value in texts} == texts
+    assert column_texts([1.0, 12.345, 1e-6]) == ["1.00", "12.3", "1.00·10⁻⁶"]

@@ -6,9 +6,9 @@ import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.runup.findings import findings, numbers
-from gearlube.studies.runup.report import tables
+from gearlube.studies.runup.report import runup_report, tables
 from gearlube.studies.runup.summary import summary_csv
-from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
+from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables, quantities
 
 RPM = np.pi / 30.0  # rad/s
 KMH = 3.6 * 0.3 * 10.0 / 40.0 * RPM  # of the car at 1 rpm of the pinion
@@ -36,8 +36,8 @@ def ramp(duration=20.0, separated=0.013, ranges=""):
     for (mode, order), (rpm, damping) in CRITICAL.items():
         critical[:, ("turning", "axial").index(mode), order - 1] = rpm * RPM, damping
     where = ("block", "bearing", "direction")
-    loss = np.full((10, 2), 7.0)
-    loss[-1] = 100.0, 40.0
+    loss = np.full((20, 2), 7.0)
+    loss[-2:] = [110.0, 50.0], [90.0, 30.0]
     return xr.Dataset(
         {
             "block_speed": ("block", BLOCKS * RPM),
@@ -68,6 +68,20 @@ def ramp(duration=20.0, separated=0.013, ranges=""):
             "setting_start_speed": 100.0,
             "setting_end_speed": 200.0,
             "setting_duration": duration,
+            "setting_pinion_torque": 80.0,
+            "setting_oil_temperature": 353.15,
+            "setting_order_resolution": 0.25,
+            "setting_highest_frequency": 4000.0,
+            "setting_sample_rate": 32768.0,
+            "setting_settling_time": 1.0,
+            "gearlube_version": "1",
+            "axle": "made",
+            "axle_source": "by hand",
+            "mesh_table": "a table",
+            "bearing_preload": 2500.0,
+            "oil": "an_oil",
+            "inputs_given": '[["oil", "an_oil", "", "given", ""]]',
+            "inputs_assumed": "[]",
             "ranges_left": ranges,
         },
     )
@@ -167,3 +181,25 @@ def test_a_ramp_has_its_known_tables_and_rows():
         "run-up,11.0,1500.0,42.412,65.0,50.0,7.0,2.0,3.1,3.0,0.7,0.2",
         "run-up,19.0,2000.0,56.549,30.0,17.0,11.0,1.0,2.3,1.3,0.5,0.3",
     ]
+
+
+def test_the_report_of_a_ramp_says_what_ran():
+    report = runup_report([ramp()], {}, "gearlube runup")
+    assert report.title == "Run-up of a lubricated hypoid axle"
+    # 100 and 200 rad/s; 27 and 54 km/h
+    known = ["80 N·m", "955", "1910 rpm", "27", "54 km/h", "20 s"]
+    assert quantities(report.subtitle) == known
+    assert [(one.value, one.unit) for one in report.inputs] == [
+        ("bench", ""), ("954.93", "rpm"), ("1909.86", "rpm"), ("20", "s"), ("80", "N·m"),
+        ("80", "°C"), ("0.25", ""), ("4000", "Hz"), ("32768", "Hz"), ("1", "s"), ("an_oil", ""),
+    ]  # fmt: skip
+    facts = ["gearlube runup", "1", "made by hand", "a table", "2500 N", "an_oil"]
+    assert [fact for _, fact in report.facts] == facts
+    down = ramp().assign_attrs(ramp="coast-down")
+    down.attrs |= {"setting_start_speed": 200.0, "setting_end_speed": 100.0}
+    both = runup_report([ramp(), down], {})
+    assert [one.name for one in both.numbers[12:14]] == [
+        "Coast-down: largest bearing forces, all frequencies",
+        "Coast-down: largest bearing forces of mesh order 1",
+    ]
+    assert both.numbers[-1].value == 14.0  # the first tenth of a coast-down is the fastest

@@ -37,6 +37,15 @@ def test_half_the_force_of_an_order_is_6_db_at_all_speeds():
     assert not any("mesh order 2" in one for one in found)
 
 
+def test_the_louder_of_two_orders_is_told_first():
+    found = pair({13.0: 100.0, 26.0: 400.0}, {13.0: 200.0, 26.0: 100.0}).findings
+    told = [one for one in found if one.startswith("At mesh order")]
+    assert [re.findall(r"mesh order \d|\d+ dB \w+", one) for one in told] == [
+        ["mesh order 2", "12 dB quieter"],
+        ["mesh order 1", "6 dB louder"],
+    ]
+
+
 def test_runs_that_are_alike_are_said_to_be():
     found = pair({13.0: 400.0}, {13.0: 410.0}).findings  # 0.2 dB
     assert "A and B sound alike" in found[0]

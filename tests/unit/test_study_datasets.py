@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from gearlube.studies.bearing.dataset import bearing_dataset, bearing_rows
+from gearlube.studies.sound.levels import fast_level
 
+from gearlube.studies.design.dataset import mesh_error
 from gearlube.studies.measured.flank_dataset import flank_dataset
 from gearlube.studies.measured.teeth import tooth_error_dataset
 from gearlube.studies.optimise.dataset import optimise_dataset
@@ -358,3 +360,22 @@ def test_sound_variables_are_known():
     assert made.attrs["peak_pa"] == pytest.approx(0.02 * 2.0**0.5)
     assert made.attrs["level_mean_db"] == pytest.approx(60.0)
     assert made.attrs["level_a_mean_db"] == pytest.approx(60.0, abs=0.02)
+
+
+def test_the_level_of_a_tone_that_stops_falls_by_34_7_db_a_second():
+    signal = np.where(np.arange(96000) < 48000, 0.02, 0.0) * 2.0**0.5
+    first, second = fast_level(signal, 48000.0, np.array([1.1, 1.2]))
+    assert first - second == pytest.approx(0.1 / 0.125 * 10.0 / np.log(10.0), rel=1e-6)
+
+
+def test_the_error_of_a_mesh_is_that_of_the_pair_that_touches_first():
+    """A parabola over four pitches, 40 places each: the pair within half a pitch of its crest."""
+    place = np.arange(161) / 40.0 - 2.0
+    drive = mesh_error(place**2, 1.0)
+    phase = np.arange(400) / 400.0
+    expected = np.minimum(phase, 1.0 - phase) ** 2
+    # chords between the places lie up to (1/80)^2 above the parabola
+    np.testing.assert_allclose(drive, expected, atol=1.0 / 6400.0 + 1e-12)
+    np.testing.assert_allclose(mesh_error(-(place**2), -1.0), -drive, rtol=1e-12)
+    short = np.where(abs(place) < 0.3, place**2, np.nan)
+    assert np.isnan(mesh_error(short, 1.0)[200])

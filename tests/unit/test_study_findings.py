@@ -11,7 +11,7 @@ from gearlube.studies.drive_cycle.report import cycle_report
 from gearlube.studies.drive_cycle.tables import series_rows, summary_rows
 from gearlube.studies.loss_map import findings as loss_map
 from gearlube.studies.loss_map.report import loss_map_report
-from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
+from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables, quantities
 
 GRID = ("temperature", "speed", "torque")
 
@@ -124,6 +124,19 @@ def test_loss_map_has_its_known_key_numbers_findings_and_tables(a_map):
     }  # fmt: skip
     report = loss_map_report(a_map)
     assert_tables(report.tables, tables)
+    assert quantities(report.subtitle) == [
+        "12",
+        "−50.0",
+        "100 N·m",
+        "1000",
+        "2000 rpm",
+        "40",
+        "80 °C",
+    ]
+    assert [(one.value, one.unit) for one in report.inputs] == [
+        ("an_oil", ""), ("-50 to 100, 3 values", "N·m"), ("1000 to 2000, 2 values", "rpm"),
+        ("40 to 80, 2 values", "°C"), ("60", ""), ("1", ""),
+    ]  # fmt: skip
     charts = {one.name: one.chart for one in report.figures}
     assert list(charts) == ["loss_torque", "efficiency", "losses", "sensitivity"]
     close = {"rtol": 1e-6}  # charts keep single precision
@@ -293,6 +306,10 @@ def test_cycle_has_its_known_key_numbers_findings_tables_and_rows(a_cycle):
     }
     assert_tables(report.tables, tables)
     assert "30 s and 0.30 km" in report_html(report)  # 10 s at 10 m/s and 10 s at 20 m/s
+    assert [(one.value, one.unit) for one in report.inputs] == [
+        ("made", ""), ("20", "°C"), ("19", "°C"), ("0.25", ""), ("30", "N·m"), ("18000", "J/K"),
+        ("7", "W/K"), ("18", "W/K"),
+    ]  # fmt: skip
     drawn = {figure.name: [one.y for one in figure.chart.data] for figure in report.figures}
     shown = {
         "demand": [[36.0, 72.0, 0.0], [20.0, 40.0, 0.0]],

@@ -12,10 +12,11 @@ from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.findings import findings
 from gearlube.studies.sweep.peaks import numbers, peak_orders
 from gearlube.studies.sweep.point import failed_point
+from gearlube.studies.sweep.report import sweep_report
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
 from gearlube.studies.sweep.tables import tables
 from tests.helpers import sweep_stand_in as stand_in
-from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
+from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables, quantities
 
 SPEEDS, PRELOAD = [20.0, 60.0, 100.0], 2500.0
 
@@ -271,3 +272,40 @@ def test_a_sweep_with_solved_films_says_how_far_they_are_to_be_trusted():
          "95 %, 3.0 %, 20 %, 20 km/h, 2000 N, 5 %, 3, 4"),
     ]  # fmt: skip
     assert_findings(findings(solved)[6:8], expected)
+
+
+@pytest.mark.parametrize(
+    ("state", "shown"),
+    [
+        ("constant", [("oil temperature", "80.0", "°C")]),
+        ("steady", [("air temperature", "20.0", "°C"), ("conductance at rest", "7", "W/K")]),
+    ],
+)
+def test_the_report_of_a_sweep_says_what_was_set(state, shown):
+    settings = {
+        "title": "Speed sweep",
+        "axle": "made",
+        "setting_oil_state": state,
+        "setting_oil_temperature": 353.15,
+        "setting_air_temperature": 293.15,
+        "setting_conductance_at_rest": 7.0,
+        "setting_roughness_rms": 5e-7,
+        "setting_communication_step": 1e-4,
+        "setting_driver": "vehicle",
+        "inputs_given": '[["oil", "an_oil", "", "given", ""]]',
+        "wall_time": 12.34,
+        "computed_points": 3,
+    }
+    report = sweep_report(made().assign_attrs(settings), entries=())
+    assert quantities(report.subtitle) == ["2", "20", "60 km/h", "1000", "2000 N", "4", "4"]
+    assert [(one.name.removeprefix("sweep: "), one.value, one.unit) for one in report.inputs] == [
+        ("oil state", state, ""),
+        *shown,
+        ("roughness rms", "0.5", "µm"),
+        ("communication step", "0.1", "ms"),
+        ("driver", "vehicle", ""),
+        ("oil", "an_oil", ""),
+    ]
+    facts = dict(report.facts)
+    assert facts["points"] == "4 of 4 finished"
+    assert facts["time"] == "12.3 s for 3 computed points"

@@ -93,6 +93,16 @@ def test_a_sampled_variation_has_its_known_key_numbers_findings_and_table():
     assert findings(none, summary)[-1].level == GOOD
     report = variation_report(results, summary)
     assert report_html(report).count('class="plot"') == 3  # over the axis, distributions, ranks
+    lines, histograms, ranks = (one.chart for one in report.figures)
+    # 2.5, 50 and 97.5 % of the samples over the oil: 5 and 10 times 1.475, 10.5 and 19.525
+    middle, *ends = (line.y for line in lines.data)
+    np.testing.assert_allclose(middle, [105.0, 52.5])
+    np.testing.assert_allclose(ends, [[14.75, 7.375], [195.25, 97.625]])
+    assert [one.x.tolist() for one in histograms.data] == [
+        [factor * k for k in range(1, 21)] for factor in (10.0, 5.0)
+    ]
+    assert histograms.layout.xaxis.title.text == "loss [W]"
+    assert list(ranks.data[0].x) == [1.0]
     deviation = np.sqrt((20.0**2 - 1.0) / 12.0)  # of 1 to 20
     words = ("mean", "standard deviation", "least", "2.5 %", "median", "97.5 %", "largest")
     table = [

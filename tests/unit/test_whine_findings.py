@@ -15,6 +15,7 @@ from tests.helpers.known_answers import (
     assert_findings,
     assert_numbers,
     assert_tables,
+    quantities,
 )
 
 RPM, RPM_OF_RAD = np.array([1000.0, 2000.0, 3000.0]), 30.0 / np.pi
@@ -111,7 +112,15 @@ def test_whine_has_its_known_key_numbers_findings_and_tables():
             [axial, "0.01 mm", -2.0, 2000.0, 90.0, -100.0 * 2.0 / 90.0],
         ],
     }  # fmt: skip
-    assert_tables(whine_report(whine()).tables, tables)
+    report = whine_report(whine())
+    assert_tables(report.tables, tables)
+    assert quantities(report.subtitle) == ["50 N·m", "1000", "3000 rpm", "3"]
+    force, changes, error = (one.chart.data for one in report.figures)
+    for lines in (force, error):  # errors are a millionth of the forces, in µrad
+        np.testing.assert_allclose([one.y for one in lines], FORCE.T)
+    # of order 1 the position alone moves something, 1 N at 1000 rpm; it is on top, drawn last
+    np.testing.assert_allclose(changes[0].z, [3 * [0.0], 3 * [0.0], [1.0, 0.0, 0.0]])
+    assert report.figures[1].chart.layout.yaxis.ticktext[-1] == "misalignment P<br>(pinion)"
     # the largest change of order 1 of each: errors are a millionth of the forces
     rows = [
         [NAMES[0], 1e-5, "m", 1e-6, 1.0, 1000.0 / RPM_OF_RAD],
