@@ -405,7 +405,7 @@ def test_json_and_archives_are_read_as_xml_is(tmp_path, written):
             read_rexs(tmp_path / name)
     with zipfile.ZipFile(other, "w") as archive:
         archive.writestr("pair.rexsj", "[1, 2]")
-    with pytest.raises(ParameterError, match="JSON file of REXS.*got a list"):
+    with pytest.raises(ParameterError, match=r"JSON file of REXS.*got a list"):
         read_rexs(other)
     with pytest.raises(ParameterError, match=r"REXS file none\.rexsz was not found in "):
         read_rexs(tmp_path / "none.rexsz")
