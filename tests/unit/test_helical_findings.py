@@ -10,8 +10,8 @@ from gearlube.studies.helical.findings import (
     largest_error,
     least_unstable,
     meeting,
-    numbers,
 )
+from gearlube.studies.helical.report import numbers
 
 RPM = np.pi / 30.0
 SPEEDS, TEETH = np.array([1000.0, 2000.0, 3000.0]), 30  # rpm; mesh at 500, 1000, 1500 Hz
@@ -89,19 +89,49 @@ def stability(unstable_from):
     )
 
 
-def film(ratio):
+def film(ratio, rise=20.0):
     return xr.Dataset(
         {
             "film_ratio": ("point", np.array([4.0, ratio, 0.1])),
             "line_load": ("point", np.array([1.0, 1.0, 0.0])),  # the last carries nothing
+            "temperature_rise": ("point", np.array([rise, 20.0, 0.0])),
         },
         attrs={
             "operating_mean_coefficient": 0.04,
             "operating_power_loss": 150.0,
             "roughness_rms": 5e-7,
             "oil_temperature": 353.15,
+            "oil_data_high_degc": 150.0,
         },
     )
+
+
+def losses(rise):
+    """Two torques and speeds in oil of 90 degC; the film of one point is warmer."""
+    grid = ("temperature", "torque", "speed")
+    return xr.Dataset(
+        {
+            "loss": ((*grid, "part"), np.ones((1, 2, 2, 2))),
+            "temperature_rise": (grid, np.array([[[5.0, 8.0], [7.0, rise]]])),
+        },
+        coords={"temperature": [90.0], "torque": [50.0, 200.0], "speed": [1000.0, 9000.0],
+                "part": ["sliding", "rolling"]},
+        attrs={"not_modelled": "bearings", "oil_data_high_degc": 150.0},
+    )  # fmt: skip
+
+
+def test_a_film_hotter_than_the_oil_data_is_a_warning_in_losses_and_in_operation():
+    hot = [one for one in findings({"losses": losses(383.0)}) if "flank film" in one.headline]
+    assert [one.level for one in hot] == [WARNING]
+    assert (
+        "473 °C at 200 N·m, 9000 rpm and 90 °C oil, is extrapolated" in hot[0].headline
+    )  # 90 + 383
+    assert "at 25 % of the points" in hot[0].detail  # one of four
+    assert not [one for one in findings({"losses": losses(59.0)}) if "film" in one.headline]
+    (said,) = (one for one in findings({"film": film(2.0, 75.0)}) if "flank film" in one.headline)
+    assert "155 °C" in said.headline
+    assert "at 33 % of the points" in said.detail
+    assert not [one for one in findings({"film": film(2.0)}) if "flank film" in one.headline]
 
 
 def test_the_largest_order_is_that_of_the_film_where_there_is_one():
