@@ -8,6 +8,7 @@ import xarray as xr
 
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
+from gearlube.report.solved_films import flank_friction
 from gearlube.studies.bearing import findings as bearing
 from gearlube.studies.bearing.report import bearing_report
 from gearlube.studies.drive_cycle import findings as cycle
@@ -237,11 +238,14 @@ def test_cycle_says_how_far_solved_films_are_to_be_trusted(a_cycle):
     solved = a_cycle.assign(
         share_outside=("step", [0.09, 0.0, 1.0]), energy_lost_bound=0.06, efficiency_bound=0.00075
     )
+    # bounds of the steps whose load lies inside alone
+    solved["friction_bound"] = (0.02 * flank_friction(a_cycle["loss"])).where([False, True, False])
     said = found(cycle.findings(solved), "solved films")
     assert "2.0 % of the flanks' friction loss" in said.headline
     assert said.level == NOTE
     assert "0.060 kJ of energy lost and 0.075 % of efficiency over the cycle" in said.detail
-    assert "with 3.0 % of the flanks' friction loss" in said.detail
+    assert "with 3.0 % of the flanks' friction loss; more than 5 % at 2 of 3 steps" in said.detail
+    assert "covers 0 to 91 % of the load" in said.detail
     more = solved.assign(share_outside=("step", [0.3, 0.0, 0.0]))
     assert found(cycle.findings(more), "solved films").level == WARNING
 

@@ -15,6 +15,7 @@ from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.report.solved_films import (
     bearing_drag,
+    covered_share,
     efficiency_doubt,
     flank_friction,
     model_of,
@@ -258,7 +259,7 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     if "share_outside" not in dataset:
         return []
     outside = dataset["share_outside"]
-    bound = float(dataset["friction_bound"].sum() / flank_friction(dataset["loss"]).sum())
+    bound = covered_share(dataset["friction_bound"], flank_friction(dataset["loss"]))
     worst = _at(dataset, outside)
     most = float(worst["share_outside"])
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
@@ -270,7 +271,7 @@ def _rollers(dataset: xr.Dataset) -> list[Finding]:
     """Say the same of the model of rollers."""
     if "drag_bound" not in dataset:
         return []
-    bound = float(dataset["drag_bound"].sum() / bearing_drag(dataset["loss"]).sum())
+    bound = covered_share(dataset["drag_bound"], bearing_drag(dataset["loss"]))
     worst = _at(dataset, dataset["rollers_outside"])
     most = float(worst["rollers_outside"])
     words = f"at most {100.0 * most:.0f} % of the rollers' load, at {words_of(worst)}"
