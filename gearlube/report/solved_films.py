@@ -34,7 +34,7 @@ def solved_films(
     Parameters
     ----------
     bound
-        The model's 95 % bound of the flanks' friction loss over that loss [-].
+        The model's 95 % bound of the flanks' friction loss over that loss [-]; nan if none holds.
     share_outside
         Share of the flanks' load outside the model's domain that decides about a warning [-].
     outside_words
@@ -46,10 +46,10 @@ def solved_films(
     where
         At which part of the points, " at 3 of 4 points"; empty for all.
     """
+    loss = "the flanks' friction loss" + " there" * bool(where)
     headline = (
         f"Films and friction of the flanks are those of solved films{where} (film.model = solved). "
-        f"The model's 95 % bound is {100.0 * bound:.1f} % of the flanks' friction loss"
-        f"{' there' if where else ''}."
+        f"{_bounded(bound, loss)}"
     )
     return _finding(headline, share_outside, outside_words, effect, model)
 
@@ -68,8 +68,7 @@ def solved_rollers(
     """
     headline = (
         "Films and rolling friction of the rollers are those of solved films (bearing_torque_loss "
-        f"= solved_films). The model's 95 % bound is {100.0 * bound:.1f} % of the bearings' drag "
-        "loss."
+        "= solved_films). " + _bounded(bound, "the bearings' drag loss")
     )
     return _finding(headline, share_outside, outside_words, effect, model)
 
@@ -104,18 +103,38 @@ def formulas_stand_in(what: str, outside: Array, speed: Array) -> list[Finding]:
     ]
 
 
-def points_beyond(outside: xr.DataArray) -> str:
+def points_beyond(outside: xr.DataArray, points: str = "points") -> str:
     """Return at how many points more load is outside than counts as solved films; may be empty."""
-    beyond, known = int((outside > MOST_OUTSIDE).sum()), int(outside.notnull().sum())
-    if not beyond:
+    beyond, known = outside.values > MOST_OUTSIDE, int(outside.notnull().sum())
+    if not beyond.any():
         return ""
-    where = f"; more than {100.0 * MOST_OUTSIDE:g} % at {beyond} of {known} points"
-    return f"{where}, whose losses are in part those of formulas"
+    return (
+        f"; more than {100.0 * MOST_OUTSIDE:g} % at {beyond.sum()} of {known} {points}, where the "
+        f"model covers {_covered(outside.values[beyond])} of the load. Their losses are in part "
+        "those of formulas, their error bars those of formulas, and they are not in the bound"
+    )
+
+
+def covered_alone(bound: Array | float, outside: Array | float) -> Array:
+    """Return bounds of a film model where it covers the load; nan where formulas take part."""
+    return np.where(np.asarray(outside) > MOST_OUTSIDE, np.nan, bound)
+
+
+def covered_share(bound: xr.DataArray, loss: xr.DataArray) -> float:
+    """Return the sum of bounds over that of the losses where they are known [-]; nan if nowhere."""
+    covered = float(loss.where(bound.notnull()).sum())
+    return float(bound.sum()) / covered if covered > 0.0 else float("nan")
 
 
 def _covered(share_outside: Array) -> str:
     shares = [f"{100.0 * (1.0 - one):.3g}" for one in (share_outside.max(), share_outside.min())]
     return f"{' to '.join(dict.fromkeys(shares))} %"
+
+
+def _bounded(bound: float, loss: str) -> str:
+    if np.isnan(bound):
+        return "The model covers too little of the load for its bound."
+    return f"The model's 95 % bound is {100.0 * bound:.1f} % of {loss}."
 
 
 def _finding(

@@ -11,6 +11,13 @@ FARTHEST_PRESSURE = 0.5  # from the middle, over the radius [-]
 _PRESSED = 0.01  # share of the largest pressure that counts
 
 
+def thick_film_words(what: str, share: float) -> str:
+    """Return that a film is too thick for its radius, `share` of it [-], or an empty string."""
+    if share > THICKEST_FILM:
+        return f"{what} is {share:.2g} of the radius, above {THICKEST_FILM:g}"
+    return ""
+
+
 def thin_film_sentence(
     pressure: Array, film: Array, places: tuple[Array, ...], radii: tuple[float, ...]
 ) -> str:
@@ -39,10 +46,8 @@ def thin_film_sentence(
     >>> thin_film_sentence(np.array([0.0, 1e5, 0.0]), np.full(3, 2e-4), (x,), (0.01,))
     ' Thin-film theory has ended: the smallest film is 0.02 of the radius, above 0.01.'
     """
-    thick = float(film.min()) / min(radii)
-    found = []
-    if thick > THICKEST_FILM:
-        found.append(f"the smallest film is {thick:.2g} of the radius, above {THICKEST_FILM:g}")
+    thick = thick_film_words("the smallest film", float(film.min()) / min(radii))
+    found = [thick] if thick else []
     pressed = pressure > _PRESSED * pressure.max()
     for axis, (x, radius) in enumerate(zip(places, radii, strict=True)):
         other = tuple(n for n in range(pressed.ndim) if n != axis)

@@ -24,8 +24,7 @@ Role = Literal["pinion", "gear"]
 
 STEEPEST = 65.0 * DEGREE  # spiral angle anywhere on the face; gear files go no further
 LEAST_BLADE, LARGEST_BLADE = 5.0 * DEGREE, 40.0 * DEGREE
-WIDEST = 0.45  # face width over outer cone distance
-USUAL_WIDTH = 0.35  # a third is customary
+USUAL_WIDTH = 0.35  # face width over outer cone distance; a third is customary
 
 
 class SectionTooth(NamedTuple):
@@ -107,13 +106,6 @@ def _face(designed: DesignedBlank) -> list[str]:
             f"{width / MILLIMETRE:.3g} mm. Increase pair.face_width_mm or reduce pair.offset_mm."
         )
     share = width / designed.blank.gear.outer_cone_distance
-    if share > WIDEST:
-        raise ParameterError(
-            f"pair.face_width_mm must be below {WIDEST:g} of the outer cone distance, got "
-            f"{share:.2f}. Reduce it to "
-            f"{WIDEST * designed.blank.gear.outer_cone_distance / MILLIMETRE:.4g} mm or enlarge "
-            "the diameter."
-        )
     if share > USUAL_WIDTH:
         return [
             f"The face width is {share:.2f} of the outer cone distance; {USUAL_WIDTH:g} is usual."

@@ -30,6 +30,7 @@ class _FaceWidth(NamedTuple):
 
 
 SHAFT_ANGLE = 0.5 * math.pi
+WIDEST = 0.45  # face width over outer cone distance
 _FROM = "follows from the blank"
 
 
@@ -78,6 +79,7 @@ class DesignedBlank:
             outer = 0.5 * width
         else:
             outer = 0.5 * pair.outer_pitch_diameter_mm * MILLIMETRE / sine - mean
+        _check_face(file, cones.gear_pitch_angle)
         gear = _FaceWidth(outer, width - outer)
         working = depth.depth_factor * cones.normal_module
         try:
@@ -227,7 +229,22 @@ def _cones(file: BlankFile) -> PitchCones:
             return method_2(design, mean_pitch_diameter=mean, gear_spiral_angle=spiral)
         return method_3(design, outer_pitch_diameter=outer, gear_spiral_angle=spiral)
     except (ParameterError, ConvergenceError) as reason:
+        _check_face(file, math.atan2(pair.gear_teeth, pair.pinion_teeth))  # without offset
         raise _no_blank(file, str(reason)) from None
+
+
+def _check_face(file: BlankFile, gear_pitch_angle: float) -> None:
+    """Refuse a face that is too wide for the gear's cone."""
+    pair = file.pair
+    outer, mean = pair.outer_pitch_diameter_mm, pair.mean_pitch_diameter_mm
+    cone = 0.5 * (outer or mean or 0.0) / math.sin(gear_pitch_angle)
+    widest = WIDEST * cone if outer else WIDEST * cone / (1.0 - 0.5 * WIDEST)
+    if pair.face_width_mm > widest:
+        raise ParameterError(
+            f"pair.face_width_mm must be at most {widest:.4g} mm, {WIDEST:g} of the gear's outer "
+            f"cone distance, got {pair.face_width_mm:g} mm. Reduce it, or enlarge "
+            f"pair.{'outer' if outer else 'mean'}_pitch_diameter_mm."
+        )
 
 
 def _no_blank(file: BlankFile, reason: str) -> ParameterError:

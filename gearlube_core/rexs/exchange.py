@@ -11,6 +11,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.input_file.field_notes import field_notes, sentence
 from gearlube_core.rexs.bevel import blank_data, nested
 from gearlube_core.rexs.bevel_document import write_blank, write_hypoid
 from gearlube_core.rexs.cylindrical import helical_data, lacking_fields, write_helical
@@ -78,6 +79,7 @@ def read_rexs(
     model, own = RexsModel.read(path), dict(given or {})
     chosen = Stage.chosen(model, stage)
     cylindrical = chosen.stage.kind == "cylindrical_stage"
+    _check_names(own, HelicalGearFile if cylindrical else BlankFile)
     data = helical_data(chosen, own) if cylindrical else blank_data(chosen, own)
     data |= own
     replaced = {note.what: note.why for note in chosen.notes if note.what in own}
@@ -96,6 +98,18 @@ def read_rexs(
                 chosen.note("lacking", note.field, f"{note.value_text} {note.unit}".strip())
     chosen.note_left_out()
     return RexsPair(file=file, data=nested(data), notes=tuple(chosen.notes))
+
+
+def _check_names(given: dict[str, Any], kind: type[HelicalGearFile | BlankFile]) -> None:
+    """Refuse given fields that a kind of file does not have, before numbers are missed."""
+    notes = field_notes(kind)
+    unknown = [
+        sentence({"loc": (name,), "type": "extra_forbidden", "input": value}, notes)
+        for name, value in given.items()
+        if name not in notes
+    ]
+    if unknown:
+        raise ParameterError(" ".join([*unknown, f"Give fields of a {kind.title}."]))
 
 
 _WISHES = ("contact", "machine", "relief")  # of a blank file, which REXS has no words for

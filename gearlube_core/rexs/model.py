@@ -106,15 +106,19 @@ class RexsModel:
         path = Path(path)
         try:
             whole = read_content(path, "REXS file", largest=_LARGEST)
-            content = _unpacked(path) if zipfile.is_zipfile(path) else whole
+            archived = zipfile.is_zipfile(path)
+            name, content = _unpacked(path) if archived else (path.name, whole)
         except (OSError, zipfile.BadZipFile, RuntimeError, zlib.error) as reason:
             raise ParameterError(f"{unread('REXS file', path, reason)}.") from None
-        kind = "JSON" if content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{" else "XML"
+        kind = _kind(Path(name), content)
         try:
-            root = _xml_of(json.loads(content)["model"]) if kind == "JSON" else _xml(content)
+            if kind == "ZIP":
+                raise ValueError("the archive is cut or damaged")
+            root = _xml(content) if kind == "XML" else _xml_of(json.loads(content))
         except (*_UNREADABLE, etree.XMLSyntaxError) as reason:
             raise ParameterError(
-                f"{path} is not a readable {kind} file of REXS: {type(reason).__name__}, {reason}."
+                f"{path} is not a readable {kind} file of REXS: {str(reason).rstrip('.')}. "
+                "Export it again."
             ) from None
         version = root.get("version", "")
         if etree.QName(root).localname != "model" or not version.startswith("1."):
@@ -153,8 +157,17 @@ class RexsModel:
         return [one for one in self.components.values() if one.kind in kinds]
 
 
-def _unpacked(path: Path) -> bytes:
-    """Return the one model of an archive."""
+def _kind(path: Path, content: bytes) -> str:
+    """Return what a file is by its first letters: XML, JSON or ZIP; by its name in doubt."""
+    first = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
+    known = {b"<": "XML", b"{": "JSON", b"[": "JSON"}
+    if content.startswith(b"PK"):
+        return "ZIP"
+    return known.get(first) or {".rexsj": "JSON", ".rexsz": "ZIP"}.get(path.suffix.lower(), "XML")
+
+
+def _unpacked(path: Path) -> tuple[str, bytes]:
+    """Return name and content of the one model of an archive."""
     with zipfile.ZipFile(path) as archive:
         models = [
             one
@@ -167,7 +180,7 @@ def _unpacked(path: Path) -> bytes:
                 f"{path} must hold one REXS model (.rexs, .rexsj) of up to {_LARGEST} bytes, got "
                 f"{found}. Unpack it and give one of its files"
             )
-        return archive.read(models[0])
+        return models[0].filename, archive.read(models[0])
 
 
 def _xml(content: bytes) -> etree._Element:
@@ -175,8 +188,20 @@ def _xml(content: bytes) -> etree._Element:
     return etree.fromstring(content, parser)
 
 
-def _xml_of(model: dict[str, Any]) -> etree._Element:
-    """Return the same model as XML; arrays have no text, as those of XML files."""
+def _xml_of(data: Any) -> etree._Element:
+    """Return the model of JSON as XML; arrays have no text, as those of XML files."""
+    try:
+        return _tree(data["model"])
+    except (KeyError, TypeError, AttributeError):
+        kinds = ((list, "a list"), (dict, "an object without all of them"))
+        got = next((words for kind, words in kinds if isinstance(data, kind)), "a single value")
+        raise ValueError(
+            'it must be an object with "model", and in it lists of "components" and "relations", '
+            f"each an object with the keys of REXS, got {got}"
+        ) from None
+
+
+def _tree(model: dict[str, Any]) -> etree._Element:
     names = ("version", "applicationId", "applicationVersion")
     root = etree.Element("model", {name: str(model.get(name, "")) for name in names})
     relations, components = (etree.SubElement(root, one) for one in ("relations", "components"))

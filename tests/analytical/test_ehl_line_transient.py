@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube_core.ehl.line.oil_beyond import beyond_sentence, oil_beyond
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
@@ -30,6 +31,21 @@ def test_steady_film_stays(scheme, cavitation):
     full = film.pressure > 0.0
     assert later.film[full] == pytest.approx(film.film[full], rel=1e-6)
     assert later.pressure == pytest.approx(film.pressure, abs=1e-6 * film.maximum_pressure)
+
+
+def test_a_step_tells_the_start_s_errors_of_domain_and_oil_that_is_not_counted():
+    start = solve_line(replace(THESIS, domain=None), LineSettings(nodes=129))
+    u1, u2 = THESIS.speed_1, THESIS.speed_2
+    forth = LineMarch(start, LineHistory(), 1e-6).step()
+    assert forth.outcome.endswith(f" At the start:{start.error.sentence}")
+    assert "Of the domain, from one twice as wide" in forth.outcome
+    assert "not counted" not in forth.outcome
+    back = LineMarch(start, LineHistory(speeds=lambda t: (-u1, -u2)), 1e-6).step(throw=False)
+    assert "Oil beyond the domain is not counted: the surfaces carry it the other" in back.outcome
+    # a border within the contact: half its half width
+    narrow = replace(THESIS, domain=(-0.5 * start.problem.half_width, 1e-3), oil_beyond=True)
+    found = oil_beyond(narrow, narrow.domain, u1, u2)
+    assert "the domain cuts the contact. Widen it." in beyond_sentence(narrow, narrow, found)
 
 
 def test_error_in_time_is_told_how_far_the_film_moves_in_a_step(monkeypatch):

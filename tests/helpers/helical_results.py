@@ -79,17 +79,19 @@ def stability(unstable_from):
     )
 
 
-def film(ratio):
+def film(ratio, rise=20.0):
     return xr.Dataset(
         {
             "film_ratio": ("point", np.array([4.0, ratio, 0.1])),
             "line_load": ("point", np.array([1.0, 1.0, 0.0])),  # the last carries nothing
+            "temperature_rise": ("point", np.array([rise, 20.0, 0.0])),
         },
         attrs={
             "operating_mean_coefficient": 0.04,
             "operating_power_loss": 150.0,
             "roughness_rms": 5e-7,
             "oil_temperature": 353.15,
+            "oil_data_high_degc": 150.0,
         },
     )
 

@@ -57,7 +57,30 @@ def test_every_number_says_where_it_is_from():
         ({"pair__offset_mm": 70.0}, "none is left for the gear"),
         ({"pair__offset_mm": 60.0}, "The blade angle of the drive flank must be within 5 to 40"),
         ({"cutter__radius_mm": 15.0}, "cutter.radius_mm 15 mm"),
-        ({"pair__face_width_mm": 60.0}, "pair.face_width_mm"),
+        # 0.45 of 85 mm (1 + (13/42)^2)^(1/2) = 40.04 mm, the cone of the pair without offset
+        ({"pair__face_width_mm": 120.0}, "pair.face_width_mm must be at most 39.2 mm, 0.45 of"),
+        ({"pair__face_width_mm": 200.0}, "pair.face_width_mm must be at most 40.04 mm, 0.45 of"),
+        (
+            {
+                "pair__face_width_mm": 150.0,
+                "pair__offset_mm": 0.0,
+                "pair__gear_spiral_angle_deg": 35.0,
+                "pair__pinion_spiral_angle_deg": None,
+            },
+            "at most 40.04 mm, 0.45 of the gear's outer cone distance, got 150 mm. Reduce it, or "
+            "enlarge pair.outer_pitch_diameter_mm.",
+        ),
+        # b = 0.45 (R_m + b/2): 0.45 / 0.775 of R_m = 80 mm / sin(67.6 deg)
+        (
+            {
+                "pair__face_width_mm": 150.0,
+                "pair__mean_pitch_diameter_mm": 160.0,
+                "pair__outer_pitch_diameter_mm": None,
+                "pair__gear_spiral_angle_deg": 30.0,
+                "pair__pinion_spiral_angle_deg": None,
+            },
+            "at most 50.25 mm",
+        ),
         ({"cutter__blade_groups": 7}, "share no factor with pair.gear_teeth, got 7 and 42"),
         (
             {

@@ -412,11 +412,33 @@ def test_a_cycle_of_vecto_over_distance_is_driven_within_the_limits_of_its_drive
 
 
 @pytest.mark.parametrize(
+    ("last", "words"),
+    [
+        ("2,-5", "got -5 km/h in line 6 of its file, and 1 such"),
+        ("2,400", "got 111.111 in line 6 of its file"),
+        ("2,100", "got 27.8 m/s2 before line 6 of its file"),
+        ("1,0", "got 1 s in line 6 of its file after 1 s"),
+        ("9,0", "got 8 s before line 6 of its file"),
+    ],
+)
+def test_a_refused_trace_names_the_line_of_its_file(last, words, tmp_path):
+    path = tmp_path / "trace.csv"
+    path.write_text(f"# measured\ntime_s,speed_kmh\n0,0\n\n1,0\n{last}\n")
+    with pytest.raises(ParameterError, match=words):
+        gl.DriveCycle.read(path)
+
+
+@pytest.mark.parametrize(
     ("text", "words"),
     [
         ("<t>,<Pwheel>\n0,1\n1,2\n", "must have the column <v>.*Cycles of engine or wheel power"),
         ("<t>,<v> [m/s]\n0,1\n1,2\n", r"<v> must be in km/h, got \[m/s\]"),
-        ("<s>,<v>,<stop>\n0,0,1\n0,20,0\n", "rising distances"),
+        ("<s>,<v>,<stop>\n0,0,1\n0,20,0\n", "rising distances.*got 0 m, 20 km/h and 0 s in line 3"),
+        (
+            "<s>,<v>,<grad>\n0,20,0\n\n9,20,80\n99,9,0\n",
+            "grade of wrong.* 0.8 in line 4 of its file",
+        ),
+        ("<t>,<v>\nc no row\n0,0\n1,90\n", "got 25 m/s2 before line 4 of its file"),
         ("<s>,<v>,<stop>\n0,0,1\n9,0,0\n", "some above 0"),
         ("<t>,<v>,v\n0,1,2\n1,2,3\n", "must have <v> once"),
     ],

@@ -19,6 +19,15 @@ from tests.helpers.known_answers import (
 )
 
 
+def test_a_formula_whose_film_is_too_thick_for_its_radius_is_a_warning():
+    one = line()
+    assert not [f for f in findings(one) if "too thick" in f.headline]
+    one["formula_film_over_radius"] = ("formula", [0.02, 0.008])
+    (said,) = (f for f in findings(one) if "too thick" in f.headline)
+    assert said.level == WARNING
+    assert said.detail.startswith("The central film of A is 0.02 of the radius, above 0.01. Do")
+
+
 def line(converged=1, error=0.01, **more):
     return xr.Dataset(
         {

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.helical.findings import (
@@ -9,8 +10,8 @@ from gearlube.studies.helical.findings import (
     largest_error,
     least_unstable,
     meeting,
-    numbers,
 )
+from gearlube.studies.helical.report import numbers
 from tests.helpers.helical_results import (
     RPM,
     contact,
@@ -23,6 +24,34 @@ from tests.helpers.helical_results import (
     sweep,
 )
 from tests.helpers.known_answers import assert_findings, assert_numbers
+
+
+def hot_losses(rise):
+    """Two torques and speeds in oil of 90 degC; the film of one point is warmer."""
+    grid = ("temperature", "torque", "speed")
+    return xr.Dataset(
+        {
+            "loss": ((*grid, "part"), np.ones((1, 2, 2, 2))),
+            "temperature_rise": (grid, np.array([[[5.0, 8.0], [7.0, rise]]])),
+        },
+        coords={"temperature": [90.0], "torque": [50.0, 200.0], "speed": [1000.0, 9000.0],
+                "part": ["sliding", "rolling"]},
+        attrs={"not_modelled": "bearings", "oil_data_high_degc": 150.0},
+    )  # fmt: skip
+
+
+def test_a_film_hotter_than_the_oil_data_is_a_warning_in_losses_and_in_operation():
+    hot = [one for one in findings({"losses": hot_losses(383.0)}) if "flank film" in one.headline]
+    assert [one.level for one in hot] == [WARNING]
+    assert (
+        "473 °C at 200 N·m, 9000 rpm and 90 °C oil, is extrapolated" in hot[0].headline
+    )  # 90 + 383
+    assert "at 25 % of the points" in hot[0].detail  # one of four
+    assert not [one for one in findings({"losses": hot_losses(59.0)}) if "film" in one.headline]
+    (said,) = (one for one in findings({"film": film(2.0, 75.0)}) if "flank film" in one.headline)
+    assert "155 °C" in said.headline
+    assert "at 33 % of the points" in said.detail
+    assert not [one for one in findings({"film": film(2.0)}) if "flank film" in one.headline]
 
 
 def test_the_largest_order_is_that_of_the_film_where_there_is_one():

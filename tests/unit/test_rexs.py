@@ -284,13 +284,17 @@ def test_the_command_converts_there_and_back(tmp_path, monkeypatch, caplog):
     assert again.exit_code == 2  # it is there already
 
 
-def test_numbers_that_the_file_lacks_can_be_given(tmp_path, written, monkeypatch):
+def test_numbers_that_the_file_lacks_can_be_given(tmp_path, written, monkeypatch, caplog):
     text = CYLINDRICAL.replace("addendum_modification", "other").replace(TIPLESS, CENTRED)
     monkeypatch.chdir(tmp_path)
     path = str(written(text))
     run = CliRunner()
     assert run.invoke(app, ["convert", path]).exit_code == 2
     assert not (tmp_path / "pair.toml").exists()
+    caplog.clear()
+    assert run.invoke(app, ["convert", path, "--set", "gear.tip_diametr_mm=1"]).exit_code == 2
+    wrong = "gear.tip_diametr_mm is not a field of this file; is it gear.tip_diameter_mm?"
+    assert caplog.messages[0].startswith(wrong)
     given = f"gear.tip_diameter_mm={TIPS[1]}"
     ended = run.invoke(app, ["convert", path, "--set", given, "pair.backlash_mm=0.1"])
     assert ended.exit_code == 0
@@ -387,9 +391,22 @@ def test_json_and_archives_are_read_as_xml_is(tmp_path, written):
         ParameterError, match=r"must hold one REXS model .*pair.rexsj .*second.rexs"
     ):
         read_rexs(other)
-    path.write_text('{"model": {"version": "1.4"}}', encoding="utf-8")
-    with pytest.raises(ParameterError, match=r"not a readable JSON file of REXS.*relations"):
-        read_rexs(path)
+    whole = other.read_bytes()
+    for name, content, kind in (
+        ("pair.rexsj", b'{"model": {"version": "1.4"}}', r"JSON file of REXS.*relations"),
+        ("pair.rexsj", b"[1, 2]", "JSON file of REXS.*got a list"),
+        ("pair.rexsz", b"[1, 2]", "JSON file of REXS.*got a list"),
+        ("pair.rexsj", b"", "JSON file of REXS"),
+        ("pair.rexsz", whole[: len(whole) // 2], "ZIP file of REXS: the archive is cut"),
+        ("pair.rexsz", b"damaged", "ZIP file of REXS: the archive is cut"),
+    ):
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(ParameterError, match=f"{name} is not a readable {kind}"):
+            read_rexs(tmp_path / name)
+    with zipfile.ZipFile(other, "w") as archive:
+        archive.writestr("pair.rexsj", "[1, 2]")
+    with pytest.raises(ParameterError, match=r"JSON file of REXS.*got a list"):
+        read_rexs(other)
     with pytest.raises(ParameterError, match=r"REXS file none\.rexsz was not found in "):
         read_rexs(tmp_path / "none.rexsz")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,8 +12,10 @@ import xarray as xr
 
 from gearlube.report.churning import churning_regime
 from gearlube.report.parts import WARNING
+from gearlube.report.solved_films import covered_alone, covered_share, points_beyond, solved_films
 from gearlube.studies.drive_cycle import findings as drive_cycle
 from gearlube.studies.loss_map import findings as loss_map
+from gearlube.studies.loss_map import sampling
 from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube.studies.runup import findings as runup
@@ -59,6 +62,46 @@ def test_both_ends_of_a_datum_are_by_one_film():
     upper, lower = by_one_film(ends, losses)
     assert upper[:, 0] == pytest.approx([110.0, 330.0])
     assert lower[:, 0] == pytest.approx([90.0, 270.0])
+
+
+def test_the_bar_of_a_point_that_the_film_model_does_not_cover_is_that_of_the_formulas(monkeypatch):
+    """Solved films at the first point; the second is half covered, and not at all by the draw."""
+    own = replace(AXLE, film="solved")
+    drawn = replace(own, roughness_rms=1.1 * AXLE.roughness_rms)
+    rough = own.roughness_rms, drawn.roughness_rms
+    lost = {
+        (rough[0], "solved"): ([100.0, 200.0], [True, False]),
+        (rough[1], "solved"): ([105.0, 330.0], [True, False]),
+        (rough[0], "formula"): ([250.0, 300.0], [False, False]),
+        (rough[1], "formula"): ([260.0, 330.0], [False, False]),
+    }
+
+    def power(settings, axle):
+        found, inside = lost[axle.roughness_rms, axle.film]
+        return np.array(found)[:, None], np.array(inside)
+
+    monkeypatch.setattr(sampling, "_power", power)
+    monkeypatch.setattr(sampling, "_drawn", lambda settings, row: (drawn, np.ones(1)))
+    settings = SimpleNamespace(axle=own, shape=(2,), uncertain=(), draws=1, seed=1)
+    spread = sampling.spread_of(settings)
+    # the draw's own film at the first; at the second 200 W times the formulas' 330/300
+    assert spread.high == pytest.approx([105.0, 220.0])
+
+
+def test_points_that_the_film_model_does_not_cover_are_not_in_its_bound():
+    outside = xr.DataArray([0.0, 0.02, 0.5, 0.75], dims="step")
+    bound = xr.DataArray(
+        covered_alone(np.array([2.0, 3.0, 50.0, 9.0]), outside.values), dims="step"
+    )
+    assert np.isnan(bound.values).tolist() == [False, False, True, True]
+    loss = xr.DataArray([100.0, 100.0, 300.0, 300.0], dims="step")
+    assert covered_share(bound, loss) == pytest.approx(5.0 / 200.0)
+    said = points_beyond(outside, "steps")
+    assert "at 2 of 4 steps, where the model covers 25 to 50 % of the load" in said
+    assert "their error bars those of formulas" in said
+    none = covered_share(bound[2:], loss[2:])
+    assert np.isnan(none)
+    assert "covers too little of the load for its bound" in solved_films(none, 0.7, said).headline
 
 
 def test_a_map_says_where_churning_changes_its_formula():

@@ -8,7 +8,7 @@ import xarray as xr
 from drivetrain.sump_heat import Warming
 from gearlube.plotting.loss_words import not_modelled
 from gearlube.report.churning import REGIME, churning_regime
-from gearlube.report.solved_films import film_model_attributes
+from gearlube.report.solved_films import covered_alone, film_model_attributes
 from gearlube.studies.drive_cycle.demand import Demand
 from gearlube.studies.drive_cycle.loss_field import LossesAlong, at_temperatures
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
@@ -108,18 +108,29 @@ def cycle_dataset(
     if regime is not None:
         variables["churning_regime"] = (step, regime, *REGIME)
     bound, share, drag, rollers = at_temperatures(losses.film, losses.temperatures, warming.mean).T
+    bound, drag = covered_alone(bound, share), covered_alone(drag, rollers)
     if settings.car.axle.bearing_torque_loss == "solved_films":
         variables |= {
             "drag_bound": (step, drag, "W", "bound of the bearings' drag loss"),
             "rollers_outside": (step, rollers, "1", "share of the rollers' load outside it"),
-            "energy_drag_bound": ((), _energy(drag, demand), "kJ", "bound of the bearings' drag"),
+            "energy_drag_bound": (
+                (),
+                _energy(np.nan_to_num(drag), demand),
+                "kJ",
+                "bound of the bearings' drag in steps that the model covers",
+            ),
         }
     if settings.car.axle.film == "solved":
-        energy_bound = _energy(bound, demand)
+        energy_bound = _energy(np.nan_to_num(bound), demand)
         variables |= {
             "friction_bound": (step, bound, "W", "bound of the flanks' friction loss"),
             "share_outside": (step, share, "1", "share of their load outside the film model"),
-            "energy_lost_bound": ((), energy_bound, "kJ", "bound of the energy lost by films"),
+            "energy_lost_bound": (
+                (),
+                energy_bound,
+                "kJ",
+                "bound of the energy lost by films in steps that the model covers",
+            ),
             "efficiency_bound": (
                 (),
                 energy_bound / energy_in if energy_in > 0.0 else np.nan,

@@ -11,8 +11,10 @@ from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.report.solved_films import (
     bearing_drag,
+    covered_share,
     flank_friction,
     model_of,
+    points_beyond,
     solved_films,
     solved_rollers,
 )
@@ -122,8 +124,8 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     """Say how far the model of solved films is to be trusted, where the axle took it."""
     if "energy_lost_bound" not in dataset:
         return []
-    lost, energy = float(dataset["energy_lost_bound"]), flank_friction(dataset["energy_lost"])
-    if not float(energy) > 0.0:
+    lost = float(dataset["energy_lost_bound"])
+    if not float(flank_friction(dataset["energy_lost"])) > 0.0:
         return []
     friction = flank_friction(dataset["loss"]) * dataset["duration"]
     outside = float((friction * dataset["share_outside"]).sum() / friction.sum())
@@ -132,22 +134,25 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     if np.isfinite(doubt):
         effect += f" and {quantity_text(100.0 * doubt, '%', 2)} of efficiency over the cycle"
     words = f"with {100.0 * outside:.1f} % of the flanks' friction loss"
-    model = model_of(dataset, FLANK)
-    return [solved_films(lost / float(energy), outside, words, f"{effect}.", model)]
+    words += points_beyond(dataset["share_outside"], "steps")
+    bound = covered_share(dataset["friction_bound"] * dataset["duration"], friction)
+    return [solved_films(bound, outside, words, f"{effect}.", model_of(dataset, FLANK))]
 
 
 def _rollers(dataset: xr.Dataset) -> list[Finding]:
     """Say the same of the model of rollers."""
     if "drag_bound" not in dataset:
         return []
-    lost, energy = float(dataset["energy_drag_bound"]), float(bearing_drag(dataset["energy_lost"]))
-    if not energy > 0.0:
+    lost = float(dataset["energy_drag_bound"])
+    if not float(bearing_drag(dataset["energy_lost"])) > 0.0:
         return []
     drag = bearing_drag(dataset["loss"]) * dataset["duration"]
     outside = float((drag * dataset["rollers_outside"]).sum() / drag.sum())
     effect = f"That is {quantity_text(lost, 'kJ', 2)} of energy lost."
     words = f"with {100.0 * outside:.1f} % of the bearings' drag loss"
-    return [solved_rollers(lost / energy, outside, words, effect, model_of(dataset, ROLLER))]
+    words += points_beyond(dataset["rollers_outside"], "steps")
+    bound = covered_share(dataset["drag_bound"] * dataset["duration"], drag)
+    return [solved_rollers(bound, outside, words, effect, model_of(dataset, ROLLER))]
 
 
 def _churning(dataset: xr.Dataset) -> list[Finding]:

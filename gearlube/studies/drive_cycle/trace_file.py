@@ -38,7 +38,7 @@ _CURE = (
 
 
 def read_trace(path: Path) -> dict[str, Any]:
-    """Return time [s] and the other quantities of a table in SI units, and notes on them.
+    """Return time [s] and the other quantities of a table in SI units, lines and notes on them.
 
     Units are in the names of the columns, see `COLUMNS`; the file is as `read_table` says. A file
     .vdri or names in <> are a driving cycle of VECTO, over time or distance.
@@ -55,7 +55,8 @@ def read_trace(path: Path) -> dict[str, Any]:
         return _of_vecto(table)
     head = [name.lower() for name in table.names]
     _check_head(path, head)
-    return {COLUMNS[name][0]: COLUMNS[name][1] * table.column(name) for name in head}
+    columns = {COLUMNS[name][0]: COLUMNS[name][1] * table.column(name) for name in head}
+    return columns | {"lines": np.array(table.lines)}
 
 
 def _check_head(path: Path, head: list[str]) -> None:
@@ -101,34 +102,45 @@ def _of_vecto(table: Table) -> dict[str, Any]:
     columns = {key: table.column(name) for key, name in named.items() if key in used}
     left = [named[key] for key in named if key not in used]
     notes = [f"Columns of the cycle that are not used: {', '.join(left)}."] if left else []
-    speed = columns["v"] / 3.6
+    speed, lines = columns["v"] / 3.6, np.array(table.lines)
     grade = {"grade": 0.01 * columns["grad"]} if "grad" in columns else {}
     if not by_distance:
         time = columns.get("t", np.arange(float(speed.size)))  # without <t>: a row each second
-        return {"time": time, "speed": speed, **grade, "notes": tuple(notes)}
-    time, speed, rows = _driven(
-        table.path, columns["s"], speed, columns.get("stop", np.zeros_like(speed))
-    )
+        return {"time": time, "speed": speed, **grade, "lines": lines, "notes": tuple(notes)}
+    stop = columns.get("stop", np.zeros_like(speed))
+    _check_way(table, columns["s"], speed, stop)
+    time, speed, rows = _driven(columns["s"], speed, stop)
     notes.append(
         "The cycle gives target speeds over distance. They are driven with the acceleration and "
         "deceleration of VECTO's truck driver, 1 to 0.5 m/s2."
     )
-    at_rows = {name: values[rows] for name, values in grade.items()}
+    at_rows = {name: values[rows] for name, values in (grade | {"lines": lines}).items()}
     return {"time": time, "speed": speed, **at_rows, "notes": tuple(notes)}
 
 
-def _driven(path: str, place: Array, target: Array, stop: Array) -> tuple[Array, Array, Array]:
+def _check_way(table: Table, place: Array, target: Array, stop: Array) -> None:
+    rule = (
+        f"{table.path} must have rising distances <s>, speeds <v> from 0 up, some above 0, and "
+        "times <stop> from 0 up"
+    )
+    wrong = np.flatnonzero((np.diff(place, prepend=-np.inf) <= 0.0) | (target < 0.0) | (stop < 0.0))
+    if wrong.size:
+        row = wrong[0]
+        raise ParameterError(
+            f"{rule}; got {place[row]:g} m, {3.6 * target[row]:g} km/h and {stop[row]:g} s in line "
+            f"{table.lines[row]}. Sort the rows and remove repeated distances."
+        )
+    if not np.any(target > 0.0):
+        raise ParameterError(f"{rule}; got no speed above 0. Give the target speeds.")
+
+
+def _driven(place: Array, target: Array, stop: Array) -> tuple[Array, Array, Array]:
     """Return times [s] a second apart, speeds [m/s] and rows of the cycle there.
 
     A target holds from its row to the next; a stop is a row with speed 0 and a time. Within the
     limits of the driver the speed is the highest that no later target forbids.
     """
     moving = np.flatnonzero(target > 0.0)
-    if not moving.size or np.any(target < 0.0) or np.any(stop < 0.0) or np.any(np.diff(place) <= 0):
-        raise ParameterError(
-            f"{path} must have rising distances <s>, speeds <v> from 0 up, some above 0, and times "
-            "<stop> from 0 up. Sort the rows and remove repeated distances."
-        )
     stands = (target == 0.0) & (stop > 0.0)
     asked = target[
         moving[np.searchsorted(moving, np.arange(target.size)).clip(max=moving.size - 1)]

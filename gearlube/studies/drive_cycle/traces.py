@@ -159,6 +159,8 @@ class DriveCycle:
     pinion_speed, pinion_torque : ndarray of shape (n,), optional
         Measured pinion speed and torque, instead of speed and grade [rad/s], [N.m]; torque below 0:
         coast.
+    lines : ndarray of shape (n,), optional
+        Line of each row in its file, for errors. Default: rows are counted from 1.
     notes : tuple of str
         What was done to the trace, in sentences. Speeds down to -0.5 km/h and pinion speeds down to
         -15 rpm are noise of a sensor at rest: they become 0, with a note.
@@ -181,6 +183,7 @@ class DriveCycle:
     grade: Array | None = None
     pinion_speed: Array | None = None
     pinion_torque: Array | None = None
+    lines: Array | None = None
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -207,6 +210,10 @@ class DriveCycle:
         names = ("speed", "pinion_speed", "pinion_torque")
         return [name for name in names if getattr(self, name) is not None]
 
+    def _place(self, row: int) -> str:
+        """Return where a row, counted from 0, stands."""
+        return f"row {row + 1}" if self.lines is None else f"line {self.lines[row]} of its file"
+
     def _checked(self, name: str, values: Array) -> Array:
         found = np.array(values, dtype=float)
         rows = np.size(self.time)
@@ -219,8 +226,9 @@ class DriveCycle:
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
             raise ParameterError(
-                f"{name} of {self.name} must be finite, got {found[bad[0]]} in row {bad[0] + 1}, "
-                f"and {bad.size} such rows in all. Fill them from their neighbours, or remove them."
+                f"{name} of {self.name} must be finite, got {found[bad[0]]} in "
+                f"{self._place(bad[0])}, and {bad.size} such rows in all. Fill them from their "
+                "neighbours, or remove them."
             )
         found.flags.writeable = False
         return found
@@ -230,9 +238,9 @@ class DriveCycle:
         if np.any(steps <= 0.0):
             row = int(np.argmax(steps <= 0.0)) + 1
             raise ParameterError(
-                f"The time of {self.name} must rise, got {self.time[row]:g} s in row {row + 1} "
-                f"after {self.time[row - 1]:g} s. Sort the rows, or cut the file where the clock "
-                "starts again."
+                f"The time of {self.name} must rise, got {self.time[row]:g} s in "
+                f"{self._place(row)} after {self.time[row - 1]:g} s. Sort the rows, or cut the "
+                "file where the clock starts again."
             )
         usual = float(np.median(steps))
         limit = min(_LONGEST_STEP, max(_SHORTEST_GAP, _USUAL_STEPS * usual))
@@ -240,8 +248,8 @@ class DriveCycle:
             row = int(np.argmax(steps > limit)) + 1
             raise ParameterError(
                 f"A step of {self.name} must be at most {limit:g} s, got {steps[row - 1]:g} s "
-                f"before row {row + 1}. Fill the gap, or cut the file there; a cycle given by its "
-                "corners needs rows between them, such as one a second. Times are in seconds."
+                f"before {self._place(row)}. Fill the gap, or cut the file there; a cycle given "
+                "by its corners needs rows between, such as one a second. Times are in seconds."
             )
 
     def _rest_is_zero(self, name: str) -> None:
@@ -252,9 +260,9 @@ class DriveCycle:
         if back.size:
             raise ParameterError(
                 f"{name} of {self.name} must be at least {-factor * noise:.3g} {unit}, got "
-                f"{factor * values[back[0]]:.3g} {unit} in row {back[0] + 1}, and {back.size} such "
-                "rows in all. Driving backwards is not modelled: cut these rows out, or write 0 "
-                "there. If the car drives forwards, change the sign of the column."
+                f"{factor * values[back[0]]:.3g} {unit} in {self._place(back[0])}, and "
+                f"{back.size} such rows in all. Driving backwards is not modelled: cut these rows "
+                "out, or write 0 there. If the car drives forwards, change the sign of the column."
             )
         below = np.flatnonzero(values < 0.0)
         if below.size:
@@ -285,7 +293,7 @@ class DriveCycle:
             raise ParameterError(
                 f"The acceleration of {self.name} must be within {-HARDEST[1]:g} to {HARDEST[0]:g} "
                 f"m/s2, the most that tyres can transmit; got {gained[row - 1]:.3g} m/s2 before "
-                f"row {row + 1}. Smooth the speed if it is noise. {kmh} Times are in seconds."
+                f"{self._place(row)}. Smooth the speed if it is noise. {kmh} Times are in seconds."
             )
 
     def _within(self, name: str, low: float, high: float, unit: str, cure: str) -> None:
@@ -294,7 +302,7 @@ class DriveCycle:
         if bad.size:
             raise ParameterError(
                 f"{name} of {self.name} must be within {low:g} to {high:g} {unit}".rstrip()
-                + f", got {values[bad[0]]:g} in row {bad[0] + 1}. {cure}"
+                + f", got {values[bad[0]]:g} in {self._place(bad[0])}. {cure}"
             )
 
     @property

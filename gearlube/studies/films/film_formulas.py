@@ -33,6 +33,7 @@ class FilmFormula(NamedTuple):
     quantity: str  # "central film" or "minimum film"
     source: str
     film: float  # [m]
+    radius: float  # relative radius along entrainment or across, the smaller [m]
 
 
 def line_film_formulas(problem: LineProblem) -> list[FilmFormula]:
@@ -43,8 +44,11 @@ def line_film_formulas(problem: LineProblem) -> list[FilmFormula]:
         return []
     contact = (problem.radius, oil.eta0, alpha, u, problem.line_load, problem.reduced_modulus)
     return [
-        FilmFormula("central film", "Dowson and Toyoda 1979", line_film_thickness(*contact)),
-        FilmFormula("minimum film", "Dowson 1968", minimum_line_film_thickness(*contact)),
+        FilmFormula(what, source, law(*contact), problem.radius)
+        for what, source, law in (
+            ("central film", "Dowson and Toyoda 1979", line_film_thickness),
+            ("minimum film", "Dowson 1968", minimum_line_film_thickness),
+        )
     ]
 
 
@@ -81,8 +85,8 @@ def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
     central = central_film_thickness(*film_geometry(R_x, R_y, psi), *operation)
     smallest = minimum_film_thickness(*minimum_film_geometry(R_x, R_y, psi), *operation)
     found = [
-        FilmFormula("central film", "Chittenden et al. 1985", central),
-        FilmFormula("minimum film", "Chittenden et al. 1985", smallest),
+        FilmFormula("central film", "Chittenden et al. 1985", central, R_x),
+        FilmFormula("minimum film", "Chittenden et al. 1985", smallest, R_x),
     ]
     if psi > _ALONG_AXIS and R_y > R_x:
         return found
@@ -97,9 +101,9 @@ def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
     H_c, H_m = hamrock_dowson_films(g.U, g.G, g.W, brewe_hamrock_ellipticity(R_x, R_y))
     if R_x >= _SMALLEST_RATIO * R_y:
         H = central_film_group(g.M, g.L, R_x / R_y) * math.sqrt(2.0 * g.U)
-        found.append(FilmFormula("central film", "Nijenbanning et al. 1994", R_x * H))
+        found.append(FilmFormula("central film", "Nijenbanning et al. 1994", R_x * H, R_x))
     return [
-        FilmFormula("central film", "Hamrock and Dowson 1977", R_x * H_c),
-        FilmFormula("minimum film", "Hamrock and Dowson 1977", R_x * H_m),
+        FilmFormula("central film", "Hamrock and Dowson 1977", R_x * H_c, R_x),
+        FilmFormula("minimum film", "Hamrock and Dowson 1977", R_x * H_m, R_x),
         *found,
     ]

@@ -13,6 +13,7 @@ from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.films.film_ratios import RATIO_FILMS, film_ratio_finding, film_ratios
 from gearlube_core.ehl.grid_error import LARGE_ERROR
+from gearlube_core.ehl.thin_film import thick_film_words
 
 STEADY = ("line", "point", "helical")  # contacts with one film
 _ERRORS = (
@@ -40,7 +41,12 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     >>> findings(xr.load_dataset("gearlube_ehl_line/line.nc"))[0].headline  # doctest: +SKIP
     'The film converged.'
     """
-    found = [_converged(dataset), *_thin(dataset), *_grid(largest_errors(dataset))]
+    found = [
+        _converged(dataset),
+        *_thin(dataset),
+        *_thick_formulas(dataset),
+        *_grid(largest_errors(dataset)),
+    ]
     found += _domain(dataset)
     if dataset.attrs["contact"] in STEADY:
         of_films = _steady(dataset)
@@ -131,6 +137,28 @@ def _thin(dataset: xr.Dataset) -> list[Finding]:
             WARNING,
             "Thin-film theory has ended: do not use these numbers.",
             f"{reason[0].upper()}{reason[1:]}. Take less speed or viscosity, or more load.",
+        )
+    ]
+
+
+def _thick_formulas(dataset: xr.Dataset) -> list[Finding]:
+    if "formula_film_over_radius" not in dataset:
+        return []
+    each = zip(
+        dataset["formula_source"].values,
+        dataset["formula_quantity"].values,
+        dataset["formula_film_over_radius"].values,
+        strict=True,
+    )
+    thick = [thick_film_words(f"the {of} of {by}", float(share)) for by, of, share in each]
+    said = "; ".join(filter(None, thick))
+    if not said:
+        return []
+    return [
+        Finding(
+            WARNING,
+            "Films of formulas are too thick for their radius: thin-film theory has ended.",
+            f"{said[0].upper()}{said[1:]}. Do not compare with them.",
         )
     ]
 

@@ -14,6 +14,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.friction.line_integrals import LineFrictionCycle
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.units import kelvin_to_celsius
 
 PHASES, NODES = 96, 16
 _FEW = 16, 4  # phases and nodes where only a share is asked for
@@ -129,6 +130,7 @@ def film_dataset(
     )
     dataset.attrs |= {
         "oil": settings.film().oil.name,
+        "oil_data_high_degc": kelvin_to_celsius(settings.film().oil.temperature_high),
         "film_model": settings.film().film,
         **film_model_attributes(settings.film().film_models),
         "oil_temperature": settings.oil_temperature,

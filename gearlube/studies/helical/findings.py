@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
+from gearlube.report.film_ratio import film_ratio_level, film_ratio_words, hot_film
 from gearlube.report.numbers import quantity_text
-from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
 from gearlube.report.solved_films import formulas_stand_in, model_of, solved_films
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import LINE, MOST_OUTSIDE
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
+from gearlube_core.units import ZERO_CELSIUS
 
 Datasets = Mapping[str, xr.Dataset]
 NEAR = 0.1  # of a natural frequency, within which an order is close to it
@@ -320,10 +322,22 @@ def _film(film: xr.Dataset) -> list[Finding]:
             f"{of['operating_mean_coefficient']:.4f}, and the mesh loses "
             f"{quantity_text(of['operating_power_loss'], 'W')}.",
             f"Film over a composite roughness of {1e6 * of['roughness_rms']:.3g} µm, at "
-            f"{of['oil_temperature'] - 273.15:.0f} °C. {film_ratio_words(ratio)}",
+            f"{of['oil_temperature'] - ZERO_CELSIUS:.0f} °C. {film_ratio_words(ratio)}",
+        ),
+        *hot_film(
+            of["oil_temperature"] - ZERO_CELSIUS + film["temperature_rise"],
+            of.get("oil_data_high_degc", math.nan),
+            lambda _: "this speed and torque",
         ),
         *_solved(film),
     ]
+
+
+def _words_of(point: xr.Dataset | xr.DataArray) -> str:
+    return (
+        f"{float(point['torque']):.4g} N·m, {float(point['speed']):.0f} rpm and "
+        f"{float(point['temperature']):.4g} °C oil"
+    )
 
 
 def _losses(losses: xr.Dataset) -> list[Finding]:
@@ -333,11 +347,15 @@ def _losses(losses: xr.Dataset) -> list[Finding]:
     found = [
         Finding(
             NOTE,
-            f"The teeth lose at most {quantity_text(total, 'W')}, at "
-            f"{float(worst['torque']):.4g} N·m, {float(worst['speed']):.0f} rpm and "
-            f"{float(worst['temperature']):.4g} °C oil: sliding {100.0 * sliding / total:.0f} %.",
+            f"The teeth lose at most {quantity_text(total, 'W')}, at {_words_of(worst)}: sliding "
+            f"{100.0 * sliding / total:.0f} %.",
             f"Static loads. Not modelled: {losses.attrs['not_modelled']}.",
-        )
+        ),
+        *hot_film(
+            losses["temperature"] + losses["temperature_rise"],
+            losses.attrs.get("oil_data_high_degc", math.nan),
+            _words_of,
+        ),
     ]
     if "share_outside" not in losses:
         return found
@@ -349,54 +367,3 @@ def _losses(losses: xr.Dataset) -> list[Finding]:
         model = model_of(losses, LINE)
         found.append(solved_films(float(share), 0.0, words, model=model, where=where))
     return found + formulas_stand_in("Losses", outside, losses["speed"].values)
-
-
-def numbers(datasets: Datasets) -> list[Number]:
-    """Return the key numbers of a study, with the same names in every run."""
-    nan = float("nan")
-    peak = largest_error(datasets["sweep"]) if "sweep" in datasets else None
-    own = operating_error(datasets["response"]) if "response" in datasets else None
-    found = [
-        Number("dynamic transmission error in operation", own[0] if own else nan, "µm"),
-        Number("its mesh order", own.order if own else nan, digits=1),
-        Number("largest dynamic transmission error in the sweep", peak[0] if peak else nan, "µm"),
-        Number("its mesh order there", peak.order if peak else nan, digits=1),
-        Number("its speed", peak.speed if peak else nan, "rpm", 4),
-    ]
-    contact, film = datasets.get("contact"), datasets.get("film")
-    at = None
-    if contact is not None:
-        at = contact.sel(torque=contact.attrs["pinion_torque"], method="nearest")
-    found += [
-        Number("mean mesh stiffness", nan if at is None else 1e-6 * float(at["K"].mean()), "N/µm"),
-        Number(
-            "loaded transmission error, peak to peak",
-            nan if at is None else 1e6 * float(at["transmission_error_ptp"]),
-            "µm",
-        ),
-        Number(
-            "highest pressure", nan if at is None else 1e-9 * float(at["pressure_max"].max()), "GPa"
-        ),
-    ]
-    separation, stability = datasets.get("separation"), datasets.get("stability")
-    return [
-        *found,
-        Number(
-            "longest time without contact",
-            nan if separation is None else 100.0 * float(separation["separation_share"].max()),
-            "%",
-        ),
-        Number(
-            "least unstable factor on the swing of the stiffness",
-            nan if stability is None else least_unstable(stability),
-        ),
-        Number(
-            "mean coefficient of friction",
-            nan if film is None else float(film.attrs["operating_mean_coefficient"]),
-        ),
-        Number(
-            "power lost in the mesh",
-            nan if film is None else float(film.attrs["operating_power_loss"]),
-            "W",
-        ),
-    ]

@@ -27,7 +27,7 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
-from gearlube_core.units import ZERO_CELSIUS
+from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius
 
 PARTS_OF_LOSS = ("sliding", "rolling")
 NOT_MODELLED = "bearings, seals, churning and squeezing of oil, windage"
@@ -216,6 +216,7 @@ def losses_dataset(
         attrs={
             "not_modelled": NOT_MODELLED,
             "oil": settings.film().oil.name,
+            "oil_data_high_degc": kelvin_to_celsius(settings.film().oil.temperature_high),
             "film_model": settings.film().film,
             **film_model_attributes(settings.film().film_models),
             "draws": settings.draws,

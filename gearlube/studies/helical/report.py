@@ -11,11 +11,19 @@ import xarray as xr
 from gearlube.report.charts import Axis, Line, line_chart, mark_level
 from gearlube.report.inputs import file_inputs, origin_of, remark_findings
 from gearlube.report.page import write_report
-from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Report, Table
+from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Number, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
 from gearlube.studies.helical.figures.layout import distinct
-from gearlube.studies.helical.findings import ORDERS, findings, numbers, order_amplitudes
+from gearlube.studies.helical.findings import (
+    ORDERS,
+    Datasets,
+    findings,
+    largest_error,
+    least_unstable,
+    operating_error,
+    order_amplitudes,
+)
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM
 from gearlube.studies.helical.summary import loss_model, losses_rows
@@ -227,3 +235,54 @@ def _error_orders_chart(sweep: xr.Dataset) -> Any:
         mark_level(chart, float(own), "operating point", across=False)
     chart.update_xaxes(exponentformat="none")
     return chart
+
+
+def numbers(datasets: Datasets) -> list[Number]:
+    """Return the key numbers of a study, with the same names in every run."""
+    nan = float("nan")
+    peak = largest_error(datasets["sweep"]) if "sweep" in datasets else None
+    own = operating_error(datasets["response"]) if "response" in datasets else None
+    found = [
+        Number("dynamic transmission error in operation", own[0] if own else nan, "µm"),
+        Number("its mesh order", own.order if own else nan, digits=1),
+        Number("largest dynamic transmission error in the sweep", peak[0] if peak else nan, "µm"),
+        Number("its mesh order there", peak.order if peak else nan, digits=1),
+        Number("its speed", peak.speed if peak else nan, "rpm", 4),
+    ]
+    contact, film = datasets.get("contact"), datasets.get("film")
+    at = None
+    if contact is not None:
+        at = contact.sel(torque=contact.attrs["pinion_torque"], method="nearest")
+    found += [
+        Number("mean mesh stiffness", nan if at is None else 1e-6 * float(at["K"].mean()), "N/µm"),
+        Number(
+            "loaded transmission error, peak to peak",
+            nan if at is None else 1e6 * float(at["transmission_error_ptp"]),
+            "µm",
+        ),
+        Number(
+            "highest pressure", nan if at is None else 1e-9 * float(at["pressure_max"].max()), "GPa"
+        ),
+    ]
+    separation, stability = datasets.get("separation"), datasets.get("stability")
+    return [
+        *found,
+        Number(
+            "longest time without contact",
+            nan if separation is None else 100.0 * float(separation["separation_share"].max()),
+            "%",
+        ),
+        Number(
+            "least unstable factor on the swing of the stiffness",
+            nan if stability is None else least_unstable(stability),
+        ),
+        Number(
+            "mean coefficient of friction",
+            nan if film is None else float(film.attrs["operating_mean_coefficient"]),
+        ),
+        Number(
+            "power lost in the mesh",
+            nan if film is None else float(film.attrs["operating_power_loss"]),
+            "W",
+        ),
+    ]

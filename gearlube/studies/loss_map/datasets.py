@@ -10,7 +10,7 @@ import xarray as xr
 from drivetrain.steady_temperature import Cooling
 from gearlube.plotting.loss_words import NEVER_MODELLED
 from gearlube.report.churning import REGIME, churning_regime
-from gearlube.report.solved_films import film_model_attributes
+from gearlube.report.solved_films import covered_alone, film_model_attributes
 from gearlube.studies.loss_map.sampling import Spread
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
@@ -58,7 +58,12 @@ def loss_map_dataset(
         variables |= _of_film_model(losses, turning * torques, total)
     if settings.axle.bearing_torque_loss == "solved_films":
         variables |= {
-            "drag_bound": (GRID, losses.drag_bound, "W", "bound of the bearings' drag loss"),
+            "drag_bound": (
+                GRID,
+                covered_alone(losses.drag_bound, losses.rollers_outside),
+                "W",
+                "bound of the bearings' drag loss where the film model covers the rollers",
+            ),
             "rollers_outside": (
                 GRID,
                 losses.rollers_outside,
@@ -141,9 +146,9 @@ def not_modelled(axle: HypoidAxleParameters) -> tuple[str, ...]:
 def _of_film_model(losses: AxleLosses, pinion_power: Array, total: Array) -> dict[str, Any]:
     """Return what a model of solved films says of itself."""
     put_in = np.where(pinion_power > 0.0, pinion_power, total - pinion_power)
-    bound = losses.friction_bound
+    bound = covered_alone(losses.friction_bound, losses.share_outside)
     return {
-        "friction_bound": (GRID, bound, "W", "bound of the flanks' friction loss"),
+        "friction_bound": (GRID, bound, "W", "bound of the flanks' friction loss, where covered"),
         "efficiency_bound": (
             GRID,
             np.divide(bound, put_in, out=np.full(bound.shape, np.nan), where=put_in > 0.0),

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import xarray as xr
 
 from gearlube.plotting.loss_words import source_words
 from gearlube.plotting.range_words import RANGE_WORDS
 from gearlube.report.churning import regime_findings
-from gearlube.report.film_ratio import MIXED, film_ratio_level
+from gearlube.report.film_ratio import MIXED, film_ratio_level, hot_film
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.report.solved_films import (
     bearing_drag,
+    covered_share,
     efficiency_doubt,
     flank_friction,
     model_of,
@@ -86,7 +89,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
     return found
 
 
-def words_of(point: xr.Dataset) -> str:
+def words_of(point: xr.Dataset | xr.DataArray) -> str:
     """Return where a point of the map is, "50 N·m, 1000 rpm and 80 °C oil"."""
     return (
         f"{float(point['torque']):.4g} N·m, {float(point['speed']):.4g} rpm and "
@@ -239,20 +242,8 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
 
 def _heat(dataset: xr.Dataset) -> list[Finding]:
     """Say what the hottest film's temperature is worth where the oil data end below it."""
-    hottest, end = dataset["flank_temperature"], dataset.attrs.get("oil_data_high_degc")
-    if end is None or not (hottest > end).any():
-        return []
-    worst = _at(dataset, hottest)
-    hot = 100.0 * _extrapolated(dataset)
-    return [
-        Finding(
-            WARNING,
-            f"The hottest flank film, {float(worst['flank_temperature']):.0f} °C at "
-            f"{words_of(worst)}, is extrapolated: the oil data end at {end:.0f} °C.",
-            "Read it as hotter than the data, not as a temperature. Film and friction follow the "
-            f"same laws of the oil beyond their data, at {hot:.0f} % of the points.",
-        )
-    ]
+    end = dataset.attrs.get("oil_data_high_degc", math.nan)
+    return hot_film(dataset["flank_temperature"], end, words_of)
 
 
 def _extrapolated(dataset: xr.Dataset) -> float:
@@ -268,7 +259,7 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     if "share_outside" not in dataset:
         return []
     outside = dataset["share_outside"]
-    bound = float(dataset["friction_bound"].sum() / flank_friction(dataset["loss"]).sum())
+    bound = covered_share(dataset["friction_bound"], flank_friction(dataset["loss"]))
     worst = _at(dataset, outside)
     most = float(worst["share_outside"])
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
@@ -280,7 +271,7 @@ def _rollers(dataset: xr.Dataset) -> list[Finding]:
     """Say the same of the model of rollers."""
     if "drag_bound" not in dataset:
         return []
-    bound = float(dataset["drag_bound"].sum() / bearing_drag(dataset["loss"]).sum())
+    bound = covered_share(dataset["drag_bound"], bearing_drag(dataset["loss"]))
     worst = _at(dataset, dataset["rollers_outside"])
     most = float(worst["rollers_outside"])
     words = f"at most {100.0 * most:.0f} % of the rollers' load, at {words_of(worst)}"

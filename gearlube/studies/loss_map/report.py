@@ -87,6 +87,17 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
                 chart=contour_chart(dataset, "efficiency", Axis("efficiency", "%"), 100.0),
             )
         )
+        if "share_outside" in dataset:
+            covered = dataset.assign(covered=1.0 - dataset["share_outside"])
+            found.append(
+                Figure(
+                    name="covered",
+                    title="Load that solved films cover",
+                    caption="Below 95 % the losses are in part those of formulas, with the error "
+                    "bars of formulas.",
+                    chart=contour_chart(covered, "covered", Axis("covered load", "%"), 100.0),
+                )
+            )
     found.append(
         Figure(
             name="losses",

@@ -39,22 +39,21 @@ class Spread:
 def spread_of(settings: LossMapSettings, progress: Progress = no_progress) -> Spread:
     """Return the spread of the total loss by the uncertain data of the settings.
 
-    Each draw holds for the whole map: a wrong viscosity is wrong everywhere. Where a draw leaves
-    the film model of the flanks and the axle itself does not, it changes the losses by the ratio
-    that the formulas give.
+    Each draw holds for the whole map: a wrong viscosity is wrong everywhere. Where the
+    axle or a draw leaves the film model of the flanks, a draw changes the losses by the ratio that
+    the formulas give: no bar mixes both models.
     """
     rows, count = _rows(settings), len(settings.uncertain)
     usual, inside = _power(settings, settings.axle)
-    formulas = (
-        _power(settings, replace(settings.axle, film="formula"))[0] if inside.any() else usual
-    )
+    solved = settings.axle.film == "solved"
+    formulas = _power(settings, replace(settings.axle, film="formula"))[0] if solved else usual
     totals = np.empty((len(rows), *settings.shape))
     for k, row in enumerate(rows):
         progress(k / len(rows), f"error bars, {k + 1} of {len(rows)}")
         axle, scale = _drawn(settings, row)
         power, still = (usual, inside) if axle is settings.axle else _power(settings, axle)
-        left = inside & ~still
-        if left.any():
+        left = ~(inside & still)
+        if solved and axle is not settings.axle and left.any():
             by = _power(settings, replace(axle, film="formula"))[0][left]
             ratio = np.divide(by, formulas[left], out=np.ones_like(by), where=formulas[left] > 0.0)
             power[left] = usual[left] * ratio

@@ -12,6 +12,7 @@ from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
 from gearlube.report.solved_films import (
     bearing_drag,
+    covered_share,
     efficiency_doubt,
     flank_friction,
     model_of,
@@ -251,19 +252,26 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
 
 def _solved(dataset: xr.Dataset) -> list[Finding]:
     """Say how far the model of solved films is to be trusted, where the axle took it."""
-    if "friction_loss_bound" not in dataset or not _most(dataset["friction_loss_bound"]) > 0.0:
+    if not _taken(dataset, "friction_loss_bound", "share_outside"):
         return []
-    bound = float(dataset["friction_loss_bound"].sum() / flank_friction(dataset["loss"]).sum())
+    bound = covered_share(dataset["friction_loss_bound"], flank_friction(dataset["loss"]))
     most, words = _outside(dataset["share_outside"], "flanks")
     doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
     return [solved_films(bound, most, words, doubt, model)]
 
 
+def _taken(dataset: xr.Dataset, bound: str, outside: str) -> bool:
+    """Return whether a film model was taken: bounds are 0 else, nan where it covers too little."""
+    if bound not in dataset:
+        return False
+    return bool(((dataset[bound] > 0.0) | (dataset[outside] > 0.0)).any())
+
+
 def _solved_rollers(dataset: xr.Dataset) -> list[Finding]:
     """Say the same of the model of rollers."""
-    if "drag_bound" not in dataset or not _most(dataset["drag_bound"]) > 0.0:
+    if not _taken(dataset, "drag_bound", "rollers_outside"):
         return []
-    bound = float(dataset["drag_bound"].sum() / bearing_drag(dataset["loss"]).sum())
+    bound = covered_share(dataset["drag_bound"], bearing_drag(dataset["loss"]))
     most, words = _outside(dataset["rollers_outside"], "rollers")
     return [solved_rollers(bound, most, words, model=model_of(dataset, ROLLER))]
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlube.report.solved_films import covered_alone
 from gearlube.studies.sweep.channels import AXES, BEARINGS, FLANKS, LOSSES
 from gearlube.studies.sweep.recording import Recording
 from gearlube.studies.sweep.separation import separation_class
@@ -131,13 +132,20 @@ def _power(recording: Recording) -> Variables:
     total = sum(loss.values())
     open_power = power_in - power_out - total - _slope(recording, "energy.stored")
     friction = loss["friction_viscous"] + loss["friction_boundary"]
-    bound = float(np.mean(recording["friction.power_loss_bound"]))
+    means = {
+        one: float(np.mean(recording[one]))
+        for one in ("film.share_outside", "bearing.share_outside")
+    }
+    bound, drag_bound = (
+        float(covered_alone(float(np.mean(recording[f"{of}.power_loss_bound"])), means[share]))
+        for of, share in zip(("friction", "bearing"), means, strict=True)
+    )
     return {
         "friction_loss_bound": bound,
         "efficiency_bound": bound / power_in if power_in > 0.0 else math.nan,
-        "share_outside": float(np.mean(recording["film.share_outside"])),
-        "drag_bound": float(np.mean(recording["bearing.power_loss_bound"])),
-        "rollers_outside": float(np.mean(recording["bearing.share_outside"])),
+        "share_outside": means["film.share_outside"],
+        "drag_bound": drag_bound,
+        "rollers_outside": means["bearing.share_outside"],
         "power_in": power_in,
         "loss": ("source", list(loss.values())),
         "efficiency_mesh": 1.0 - friction / power_in if power_in > 0.0 else math.nan,

@@ -74,6 +74,18 @@ def oil_beyond(
     )
 
 
+def beyond_sentence(of: LineProblem, now: LineProblem, found: OilBeyond) -> str:
+    """Return a warning where no oil beyond a flooded domain is counted, else an empty string.
+
+    `of` is the problem of `oil_beyond`, `now` the same with the surface speeds of now.
+    """
+    if found is not NOTHING or not of.flooded_beyond or of.entrainment_speed == 0.0:
+        return ""
+    if of.entrainment_speed * now.entrainment_speed <= 0.0:
+        return " Oil beyond the domain is not counted: the surfaces carry it the other way."
+    return " Oil beyond the domain is not counted: the domain cuts the contact. Widen it."
+
+
 def _outside(problem: LineProblem, distance: float) -> tuple[Array, Array, Array] | None:
     """Return places, weights and film [m] from a border on; None: it is near the contact."""
     b, film = problem.half_width, problem.film_guess()

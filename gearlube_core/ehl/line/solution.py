@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, formal_order
 from gearlube_core.ehl.line.newton import NewtonRecord
-from gearlube_core.ehl.line.oil_beyond import OilBeyond
+from gearlube_core.ehl.line.oil_beyond import OilBeyond, beyond_sentence
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.ehl.line.traction import fill_mean_stress
@@ -210,7 +210,8 @@ def build_solution(
         records=records,
         converged=last.converged,
         outcome=_outcome(last, system, state)
-        + thin_film_sentence(p, h, (system.x,), (problem.radius,)),
+        + thin_film_sentence(p, h, (system.x,), (problem.radius,))
+        + beyond_sentence(system.problem, problem, system.beyond),
     )
 
 

@@ -65,7 +65,8 @@ class LineMarch:
     Where a film without mass conservation is broken, what gathers is the whole gap. Where no film
     is found, the step is solved again with solids that touch at `contact_film`: load and balances
     of all other nodes hold, what oil a held film makes is `contact_flow` of the solution.
-    Each solution tells about what the time steps cost its smallest film, see `TimeError`.
+    Each solution tells about what the time steps cost its smallest film, see `TimeError`, and the
+    errors of grid and domain that the start has.
     """
 
     def __init__(
@@ -86,7 +87,7 @@ class LineMarch:
         problem = replace(start.problem, domain=ends, oil_beyond=beyond)
         self.settings: LineSettings = settings
         self.history, self.scheme, self.time, self.steps = history, scheme, 0.0, 0
-        self._problem = problem
+        self._problem, self._error = problem, f" At the start:{start.error.sentence}"
         self._system = LineSystem(problem, start.x.size, settings.stencil, conserving)
         scales = self._system.scales
         self._time_step = time_step
@@ -136,7 +137,9 @@ class LineMarch:
         self._time_error.step(stored[None], state.P[None], np.array([way]))
         error = self._time_error.of_smallest_film(system.H[None])
         solution = replace(
-            solution, time_error=error, outcome=solution.outcome + time_error_sentence(error)
+            solution,
+            time_error=error,
+            outcome=solution.outcome + time_error_sentence(error) + self._error,
         )
         system.least = 0.0
         if throw and not solution.converged:

@@ -68,6 +68,12 @@ def formula_variables(formulas: list[FilmFormula]) -> dict[str, Variable]:
             "m",
             "film of a published formula",
         ),
+        "formula_film_over_radius": noted(
+            "formula",
+            np.array([one.film / one.radius for one in formulas]),
+            "1",
+            "that film over the relative radius; thin films are below 0.01",
+        ),
         "formula_quantity": ("formula", np.array([one.quantity for one in formulas]), {}),
         "formula_source": ("formula", np.array([one.source for one in formulas]), {}),
     }
