@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 import xarray as xr
-from gearlube.studies.contact.report import _table
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.contact.figures.charts import stiffness_chart
 from gearlube.studies.contact.findings import edge_torque, findings, numbers, transmission_orders
+from gearlube.studies.contact.run import _table
 from gearlube.studies.contact.summary import contact_summary
 from tests.helpers.known_answers import (
     assert_cells,

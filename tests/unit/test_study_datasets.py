@@ -5,14 +5,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from gearlube.studies.bearing.dataset import bearing_dataset, bearing_rows
-from gearlube.studies.sound.levels import fast_level
 
+from gearlube.studies.bearing.run import _bearing_dataset as bearing_dataset
+from gearlube.studies.bearing.run import _bearing_rows as bearing_rows
 from gearlube.studies.design.dataset import mesh_error
 from gearlube.studies.measured.flank_dataset import flank_dataset
 from gearlube.studies.measured.teeth import tooth_error_dataset
 from gearlube.studies.optimise.dataset import optimise_dataset
-from gearlube.studies.sound.dataset import sound_dataset
+from gearlube.studies.sound.dataset import fast_level, sound_dataset
 from gearlube.studies.sound.metrics import Curve
 from gearlube.studies.sound.report import _numbers
 from gearlube.studies.whine import run as whine
