@@ -159,7 +159,7 @@ def test_loss_map_says_failures_films_bulk_steady_oil_and_ranges(a_map):
     )
     marked = xr.zeros_like(parts[0])
     marked[1, 0, 2] = 1.0
-    a_map["status"][0, 0, 0] = 4
+    a_map["status"][0, 0, 0], a_map["loss_torque"][0, 0, 0] = 4, np.nan
     a_map["range_exceeded"][0] = 1.0
     a_map["range_exceeded"][0, 0, 1] = 1.0 + 16.0  # torque and film temperature
     a_map["range_exceeded"][1, 0, 0] = 1.0
