@@ -19,7 +19,7 @@ def a_bearing():
     torque = np.array([[[2.0, 1.0], [4.0, 2.0]], [[0.8, 0.4], [1.6, 0.8]]]).reshape(2, 2, 1, 1, 2)
     speed = np.array([100.0, 200.0])
     power = torque * speed[None, :, None, None, None]
-    parts = np.stack([0.75 * torque, 0.25 * torque])
+    parts = np.stack([0.75 * torque, 0.25 * torque, 0.0025 * torque])  # too little to tell
     ones = np.ones(torque.shape)
     return xr.Dataset(
         {
@@ -38,7 +38,7 @@ def a_bearing():
             "axial_load": [5000.0],
             "radial_load": [0.0],
             "temperature": [313.15, 353.15],
-            "part": ["rolling", "rib"],
+            "part": ["rolling", "rib", "cage"],
         },
         attrs={
             "name": "made",
@@ -82,8 +82,11 @@ def test_bearing_has_its_known_key_numbers_findings_and_table(a_bearing):
     heads = ["speed [rpm]", "axial load [N]", "radial load [N]", "oil [°C]"]
     conditions = [(100.0, 40.0, 2.0), (100.0, 80.0, 1.0), (200.0, 40.0, 4.0), (200.0, 80.0, 2.0)]
     table = [
-        [*heads, "rolling [N·m]", "rib [N·m]", "torque [N·m]", "power loss [W]"],
-        *([v * RPM, 5000.0, 0.0, degc, 0.75 * m, 0.25 * m, m, m * v] for v, degc, m in conditions),
+        [*heads, "rolling [N·m]", "rib [N·m]", "cage [N·m]", "torque [N·m]", "power loss [W]"],
+        *(
+            [v * RPM, 5000.0, 0.0, degc, 0.75 * m, 0.25 * m, 0.0025 * m, m, m * v]
+            for v, degc, m in conditions
+        ),
     ]
     assert_tables(report.tables, {"Torque by Zhou and Hoeprich": table})
     assert "flooded" in report_html(report)

@@ -263,3 +263,12 @@ def test_the_regime_of_churning_is_that_of_the_oils_kinematic_viscosity(monkeypa
     found = datasets._churning_regime(axle, np.array([300.0, 400.0]), np.array([10.0, 30.0]))
     nu = np.array([[0.3 / 800.0], [0.4 / 800.0]])
     np.testing.assert_allclose(found, 2.0 * nu * [10.0, 30.0], rtol=1e-12)
+
+
+def test_the_bound_of_the_efficiency_counts_what_is_put_in():
+    """Half a watt by the pinion, or what the wheels give, or nothing that turns."""
+    one = np.array([0.01, 0.02, 0.03])
+    losses = SimpleNamespace(friction_bound=one, share_outside=one)
+    power, total = np.array([0.5, -0.6, 0.0]), np.array([0.2, 0.2, 0.0])
+    found = datasets._of_film_model(losses, power, total)["efficiency_bound"][1]
+    np.testing.assert_allclose(found, [0.01 / 0.5, 0.02 / 0.8, np.nan])

@@ -175,6 +175,7 @@ def test_an_optimisation_has_its_known_key_numbers_findings_and_tables():
         ],
     }  # fmt: skip
     assert_tables(report.tables, tables)
+    assert [one.folded for one in report.tables] == [False, True, True, True]
     assert "−20.0 dB" in report_html(report)
     undercut = optimised().assign_attrs(remarks="The pinion is undercut. Look.")
     assert optimise_report(undercut).findings[0].headline == "The pinion is undercut."

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 from gearlube.command import app
 from gearlube.report.stored import read_report
+from gearlube.studies.sound.compare import difference_sentences
 from gearlube.studies.sound.dataset import level_range, level_values, weighted_order
 from gearlube.studies.sound.run import run_sound
 from gearlube.studies.sound.settings import SoundSettings
@@ -44,6 +45,33 @@ def test_the_louder_of_two_orders_is_told_first():
         ["mesh order 2", "12 dB quieter"],
         ["mesh order 1", "6 dB louder"],
     ]
+
+
+@pytest.mark.parametrize(
+    ("loudness", "said"),
+    [
+        (4.2, "B is about as loud: 4 and 4.2 sone (N5)."),  # 5 %
+        (8.0, "With B the loudness rises from 4 to 8 sone (N5). The difference is largest at "
+         "955 rpm: 4 and 8 sone."),
+    ],
+)  # fmt: skip
+def test_loudness_is_compared_and_only_one_car_leaves_the_speed_of_the_pinion(loudness, said):
+    def one(name, sone):
+        speed = np.linspace(100.0, 200.0, 3)
+        return xr.Dataset(
+            {
+                "pinion_speed": ("time", speed),
+                "vehicle_speed": ("time", 0.1 * speed),
+                "loudness": ("time", np.full(3, sone)),
+                "loudness_single": sone,
+                "order_level": (("order", "time"), np.full((1, 3), 30.0)),
+            },
+            coords={"order": [13.0], "time": [0.0, 1.0, 2.0]},
+            attrs={"name": name, "pinion_teeth": 13, "level_a_mean_db": 50.0},
+        )
+
+    found = difference_sentences(one("A", 4.0), one("B", loudness).drop_vars("vehicle_speed"))
+    assert found[0] == said
 
 
 def test_runs_that_are_alike_are_said_to_be():

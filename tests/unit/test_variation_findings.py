@@ -102,6 +102,7 @@ def test_a_sampled_variation_has_its_known_key_numbers_findings_and_table():
         [factor * k for k in range(1, 21)] for factor in (10.0, 5.0)
     ]
     assert histograms.layout.xaxis.title.text == "loss [W]"
+    assert histograms.layout.yaxis.title.text == "points"
     assert list(ranks.data[0].x) == [1.0]
     deviation = np.sqrt((20.0**2 - 1.0) / 12.0)  # of 1 to 20
     words = ("mean", "standard deviation", "least", "2.5 %", "median", "97.5 %", "largest")
