@@ -22,7 +22,7 @@ from drivetrain.vehicle import mohammadpour_2015_vehicle
 from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.film.chittenden_1985 import central_film_thickness
-from tests.references.bearing_statics import natural_frequencies, stiffness
+from tests.helpers.bearing_statics import natural_frequencies, stiffness
 
 HOLDS, FAILS, PARTLY = "holds", "does not hold", "holds in part"
 

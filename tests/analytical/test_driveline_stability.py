@@ -14,7 +14,7 @@ from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.errors import ConvergenceError
-from tests.references.communication_stability import (
+from tests.helpers.communication_stability import (
     TorsionalAxle,
     communication_map,
     communication_stability,

@@ -12,7 +12,7 @@ from gearlube_core.film.mostofi_gohar_1983 import (
     dimensionless_groups_as_printed,
     squeeze_factor,
 )
-from tests.references.bearing_statics import (
+from tests.helpers.bearing_statics import (
     natural_frequencies,
     static_displacement,
     stiffness,

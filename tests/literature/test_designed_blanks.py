@@ -11,7 +11,7 @@ from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.blank_limits import check_blank
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from tests.references.member_profile import MemberProfile
+from tests.helpers.member_profile import MemberProfile
 
 
 def designed(cutter, depth=None, **pair):

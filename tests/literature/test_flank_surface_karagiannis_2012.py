@@ -23,7 +23,7 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import (
 )
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from tests.references.pressure_angle import pressure_angle_mismatch
+from tests.helpers.pressure_angle import pressure_angle_mismatch
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 # the settings as printed: nothing completed

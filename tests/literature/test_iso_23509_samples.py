@@ -23,7 +23,7 @@ from gearlube_core.hypoid_geometry.blank.iso_23509 import (
     method_3,
 )
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
-from tests.references.member_profile import MemberProfile
+from tests.helpers.member_profile import MemberProfile
 
 RAD = math.radians
 

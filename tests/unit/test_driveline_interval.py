@@ -10,7 +10,7 @@ import pytest
 
 from drivetrain.driveline.equations import POWERS, STATES
 from drivetrain.driveline.stepper import MEMORY, driveline_stepper
-from tests.references.communication_stability import interval_jacobian
+from tests.helpers.communication_stability import interval_jacobian
 
 N, COUNT = len(STATES), len(POWERS)
 PROPSHAFT, HALF_SHAFT = 700.0, 90.0  # N m/rad

@@ -11,7 +11,7 @@ from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead, Too
 from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, method_2
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from tests.references.member_profile import MemberProfile
+from tests.helpers.member_profile import MemberProfile
 
 BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 PROFILES = [MemberProfile.of_pinion(BLANK), MemberProfile.of_gear(BLANK)]

@@ -17,7 +17,7 @@ from gearlube_core.hypoid_geometry.flank.machine_check import edge_misfits, refe
 from gearlube_core.hypoid_geometry.flank.machine_frames import pinion_cut
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
-from tests.references.pressure_angle import pressure_angle
+from tests.helpers.pressure_angle import pressure_angle
 
 GEARS = Path(__file__).parents[2] / "examples" / "gears"
 SHIPPED = HypoidGearFile.named("mohammadpour_2015")

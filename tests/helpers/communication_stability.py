@@ -16,7 +16,7 @@ from drivetrain.driveline.stepper import LONGEST_INNER_STEP, MEMORY, driveline_s
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ConvergenceError
-from tests.references.torsional_axle import TorsionalAxle
+from tests.helpers.torsional_axle import TorsionalAxle
 
 _Matrix = Array
 
