@@ -89,7 +89,9 @@ def written_folder(out: Path) -> Iterator[None]:
 
 
 @contextmanager
-def results_folder(out: Path, study: str, *, overwrite: bool = False) -> Iterator[None]:
+def results_folder(
+    out: Path, study: str, *, overwrite: bool = False, by_parts: bool = False
+) -> Iterator[None]:
     """Make a study's folder of results and mark it; see `written_folder`.
 
     Parameters
@@ -99,6 +101,9 @@ def results_folder(out: Path, study: str, *, overwrite: bool = False) -> Iterato
         The command as typed after `gearlube`.
     overwrite : bool
         Also write into a folder of another study, version or input.
+    by_parts : bool
+        The study keeps the options of each part of its results, and goes on with those that fit:
+        only its case must be the same here.
 
     Raises
     ------
@@ -112,7 +117,7 @@ def results_folder(out: Path, study: str, *, overwrite: bool = False) -> Iterato
         mine = {"study": study, "gearlube_version": __version__, "input": _input()}
         marked = mark.is_file()
         if not overwrite:
-            _check_owner(out, mine)
+            _check_owner(out, mine, {"case", "gear"} if by_parts else None)
         if marked:
             _remove_halves(out)
         write_text(json.dumps(mine) + "\n", mark)
@@ -124,7 +129,7 @@ def results_folder(out: Path, study: str, *, overwrite: bool = False) -> Iterato
             raise
 
 
-def _check_owner(out: Path, mine: dict[str, Any]) -> None:
+def _check_owner(out: Path, mine: dict[str, Any], compared: set[str] | None) -> None:
     mark = out / MARK
     found = sorted(_RESULTS & {entry.name for entry in out.iterdir()})
     if not mark.is_file():
@@ -151,7 +156,8 @@ def _check_owner(out: Path, mine: dict[str, Any]) -> None:
             f"holds results of gearlube {version}. {_CURE}"
         )
     now = mine["input"]
-    pairs = {name: (before.get(name), now.get(name)) for name in {**before, **now}}
+    names = {**before, **now}.keys() & (compared or {**before, **now}.keys())
+    pairs = {name: (before.get(name), now.get(name)) for name in sorted(names)}
     other = {name: pair for name, pair in pairs.items() if _key(pair[0]) != _key(pair[1])}
     if found and other:
         words = "; ".join(

@@ -79,7 +79,7 @@ def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path, monke
     ("old", "new", "said"),
     [
         ("offset_mm = 15.0", "offset_mm = 80.0", "No blank of method 1"),
-        ('name = "hypoid_13_42"', 'name = "../mine"', "files are named after it"),
+        ('name = "hypoid_13_42"', 'name = "../mine"', "Files are named after it"),
         ("drive_error_urad = 50.0", "drive_path_angle_deg = 156.0", "from the lines of contact"),
         ("drive_error_urad = 50.0", "ellipse_length_mm = 100.0", "at most twice"),
     ],

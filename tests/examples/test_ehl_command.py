@@ -298,7 +298,7 @@ def test_heights_at_rest_between_moving_surfaces_are_warned_of(tmp_path, caplog)
     for case, warned in ((text, True), (standing, False)):
         caplog.clear()
         (tmp_path / "own.toml").write_text(case)
-        result = run("line", tmp_path / "own.toml", "--out", tmp_path / "out")
+        result = run("line", tmp_path / "own.toml", "--out", tmp_path / "out", "--overwrite")
         assert result.exit_code == 0, result.output
         assert ("heights do not move" in caplog.text) == warned
     dataset, _ = written(tmp_path / "out", "line")

@@ -100,7 +100,10 @@ def losses(outside=None):
     """Two torques, speeds and temperatures; the largest loss is at the last of each."""
     dims = ("temperature", "torque", "speed")
     power = np.array([[[11.0, 13.0], [17.0, 19.0]], [[23.0, 29.0], [31.0, 60.0]]])
-    data = {"loss": (("part", *dims), np.stack([0.75 * power, 0.25 * power]))}
+    data = {
+        "loss": (("part", *dims), np.stack([0.75 * power, 0.25 * power])),
+        "temperature_rise": (dims, 5.0 * np.ones_like(power)),
+    }
     if outside is not None:
         data["share_outside"] = (dims, outside)
         data["loss_bound"] = (dims, 0.02 * power * (1.0 + (power == 60.0)))

@@ -189,10 +189,7 @@ def test_a_study_has_its_known_findings():
     ]  # fmt: skip
     assert_findings(findings(everything()), said)
     own = everything()["sweep"].assign(film_share_outside=("speed", [0.0, 0.3, 0.2]))
-    own.attrs |= {"remarks": "Thin tips. Make them wider.", "guessed": "a guess"}
     said = [
-        (WARNING, "Thin tips. Make them wider.", ""),
-        (NOTE, "a guess.", ""),
         said[2],
         (WARNING, "in part, are by formulas", "2, 3, 2000, 3000 rpm, 70, 80 %, 95 %"),
     ]

@@ -127,6 +127,7 @@ def test_state_becomes_a_result_in_si(monkeypatch):
         scales=scales, oil=SimpleNamespace(eta0=0.04, rho0=870.0), rows=rows, touching=touching,
         x=np.sort(rng.random(n)), H=rng.random(n) + 0.3, evaluate=evaluated.append,
         load_error=lambda state: 0.25, beyond=NOTHING,
+        problem=SimpleNamespace(flooded_beyond=False),
     )  # fmt: skip
     state = SimpleNamespace(P=rng.random(n), H0=-0.7, void=rng.random(n))
     problem = SimpleNamespace(speed_1=1.5, speed_2=4.0, radius=9.0)

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from drivetrain.sump_heat import Warming
+from gearlube.report import churning
 from gearlube.studies.drive_cycle.datasets import cycle_dataset
 from gearlube.studies.drive_cycle.demand import Demand
 from gearlube.studies.drive_cycle.loss_field import LossesAlong
@@ -52,9 +53,9 @@ def test_every_variable_of_a_loss_map_has_its_known_values_and_unit(monkeypatch)
         film_ratio=np.where(one == 5.0, np.inf, 0.1 * one),
         flank_temperature=400.0 + one,
         friction_bound=0.2 * one,
-        share_outside=0.01 * one,
+        share_outside=0.004 * one,
         drag_bound=0.3 * one,
-        rollers_outside=0.02 * one,
+        rollers_outside=0.003 * one,
         bulk_temperature=380.0 + one,
         exceeded=np.where(one == 7.0, 16.0, 0.0),
         status=np.zeros((2, 2, 3), dtype=int),
@@ -69,7 +70,9 @@ def test_every_variable_of_a_loss_map_has_its_known_values_and_unit(monkeypatch)
         seed=1,
     )
     regime = np.array([[0.0, 0.0], [0.0, 1.0]])
-    monkeypatch.setattr(datasets, "_churning_regime", lambda *_: regime)
+    monkeypatch.setattr(
+        datasets, "churning_regime", lambda axle, *_: None if axle.churning == "none" else regime
+    )
     made = datasets.loss_map_dataset(settings, losses, spread)
     heat = SimpleNamespace(conductance_at_rest=7.0, conductance_at_100_kmh=18.0)
     cooling = SimpleNamespace(heat=heat, air_temperature=293.15)
@@ -98,9 +101,9 @@ def test_every_variable_of_a_loss_map_has_its_known_values_and_unit(monkeypatch)
         "bulk_temperature": ("degC", 380.0 + one - ZERO),
         "friction_bound": ("W", 0.2 * one),
         "efficiency_bound": ("1", 0.2 * one / put_in),
-        "share_outside": ("1", 0.01 * one),
+        "share_outside": ("1", 0.004 * one),
         "drag_bound": ("W", 0.3 * one),
-        "rollers_outside": ("1", 0.02 * one),
+        "rollers_outside": ("1", 0.003 * one),
         "loss_torque_low": ("N.m", 80.0 * warm / w),
         "loss_torque_high": ("N.m", 300.0 * warm / w),
         "swing": ("N.m", np.stack([2.0 * one / w, 3.0 * one / w])),
@@ -139,7 +142,7 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
     torque = np.array([[40.0, 44.0], [-30.0, -34.0], [0.0, 0.0], [20.0, 24.0]])
     outside = np.zeros((4, 2, len(RANGES)))
     outside[0, :, 1], outside[3, :, 2] = [0.4, 0.8], 1.0
-    film = np.arange(1.0, 17.0).reshape(4, 1, 4) * np.ones((4, 2, 1))
+    film = 1e-3 * np.arange(1.0, 17.0).reshape(4, 1, 4) * np.ones((4, 2, 1))
     losses = LossesAlong(
         temperatures=np.array([300.0, 340.0]),
         power=np.stack([cold, 0.5 * cold], axis=1),
@@ -172,6 +175,8 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
         seed=1,
     )
     monkeypatch.setattr("gearlube.studies.drive_cycle.datasets.uncertain_inputs", lambda _: ())
+    regime = np.array([0.0, 1.0, 0.0, 0.0])
+    monkeypatch.setattr("gearlube.studies.drive_cycle.datasets.churning_regime", lambda *_: regime)
     made = cycle_dataset(settings, demand, losses, warming, others, spread)
     power = 0.875 * cold  # a quarter of the way from 1 to 0.5
     total = power.sum(axis=1)
@@ -207,6 +212,7 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
         ),
         "brake_power": ("W", brakes),
         "loss": ("W", power),
+        "churning_regime": ("1", regime),
         "outside_range": ("1", outside_now),
         "time_outside_range": ("1", time),
         "energy_outside_range": ("1", energy),
@@ -257,10 +263,11 @@ def test_the_axle_of_these_datasets_has_what_they_read():
 
 
 def test_the_regime_of_churning_is_that_of_the_oils_kinematic_viscosity(monkeypatch):
-    monkeypatch.setattr(datasets, "fast_regime", lambda speed, nu, p: p * speed * nu)
+    monkeypatch.setattr(churning, "fast_regime", lambda speed, nu, p: p * speed * nu)
     oil = SimpleNamespace(dynamic_viscosity=lambda kelvin: 1e-3 * kelvin, density=800.0)
     axle = an_axle(oil=oil, kernel_parameters=lambda: SimpleNamespace(churning=2.0))
-    found = datasets._churning_regime(axle, np.array([300.0, 400.0]), np.array([10.0, 30.0]))
+    kelvin = np.array([[300.0], [400.0]])
+    found = churning.churning_regime(axle, kelvin, np.array([10.0, 30.0]))
     nu = np.array([[0.3 / 800.0], [0.4 / 800.0]])
     np.testing.assert_allclose(found, 2.0 * nu * [10.0, 30.0], rtol=1e-12)
 

@@ -50,7 +50,7 @@ def test_unknown_lubricant_is_answered_with_the_known_names() -> None:
         ("temperature_1_degc = [40.0,", "temperature = [40.0,", "needs temperature_1_degc"),
         ("[karagiannis_2012.viscosity]", "[karagiannis_2012.visc]", "has no viscosity"),
         ("conductivity_slope = [-7.3", 'conductivity_slope = ["x", "printed", "y"]\n#', "number"),
-        ("[karagiannis_2012]", "[karagiannis_2012", "not valid TOML"),
+        ("[karagiannis_2012]", "[karagiannis_2012", "not a readable TOML file"),
     ],
 )
 def test_a_wrong_library_is_refused_with_the_reason(

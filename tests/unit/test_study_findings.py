@@ -6,6 +6,7 @@ import xarray as xr
 
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
+from gearlube.report.solved_films import flank_friction
 from gearlube.studies.drive_cycle import findings as cycle
 from gearlube.studies.drive_cycle.report import cycle_report
 from gearlube.studies.drive_cycle.tables import series_rows, summary_rows
@@ -183,9 +184,9 @@ def test_loss_map_says_failures_films_bulk_steady_oil_and_ranges(a_map):
         (WARNING, "failed … no equilibrium", "1, 12, 4"),
         *(None,) * 7,
         (WARNING, "flanks are those of solved films … efficiency … flanks' load … Model: mine",
-         f"95 %, 7.0 %, 0.040 %, 30 %, {at}, 5 %, 1, 12"),
+         f"95 %, 7.0 %, 0.040 %, 30 %, {at}, 5 %, 1, 12, 70 %"),
         (WARNING, "rollers are those of solved films … bearings' drag loss … Model: yours",
-         f"95 %, 3.0 %, 20 %, {at}, 5 %, 1, 12"),
+         f"95 %, 3.0 %, 20 %, {at}, 5 %, 1, 12, 80 %"),
         (NOTE, "warms their bulk by up to", f"12 K, {at}"),
         (NOTE, "steady oil temperature is between … with air of", "25, 90 °C, 20 °C"),
         (WARNING, "reach no steady temperature", "1, 6"),
@@ -384,13 +385,15 @@ def test_cycle_says_how_far_solved_films_are_to_be_trusted(a_cycle):
         efficiency_bound=0.00075,
         rollers_outside=("step", [0.0, 1.0, 0.0]),
         energy_drag_bound=0.05,
-        drag_bound=("step", [2.5, 2.5, 0.0]),
+        drag_bound=("step", [2.5, np.nan, 0.0]),
     )
+    # bounds of the steps whose load lies inside alone
+    solved["friction_bound"] = (0.02 * flank_friction(a_cycle["loss"])).where([False, True, False])
     expected = [
         (NOTE, "flanks are … efficiency over the cycle … with … flanks' friction loss",
-         "95 %, 2.0 %, 0.060 kJ, 0.075 %, 3.0 %"),
+         "95 %, 2.0 %, 0.060 kJ, 0.075 %, 3.0 %, 5 %, 2, 3, 0, 91 %"),
         (WARNING, "rollers are … of energy lost … bearings' drag loss",
-         "95 %, 5.0 %, 0.050 kJ, 50.0 %"),
+         "95 %, 5.0 %, 0.050 kJ, 50.0 %, 5 %, 1, 3, 0 %"),
     ]  # fmt: skip
     assert_findings(cycle.findings(solved)[3:5], expected)
     more = solved.assign(share_outside=("step", [0.3, 0.0, 0.0]))

@@ -269,7 +269,7 @@ def test_a_sweep_with_solved_films_says_how_far_they_are_to_be_trusted():
         (NOTE, "flanks are those of solved films … efficiency … flanks' load … Model: mine",
          "95 %, 7.0 %, 0.040 %, 4 %, 60 km/h, 1000 N"),
         (WARNING, "rollers are those of solved films … rollers' load … Model: yours",
-         "95 %, 3.0 %, 20 %, 20 km/h, 2000 N, 5 %, 3, 4"),
+         "95 %, 3.0 %, 20 %, 20 km/h, 2000 N, 5 %, 3, 4, 80, 90 %"),
     ]  # fmt: skip
     assert_findings(findings(solved)[6:8], expected)
 

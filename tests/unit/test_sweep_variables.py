@@ -37,8 +37,8 @@ class Moving(stand_in.AnalyticAxle):
             values[f"flank[{i}].temperature"] = 350.0 + i
         for i in FLANKS:
             values[f"flank[{i}].friction_coefficient"] = 0.01 * i
-        values["friction.power_loss_bound"], values["film.share_outside"] = 7.0, 0.3
-        values["bearing.power_loss_bound"], values["bearing.share_outside"] = 9.0, 0.2
+        values["friction.power_loss_bound"], values["film.share_outside"] = 7.0, 0.03
+        values["bearing.power_loss_bound"], values["bearing.share_outside"] = 9.0, 0.02
         return np.array([values[name] for name in CHANNELS])
 
 
@@ -100,9 +100,9 @@ def test_every_number_of_a_point_has_its_known_value_and_unit(point):
         "bearing_force_pp": ("N", 2.0 * np.add.outer([10, 20, 30, 40], [0, 1, 2])),
         "friction_loss_bound": ("W", 7.0),
         "efficiency_bound": ("1", 7.0 / 2000.0),
-        "share_outside": ("1", 0.3),
+        "share_outside": ("1", 0.03),
         "drag_bound": ("W", 9.0),
-        "rollers_outside": ("1", 0.2),
+        "rollers_outside": ("1", 0.02),
         "power_in": ("W", 2000.0),
         "loss": ("W", losses),
         "efficiency_mesh": ("1", 1.0 - 14.0 / 2000.0),

@@ -222,7 +222,7 @@ def helical(
             parts=parts,
         )
         with (
-            results_folder(out, "helical", overwrite=overwrite),
+            results_folder(out, "helical", overwrite=overwrite, by_parts=True),
             progress_on(console, "helical pair") as progress,
         ):
             results = run.run_helical(

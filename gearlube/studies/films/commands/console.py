@@ -45,7 +45,7 @@ def solve_and_show(
     from gearlube.studies.films.results import dataset_file
 
     with (
-        results_folder(out, study, overwrite=overwrite),
+        results_folder(out, study, overwrite=overwrite, by_parts=True),
         progress_on(console, "films") as progress,
     ):
         dataset = solve(progress)

@@ -64,7 +64,7 @@ def rough(
         file = file.varied(given) if given else file
         if animation and not statistics:
             check_animation(file, steps)
-        with results_folder(out, "ehl rough", overwrite=overwrite):
+        with results_folder(out, "ehl rough", overwrite=overwrite, by_parts=True):
             if statistics:
                 dataset = statistics_again(file, out)
             else:
