@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from operator import attrgetter
+from typing import Any
 
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
@@ -55,7 +56,9 @@ class Change:
 
 def setting(file: HypoidGearFile, field: str) -> float | None:
     """Return the value of a dotted field; None where it is absent."""
-    value = attrgetter(field)(file)
+    value: Any = file
+    for part in field.split("."):
+        value = getattr(value, part, None)  # a section may be left out
     return None if value is None else float(value)
 
 
