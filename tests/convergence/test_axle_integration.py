@@ -63,8 +63,8 @@ def test_default_steps_are_accurate_to_a_ten_thousandth_of_the_oscillation(speed
     assert np.max(np.abs(default - reference)) <= 1e-4 * np.ptp(reference)
 
 
-@pytest.mark.parametrize(("film", "after_reversal"), [("formula", 1e-3), ("solved", 1e-3)])
-def test_result_does_not_depend_on_the_communication_step(film, after_reversal):
+@pytest.mark.parametrize("film", ["formula", "solved"])
+def test_result_does_not_depend_on_the_communication_step(film):
     def run(h, turn):
         axle, torque, load = running_axle(100, axle_with(film=film))
         for k in range(round(0.04 / h)):
@@ -73,17 +73,20 @@ def test_result_does_not_depend_on_the_communication_step(film, after_reversal):
             if (k + 1) % round(1e-3 / h) == 0:
                 yield [axle.output(n) for n in ("mesh.dte", "mesh.force", "pinion.displacement.y")]
 
-    steady, reversed_ = (
-        [np.array(list(run(h, turn))) for h in (1e-3, 1e-4)] for turn in (1.0, 0.01)
-    )
+    def runs(turn):
+        return [np.array(list(run(h, turn))) for h in (1e-3, 1e-4)]
+
     # documented: 5e-5 of the value, with solved rollers. A slope that is left out of the expanded
     # bearing forces makes 4e-4
+    steady = runs(1.0)
     assert np.max(np.abs(steady[0] / steady[1] - 1.0)) < 2e-5
-    # teeth part and meet on the other side; documented as 1.5e-3 of the transmission error's swing;
-    # a mesh table that differs by 1e-5 moves it between 4e-4 and 7e-4
-    difference = np.abs(reversed_[0] - reversed_[1])[:, 0]
-    assert np.max(difference) < after_reversal * np.ptp(reversed_[1][:, 0])
-    assert np.ptp(reversed_[1][:, 0]) > 1e-4  # m
+    # teeth part and meet on the other side; documented as 2e-3 of the transmission error's swing.
+    # The phase at which they meet decides: 3e-4 to 1.7e-3 for the formulas
+    for turn in (0.010, 0.011, 0.013):
+        reversed_ = [one[:, 0] for one in runs(turn)]
+        swing = np.ptp(reversed_[1])
+        assert np.max(np.abs(reversed_[0] - reversed_[1])) < 2e-3 * swing
+        assert swing > 1e-4  # m
 
 
 def test_the_drag_that_is_kept_is_that_of_the_rollers_now():
