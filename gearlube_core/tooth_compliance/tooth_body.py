@@ -152,7 +152,7 @@ def cached_tooth_compliance(
 
     Notes
     -----
-    A damaged file is computed and written anew.
+    A damaged file is computed and written again.
     """
     flanks = _stored_tooth_compliance(geometry, solid, settings, folder)
     if flanks is None:

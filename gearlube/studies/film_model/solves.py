@@ -76,7 +76,7 @@ class SolveTable:
         if self.names not in (own, (*own, CHECK)):  # of an earlier version: without checksums
             raise FileError(
                 f"{self.path} must be a table of solved films of this version, got other "
-                "columns. Give another folder, or remove the file to solve anew."
+                "columns. Give another folder, or remove the file to solve all films again."
             )
         for number, line in enumerate(lines[1:], start=2):
             row = self._row(line)
