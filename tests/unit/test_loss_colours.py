@@ -107,6 +107,19 @@ def test_a_source_has_its_colour(sources, colours, data, draw):
         assert found[source_words(source)].lower() == source_colour(source).lower()
 
 
+@pytest.mark.parametrize("speeds", [1, 2, 3])
+def test_no_text_of_the_losses_is_cut_off_at_few_speeds(speeds):
+    data = loss_map(SOURCES).isel(speed=slice(speeds))
+    data["loss_torque_low"] = data["loss_torque_high"] = data["loss"].sum("source")
+    data.attrs["not_modelled"] = ", ".join(f"bearings of the wheel end {i}" for i in range(8))
+    figure = loss_split(data)
+    figure.canvas.draw()
+    for part in (figure._suptitle, *figure.legends):
+        box = part.get_window_extent()
+        assert box.x0 >= 0.0
+        assert box.x1 <= figure.bbox.x1
+
+
 def test_every_source_has_a_colour_of_its_own():
     assert set(SOURCE_COLOURS) == set(LOSS_SOURCES)
     assert len(set(SOURCE_COLOURS.values())) == len(LOSS_SOURCES)

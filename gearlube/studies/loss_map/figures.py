@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from gearlube.studies.loss_map.swings import input_words, moving_inputs
 
 _BAND = "between these lines: 95 % of the draws of uncertain data"
 _MOST_PANELS = 6
+_LETTERS = 13  # in an inch of the small print
 _LIGHT = 0.6  # of the largest level, from which the colours are too light for white lines
 LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
@@ -70,16 +72,21 @@ def loss_contours(dataset: xr.Dataset) -> Any:
             ax.set_ylabel("pinion torque [N·m]")
         figure.colorbar(drawn, ax=panels.tolist(), label="loss torque [N·m]")
         figure.suptitle("Torque lost in the axle, at the pinion", fontsize=11)
-        figure.supxlabel(not_modelled(dataset), fontsize=8.5, color="#555555")
+        figure.supxlabel(_lines_of_not_modelled(dataset, figure), fontsize=8.5, color="#555555")
     return figure
+
+
+def _lines_of_not_modelled(dataset: xr.Dataset, figure: Any) -> str:
+    return fill(not_modelled(dataset), int(_LETTERS * figure.get_figwidth()))
 
 
 def loss_split(dataset: xr.Dataset) -> Any:
     """Return the losses by source over torque at three speeds, at a middle temperature."""
     temperature = dataset["temperature"].values[dataset.sizes["temperature"] // 2]
     chosen = shown_speeds(dataset)
+    narrow = len(chosen) < 3
     with house_style():
-        figure = new_figure(2.9 * len(chosen) + 0.9, 4.1)
+        figure = new_figure(6.0 if narrow else 2.9 * len(chosen) + 0.9, 5.0 if narrow else 4.1)
         panels = np.atleast_1d(figure.subplots(1, len(chosen)))
         for ax, j in zip(panels, chosen, strict=True):
             _split(ax, dataset.sel(temperature=temperature).isel(speed=j))
@@ -89,9 +96,10 @@ def loss_split(dataset: xr.Dataset) -> Any:
             for ax in panels
             for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
         }
-        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=3)
-        title = f"Losses by source, oil at {temperature:g} °C\n{not_modelled(dataset)}"
-        figure.suptitle(title, fontsize=10)
+        columns = 1 if narrow else 3
+        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=columns)
+        missing = _lines_of_not_modelled(dataset, figure)
+        figure.suptitle(f"Losses by source, oil at {temperature:g} °C\n{missing}", fontsize=10)
     return figure
 
 
