@@ -10,6 +10,7 @@ from drivetrain.axle_file.field_units import attribute_of
 from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import start_arguments
 from fmu_src.variables import HYPOID_AXLE
+from gearlube_core.friction.flank_friction import friction_laws
 from gearlube_core.input_file.field_notes import field_notes
 
 PAGE = Path(__file__).with_suffix(".md")
@@ -148,6 +149,11 @@ for note in paper.assumed:
   stay at the oil's. `gearlube map` and `gearlube cycle` use it; a sweep or another march in time
   refuses it. 0, the default, leaves it out.
   [film_model_axle.md](film_model_axle.md#heat-of-the-flanks-bulk) says what is known of the number.
+- `friction` of `[model]` names a law of the flank friction: {laws}.
+  A law of your own is one Python file, see [architecture.md](architecture.md#how-to-add). Import it
+  before the axle file is read, or install it with an entry point of the group `gearlube.laws`,
+  which commands and their workers find too. Its numbers stand in `friction_numbers`. A native FMU
+  is compiled for the law of its axle file; its parameters then end with the numbers of the law.
 - Rolling friction of the flanks is only modelled if `flank_rolling` of `[model]` names its law.
 - `bearing_torque_loss` of `[model]` selects the law of the bearing drag; `solved_films` takes the
   rollers' friction and films from [solved films](film_model_axle.md#rollers-with-solved-films).
@@ -279,7 +285,9 @@ def page() -> str:
     for key in ("mass_kg", "inertia_kg_m2"):
         defaults[f"pinion.{key}"] += f", gear {defaults[f'gear.{key}']}"
     tables = field_tables(AxleFile, SECTIONS, defaults)
-    return HEAD + tables + _TAIL.format(parameters=_run_time_parameters())
+    listed = [f"`{name}` ({law.text})" for name, law in friction_laws().items()]
+    head = HEAD.replace("{laws}", ", ".join(listed))
+    return head + tables + _TAIL.format(parameters=_run_time_parameters())
 
 
 if __name__ == "__main__":

@@ -50,6 +50,8 @@ def start_arguments(axle: HypoidAxleParameters) -> dict[str, Value]:
         "gear_bearing_preload": SHARED_PRELOAD if gear_preload == preload else gear_preload,
         "bearing_approach": of_pinion.approach,
         "oil": _oil_argument(axle.oil),
+        "friction": axle.friction_law.name or axle.friction,  # type: ignore[dict-item]
+        **{f"friction_{name}": value for name, value in axle.friction_law.numbers.items()},
     }
     for role, bearing in zip(_ROLES, (of_pinion, of_gear), strict=True):
         special |= {f"{role}_{name}": getattr(bearing, name) for name in _OF_ONE_SHAFT}
@@ -88,6 +90,10 @@ def axle_parameters(
             check_within(variable.name, float(value), *variable.range, variable.unit)
     given: dict[str, Any] = start_arguments(base) | dict(arguments)
     oil = given.pop("oil")
+    law = base.friction_law
+    numbers = {name: given.pop(f"friction_{name}") for name in law.numbers}
+    if numbers and given["friction"] == law.name:
+        given["friction"] = replace(law, **numbers)
     preload, gear_preload = given.pop("bearing_preload"), given.pop("gear_bearing_preload")
     shared = {"approach": given.pop("bearing_approach"), "interference": None}
     preloads = preload, preload if gear_preload < 0.0 else gear_preload

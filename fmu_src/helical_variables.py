@@ -6,6 +6,8 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
+from functools import partial
+
 from fmu_src.common_outputs import (
     MEMBERS,
     displacements,
@@ -18,7 +20,7 @@ from fmu_src.common_outputs import (
 )
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import (
-    count,
+    declared,
     input_,
     local,
     option,
@@ -28,8 +30,10 @@ from fmu_src.variable_kinds import (
     rates,
 )
 from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
+from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.friction.flank_laws import FILM_MODELS
 
+_number = partial(declared, HelicalMarchParameters)
 CUSTOM, LINE_MESH = "custom", "line_mesh"  # literals with a meaning to the model's start
 
 _INPUTS = (
@@ -50,16 +54,14 @@ _PARAMETERS = (
               nominal=100.0, argument="pinion_speed"),
     option("friction.model", "Flank friction: mixed film at every contact point, or Coulomb",
            "film", "constant", "off", start="film", argument="friction"),
-    parameter("friction.coefficient", "1", "Coefficient of friction when friction.model = constant",
-              start=0.05, minimum=0.0, maximum=1.0, nominal=0.1, argument="friction_coefficient"),
+    _number("friction_coefficient", "friction.coefficient",
+            "Coefficient of friction when friction.model = constant", nominal=0.1),
     option("oil.name", "Lubricant",
            "mohammadpour_2015", "karagiannis_2012", start="mohammadpour_2015", argument="oil"),
-    parameter("flank.roughness_rms", "m", "Composite root-mean-square roughness of the flanks",
-              display_unit="um", start=0.5e-6, minimum=1e-9, maximum=2e-5, nominal=1e-6,
-              argument="roughness_rms"),
-    parameter("mesh.backlash", "m", "Normal backlash along the line of action",
-              display_unit="um", start=100e-6, minimum=0.0, maximum=2e-3, nominal=1e-4,
-              argument="backlash"),
+    _number("roughness_rms", "flank.roughness_rms",
+            "Composite root-mean-square roughness of the flanks", display_unit="um", nominal=1e-6),
+    _number("backlash", "mesh.backlash", "Normal backlash along the line of action",
+            display_unit="um", start=100e-6, nominal=1e-4),
     option("mesh.stiffness_model",
            "Tooth stiffness: uniform along all contact lines, or from a loaded contact analysis "
            "(shipped for he_2007, or a file inside the FMU)",
@@ -87,14 +89,12 @@ _PARAMETERS = (
     option("model.equations",
            "Equations of motion: with the work of moving contact lines, or as in the paper",
            "consistent", "he_2007", start="consistent", argument="equations"),
-    count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 64, 16, 4096,
-          argument="steps_per_mesh_period"),
-    count("solver.steps_per_highest_period",
-          "Integration steps in one period of the highest natural frequency", 8, 6, 4096,
-          argument="steps_per_highest_period"),
-    count("friction.updates_per_mesh_period",
-          "Updates of the film friction in one mesh period", 16, 4, 4096,
-          argument="friction_updates_per_mesh_period"),
+    _number("steps_per_mesh_period", "solver.steps_per_mesh_period",
+            "Integration steps in one mesh period"),
+    _number("steps_per_highest_period", "solver.steps_per_highest_period",
+            "Integration steps in one period of the highest natural frequency"),
+    _number("friction_updates_per_mesh_period", "friction.updates_per_mesh_period",
+            "Updates of the film friction in one mesh period"),
 )  # fmt: skip
 
 
@@ -207,9 +207,8 @@ _EVENTS = (
 _FILM = (
     option("film.model", "Film and oil friction of the flanks: by formulas, or by a model of "
            "solved films", *FILM_MODELS, start="formula", argument="film"),
-    parameter("film.limiting_slope", "1", "Limiting shear stress of a solved film over pressure; "
-              "0: none. Near it the formulas come in",
-              start=0.0, minimum=0.0, maximum=1.0, nominal=0.1, argument="film_limiting_slope"),
+    _number("film_limiting_slope", "film.limiting_slope", "Limiting shear stress of a solved film "
+            "over pressure; 0: none. Near it the formulas come in", nominal=0.1),
 )  # fmt: skip
 _FILM_OUTPUTS = (
     output("film.share_outside", "1", "Share of the load on the contact lines outside the domain "

@@ -13,6 +13,7 @@ from fmu_src.axle_arguments import CUSTOM_OIL, axle_parameters, start_arguments
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
 from fmu_src.variable import Variable
+from fmu_src.variable_kinds import declared
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics import hypoid_axle
@@ -20,6 +21,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import file_of_model, model_in
 from gearlube_core.film_model.model import FLANK, ROLLER, read_model_content
+from gearlube_core.friction.flank_friction import FlankFriction
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_table_content
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
@@ -207,7 +209,10 @@ def _definition_with(
         DEFINITION,
         description=f"{DEFINITION.description}{of_axle}; mesh table {mesh.name} "
         f"({mesh.pinion_teeth}/{mesh.gear_teeth} teeth){source}",
-        variables=tuple(_starting(variable, starts, base) for variable in HYPOID_AXLE),
+        variables=(
+            *(_starting(variable, starts, base) for variable in HYPOID_AXLE),
+            *_law_numbers(base.friction_law),
+        ),
         start=partial(start_axle, base=base),
         resources=resources,
     )
@@ -216,10 +221,15 @@ def _definition_with(
 def _starting(
     variable: Variable, starts: Mapping[str, Value], base: HypoidAxleParameters
 ) -> Variable:
-    """Return a variable with the start value of an axle; an oil of its own is a new literal."""
+    """Return a variable with the start value of an axle.
+
+    An oil of its own is a new literal; a law of friction of its own is the only one.
+    """
     if variable.name == "wheel.torque":  # balances that of the pinion
         paper = shipped_mesh_table(PAPER).ratio
         return replace(variable, start=(variable.start or 0.0) * (base.mesh.ratio / paper))
+    if variable.name == "friction.model" and starts["friction"] not in variable.literals:
+        return replace(variable, literals=(str(starts["friction"]),), start=1)
     own_oil = starts["oil"] == CUSTOM_OIL
     if own_oil and variable.argument == "oil":
         variable = replace(variable, literals=(*variable.literals, CUSTOM_OIL))
@@ -231,6 +241,16 @@ def _starting(
     if isinstance(value, str):
         value = 1.0 + variable.literals.index(value)
     return replace(variable, start=float(value))
+
+
+def _law_numbers(law: FlankFriction) -> tuple[Variable, ...]:
+    """Return the parameters of a friction law with numbers of its own."""
+    return tuple(
+        replace(
+            declared(type(law), name, f"friction.{name}", start=value), argument=f"friction_{name}"
+        )
+        for name, value in law.numbers.items()
+    )
 
 
 class HypoidAxle(CoSimulationSlave):

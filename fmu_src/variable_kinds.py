@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Collection, Sequence
+from dataclasses import fields, replace
+from typing import Any, get_type_hints
 
 from fmu_src.variable import Variable
+from gearlube_core.number import numbers_of
 
 # unit of a state -> unit and typical size of its derivative
 _RATES = {
@@ -32,6 +34,37 @@ def parameter(name: str, unit: str, description: str, **limits: float | str) -> 
         name=name, type="Real", causality="parameter", unit=unit, description=description,
         **limits,  # type: ignore[arg-type]
     )  # fmt: skip
+
+
+def declared(model: type, argument: str, name: str = "", text: str = "", **shown: Any) -> Variable:
+    """Return the parameter of a number that a model declares: its unit, limits and default.
+
+    Parameters
+    ----------
+    model : type
+        Dataclass with the number.
+    argument : str
+        Name of the field.
+    name, text : str
+        FMI name and description; by default those of the declaration.
+    **shown
+        Nominal value and display unit; a start value where the field has no default.
+    """
+    one = numbers_of(model)[argument]
+    given: dict[str, Any] = {field.name: field.default for field in fields(model)}
+    given = {"start": given[argument]} | shown
+    real = get_type_hints(model)[argument] is not int
+    return Variable(
+        name=name or one.fmi, type="Real" if real else "Integer", causality="parameter",
+        description=text or one.text, unit=one.unit if real else "", argument=argument,
+        minimum=one.low, maximum=one.high, **given,
+    )  # fmt: skip
+
+
+def declared_in(model: type, known: Collection[str]) -> tuple[Variable, ...]:
+    """Return the parameters of all numbers with an FMI name, but those `known` by argument."""
+    found = numbers_of(model).items()
+    return tuple(declared(model, name) for name, one in found if one.fmi and name not in known)
 
 
 def option(name: str, description: str, *literals: str, start: str, argument: str) -> Variable:

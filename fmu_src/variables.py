@@ -1,12 +1,14 @@
 """The variables of HypoidAxle.fmu: the one list that everything else is made from.
 
 The value reference of a variable is its place in `HYPOID_AXLE`. Released references never change:
-append new variables at the end, never insert, reorder or remove.
+append new variables at the end, never insert, reorder or remove. A number of the model that
+declares an FMI name (`Number.fmi`) needs no line here: it stands behind the listed ones.
 """
 
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from fmu_src.common_outputs import (
     MEMBERS,
@@ -19,7 +21,8 @@ from fmu_src.common_outputs import (
 )
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import (
-    count,
+    declared,
+    declared_in,
     input_,
     local,
     option,
@@ -32,9 +35,12 @@ from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.drag.churning import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
-from gearlube_core.friction.flank_laws import FILM_MODELS
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.friction.flank_friction import friction_laws
+from gearlube_core.friction.flank_laws import FILM_MODELS, MixedFriction
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS
 
+_number = partial(declared, HypoidAxleParameters)
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
 
 _INPUTS = (
@@ -51,38 +57,36 @@ _PARAMETERS = (
     parameter("bearing.preload", "N", "Axial preload of each bearing; see wheel.bearing.preload",
               display_unit="kN",
               start=2500.0, minimum=0.0, maximum=1e5, nominal=1e3, argument="bearing_preload"),
-    parameter("flank.roughness_rms", "m", "Composite root-mean-square roughness of the flanks",
-              display_unit="um", start=0.5e-6, minimum=1e-9, maximum=2e-5, nominal=1e-6,
-              argument="roughness_rms"),
-    parameter("mesh.backlash", "m", "Total backlash 2 b along the line of action",
-              display_unit="um", start=150e-6, minimum=0.0, maximum=2e-3, nominal=1e-4,
-              argument="backlash"),
+    _number("roughness_rms", "flank.roughness_rms",
+            "Composite root-mean-square roughness of the flanks",
+            display_unit="um", start=0.5e-6, nominal=1e-6),
+    _number("backlash", "mesh.backlash", "Total backlash 2 b along the line of action",
+            display_unit="um", start=150e-6, nominal=1e-4),
     parameter("pinion.speed_start", "rad/s", "Initial speed of the pinion",
               display_unit="rpm", start=200.0, minimum=-5e3, maximum=5e3, nominal=100.0,
               argument="pinion_speed"),
-    parameter("mesh.modal_loss_factor", "1", "Loss factor of the mesh when mesh.damping = modal",
-              start=0.06, minimum=0.0, maximum=1.0, nominal=0.1, argument="modal_loss_factor"),
+    _number("modal_loss_factor", "mesh.modal_loss_factor",
+            "Loss factor of the mesh when mesh.damping = modal", nominal=0.1),
     option("model.equations", "Equations of motion: misprints corrected, or as printed",
            "consistent", "as_printed", start="consistent", argument="equations"),
     option("model.radii", "Lever arms of the mesh force",
            "consistent", "paper", "mean", start="consistent", argument="radii"),
     option("mesh.damping", "Law of the mesh damping", "hysteretic", "modal", start="hysteretic",
            argument="mesh_damping"),
+    # variants of one law: an FMU is compiled for the law of its axle file
     option("friction.model", "Model of the flank friction",
-           "consistent", "as_printed", "off", "printed_traction_circular", "zhou_hoeprich_1991",
-           start="consistent",
-           argument="friction"),
+           *(name for name, law in friction_laws().items() if issubclass(law, MixedFriction)),
+           start="consistent", argument="friction"),
     option("bearing.approach", "Formula of the roller deflection under shaft displacement",
            "full", "as_printed", start="full", argument="bearing_approach"),
     option("bearing.torque_loss", "Drag torque of the bearings",
            *TORQUE_LOSSES, start=DEFAULT_LAW, argument="bearing_torque_loss"),
     option("oil.name", "Lubricant",
            "mohammadpour_2015", "karagiannis_2012", start="mohammadpour_2015", argument="oil"),
-    count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 56, 16, 4096,
-          argument="steps_per_mesh_period"),
-    count("solver.steps_per_highest_period",
-           "Integration steps in one period of the highest natural frequency", 17, 8, 4096,
-          argument="steps_per_highest_period"),
+    _number("steps_per_mesh_period", "solver.steps_per_mesh_period",
+            "Integration steps in one mesh period"),
+    _number("steps_per_highest_period", "solver.steps_per_highest_period",
+            "Integration steps in one period of the highest natural frequency"),
 )  # fmt: skip
 
 
@@ -163,11 +167,11 @@ _LATER_PARAMETERS = (
 
 # ditto; those that an axle file gives too
 _AXLE_NUMBERS = (
-    *(parameter(f"{name}.mass", "kg", f"Mass of the {word} with its shaft and parts",
-                start=start, minimum=0.05, maximum=2000.0, nominal=10.0, argument=f"{word}_mass")
+    *(_number(f"{word}_mass", f"{name}.mass", f"Mass of the {word} with its shaft and parts",
+              start=start, nominal=10.0)
       for (name, word), start in zip(MEMBERS, (12.0, 49.9), strict=True)),
-    *(parameter(f"{name}.inertia", "kg.m2", f"Inertia of the {word} with its shaft and parts",
-                start=start, minimum=1e-6, maximum=500.0, nominal=0.01, argument=f"{word}_inertia")
+    *(_number(f"{word}_inertia", f"{name}.inertia",
+              f"Inertia of the {word} with its shaft and parts", start=start, nominal=0.01)
       for (name, word), start in zip(MEMBERS, (1734e-6, 5.81e-2), strict=True)),
     parameter("wheel.bearing.preload", "N", "Axial preload of each bearing of the gear shaft; "
               "a negative value takes bearing.preload", display_unit="kN",
@@ -219,17 +223,15 @@ _EVENTS = (
 _DRAG = (
     option("churning.model", "Law of the churning loss of the gear", *CHURNING_LAWS,
            start="none", argument="churning"),
-    parameter("churning.ring_diameter", "m", "Outside diameter of the gear", display_unit="mm",
-              start=0.165, minimum=0.01, maximum=3.0, nominal=0.1, argument="ring_diameter"),
-    parameter("churning.ring_width", "m", "Width of the teeth of the gear", display_unit="mm",
-              start=0.03, minimum=1e-3, maximum=1.0, nominal=0.01, argument="ring_width"),
-    parameter("churning.immersion", "m", "Depth of the lowest gear tooth below the oil at rest",
-              display_unit="mm", start=0.04, minimum=0.0, maximum=3.0, nominal=0.01,
-              argument="immersion"),
-    parameter("churning.oil_volume", "m3", "Volume of the oil in the axle", display_unit="l",
-              start=1.2e-3, minimum=1e-5, maximum=1.0, nominal=1e-3, argument="oil_volume"),
-    *(parameter(f"{name}.seal.torque", "N.m", f"Friction torque of {words}",
-                start=0.0, minimum=0.0, maximum=100.0, argument=f"{name}_seal_torque")
+    _number("ring_diameter", "churning.ring_diameter", "Outside diameter of the gear",
+            display_unit="mm", nominal=0.1),
+    _number("ring_width", "churning.ring_width", "Width of the teeth of the gear",
+            display_unit="mm", nominal=0.01),
+    _number("immersion", "churning.immersion", "Depth of the lowest gear tooth below the oil at "
+            "rest", display_unit="mm", nominal=0.01),
+    _number("oil_volume", "churning.oil_volume", "Volume of the oil in the axle",
+            display_unit="l", nominal=1e-3),
+    *(_number(f"{name}_seal_torque", f"{name}.seal.torque", f"Friction torque of {words}")
       for name, words in (("pinion", "the pinion shaft seal"),
                           ("wheel", "the seals of both wheels, at the gear"))),
 )  # fmt: skip
@@ -260,9 +262,8 @@ _ROLLING_ENERGIES = energies(
 _FILM = (
     option("film.model", "Film and oil friction of the flanks: by formulas, or by a model of "
            "solved films", *FILM_MODELS, start="formula", argument="film"),
-    parameter("film.limiting_slope", "1", "Limiting shear stress of a solved film over pressure; "
-              "0: none. Near it the formulas come in",
-              start=0.0, minimum=0.0, maximum=1.0, nominal=0.1, argument="film_limiting_slope"),
+    _number("film_limiting_slope", "film.limiting_slope", "Limiting shear stress of a solved film "
+            "over pressure; 0: none. Near it the formulas come in", nominal=0.1),
 )  # fmt: skip
 _FILM_OUTPUTS = (
     output("film.share_outside", "1", "Share of the flanks' load outside the domain of the model "
@@ -296,7 +297,7 @@ _LATER_ENERGIES = _DRAG_ENERGIES + _ROLLING_ENERGIES
 _LATER_STATES = tuple(variable.name for variable in _LATER_ENERGIES)
 _BY_NAME |= {variable.name: variable for variable in _LATER_ENERGIES}
 
-HYPOID_AXLE: tuple[Variable, ...] = (
+_LISTED: tuple[Variable, ...] = (
     *_FIRST,
     *_STATES,
     *rates([_BY_NAME[name] for name in STATE_NAMES if name not in _LATER_STATES]),
@@ -316,3 +317,6 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *_FILM_OUTPUTS,
     *_ROLLER_OUTPUTS,
 )
+
+# numbers that the model's files declare as parameters
+HYPOID_AXLE = _LISTED + declared_in(HypoidAxleParameters, {one.argument for one in _LISTED})

@@ -25,7 +25,7 @@ from gearlube_core.film_model.groups import FilmContact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film
 from gearlube_core.friction.flank_data import FlankState, contact_geometry
-from gearlube_core.friction.flank_laws import consistent
+from gearlube_core.friction.flank_laws import Consistent
 from gearlube_core.friction.solved_flank import FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
@@ -88,7 +88,7 @@ def compared(rows: list[SolveRow]) -> Outside:
 
 def formula_of(c: FilmContact) -> FlankState:
     """Return film and friction by the formulas, flanks too smooth for asperities in touch."""
-    law = consistent(gear_flanks(_SMOOTH), SOLID)
+    law = Consistent()(gear_flanks(_SMOOTH), SOLID)
     geometry = contact_geometry(c.R_x, c.R_y, c.entrainment_angle, SOLID.contact_modulus)
     return law.flank_state(c.load, c.entrainment_speed, c.sliding_speed, geometry, state_of(c))
 

@@ -27,7 +27,7 @@ from gearlube_core.film_model.model import FilmModel
 from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import ContactGeometry, contact_geometry
 from gearlube_core.friction.flank_film import flank_film_model
-from gearlube_core.friction.flank_laws import SOLVED, consistent
+from gearlube_core.friction.flank_laws import SOLVED, Consistent
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
@@ -112,7 +112,7 @@ class Mean(NamedTuple):
 
 def solved_mean(c: Contacts, oil: LubricantState, film: int = SOLVED) -> Mean:
     """Return the mean friction of a flank by solved films, or by formulas."""
-    law = consistent(gear_flanks(SIGMA), SOLID)._replace(film=float(film))
+    law = Consistent()(gear_flanks(SIGMA), SOLID)._replace(film=float(film))
     rows = []
     for n in range(c.load.size):
         geometry = contact_geometry(c.R_x[n], c.R_y[n], c.psi[n], SOLID.contact_modulus)
@@ -281,7 +281,7 @@ def exponent_line() -> str:
 
 def film_exponents() -> Array:
     """Return d ln h/d ln W of solved films at all points and phases inside the domain."""
-    law = consistent(gear_flanks(SIGMA), SOLID)._replace(film=float(SOLVED))
+    law = Consistent()(gear_flanks(SIGMA), SOLID)._replace(film=float(SOLVED))
     found = []
     for degc in DEGC:
         oil = state("mohammadpour_2015", float(degc), None)

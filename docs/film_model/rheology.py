@@ -34,7 +34,7 @@ from gearlube_core.film_model.groups import FilmContact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film
 from gearlube_core.friction.flank_data import contact_geometry
-from gearlube_core.friction.flank_laws import consistent
+from gearlube_core.friction.flank_laws import Consistent
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.oil_file import read_oil
@@ -87,7 +87,7 @@ def frictions(oil_name: str) -> tuple[Array, Array, Array]:
     table = shipped_mesh_table(FilmPlan().mesh_table)
     contacts = axle_contacts(CONTACTS, SEED, table, [oil], DOMAIN)
     solid = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
-    law = consistent(gear_flanks(_SMOOTH), solid)
+    law = Consistent()(gear_flanks(_SMOOTH), solid)
     numbers = FilmModel.named("hypoid_flank").copied_numbers()
 
     def both(c: FilmContact, stress: float) -> tuple[float, float]:

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal, NamedTuple
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
-from gearlube_core.dynamics.hypoid_axle.parameters import Film, Friction, HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.parameters import Film, HypoidAxleParameters
+from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import FLANK, ROLLER, SHIPPED, FilmModel
-from gearlube_core.input_file.field_notes import Usual
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.friction.flank_friction import friction_law, friction_laws
+from gearlube_core.input_file.field_notes import OneOf, Usual
+from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.number import numbers_of
 
 Text = Annotated[str, Field(min_length=1)]
 Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False), Usual(1.0, 20000.0)]
@@ -246,10 +249,13 @@ class ModelOptions(ModelSection):
         description="Equations of motion: consistent with misprints of the paper corrected, or "
         "as printed in it",
     )
-    friction: Friction | None = Field(
+    friction: Annotated[str, OneOf(friction_laws)] | None = Field(
         default=None,
-        description="Friction law of the flanks; zhou_hoeprich_1991: as consistent, but the "
-        "asperities carry all load when there is no film",
+        description="Friction law of the flanks, or the name of a law of your own",
+    )
+    friction_numbers: dict[str, float] | None = Field(
+        default=None,
+        description="Numbers of a friction law that has some, by name, in SI units",
     )
     flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
         default=None, description="Rolling loss of the flanks"
@@ -271,3 +277,34 @@ class ModelOptions(ModelSection):
     steps_per_highest_period: Annotated[int, Field(ge=8, le=4096)] | None = Field(
         default=None, description="Integration steps in one period of the highest natural frequency"
     )
+
+    @model_validator(mode="after")
+    def _check_friction(self) -> ModelOptions:
+        if self.friction_numbers is not None:
+            try:
+                friction_law(self.friction or "consistent", **self.friction_numbers)
+            except ParameterError as reason:
+                raise ValueError(str(reason).removesuffix(".")) from None
+        return self
+
+    def changes(self, model: object) -> dict[str, Any]:
+        """Return the given fields that are attributes of `model`, in SI units."""
+        found = super().changes(model)
+        if self.friction is not None and self.friction_numbers:
+            found["friction"] = friction_law(self.friction, **self.friction_numbers)
+        return found
+
+    def notes(
+        self, prefix: str, model: object, why: str, inferred: Mapping[str, str] | None = None
+    ) -> list[InputNote]:
+        """Return the notes of `ModelSection.notes`, and one on each number of the friction law."""
+        given = self.friction_numbers or {}
+        notes = super().notes(prefix, model, why, inferred)
+        notes = [one for one in notes if one.field != f"{prefix}friction_numbers"]
+        law = friction_law(self.friction or "consistent", **given)
+        for name, number in numbers_of(type(law)).items():
+            origin: Origin = "given" if name in given else "assumed"
+            said = "" if name in given else number.source or f"default of the law {law.name}"
+            field = f"{prefix}friction_numbers.{name}"
+            notes.append(InputNote(field, law.numbers[name], number.unit, origin, said))
+        return notes

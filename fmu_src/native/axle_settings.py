@@ -35,6 +35,8 @@ class AxleSettings(NamedTuple):
     gear_preload: float  # N, as given: below 0 that of the pinion's shaft holds
     contact_angle_p: float  # rad
     contact_angle_g: float  # rad
+    solved: float  # 1 with solved films of the flanks
+    own_film: float  # 1 if the law of friction has a film that a solved one cannot replace
 
 
 def axle_settings(axle: HypoidAxleParameters, gear_preload: float) -> AxleSettings:
@@ -52,7 +54,7 @@ def axle_settings(axle: HypoidAxleParameters, gear_preload: float) -> AxleSettin
         float(axle.steps_per_highest_period),
         float(get_args(Radii).index(axle.radii)),
         float(get_args(MeshStiffness).index(axle.mesh_stiffness)),
-        float(list(PRESSURES).index(axle.contact_pressure)),
+        float(list(PRESSURES).index(axle.friction_law.pressure)),
         1.0 if axle.mesh_damping == "modal" else 0.0,
         float(axle.modal_loss_factor),
         axle.reference_stiffness,
@@ -60,4 +62,6 @@ def axle_settings(axle: HypoidAxleParameters, gear_preload: float) -> AxleSettin
         gear_preload,
         float(of_pinion.contact_angle),
         float(of_gear.contact_angle),
+        1.0 if axle.film == "solved" else 0.0,
+        0.0 if axle.friction_law.solved_film else 1.0,
     )

@@ -47,9 +47,8 @@ from gearlube_core.dynamics.hypoid_axle.step_control import NO_MODES, NO_MODES_W
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
-from gearlube_core.friction.flank_data import CONSISTENT, ZHOU_HOEPRICH_SHARE
 from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model
-from gearlube_core.friction.flank_laws import SOLVED, MixedFlankFriction
+from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.friction.thermal_eyring_data import PRESSURES
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
@@ -112,25 +111,34 @@ class _Places(NamedTuple):
     windows_size: int
 
 
-_KINDS = (TaperedRollerParameters, MixedFlankFriction)
-_N_PARAMETERS = count_floats(AxleParameters, *_KINDS)
 _N_SETTINGS = count_floats(AxleSettings)
 _STIFFNESSES = len(get_args(MeshStiffness))
-# the place of each float among the packed ones
-_AT: Any = tuple_from_array(np.arange(float(_N_PARAMETERS)), AxleParameters, *_KINDS)
-_DERIVED = {
-    "preload_g": int(_AT.preload_g),
-    "modal_damping": int(_AT.mesh.modal_damping),
-    **{
-        f"{name}_{side}": int(getattr(bearing, name))
-        for side, bearing in (("p", _AT.bearing_p), ("g", _AT.bearing_g))
-        for name in ("interference", "sin_contact", "cos_contact", "axial_factor")
-    },
-}
+
+
+def _place_of_each(law: type[FlankLaw]) -> Any:
+    """Return `AxleParameters` with the place of each float among the packed ones."""
+    kinds = TaperedRollerParameters, law
+    count = count_floats(AxleParameters, *kinds)
+    return tuple_from_array(np.arange(float(count)), AxleParameters, *kinds)
+
+
+def _derived(place: Any) -> dict[str, int]:
+    """Return the places of the packed floats that kernels derive."""
+    return {
+        "preload_g": int(place.preload_g),
+        "modal_damping": int(place.mesh.modal_damping),
+        **{
+            f"{name}_{side}": int(getattr(bearing, name))
+            for side, bearing in (("p", place.bearing_p), ("g", place.bearing_g))
+            for name in ("interference", "sin_contact", "cos_contact", "axial_factor")
+        },
+    }
 
 
 @kernel
-def _write_parameters(parameters: Array, data: Array, at: _Places, work: Array) -> int:
+def _write_parameters(
+    parameters: Array, data: Array, at: _Places, law: type[FlankLaw], work: Array
+) -> int:
     """Write everything that follows from the FMI parameters into `work`; return a status."""
     write_packed(
         parameters,
@@ -140,7 +148,7 @@ def _write_parameters(parameters: Array, data: Array, at: _Places, work: Array) 
         data[at.numbers : at.lossless],
         work,
     )
-    p: AxleParameters = tuple_from_array(work, AxleParameters, *_KINDS)
+    p: AxleParameters = tuple_from_array(work, AxleParameters, TaperedRollerParameters, law)
     settings: AxleSettings = tuple_from_array(work[at.settings :], AxleSettings)
     one: Any = p.bearing_p
     sin, cos, axial = contact_angle_terms(settings.contact_angle_p)
@@ -158,15 +166,14 @@ def _write_parameters(parameters: Array, data: Array, at: _Places, work: Array) 
         work[at.modal_damping] = modal_damping(
             settings.modal_loss_factor, settings.reference_stiffness, mass
         )
-    for i in range(_N_PARAMETERS):
+    for i in range(at.settings):
         value = data[at.lossless + i]
         work[at.without_losses + i] = value if value == value else work[i]
     for i in range(at.scratch - at.films):
         work[at.films + i] = data[at.film_model + i]
     if settings.modal != 0.0 and settings.modal_loss_factor == 0.0:
         return MODAL_WITHOUT_LOSS
-    law: Any = p.flank_law
-    if law.film == SOLVED and law.form != CONSISTENT and law.form != ZHOU_HOEPRICH_SHARE:
+    if settings.solved != 0.0 and settings.own_film != 0.0:
         return PRINTED_FILM
     return OK
 
@@ -189,9 +196,11 @@ def _chosen_mesh(data: Array, at: _Places, work: Array) -> MeshFields:
     )
 
 
-def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
-    """Return the entry of a model whose data and work are laid out so."""
-    kernels = axle_kernels(*_KINDS)
+def _entry(
+    law: type[FlankLaw], at: _Places, n_parameters: int, at_speed: int
+) -> Callable[..., int]:
+    """Return the entry of a model with this law of friction, whose data and work lie so."""
+    kernels = axle_kernels(TaperedRollerParameters, law)
     static_state, step_control = kernels.static_state, kernels.step_control
     step_without_outputs, write_outputs = kernels.step_without_outputs, kernels.outputs
     motion_outputs, event = kernels.motion_outputs, kernels.event
@@ -214,7 +223,8 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
         given = array_at(inputs, _N_INPUTS)
         out = array_at(outputs, N_OUTPUTS)
         if operation in (_START, _RESUME):
-            status = _write_parameters(array_at(parameters, n_parameters), constants, at, values)
+            given_parameters = array_at(parameters, n_parameters)
+            status = _write_parameters(given_parameters, constants, at, law, values)
             if status != OK or operation == _RESUME:
                 return status
         mesh = _chosen_mesh(constants, at, values)
@@ -278,10 +288,11 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
     return entry
 
 
-def _lossless_row() -> Array:
+def _lossless_row(law: type[FlankLaw]) -> Array:
     """Return the packed floats without losses, NaN where they stay."""
-    unknown = tuple_from_array(np.full(_N_PARAMETERS, np.nan), AxleParameters, *_KINDS)
-    return flatten(without_losses(unknown))
+    kinds = TaperedRollerParameters, law
+    unknown = np.full(count_floats(AxleParameters, *kinds), np.nan)
+    return flatten(without_losses(tuple_from_array(unknown, AxleParameters, *kinds)))
 
 
 def _mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list[Array]]:
@@ -298,14 +309,15 @@ def _mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], lis
     return by_pressure[0], series, [one.windows for one in by_pressure]
 
 
-def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
-    """Return the layout of data and work."""
+def _places(found: ParameterMap, mesh: PackedMesh, place: Any) -> _Places:
+    """Return the layout of data and work; `place` is that of `_place_of_each`."""
     ends = np.cumsum([array.size for array in found.arrays]).tolist()
-    levels = ends[3] + _N_PARAMETERS
+    n_parameters = flatten(place).size
+    levels = ends[3] + n_parameters
     series = levels + mesh.levels.size
     windows = series + len(get_args(Radii)) * _STIFFNESSES * mesh.series.size
-    without = _N_PARAMETERS + _N_SETTINGS
-    trial = without + _N_PARAMETERS
+    without = n_parameters + _N_SETTINGS
+    trial = without + n_parameters
     rollers = trial + N_STATE + _N_CONTROL
     films = rollers + ROLLERS_MAX
     roller_films = films + N_FLANK_MODEL
@@ -322,7 +334,7 @@ def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
         film_model=film_model,
         roller_model=film_model + N_FLANK_MODEL,
         data_end=film_model + N_FLANK_MODEL + N_ARRAY,
-        settings=_N_PARAMETERS,
+        settings=n_parameters,
         without_losses=without,
         trial=trial,
         control=trial + N_STATE,
@@ -331,7 +343,7 @@ def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
         roller_films=roller_films,
         scratch=scratch,
         work_end=scratch + max(work_size(mesh.series_size, mesh.nodes), START_WORK),
-        **_DERIVED,
+        **_derived(place),
         orders=mesh.orders,
         nodes=mesh.nodes,
         series_size=mesh.series.size,
@@ -355,13 +367,15 @@ def native_model(definition: Definition) -> NativeModel:
         settings = axle_settings(one, float(arguments["gear_bearing_preload"]))
         return np.concatenate([flatten(one.kernel_parameters()), flatten(settings)])
 
-    found = parameter_map(definition.variables, pack, frozenset(_DERIVED.values()))
+    law = type(by_default.kernel_parameters().flank_law)
+    place = _place_of_each(law)
+    found = parameter_map(definition.variables, pack, frozenset(_derived(place).values()))
     packed_mesh, series, windows = _mesh_data(by_default)
-    at = _places(found, packed_mesh)
+    at = _places(found, packed_mesh, place)
     data = np.concatenate(
         [
             *found.arrays,
-            _lossless_row(),
+            _lossless_row(law),
             packed_mesh.levels,
             *series,
             *windows,
@@ -373,13 +387,13 @@ def native_model(definition: Definition) -> NativeModel:
     parameters = [v.argument for v in definition.variables if v.is_model_parameter]
     return NativeModel(
         definition=definition,
-        entry=_entry(at, len(parameters), parameters.index("pinion_speed")),
+        entry=_entry(law, at, len(parameters), parameters.index("pinion_speed")),
         data=data,
         state_size=_STATE_SIZE,
         control_at=_CONTROL_AT,
         work_size=at.work_end,
         limits_at=at.settings,
-        ranges_at=int(_AT.ranges.torque_low),
+        ranges_at=int(place.ranges.torque_low),
         ranges=unnamed.ranges,
         refusals=REFUSALS,
         motion=frozenset(output_names.MOTION_OUTPUTS),

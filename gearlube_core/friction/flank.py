@@ -68,20 +68,46 @@ def flank_friction(
     is no film; the share of Zhou and Hoeprich carries all of the load there.
     Source: [mohammadpour_2015 (11)], and the parts for the terms and their misprints.
     """
-    F = max(load, 0.0)
-    F_film = max(F, LOAD_FLOOR)
-    speed = max(abs(entrainment_speed), SPEED_FLOOR)
-    R_e = geometry.R_e
-    p = geometry.pressure_coefficient * math.exp(math.log(F_film) / 3.0)
     h = central_film_thickness(
-        R_e,
+        geometry.R_e,
         geometry.side_flow,
         lubricant.eta0,
         lubricant.alpha,
-        speed,
-        F_film,
+        max(abs(entrainment_speed), SPEED_FLOOR),
+        max(load, LOAD_FLOOR),
         2.0 * solid.contact_modulus,
     )
+    return friction_of_film(
+        h, load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
+    )
+
+
+@kernel
+def friction_of_film(
+    film_thickness: float,
+    load: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    geometry: ContactGeometry,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+) -> FlankState:
+    """Return film, friction and temperature of one flank with the film of another formula.
+
+    Parameters
+    ----------
+    film_thickness
+        Central film [m], above zero also without load and at rest; see LOAD_FLOOR and SPEED_FLOOR.
+
+    Others, result and notes as in `flank_friction`.
+    """
+    F = max(load, 0.0)
+    F_film = max(F, LOAD_FLOOR)
+    speed = max(abs(entrainment_speed), SPEED_FLOOR)
+    R_e, h = geometry.R_e, film_thickness
+    p = geometry.pressure_coefficient * math.exp(math.log(F_film) / 3.0)
     friction = mixed_friction(
         F, F_film, p, h, speed, abs(sliding_speed), R_e, F_film / p, lubricant, surface, solid, form
     )

@@ -1,9 +1,8 @@
-"""The laws of flank friction by name."""
+"""Mixed friction of flanks, Mohammadpour et al. 2015, and its variants."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
@@ -19,7 +18,7 @@ from gearlube_core.friction.flank_data import (
     FlankState,
 )
 from gearlube_core.friction.flank_film import flank_model_film
-from gearlube_core.friction.flank_law import FlankLawMaker
+from gearlube_core.friction.flank_friction import FlankFriction
 from gearlube_core.friction.solved_flank import solved_flank_friction
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
@@ -129,35 +128,58 @@ class MixedFlankFriction(NamedTuple):
         return BoundedFlank(state, 0.0, 0.0, 0.0)
 
 
-def consistent(surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:
-    """Return the law with the corrected misprints of the paper."""
-    return MixedFlankFriction(surface, solid, float(CONSISTENT))
+class MixedFriction(FlankFriction):
+    """A variant of the law of Mohammadpour et al. 2015; an FMU switches between them."""
+
+    form: ClassVar[int] = CONSISTENT
+
+    def __call__(self, surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:
+        """Return the law for the kernels."""
+        return MixedFlankFriction(surface, solid, float(self.form))
 
 
-def as_printed(surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:
-    """Return the law as printed in the paper."""
-    return MixedFlankFriction(surface, solid, float(AS_PRINTED))
+class Consistent(MixedFriction, name="consistent", text="misprints of the paper corrected"):
+    """The law with the corrected misprints of the paper."""
+
+    solved_film = True
 
 
-def printed_traction(surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:
-    """Return the law with the traction coefficient as printed in (13), all else consistent."""
-    return MixedFlankFriction(surface, solid, float(PRINTED_TRACTION))
+class AsPrinted(MixedFriction, name="as_printed", text="as the paper prints it"):
+    """The law as printed in the paper."""
+
+    form = AS_PRINTED
 
 
-def zhou_hoeprich_share(surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:
-    """Return the law with asperities that carry exp(-B Lambda^C) of the load, all else consistent.
+class Off(MixedFriction, name="off", text="no friction; films as consistent"):
+    """No friction; the films are those of `Consistent`."""
+
+    solved_film = True
+    rubs = False
+
+
+class PrintedTraction(
+    MixedFriction,
+    name="printed_traction_circular",
+    text="traction as printed, at the mean pressure of a circular contact; all else consistent",
+):
+    """The law with the traction coefficient as printed in (13), all else consistent.
+
+    The reading of the paper that gives its efficiency.
+    """
+
+    form = PRINTED_TRACTION
+    pressure = "circular"
+
+
+class ZhouHoeprichShare(
+    MixedFriction,
+    name="zhou_hoeprich_1991",
+    text="as consistent, but the asperities carry all load when there is no film",
+):
+    """The law with asperities that carry exp(-B Lambda^C) of the load, all else consistent.
 
     Source: [zhou_hoeprich_1991 (45)]
     """
-    return MixedFlankFriction(surface, solid, float(ZHOU_HOEPRICH_SHARE))
 
-
-FLANK_LAWS: Mapping[str, FlankLawMaker] = {
-    "consistent": consistent,
-    "as_printed": as_printed,
-    "printed_traction_circular": printed_traction,
-    "zhou_hoeprich_1991": zhou_hoeprich_share,
-}
-
-# the mean pressure that a law is given, by the law's name; "elliptical" for all others
-CONTACT_PRESSURES: Mapping[str, str] = {"printed_traction_circular": "circular"}
+    form = ZHOU_HOEPRICH_SHARE
+    solved_film = True

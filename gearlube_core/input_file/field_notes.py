@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
+from pydantic_core import PydanticKnownError, core_schema
 
 from gearlube_core.units import ZERO_CELSIUS
 
@@ -109,6 +110,24 @@ class Usual:
 
     def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> Any:
         return handler(core) | {"usual": (self.low, self.high)}
+
+
+@dataclass(frozen=True, slots=True)
+class OneOf:
+    """Mark of a text field: one of the names of a registry, asked for when a file is read."""
+
+    names: Callable[[str], Iterable[str]]  # takes the name that is wanted, "" for none
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return core_schema.no_info_after_validator_function(self._check, handler(source))
+
+    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> Any:
+        return handler(core) | {"enum": list(self.names(""))}
+
+    def _check(self, value: str) -> str:
+        if value not in (names := list(self.names(value))):
+            raise PydanticKnownError("literal_error", {"expected": " or ".join(names)})
+        return value
 
 
 # shares of equal letters, as difflib has them, from which a word or a whole name is the same

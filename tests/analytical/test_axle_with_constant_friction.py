@@ -11,10 +11,11 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLeve
 from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, pack_mesh
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.oil.lubricant_state import lubricant_state
-from tests.helpers.constant_friction import COEFFICIENTS, LINE_LENGTH, OIL, SPEED, TORQUE
+from tests.helpers.constant_friction import COEFFICIENTS, OIL, SPEED, TORQUE
 from tests.helpers.own_process import INTERPRETED, report_of
 
 FLANKS = (1, 2, 3)
+LINE_LENGTH = 0.02  # m, of the law
 
 
 @cache
@@ -75,3 +76,28 @@ def test_compiled_axle_equals_the_interpreted_one(tmp_path):
         for name, a, b in zip(OUTPUT_NAMES, one["moving"], two["moving"], strict=True):
             # rounding of some 1e2 operations; forces and speeds are differences of larger terms
             assert a == pytest.approx(b, rel=1e-9, abs=1e-9), name
+
+
+def test_one_file_makes_the_law_known_to_axle_file_error_bars_and_fmu():
+    found = report_of("constant_friction", "report_names", **INTERPRETED)
+    assert "got 'coulomb'" in found["before"]  # neither imported nor installed
+    assert "consistent or as_printed or off" in found["before"]
+    assert "The numbers of the friction law coulomb are mu; got 'nu'" in found["wrong name"]
+    assert "mu must be within 0 to 0.5, got 0.8" in found["wrong value"]
+    assert found["note"] == ["model.friction_numbers.mu", 0.04, "1", "assumed", "a guess"]
+    assert found["upper"] == pytest.approx(1.3 * 0.08)  # two standard deviations are the factor
+    assert found["range"] == [1e-9, 1e-3]
+    assert found["literals"] == ["coulomb"]
+    assert found["mu"] == [0.08, 0.0, 0.5, "1", "Coefficient of the flank friction"]
+    assert found["references"] == -1  # behind all variables of other FMUs
+
+
+@pytest.mark.slow
+def test_a_native_fmu_has_the_law_of_its_axle_file(tmp_path):
+    found = report_of("constant_friction", "report_native", NUMBA_CACHE_DIR=str(tmp_path))
+    coefficients = []
+    for native, python in found:
+        # other instructions in object code: rounding of some 1e2 operations, as above
+        np.testing.assert_allclose(native, python, rtol=1e-9, atol=1e-9)
+        coefficients.append(max(value(native, f"flank[{i}].friction_coefficient") for i in FLANKS))
+    assert coefficients == [0.08, 0.05]

@@ -23,7 +23,7 @@ from gearlube_core.friction.flank_data import (
     FlankState,
     contact_geometry,
 )
-from gearlube_core.friction.flank_laws import FLANK_LAWS
+from gearlube_core.friction.flank_laws import PrintedTraction
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED, contact_temperature_rise
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -116,7 +116,7 @@ def test_friction_of_a_loaded_flank_agrees_with_the_equations_by_hand(form: int)
 
 
 def test_printed_traction_at_circular_pressure_agrees_with_the_equations_by_hand() -> None:
-    law = FLANK_LAWS["printed_traction_circular"](SURFACE, SOLID)
+    law = PrintedTraction()(SURFACE, SOLID)
     R = math.sqrt(R_X * R_Y)
     circle = 1.0 / (math.pi * (0.75 * R / E_STAR) ** (2.0 / 3.0))
     geometry = GEOMETRY._replace(pressure_coefficient=circle)

@@ -17,7 +17,7 @@ from gearlube_core.film_model.solved_film import solved_film
 from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_film import flank_film_model
-from gearlube_core.friction.flank_laws import SOLVED, consistent
+from gearlube_core.friction.flank_laws import SOLVED, Consistent
 from gearlube_core.friction.solved_flank import (
     FORMULA_FILM_BOUND,
     FORMULA_FRICTION_TOP,
@@ -38,7 +38,7 @@ GEOMETRY = contact_geometry(R_X, R_Y, PSI, SOLID.contact_modulus)
 ELLIPSE = FlankEllipse(R_X, R_Y, ellipticity(R_Y / R_X), PSI, DELTA)
 MODEL = FilmModel.named("hypoid_flank")
 ROUGH = gear_flanks(0.5e-6)
-FORMULA = consistent(ROUGH, SOLID)
+FORMULA = Consistent()(ROUGH, SOLID)
 LAW = FORMULA._replace(film=float(SOLVED))
 
 
@@ -169,7 +169,11 @@ def test_losses_at_rest_carry_the_bound_of_the_film_model():
     assert friction < by_formula.power[0, 0, 0, :2].sum()
 
 
-@pytest.mark.parametrize("friction", ["as_printed", "printed_traction_circular", consistent])
+def own_law(surface, solid):
+    return Consistent()(surface, solid)
+
+
+@pytest.mark.parametrize("friction", ["as_printed", "printed_traction_circular", own_law])
 def test_friction_laws_with_films_of_their_own_refuse_a_solved_film(friction):
     axle = replace(mohammadpour_2015_axle(), film="solved", friction=friction)
     with pytest.raises(ParameterError, match="must come with the friction law consistent"):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
+from typing import Annotated
 from xml.etree import ElementTree
 
 import numpy as np
@@ -15,8 +16,9 @@ from fmu_src.definition import Definition, Model
 from fmu_src.hypoid_axle import DEFINITION
 from fmu_src.model_description import model_description
 from fmu_src.values import Values
-from fmu_src.variable_kinds import output, parameter
+from fmu_src.variable_kinds import declared_in, output, parameter
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
+from gearlube_core.number import Number
 
 FLOOR = parameter("mesh.frequency_floor", "Hz", "Lowest frequency of the mesh damping", start=50.0,
                   minimum=1.0, maximum=1e4, nominal=100.0, argument="frequency_floor")  # fmt: skip
@@ -74,6 +76,22 @@ def test_a_parameter_reaches_the_axle_by_the_name_of_its_field() -> None:
     assert axle.kernel_parameters.mesh.frequency_floor == 80.0  # type: ignore[attr-defined]
     plain = DEFINITION.start_model(defaults(DEFINITION), [60.0, 160.0, 313.15])
     assert plain.kernel_parameters.mesh.frequency_floor == 50.0  # type: ignore[attr-defined]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sticky(HypoidAxleParameters):
+    adhesion: Annotated[
+        float, Number("N", 0.0, 9.0, text="Adhesion of the teeth", fmi="mesh.adhesion")
+    ] = 0.25
+
+
+def test_a_number_that_declares_an_fmi_name_is_a_parameter_without_a_line_of_the_table() -> None:
+    known = {one.argument for one in DEFINITION.variables}
+    assert declared_in(Sticky, known) == (
+        parameter("mesh.adhesion", "N", "Adhesion of the teeth", start=0.25, minimum=0.0,
+                  maximum=9.0, argument="adhesion"),
+    )  # fmt: skip
+    assert declared_in(Sticky, known | {"adhesion"}) == ()
 
 
 def test_an_output_of_the_model_lands_on_its_value_reference() -> None:

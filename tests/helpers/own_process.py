@@ -12,9 +12,9 @@ import sys
 INTERPRETED = {"NUMBA_DISABLE_JIT": "1"}
 
 
-def report_of(module, **environment):
-    """What the function `report` of a helper module writes, read as JSON."""
-    command = [sys.executable, "-c", f"from tests.helpers.{module} import report; report()"]
+def report_of(module, function="report", **environment):
+    """What a function of a helper module writes, read as JSON."""
+    command = [sys.executable, "-c", f"from tests.helpers import {module} as m; m.{function}()"]
     path = os.pathsep.join(filter(None, sys.path))
     env = dict(os.environ, PYTHONPATH=path, **environment)
     out = subprocess.run(command, env=env, capture_output=True, text=True, check=True, timeout=300)

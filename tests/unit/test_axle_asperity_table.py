@@ -24,7 +24,7 @@ from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import CONSISTENT, contact_geometry
-from gearlube_core.friction.flank_laws import consistent
+from gearlube_core.friction.flank_laws import Consistent
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.oil.lubricant_state import lubricant_state
 
@@ -104,7 +104,7 @@ def test_with_solved_films_the_asperities_of_the_table_stand_on_the_solved_film(
     assert found.state.boundary_friction == pytest.approx(expected, rel=1e-6)  # as above
     # a thinner film under rougher asperities: more than either change alone
     assert expected > 1.1 * formula.boundary_friction
-    plain = consistent(USUAL, law.solid)._replace(film=law.film)
+    plain = Consistent()(USUAL, law.solid)._replace(film=law.film)
     assert expected > plain.bounded_flank(*contact, film, oil, numbers).state.boundary_friction
 
 

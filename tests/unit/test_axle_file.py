@@ -172,7 +172,7 @@ GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gea
 GROUPS |= {f"{role}.frusta_{one}_mm" for role in ("pinion", "gear")
            for one in ("lengths", "first_diameters", "last_diameters", "bores")}  # fmt: skip
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
-WORDS |= {"film.flank_model", "film.roller_model"}
+WORDS |= {"film.flank_model", "film.roller_model", "model.friction_numbers"}
 WORDS |= {"seals.material", "tolerances", "gear_set.gear_file", "gear_set.contact_torques_n_m"}
 
 
@@ -180,7 +180,8 @@ def fingerprint(made):
     """All that the kernels of the axle and the driveline can see, and what mean losses add."""
     axle = made.axle
     options = (axle.radii, axle.mesh_stiffness, axle.steps_per_mesh_period)
-    options += (axle.steps_per_highest_period, axle.contact_pressure, axle.flank_bulk_resistance)
+    options += (axle.steps_per_highest_period, axle.flank_bulk_resistance)
+    options += (axle.friction_law.pressure,)
     packed = flatten(axle.kernel_parameters()).tolist()
     return packed, options, made.driveline
 

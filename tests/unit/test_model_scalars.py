@@ -8,13 +8,13 @@ from typing import Annotated, NamedTuple
 import pytest
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters, mohammadpour_2015_axle
-from gearlube_core.dynamics.scalars import Within, constants_of
 from gearlube_core.errors import ParameterError
+from gearlube_core.number import Number, constants_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AdhesionScalars(HypoidAxleParameters):
-    adhesion: Annotated[float, Within(0.0, 9.0, "N", "Oil pulls with less than 1 N.")] = 0.25
+    adhesion: Annotated[float, Number("N", 0.0, 9.0, "Oil pulls with less than 1 N.")] = 0.25
 
 
 class AdhesionConstants(NamedTuple):

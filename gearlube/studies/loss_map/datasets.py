@@ -137,7 +137,7 @@ def not_modelled(axle: HypoidAxleParameters) -> tuple[str, ...]:
         "pinion seal": axle.pinion_seal_torque == 0.0,
         "wheel seals": axle.wheel_seal_torque == 0.0,
         "bearing drag": axle.bearing_torque_loss == "none",
-        "flank friction": axle.friction == "off",
+        "flank friction": not axle.friction_law.rubs,
         "rolling of the flanks": axle.rolling == "none",
     }
     return (*(words for words, missing in left_out.items() if missing), *NEVER_MODELLED)

@@ -100,9 +100,9 @@ def sweep(
     friction: Annotated[
         str | None,
         typer.Option(
-            help="Flank friction: consistent, as_printed, off, printed_traction_circular "
-            "(the reading that gives the paper's efficiency) or zhou_hoeprich_1991 (asperities "
-            "carry all load without a film). Default: that of the axle."
+            help="Law of the flank friction, as in an axle file, e.g. consistent, off or "
+            "printed_traction_circular (the reading that gives the paper's efficiency). Default: "
+            "that of the axle."
         ),
     ] = None,
     bearing_torque_loss: Annotated[

@@ -12,6 +12,7 @@ from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.friction.flank_friction import friction_laws
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin
 
@@ -120,7 +121,8 @@ class SweepSettings:
             if name == "oil" and value == CUSTOM_OIL:
                 continue  # that of the axle's file
             if variable.literals:
-                check_option(name, value, variable.literals)
+                own = friction_laws() if name == "friction" else ()
+                check_option(name, value, own or variable.literals)
             else:
                 check_within(name, value, *variable.range, variable.unit)
         name, temperature = self.lowest_oil_temperature

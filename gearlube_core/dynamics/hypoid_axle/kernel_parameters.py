@@ -9,12 +9,12 @@ from gearlube_core.bearings.bearing_type import ShaftBearings
 from gearlube_core.drag.churning import ChurningConstants
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
-from gearlube_core.dynamics.scalars import Within
 from gearlube_core.friction.flank_law import FlankLaw
+from gearlube_core.number import Number
 from gearlube_core.oil.lubricant import LubricantParameters
 
-_INERTIA = Within(1e-6, 500.0, "kg m2", "1734 kg.mm2 is 1.734e-3 kg m2.")
-_MASS = Within(0.05, 2000.0, "kg", "12 000 g is 12 kg.")
+_INERTIA = Number("kg.m2", 1e-6, 500.0, "1734 kg.mm2 is 1.734e-3 kg m2.")
+_MASS = Number("kg", 0.05, 2000.0, "12 000 g is 12 kg.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,9 +37,9 @@ class AxleScalars(MeshForceScalars):
     gear_inertia: Annotated[float, _INERTIA]
     pinion_mass: Annotated[float, _MASS]
     gear_mass: Annotated[float, _MASS]
-    backlash: Annotated[float, Within(0.0, 2e-3, "m", "150 um is 1.5e-4 m.")]
-    pinion_seal_torque: Annotated[float, Within(0.0, 100.0, "N.m", "0.15 N.m is usual.")] = 0.0
-    wheel_seal_torque: Annotated[float, Within(0.0, 100.0, "N.m", "0.3 N.m is usual.")] = 0.0
+    backlash: Annotated[float, Number("m", 0.0, 2e-3, "150 um is 1.5e-4 m.")]
+    pinion_seal_torque: Annotated[float, Number("N.m", 0.0, 100.0, "0.15 N.m is usual.")] = 0.0
+    wheel_seal_torque: Annotated[float, Number("N.m", 0.0, 100.0, "0.3 N.m is usual.")] = 0.0
 
 
 class AxleParameters(NamedTuple):

@@ -179,7 +179,7 @@ def axle_losses(
         contact_modulus(parameters.solid, parameters.solid),
         parameters.radii,
         parameters.mesh_stiffness,
-        parameters.contact_pressure,
+        parameters.friction_law.pressure,
     )
     works = (
         np.zeros(N_STATE),

@@ -19,9 +19,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     X,
 )
-from gearlube_core.dynamics.scalars import Within
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series
+from gearlube_core.number import Number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,8 +37,8 @@ class MeshForceScalars:
         Coefficient of [mohammadpour_2015 (4)] [-], 0 to 0.5.
     """
 
-    frequency_floor: Annotated[float, Within(1.0, 1e4, "Hz")] = 50.0
-    hysteretic_loss: Annotated[float, Within(0.0, 0.5, cure="Default 0.009.")] = 0.009
+    frequency_floor: Annotated[float, Number("Hz", 1.0, 1e4)] = 50.0
+    hysteretic_loss: Annotated[float, Number("1", 0.0, 0.5, "Default 0.009.")] = 0.009
 
 
 class MeshForceConstants(NamedTuple):

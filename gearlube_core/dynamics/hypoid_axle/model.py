@@ -121,7 +121,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             contact_modulus(parameters.solid, parameters.solid),
             parameters.radii,
             parameters.mesh_stiffness,
-            parameters.contact_pressure,
+            parameters.friction_law.pressure,
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         self._film_models = parameters.film_model(), parameters.roller_model()

@@ -36,30 +36,22 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import (
 from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.dynamics.ranges import Range, range_limits
-from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.errors import ParameterError
-from gearlube_core.film import chittenden_1985
 from gearlube_core.film_model.chosen_model import check_oil, of_kind
 from gearlube_core.film_model.model import FLANK, ROLLER, FilmModel, shipped_model
 from gearlube_core.friction.flank_film import flank_film_model
+from gearlube_core.friction.flank_friction import FlankFriction, friction_law
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
-from gearlube_core.friction.flank_laws import (
-    CONTACT_PRESSURES,
-    FILM_MODELS,
-    FLANK_LAWS,
-    MixedFlankFriction,
-)
+from gearlube_core.friction.flank_laws import FILM_MODELS, MixedFlankFriction
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS, FlankRolling
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.number import Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import Lubricant
 
 Equations = Literal["consistent", "as_printed"]
 Radii = Literal["consistent", "paper", "mean"]
 MeshStiffness = Literal["tangent", "secant"]
 MeshDamping = Literal["hysteretic", "modal"]
-Friction = Literal[
-    "consistent", "as_printed", "off", "printed_traction_circular", "zhou_hoeprich_1991"
-]
 Film = Literal["formula", "solved"]
 Approach = Literal["full", "as_printed"]
 
@@ -67,11 +59,9 @@ NO_MODAL_LOSS = (
     "modal_loss_factor must be above 0 with mesh_damping 'modal', got 0. "
     "Give about 0.06, or choose 'hysteretic'."
 )
-# friction laws whose parts besides the film's are consistent, so that a solved film can stand in
-FRICTION_WITH_SOLVED_FILM = ("consistent", "off", "zhou_hoeprich_1991")
 PRINTED_WITH_SOLVED_FILM = (
-    "a solved film must come with the friction law consistent, zhou_hoeprich_1991 or off: the "
-    "others have films of their own. Change one of the two."
+    "a solved film must come with the friction law consistent, or another one without a film of "
+    "its own, such as zhou_hoeprich_1991 or off. Change one of the two."
 )
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 
@@ -114,14 +104,9 @@ class HypoidAxleParameters(AxleScalars):
         REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
-    friction : {"consistent", "as_printed", "off", "printed_traction_circular", \
-        "zhou_hoeprich_1991"} or callable
-        Friction law of the flanks: a name in `flank_laws.FLANK_LAWS`, "off", or a function that
-        makes a law, see `flank_law`. "printed_traction_circular" is the reading of the paper that
-        gives its efficiency: (13) without beta, as printed there, at the mean pressure of a
-        circular contact, `circular_pressure_coefficient`; asperities are consistent.
-        "zhou_hoeprich_1991": asperities carry exp(-B Lambda^C) of the load, and all of it when
-        there is no film.
+    friction : str or callable
+        Friction law of the flanks: a name among `friction_laws`, such as "consistent" or "off", a
+        `FlankFriction` with numbers of its own, or a function that makes a law, see `flank_law`.
     film : {"formula", "solved"}
         Central film and friction of the oil on the flanks: "formula", Chittenden 1985 with Evans
         and Johnson 1986, or "solved", by a model of solved thermal Eyring films, see `solved_film`;
@@ -174,37 +159,36 @@ class HypoidAxleParameters(AxleScalars):
     gear_bearing: Bearing | None = None
     oil: Lubricant
     solid: Solid
-    roughness_rms: Annotated[float, Within(1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")]
-    xi_beta_sigma: Annotated[float, Within(1e-4, 10.0)] = FLANK_XI_BETA_SIGMA
-    sigma_over_beta: Annotated[float, Within(1e-9, 10.0)] = FLANK_SIGMA_OVER_BETA
+    roughness_rms: Annotated[float, Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")]
+    xi_beta_sigma: Annotated[float, Number("1", 1e-4, 10.0)] = FLANK_XI_BETA_SIGMA
+    sigma_over_beta: Annotated[float, Number("1", 1e-9, 10.0)] = FLANK_SIGMA_OVER_BETA
     equations: Equations = "consistent"
     radii: Radii = "consistent"
     mesh_stiffness: MeshStiffness = "tangent"
     mesh_damping: MeshDamping = "hysteretic"
-    modal_loss_factor: Annotated[float, Within(0.0, 1.0)] = 0.06
-    friction: Friction | FlankLawMaker = "consistent"
+    modal_loss_factor: Annotated[float, Number("1", 0.0, 1.0)] = 0.06
+    friction: str | FlankLawMaker = "consistent"
     film: Film = "formula"
     flank_film_model: FilmModel | None = None
     roller_film_model: FilmModel | None = None
-    film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
-    flank_bulk_resistance: Annotated[float, Within(0.0, 10.0, "K/W", "Try 0.03 K/W.")] = 0.0
+    film_limiting_slope: Annotated[float, Number("1", 0.0, 1.0, "0.05 is usual.")] = 0.0
+    flank_bulk_resistance: Annotated[float, Number("K/W", 0.0, 10.0, "Try 0.03 K/W.")] = 0.0
     rolling: FlankRolling = "none"
     bearing_torque_loss: TorqueLoss = DEFAULT_LAW
     churning: ChurningLaw = "none"
-    ring_diameter: Annotated[float, Within(0.01, 3.0, "m", "165 mm is 0.165 m.")] = 0.165
-    ring_width: Annotated[float, Within(1e-3, 1.0, "m", "30 mm is 0.03 m.")] = 0.030
-    immersion: Annotated[float, Within(0.0, 3.0, "m", "40 mm is 0.04 m.")] = 0.040
-    oil_volume: Annotated[float, Within(1e-5, 1.0, "m3", "1.2 l is 1.2e-3 m3.")] = 1.2e-3
-    steps_per_mesh_period: Annotated[int, Within(16, 4096, cure="Default 56.")] = 56
-    steps_per_highest_period: Annotated[int, Within(8, 4096, cure="Default 17.")] = 17
+    ring_diameter: Annotated[float, Number("m", 0.01, 3.0, "165 mm is 0.165 m.")] = 0.165
+    ring_width: Annotated[float, Number("m", 1e-3, 1.0, "30 mm is 0.03 m.")] = 0.030
+    immersion: Annotated[float, Number("m", 0.0, 3.0, "40 mm is 0.04 m.")] = 0.040
+    oil_volume: Annotated[float, Number("m3", 1e-5, 1.0, "1.2 l is 1.2e-3 m3.")] = 1.2e-3
+    steps_per_mesh_period: Annotated[int, Number("1", 16, 4096, "Default 56.")] = 56
+    steps_per_highest_period: Annotated[int, Number("1", 8, 4096, "Default 17.")] = 17
 
     def __post_init__(self) -> None:
         check_option("equations", self.equations, get_args(Equations))
         check_option("radii", self.radii, get_args(Radii))
         check_option("mesh_stiffness", self.mesh_stiffness, get_args(MeshStiffness))
         check_option("mesh_damping", self.mesh_damping, get_args(MeshDamping))
-        if isinstance(self.friction, str):
-            check_option("friction", self.friction, get_args(Friction))
+        friction_law(self.friction)
         check_option("bearing_torque_loss", self.bearing_torque_loss, TORQUE_LOSSES)
         check_option("film", self.film, FILM_MODELS)
         if self.flank_film_model is not None:
@@ -213,7 +197,7 @@ class HypoidAxleParameters(AxleScalars):
             of_kind(self.roller_film_model, ROLLER, "roller_film_model")
         check_option("rolling", self.rolling, FLANK_ROLLING_LAWS)
         check_option("churning", self.churning, CHURNING_LAWS)
-        check_scalars(self)
+        check_fields(self)
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
             raise ParameterError(NO_MODAL_LOSS)
         kinds = [type(one).__name__ for one in self.bearings]
@@ -269,31 +253,26 @@ class HypoidAxleParameters(AxleScalars):
     @property
     def ranges(self) -> tuple[Range, ...]:
         """Ranges of the mesh table, the oil and the formulas of film and traction."""
+        law = self.friction_law
         return model_ranges(
             self.torque_range,
             "Run `gearlube contact` with higher torques.",
             self.oil,
-            chittenden_1985.LOAD_RANGE,
-            chittenden_1985.MATERIAL_RANGE,
+            law.film_load,
+            law.film_material,
         )
 
     @property
-    def contact_pressure(self) -> str:
-        """Mean pressure of the flanks: "elliptical", or "circular" where `friction` asks for it."""
-        if isinstance(self.friction, str):
-            return CONTACT_PRESSURES.get(self.friction, "elliptical")
-        return "elliptical"
+    def friction_law(self) -> FlankFriction:
+        """The law that `friction` names, with its numbers."""
+        return friction_law(self.friction)
 
     def _flank_law(self) -> FlankLaw:
         """Return the law of friction; without friction it still gives the film."""
-        if callable(self.friction):
-            make = self.friction
-        else:
-            make = FLANK_LAWS["consistent" if self.friction == "off" else self.friction]
         surface = SurfaceParameters(
             float(self.roughness_rms), float(self.xi_beta_sigma), float(self.sigma_over_beta)
         )
-        law = make(surface, solid_parameters(self.solid, self.solid))
+        law = self.friction_law(surface, solid_parameters(self.solid, self.solid))
         if isinstance(law, MixedFlankFriction):
             law = law._replace(
                 film=float(FILM_MODELS.index(self.film)),
@@ -330,7 +309,7 @@ class HypoidAxleParameters(AxleScalars):
         """
         if self.film == "formula":
             return NO_FILM_MODEL
-        if self.friction not in FRICTION_WITH_SOLVED_FILM:
+        if not self.friction_law.solved_film:
             raise ParameterError(f"{PRINTED_WITH_SOLVED_FILM} Got {self.friction!r}.")
         return flank_film_model(self.film_models[FLANK])
 
@@ -358,7 +337,7 @@ class HypoidAxleParameters(AxleScalars):
                 consistent=0.0 if as_printed else 1.0,
             ),
             lateral_sign=-1.0 if as_printed else 1.0,
-            friction=0.0 if self.friction == "off" else 1.0,
+            friction=1.0 if self.friction_law.rubs else 0.0,
             churning=ChurningConstants(
                 law=float(CHURNING_LAWS.index(self.churning)),
                 ring_diameter=float(self.ring_diameter),

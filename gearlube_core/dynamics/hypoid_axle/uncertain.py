@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +20,7 @@ from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import MOST_OUTSIDE
+from gearlube_core.number import numbers_of
 from gearlube_core.units import celsius_to_kelvin
 
 MOST_DRAWS = 10_000
@@ -92,6 +95,23 @@ def _of_bearings(name: str) -> Callable[[HypoidAxleParameters, float], HypoidAxl
         return replace(axle, bearing=pair[0], gear_bearing=axle.gear_bearing and pair[1])
 
     return changed
+
+
+def _of_numbers(axle: HypoidAxleParameters) -> Iterator[Uncertain]:
+    """Yield the numbers of an axle and of its friction law that are declared with a factor."""
+    for part, prefix in ((axle, ""), (axle.friction_law, "friction_")):
+        kind: Any = type(part)
+        for name, one in numbers_of(kind).items():
+            if one.factor > 1.0:
+                changed = partial(_times, name, bool(prefix))
+                yield Uncertain(f"{prefix}{name}", one.text, one.factor, one.source, changed)
+
+
+def _times(name: str, of_law: bool, axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
+    """Return the axle with a number of it, or of its friction law, times another."""
+    part: Any = axle.friction_law if of_law else axle
+    made = replace(part, **{name: by * getattr(part, name)})
+    return replace(axle, friction=made) if of_law else made
 
 
 _NOT_MEASURED = "state of lubrication not known, no torque measured"
@@ -206,7 +226,7 @@ def uncertain_of(
         own["bearing_drag"] = (max(UNCALIBRATED[one] for one in laws), _NOT_MEASURED)
     found = []
     ribbed = BEARING_LAWS.get(law) in RACE_LAWS
-    for one in UNCERTAIN + RIBS * ribbed:
+    for one in (*UNCERTAIN, *RIBS * ribbed, *_of_numbers(axle)):
         factor, why = own.get(one.name, (None, ""))
         if one.name == "preload" and calibrated_bearings:
             continue  # it is in the measured torque

@@ -9,7 +9,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants, FlankScalars
 from gearlube_core.dynamics.ranges import RangeLimits
-from gearlube_core.dynamics.scalars import Within
+from gearlube_core.number import Number
 from gearlube_core.oil.lubricant import LubricantParameters
 
 
@@ -48,8 +48,8 @@ class MarchScalars(FlankScalars):
         none, so contacts whose mean stress comes near it count as outside.
     """
 
-    friction_updates_per_mesh_period: Annotated[int, Within(4, 4096)] = 16
-    film_limiting_slope: Annotated[float, Within(0.0, 1.0, cure="0.05 is usual.")] = 0.0
+    friction_updates_per_mesh_period: Annotated[int, Number("1", 4, 4096)] = 16
+    film_limiting_slope: Annotated[float, Number("1", 0.0, 1.0, "0.05 is usual.")] = 0.0
 
 
 class MotionConstants(NamedTuple):

@@ -15,9 +15,9 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     U_P,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import plane_strain
-from gearlube_core.dynamics.scalars import Within
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number
 
 SPEED_OF_FULL_FRICTION = 0.01  # rad/s; below, friction fades so that it has no jump at rest
 
@@ -32,7 +32,7 @@ class FlankScalars:
         Normal backlash [m], 0 to 2e-3.
     """
 
-    backlash: Annotated[float, Within(0.0, 2e-3, "m", "100 um is 1e-4 m.")]
+    backlash: Annotated[float, Number("m", 0.0, 2e-3, "100 um is 1e-4 m.")]
 
 
 class FlankConstants(NamedTuple):

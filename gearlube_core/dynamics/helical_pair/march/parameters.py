@@ -29,7 +29,6 @@ from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupp
 from gearlube_core.dynamics.helical_pair.supports.support_matrices import shaft_springs
 from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.ranges import Range, range_limits
-from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.film import dowson_toyoda_1979
 from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
@@ -38,6 +37,7 @@ from gearlube_core.friction.flank_laws import FILM_MODELS
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.number import Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import Lubricant
 
 Form = Literal["twelve_dof", "six_dof"]
@@ -45,7 +45,7 @@ Friction = Literal["film", "constant", "off"]
 Equations = Literal["consistent", "he_2007"]
 Film = Literal["formula", "solved"]
 
-_DAMPING = Within(0.0, 1.0, cure="Five percent is usual.")
+_DAMPING = Number("1", 0.0, 1.0, "Five percent is usual.")
 
 # what the constants of the march call the options
 FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
@@ -142,17 +142,17 @@ class HelicalMarchParameters(MarchScalars):
     gear: Body
     oil: Lubricant
     friction: Friction = "film"
-    friction_coefficient: Annotated[float, Within(0.0, 1.0)] = 0.05
+    friction_coefficient: Annotated[float, Number("1", 0.0, 1.0)] = 0.05
     film: Film = "formula"
     line_film_model: FilmModel | None = None
-    roughness_rms: Annotated[float, Within(1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")] = 0.5e-6
+    roughness_rms: Annotated[float, Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")] = 0.5e-6
     solid: Solid = STEEL_MOHAMMADPOUR_2015
     mesh_damping_ratio: Annotated[float, _DAMPING] = 0.05
     support_damping_ratio: Annotated[float, _DAMPING] = 0.05
     form: Form = "twelve_dof"
     equations: Equations = "consistent"
-    steps_per_mesh_period: Annotated[int, Within(16, 4096)] = 64
-    steps_per_highest_period: Annotated[int, Within(6, 4096)] = 8
+    steps_per_mesh_period: Annotated[int, Number("1", 16, 4096)] = 64
+    steps_per_highest_period: Annotated[int, Number("1", 6, 4096)] = 8
 
     def __post_init__(self) -> None:
         check_option("friction", self.friction, get_args(Friction))
@@ -161,7 +161,7 @@ class HelicalMarchParameters(MarchScalars):
             of_kind(self.line_film_model, LINE, "line_film_model")
         check_option("form", self.form, get_args(Form))
         check_option("equations", self.equations, get_args(Equations))
-        check_scalars(self)
+        check_fields(self)
         check_line_mesh(self.mesh, self.pair, LINES_MAX)
 
     @property
