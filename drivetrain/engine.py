@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Annotated, Literal
 
-from gearlube_core.checks import check_finite, check_option, check_positive, check_within
+from gearlube_core.checks import check_finite, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.number import Number, Positive, check_fields
 from gearlube_core.units import rads_to_rpm, rpm_to_rads
 
 EngineKind = Literal["combustion", "electric_motor"]
@@ -29,13 +30,13 @@ class TorqueOrder:
     """
 
     order: int
-    amplitude: float
+    amplitude: Annotated[float, Number("1", 0.0, 10.0, "It is relative to the mean.")]
     phase: float
 
     def __post_init__(self) -> None:
         cure = "Orders are counted per revolution."
         check_within("order", self.order, 1, LARGEST_ORDER, "", cure)
-        check_within("amplitude", self.amplitude, 0.0, 10.0, "", "It is relative to the mean.")
+        check_fields(self)
         check_finite("phase", self.phase, "rad")
 
 
@@ -81,11 +82,11 @@ class Engine:
     """
 
     orders: tuple[TorqueOrder, ...] = IDEAL_OTTO_ORDERS
-    primary_inertia: float = 0.16
-    secondary_inertia: float = 0.06
-    flywheel_stiffness: float = 400.0
-    flywheel_damping: float = 0.85
-    idle_speed_rpm: float = 800.0
+    primary_inertia: Annotated[float, Positive("kg m2")] = 0.16
+    secondary_inertia: Annotated[float, Positive("kg m2")] = 0.06
+    flywheel_stiffness: Annotated[float, Positive("N m/rad")] = 400.0
+    flywheel_damping: Annotated[float, Number("N m s/rad", 0.0, 1e4)] = 0.85
+    idle_speed_rpm: Annotated[float, Positive("1/min")] = 800.0
     highest_speed_rpm: float = 6000.0
     kind: EngineKind = "combustion"
 
@@ -108,12 +109,7 @@ class Engine:
         )
 
     def __post_init__(self) -> None:
-        check_option("kind", self.kind, get_args(EngineKind))
-        check_positive("primary_inertia", self.primary_inertia, "kg m2")
-        check_positive("secondary_inertia", self.secondary_inertia, "kg m2")
-        check_positive("flywheel_stiffness", self.flywheel_stiffness, "N m/rad")
-        check_within("flywheel_damping", self.flywheel_damping, 0.0, 1e4, "N m s/rad")
-        check_positive("idle_speed_rpm", self.idle_speed_rpm, "1/min")
+        check_fields(self)
         check_within("highest_speed_rpm", self.highest_speed_rpm, self.idle_speed_rpm, 2e4, "1/min")
 
     def torque(self, mean_torque: float, crank_angle: float) -> float:
@@ -139,7 +135,7 @@ class Gearbox:
     """
 
     ratios: tuple[float, ...] = (3.6, 2.1, 1.4, 1.0, 0.8)
-    lowest_cruising_speed_rpm: float = 1400.0
+    lowest_cruising_speed_rpm: Annotated[float, Positive("1/min")] = 1400.0
 
     def __post_init__(self) -> None:
         if not self.ratios:
@@ -150,7 +146,7 @@ class Gearbox:
             raise ParameterError(
                 f"ratios must fall from gear to gear, got {self.ratios}. First gear comes first."
             )
-        check_positive("lowest_cruising_speed_rpm", self.lowest_cruising_speed_rpm, "1/min")
+        check_fields(self)
 
     def gear_for(self, propshaft_speed: float, engine: Engine) -> int:
         """Return the gear, counted from 1, for a propshaft speed [rad/s].

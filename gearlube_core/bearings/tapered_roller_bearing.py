@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import Annotated, Literal
 
 from gearlube_core.bearings.losses.rib import RIB_BOUNDARY_FRICTION, RIB_HEIGHT, RIB_ROUGHNESS
 from gearlube_core.bearings.losses.skf_2013 import OTHER_SERIES, SERIES, SERIES_NAMES
@@ -30,6 +30,7 @@ from gearlube_core.film.mostofi_gohar_1983 import (
     SPEED_EXPONENT,
     SQUEEZE_SHARE,
 )
+from gearlube_core.number import Number, check_fields
 
 Approach = Literal["full", "as_printed"]
 Film = Literal["squeeze", "steady", "off"]
@@ -96,26 +97,25 @@ class TaperedRollerBearing:
     outer_race_diameter: float
     roller_diameter: float
     roller_length: float
-    n_rollers: int
+    n_rollers: Annotated[int, Number("1", 3, ROLLERS_MAX)]
     stiffness_constant: float
     exponent: float
     contact_angle: float
-    loss: float
+    loss: Annotated[float, Number("1", 0.0, 1.0)]
     approach: Approach
     film: Film
     solid: Solid
-    f0: float
-    f1: float
+    f0: Annotated[float, Number("1", 0.0, 100.0)]
+    f1: Annotated[float, Number("1", 0.0, 0.1)]
     preload: float | None = None
     interference: float | None = None
     series: str = "other"
     rib_height: float | None = None
-    rib_boundary_friction: float = RIB_BOUNDARY_FRICTION
+    rib_boundary_friction: Annotated[float, Number("1", 0.0, 0.5)] = RIB_BOUNDARY_FRICTION
     rib_roughness: float = RIB_ROUGHNESS
 
     def __post_init__(self) -> None:
-        check_option("approach", self.approach, get_args(Approach))
-        check_option("film", self.film, get_args(Film))
+        check_fields(self)
         check_option("series", self.series, SERIES_NAMES)
         for name in ("roller_diameter", "roller_length", "bore_diameter", "inner_race_diameter"):
             check_within(name, getattr(self, name), 1e-3, 2.0, "m", "12.7 mm is 0.0127 m.")
@@ -125,7 +125,6 @@ class TaperedRollerBearing:
         cure = "It is the outside of the outer ring."
         low = self.bore_diameter
         check_within("outside_diameter", self.outside_diameter, low, 4.0, "m", cure)
-        check_within("n_rollers", self.n_rollers, 3, ROLLERS_MAX)
         if self.n_rollers != int(self.n_rollers):
             raise ParameterError(f"n_rollers must be a whole number, got {self.n_rollers:g}.")
         cure = "For lines n = 10/9 and kn is in N/m^(10/9)."
@@ -133,13 +132,9 @@ class TaperedRollerBearing:
         check_within("stiffness_constant", self.stiffness_constant, 1e6, 1e14, "N/m^n", cure)
         cure = "15 deg is 0.2618 rad."
         check_within("contact_angle", self.contact_angle, 0.0, math.radians(45.0), "rad", cure)
-        check_within("loss", self.loss, 0.0, 1.0)
-        check_within("f0", self.f0, 0.0, 100.0)
-        check_within("f1", self.f1, 0.0, 0.1)
         cure = "It is below the roller diameter; 0 m is no rib."
         if self.rib_height is not None:
             check_within("rib_height", self.rib_height, 0.0, self.roller_diameter, "m", cure)
-        check_within("rib_boundary_friction", self.rib_boundary_friction, 0.0, 0.5)
         cure = "0.24 um is 2.4e-7 m."
         check_within("rib_roughness", self.rib_roughness, 1e-9, 1e-5, "m", cure)
         self._check_fit()

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
-from gearlube_core.checks import check_within
+from gearlube_core.number import Number, check_fields
 
 
 class SolidParameters(NamedTuple):
@@ -36,20 +36,14 @@ class Solid:
         [J/(kg K)].
     """
 
-    youngs_modulus: float
-    poisson_ratio: float
-    density: float
-    conductivity: float
-    heat_capacity: float
+    youngs_modulus: Annotated[float, Number("Pa", 1e6, 2e12, "210 GPa is 2.1e11 Pa.")]
+    poisson_ratio: Annotated[float, Number("1", 0.0, 0.5)]
+    density: Annotated[float, Number("kg/m3", 100.0, 3e4, "7.85 g/cm3 is 7850 kg/m3.")]
+    conductivity: Annotated[float, Number("W/(m K)", 0.01, 3000.0)]
+    heat_capacity: Annotated[float, Number("J/(kg K)", 50.0, 5000.0)]
 
     def __post_init__(self) -> None:
-        check_within(
-            "youngs_modulus", self.youngs_modulus, 1e6, 2e12, "Pa", "210 GPa is 2.1e11 Pa."
-        )
-        check_within("poisson_ratio", self.poisson_ratio, 0.0, 0.5)
-        check_within("density", self.density, 100.0, 3e4, "kg/m3", "7.85 g/cm3 is 7850 kg/m3.")
-        check_within("conductivity", self.conductivity, 0.01, 3000.0, "W/(m K)")
-        check_within("heat_capacity", self.heat_capacity, 50.0, 5000.0, "J/(kg K)")
+        check_fields(self)
 
 
 # [mohammadpour_2015 Table A4]

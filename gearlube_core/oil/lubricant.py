@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.number import Number, Positive, check_fields
 from gearlube_core.oil.library import (
     LIBRARY_PATH,
     LOWEST_VISCOSITY,
@@ -79,37 +80,30 @@ class Lubricant:
 
     name: str
     source: str
-    walther_a: float
-    walther_b: float
-    density: float
+    walther_a: Annotated[float, Number("1", 1.0, 30.0)]
+    walther_b: Annotated[float, Number("1", 0.3, 10.0)]
+    density: Annotated[float, Number("kg/m3", 500.0, 2000.0, "870 kg/m3 is 0.87 g/cm3.")]
     alpha: float
     alpha_temperature: float
     eyring_stress: float
     limiting_shear_stress: float
-    boundary_friction: float
-    conductivity: float
+    boundary_friction: Annotated[float, Number("1", 0.0, 1.0)]
+    conductivity: Annotated[float, Number("W/(m K)", 0.02, 2.0)]
     conductivity_temperature: float
-    conductivity_slope: float
-    heat_capacity: float
-    temperature_low: float
+    conductivity_slope: Annotated[float, Number("W/(m K2)", -1e-2, 1e-2)]
+    heat_capacity: Annotated[float, Number("J/(kg K)", 100.0, 1e4)]
+    temperature_low: Annotated[float, Positive("K")]
     temperature_high: float
     alpha_factor: float | None = None
     eyring_stress_factor: float | None = None
 
     def __post_init__(self) -> None:
-        check_within("walther_a", self.walther_a, 1.0, 30.0)
-        check_within("walther_b", self.walther_b, 0.3, 10.0)
-        check_within("density", self.density, 500.0, 2000.0, "kg/m3", "870 kg/m3 is 0.87 g/cm3.")
+        check_fields(self)
         alpha_cure = f"{self.alpha:g} 1/GPa is {1e-9 * check_finite('alpha', self.alpha):g} 1/Pa."
         check_within("alpha", self.alpha, 1e-10, 1e-6, "1/Pa", alpha_cure)
         stress_cure = "2 MPa is 2e6 Pa."
         check_within("eyring_stress", self.eyring_stress, 1e4, 1e9, "Pa", stress_cure)
         check_within("limiting_shear_stress", self.limiting_shear_stress, 0, 1e9, "Pa", stress_cure)
-        check_within("boundary_friction", self.boundary_friction, 0.0, 1.0)
-        check_within("conductivity", self.conductivity, 0.02, 2.0, "W/(m K)")
-        check_within("conductivity_slope", self.conductivity_slope, -1e-2, 1e-2, "W/(m K2)")
-        check_within("heat_capacity", self.heat_capacity, 100.0, 1e4, "J/(kg K)")
-        check_positive("temperature_low", self.temperature_low, "K")
         check_within("temperature_high", self.temperature_high, self.temperature_low, 1000.0, "K")
         for name in ("alpha_factor", "eyring_stress_factor"):
             factor = getattr(self, name)

@@ -17,5 +17,5 @@ def report_of(module, function="report", **environment):
     command = [sys.executable, "-c", f"from tests.helpers import {module} as m; m.{function}()"]
     path = os.pathsep.join(filter(None, sys.path))
     env = dict(os.environ, PYTHONPATH=path, **environment)
-    out = subprocess.run(command, env=env, capture_output=True, text=True, check=True, timeout=300)
+    out = subprocess.run(command, env=env, capture_output=True, text=True, check=True, timeout=900)
     return json.loads(out.stdout)

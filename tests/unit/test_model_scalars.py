@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Annotated, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import pytest
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters, mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError
-from gearlube_core.number import Number, constants_of
+from gearlube_core.number import Number, Positive, check_fields, constants_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +39,23 @@ def test_a_new_number_is_checked_as_its_annotation_says() -> None:
     assert str(caught.value) == (
         "adhesion must be within 0 to 9 N, got 9.5 N. Oil pulls with less than 1 N."
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plate:
+    thickness: Annotated[float, Positive("m", "3 mm is 0.003 m.")] = 0.003
+    finish: Literal["ground", "milled"] = "ground"
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+def test_a_number_above_zero_and_a_choice_are_checked_as_their_annotations_say() -> None:
+    assert Plate(thickness=1e-9, finish="milled").finish == "milled"
+    with pytest.raises(ParameterError, match=r"thickness must be above 0 m, got 0 m\. 3 mm is"):
+        Plate(thickness=0.0)
+    with pytest.raises(ParameterError, match="finish must be one of ground, milled; got 'cast'"):
+        Plate(finish="cast")  # type: ignore[arg-type]
 
 
 def test_the_numbers_of_the_model_stay_checked() -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.sump_heat import SumpHeat
 from gearlube.studies.drive_cycle.traces import DriveCycle
-from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.uncertain import MOST_DRAWS, uncertain_of
+from gearlube_core.number import Number, check_fields
 from gearlube_core.units import celsius_to_kelvin
 
 COAST_TORQUE = 30.0  # N.m at the pinion; assumed, 0 to 60 for a car of 1.3 t
@@ -31,14 +32,12 @@ class LossGrid:
     LossGrid(torques=48, speeds=32, temperature_step=5.0)
     """
 
-    torques: int = 24
-    speeds: int = 16
-    temperature_step: float = 10.0
+    torques: Annotated[int, Number("1", 4, 400, "24 are usual.")] = 24
+    speeds: Annotated[int, Number("1", 3, 400, "16 are usual.")] = 16
+    temperature_step: Annotated[float, Number("K", 0.5, 50.0, "10 K is usual.")] = 10.0
 
     def __post_init__(self) -> None:
-        check_within("torques", self.torques, 4, 400, "", "24 are usual.")
-        check_within("speeds", self.speeds, 3, 400, "", "16 are usual.")
-        check_within("temperature_step", self.temperature_step, 0.5, 50.0, "K", "10 K is usual.")
+        check_fields(self)
 
     @property
     def finer(self) -> LossGrid:
@@ -89,20 +88,17 @@ class DriveCycleSettings:
     cycle: DriveCycle
     start_temperature: float = celsius_to_kelvin(23.0)
     air_temperature: float = celsius_to_kelvin(23.0)
-    regeneration: float = 0.0
-    coast_torque: float = COAST_TORQUE
+    regeneration: Annotated[float, Number("1", 0.0, 1.0, "A half is 0.5.")] = 0.0
+    coast_torque: Annotated[float, Number("N.m", 0.0, 1e4, "30 N.m is usual.")] = COAST_TORQUE
     heat: SumpHeat = field(default_factory=SumpHeat)
     grid: LossGrid = field(default_factory=LossGrid)
-    draws: int = 60
-    seed: int = 1
+    draws: Annotated[int, Number("1", 0, MOST_DRAWS, "60 are usual.")] = 60
+    seed: Annotated[int, Number("1", 0, 2**32 - 1, "Any whole number.")] = 1
     calibrated_bearings: bool = False
 
     def __post_init__(self) -> None:
         oil = self.car.axle.oil
         for name in ("start_temperature", "air_temperature"):
             oil.check_temperature(getattr(self, name), name)
-        check_within("regeneration", self.regeneration, 0.0, 1.0, "", "A half is 0.5.")
-        check_within("coast_torque", self.coast_torque, 0.0, 1e4, "N.m", "30 N.m is usual.")
-        check_within("draws", self.draws, 0, MOST_DRAWS, "", "60 are usual.")
-        check_within("seed", self.seed, 0, 2**32 - 1, "", "Any whole number.")
+        check_fields(self)
         uncertain_of(self.car.axle, calibrated_bearings=self.calibrated_bearings)

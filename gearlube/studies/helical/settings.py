@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.number import Number, check_fields
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
@@ -108,11 +109,11 @@ class HelicalSettings:
     """
 
     file: HelicalGearFile
-    pinion_torque: float
-    pinion_speed: float
+    pinion_torque: Annotated[float, Number("N.m", 1e-3, 1e6, "Give its magnitude.")]
+    pinion_speed: Annotated[float, Number("rad/s", 1e-2, 1e5, "Give its magnitude.")]
     mu: tuple[float, ...] = tuple(float(v) for v in np.round(np.linspace(0.0, 0.3, 31), 10))
     speeds: tuple[float, ...] = ()
-    speed_count: int = 60
+    speed_count: Annotated[int, Number("1", 2, 2000)] = 60
     mesh: str = "contact"
     density: float | None = None
     friction: str = "film"
@@ -125,18 +126,17 @@ class HelicalSettings:
     roughness_rms: float = 0.5e-6
     parts: str = "all"
     oil_temperatures: tuple[float, ...] = ()
-    draws: int = 60
+    draws: Annotated[int, Number("1", 0, 10_000, "60 are usual.")] = 60
     seed: int = 1
     stability_columns: int = 120
     stability_rows: int = 33
-    separation_speeds: int = 120
+    separation_speeds: Annotated[int, Number("1", 0, 5000)] = 120
     body: HelicalBodySettings = field(default_factory=HelicalBodySettings)
 
     def __post_init__(self) -> None:
         for name, options in (("mesh", MESHES), ("friction", FRICTIONS), ("parts", PARTS)):
             check_option(name, getattr(self, name), options)
-        check_within("pinion_torque", self.pinion_torque, 1e-3, 1e6, "N.m", "Give its magnitude.")
-        check_within("pinion_speed", self.pinion_speed, 1e-2, 1e5, "rad/s", "Give its magnitude.")
+        check_fields(self)
         for name, unit, high in (("mu", "", 1.0), ("speeds", "rad/s", 1e5)):
             values = getattr(self, name)
             for value in values:
@@ -169,9 +169,6 @@ class HelicalSettings:
             raise ParameterError(
                 f"oil_temperatures must rise, got {self.oil_temperatures}. Sort them."
             )
-        check_within("draws", self.draws, 0, 10_000, "", "60 are usual.")
-        check_within("separation_speeds", self.separation_speeds, 0, 5000)
-        check_within("speed_count", self.speed_count, 2, 2000)
         for name in ("stability_columns", "stability_rows"):
             check_within(name, getattr(self, name), 2, 2000)
         if self.with_dynamics:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import asdict, dataclass, fields
+from typing import Annotated
 
 from drivetrain.driveline.model import COMMUNICATION_STEP
 from drivetrain.sump_heat import SumpHeat
@@ -13,6 +14,7 @@ from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.friction.flank_friction import friction_laws
+from gearlube_core.number import Number, Positive, check_fields
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin
 
@@ -90,8 +92,8 @@ class SweepSettings:
     conductance_at_100_kmh: float = 18.0
     driver: str = "vehicle"
     oil: str = "mohammadpour_2015"
-    roughness_rms: float = 0.5e-6
-    backlash: float = 150e-6
+    roughness_rms: Annotated[float, Number("m", 1e-9, 1e-5, "0.5 um is 0.5e-6 m.")] = 0.5e-6
+    backlash: Annotated[float, Number("m", 1e-9, 2e-3, "150 um is 150e-6 m.")] = 150e-6
     equations: str = "consistent"
     radii: str = "consistent"
     mesh_stiffness: str = "tangent"
@@ -103,9 +105,9 @@ class SweepSettings:
     steps_per_mesh_period: int = 56
     steps_per_highest_period: int = 17
     communication_step: float = COMMUNICATION_STEP
-    settling_time: float = 0.3
-    record_time: float = 0.5
-    cage_turns: float = 2.0
+    settling_time: Annotated[float, Number("s", 0.0, 60.0)] = 0.3
+    record_time: Annotated[float, Number("s", 0.02, 60.0)] = 0.5
+    cage_turns: Annotated[float, Positive("1")] = 2.0
 
     def __post_init__(self) -> None:
         check_option("driver", self.driver, DRIVERS)
@@ -114,8 +116,7 @@ class SweepSettings:
             conductance_at_rest=self.conductance_at_rest,
             conductance_at_100_kmh=self.conductance_at_100_kmh,
         )
-        check_within("roughness_rms", self.roughness_rms, 1e-9, 1e-5, "m", "0.5 um is 0.5e-6 m.")
-        check_within("backlash", self.backlash, 1e-9, 2e-3, "m", "150 um is 150e-6 m.")
+        check_fields(self)
         for name, variable in _FMU_VARIABLES.items():
             value = getattr(self, name)
             if name == "oil" and value == CUSTOM_OIL:
@@ -137,9 +138,6 @@ class SweepSettings:
             "s",
             "Bearing modes lie at 2-3 kHz and need at least 10 000 samples a second.",
         )
-        check_within("settling_time", self.settling_time, 0.0, 60.0, "s")
-        check_within("record_time", self.record_time, 0.02, 60.0, "s")
-        check_positive("cage_turns", self.cage_turns)
 
     @property
     def lowest_oil_temperature(self) -> tuple[str, float]:

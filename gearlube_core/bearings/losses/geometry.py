@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 from scipy.optimize import brentq
 
@@ -28,7 +29,7 @@ from gearlube_core.bearings.roller_contact import N_LINE
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
-from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import (
     STEEL_MOHAMMADPOUR_2015,
     Solid,
@@ -37,6 +38,7 @@ from gearlube_core.contact.solid import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import film_geometry
+from gearlube_core.number import Number, Positive, check_fields
 
 APEX_TOLERANCE = 0.05  # of the roller radius: angles and diameters are printed to about 1 %
 _DEG = math.pi / 180.0
@@ -60,20 +62,15 @@ class Rib:
         Of the asperities [-].
     """
 
-    contact_height: float
-    end_radius: float = RIB_END_RADIUS
-    roughness: float = RIB_ROUGHNESS
-    share_b: float = RIB_SHARE_B
-    share_c: float = RIB_SHARE_C
-    boundary_friction: float = RIB_BOUNDARY_FRICTION
+    contact_height: Annotated[float, Positive("m", "2.5 mm is 0.0025 m.")]
+    end_radius: Annotated[float, Number("1", 0.5, 0.99)] = RIB_END_RADIUS
+    roughness: Annotated[float, Number("m", 1e-9, 1e-5, "0.24 um is 2.4e-7 m.")] = RIB_ROUGHNESS
+    share_b: Annotated[float, Number("1", 0.1, 10.0)] = RIB_SHARE_B
+    share_c: Annotated[float, Number("1", 0.1, 3.0)] = RIB_SHARE_C
+    boundary_friction: Annotated[float, Number("1", 0.0, 0.5)] = RIB_BOUNDARY_FRICTION
 
     def __post_init__(self) -> None:
-        check_positive("contact_height", self.contact_height, "m", "2.5 mm is 0.0025 m.")
-        check_within("end_radius", self.end_radius, 0.5, 0.99)
-        check_within("roughness", self.roughness, 1e-9, 1e-5, "m", "0.24 um is 2.4e-7 m.")
-        check_within("share_b", self.share_b, 0.1, 10.0)
-        check_within("share_c", self.share_c, 0.1, 3.0)
-        check_within("boundary_friction", self.boundary_friction, 0.0, 0.5)
+        check_fields(self)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,33 +127,27 @@ class BearingGeometry:
     outside_diameter: float
     pitch_diameter: float
     roller_diameter: float
-    roller_length: float
-    n_rollers: int
+    roller_length: Annotated[float, Number("m", 1e-3, 1.0, "17 mm is 0.017 m.")]
+    n_rollers: Annotated[int, Number("1", 3, ROLLERS_MAX)]
     outer_angle: float
     inner_angle: float
     rib: Rib
-    rows: int = 1
+    rows: Annotated[int, Number("1", 1, 4)] = 1
     series: str = "other"
-    roughness: float = 0.16e-6
-    f0: float = F0_TAPERED_OIL_BATH
-    f1: float = F1_TAPERED
-    timken_g1: float = 0.0
+    roughness: Annotated[float, Number("m", 1e-9, 1e-5, "0.16 um is 1.6e-7 m.")] = 0.16e-6
+    f0: Annotated[float, Number("1", 0.0, 100.0)] = F0_TAPERED_OIL_BATH
+    f1: Annotated[float, Number("1", 0.0, 0.1)] = F1_TAPERED
+    timken_g1: Annotated[float, Number("1", 0.0, 1e4)] = 0.0
     rolling_scale: float | None = None
     solid: Solid = STEEL_MOHAMMADPOUR_2015
 
     def __post_init__(self) -> None:
         for name in ("bore_diameter", "outside_diameter", "pitch_diameter", "roller_diameter"):
             check_within(name, getattr(self, name), 1e-3, 4.0, "m", "17 mm is 0.017 m.")
-        check_within("roller_length", self.roller_length, 1e-3, 1.0, "m", "17 mm is 0.017 m.")
-        check_within("n_rollers", self.n_rollers, 3, ROLLERS_MAX)
-        check_within("rows", self.rows, 1, 4)
+        check_fields(self)
         check_option("series", self.series, SERIES_NAMES)
         cure = "15 deg is 0.2618 rad."
         check_within("outer_angle", self.outer_angle, 5 * _DEG, 45 * _DEG, "rad", cure)
-        check_within("roughness", self.roughness, 1e-9, 1e-5, "m", "0.16 um is 1.6e-7 m.")
-        check_within("f0", self.f0, 0.0, 100.0)
-        check_within("f1", self.f1, 0.0, 0.1)
-        check_within("timken_g1", self.timken_g1, 0.0, 1e4)
         if self.rolling_scale is not None:
             check_within("rolling_scale", self.rolling_scale, 0.05, 5.0)
         self._check_rollers()

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
-from gearlube_core.checks import check_option
 from gearlube_core.contact.greenwood_tripp_1971 import (
     FLANK_SIGMA_OVER_BETA,
     FLANK_XI_BETA_SIGMA,
@@ -184,20 +183,12 @@ class HypoidAxleParameters(AxleScalars):
     steps_per_highest_period: Annotated[int, Number("1", 8, 4096, "Default 17.")] = 17
 
     def __post_init__(self) -> None:
-        check_option("equations", self.equations, get_args(Equations))
-        check_option("radii", self.radii, get_args(Radii))
-        check_option("mesh_stiffness", self.mesh_stiffness, get_args(MeshStiffness))
-        check_option("mesh_damping", self.mesh_damping, get_args(MeshDamping))
+        check_fields(self)
         friction_law(self.friction)
-        check_option("bearing_torque_loss", self.bearing_torque_loss, TORQUE_LOSSES)
-        check_option("film", self.film, FILM_MODELS)
         if self.flank_film_model is not None:
             of_kind(self.flank_film_model, FLANK, "flank_film_model")
         if self.roller_film_model is not None:
             of_kind(self.roller_film_model, ROLLER, "roller_film_model")
-        check_option("rolling", self.rolling, FLANK_ROLLING_LAWS)
-        check_option("churning", self.churning, CHURNING_LAWS)
-        check_fields(self)
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
             raise ParameterError(NO_MODAL_LOSS)
         kinds = [type(one).__name__ for one in self.bearings]

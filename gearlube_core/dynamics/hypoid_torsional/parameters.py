@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Annotated, Literal
 
-from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     EVANS_JOHNSON,
@@ -17,6 +17,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.number import Number, Positive, check_fields
 from gearlube_core.oil.lubricant import Lubricant
 
 Form = Literal["two_dof", "one_dof"]
@@ -102,26 +103,26 @@ class HypoidTorsionalParameters:
     """
 
     mesh: MeshTable
-    pinion_inertia: float
-    gear_inertia: float
+    pinion_inertia: Annotated[float, Positive("kg m2")]
+    gear_inertia: Annotated[float, Positive("kg m2")]
     pinion_torque: float
-    backlash: float
+    backlash: Annotated[float, Number("m", 0.0, 2e-3, "150 um is 1.5e-4 m.")]
     form: Form
     radii: Radii
     mesh_stiffness: MeshStiffness
     mesh_damping: MeshDamping
-    damping: float
-    damping_ratio: float
+    damping: Annotated[float, Number("N s/m", 0.0, 1e6)]
+    damping_ratio: Annotated[float, Number("1", 0.0, 1.0)]
     damping_gate: DampingGate
     equations: Equations
-    torque_ripple: float
+    torque_ripple: Annotated[float, Number("1", 0.0, 1.0, "10 % is 0.1.")]
     load_torque: LoadTorque
-    hold_gain: float
+    hold_gain: Annotated[float, Number("N.m s/rad", 0.0, 100.0, "Default 0.05.")]
     friction: Friction
     oil: Lubricant
     oil_temperature: float
     solid: Solid
-    roughness_rms: float
+    roughness_rms: Annotated[float, Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")]
     film: Film = "consistent"
     film_temperature: FilmTemperature = "inlet"
     flash_temperature: bool = False
@@ -129,20 +130,7 @@ class HypoidTorsionalParameters:
     entrainment: Entrainment = "vector_mean"
 
     def __post_init__(self) -> None:
-        check_option("form", self.form, get_args(Form))
-        check_option("radii", self.radii, get_args(Radii))
-        check_option("mesh_stiffness", self.mesh_stiffness, get_args(MeshStiffness))
-        check_option("mesh_damping", self.mesh_damping, get_args(MeshDamping))
-        check_option("damping_gate", self.damping_gate, get_args(DampingGate))
-        check_option("equations", self.equations, get_args(Equations))
-        check_option("load_torque", self.load_torque, get_args(LoadTorque))
-        check_option("friction", self.friction, get_args(Friction))
-        check_option("film", self.film, get_args(Film))
-        check_option("film_temperature", self.film_temperature, get_args(FilmTemperature))
-        check_option("contact_pressure", self.contact_pressure, get_args(ContactPressure))
-        check_option("entrainment", self.entrainment, get_args(Entrainment))
-        check_positive("pinion_inertia", self.pinion_inertia, "kg m2")
-        check_positive("gear_inertia", self.gear_inertia, "kg m2")
+        check_fields(self)
         check_within(
             "pinion_torque",
             self.pinion_torque,
@@ -151,12 +139,6 @@ class HypoidTorsionalParameters:
             "N.m",
             "The pair is driven by its pinion; 50 N.m is usual.",
         )
-        check_within("backlash", self.backlash, 0.0, 2e-3, "m", "150 um is 1.5e-4 m.")
-        check_within("damping", self.damping, 0.0, 1e6, "N s/m")
-        check_within("damping_ratio", self.damping_ratio, 0.0, 1.0)
-        check_within("torque_ripple", self.torque_ripple, 0.0, 1.0, "", "10 % is 0.1.")
-        check_within("hold_gain", self.hold_gain, 0.0, 100.0, "N.m s/rad", "Default 0.05.")
-        check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
         self.oil.check_temperature(self.oil_temperature, "oil_temperature")
         if self.form == "one_dof" and self.friction != "off":
             raise ParameterError(

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated
 
 from scipy.optimize import brentq
 
@@ -17,6 +18,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead, ToothTrace
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
+from gearlube_core.number import Number, check_fields
 
 _METRES = "Give metres, not millimetres."
 _SEARCH_STEP = math.radians(0.5)
@@ -41,19 +43,15 @@ class HypoidDesign:
     cutter : CutterHead
     """
 
-    pinion_teeth: int
-    gear_teeth: int
-    offset: float
-    shaft_angle: float
-    gear_face_width: float
+    pinion_teeth: Annotated[int, Number("1", 3, 400)]
+    gear_teeth: Annotated[int, Number("1", 3, 400)]
+    offset: Annotated[float, Number("m", 1e-5, 1.0, _METRES)]
+    shaft_angle: Annotated[float, Number("rad", 0.2, 2.9, "Give radians.")]
+    gear_face_width: Annotated[float, Number("m", 1e-4, 1.0, _METRES)]
     cutter: CutterHead
 
     def __post_init__(self) -> None:
-        check_within("pinion_teeth", self.pinion_teeth, 3, 400)
-        check_within("gear_teeth", self.gear_teeth, 3, 400)
-        check_within("offset", self.offset, 1e-5, 1.0, "m", _METRES)
-        check_within("shaft_angle", self.shaft_angle, 0.2, 2.9, "rad", "Give radians.")
-        check_within("gear_face_width", self.gear_face_width, 1e-4, 1.0, "m", _METRES)
+        check_fields(self)
 
     def cones(
         self,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal
 
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_option, check_within
+from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, MarchScalars
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
@@ -155,13 +155,9 @@ class HelicalMarchParameters(MarchScalars):
     steps_per_highest_period: Annotated[int, Number("1", 6, 4096)] = 8
 
     def __post_init__(self) -> None:
-        check_option("friction", self.friction, get_args(Friction))
-        check_option("film", self.film, FILM_MODELS)
+        check_fields(self)
         if self.line_film_model is not None:
             of_kind(self.line_film_model, LINE, "line_film_model")
-        check_option("form", self.form, get_args(Form))
-        check_option("equations", self.equations, get_args(Equations))
-        check_fields(self)
         check_line_mesh(self.mesh, self.pair, LINES_MAX)
 
     @property
