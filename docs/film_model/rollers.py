@@ -8,13 +8,12 @@ import numpy as np
 
 from docs.film_model.marked_page import put
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, AxleLosses, axle_losses
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 SPEEDS, TORQUES, TEMPERATURES = (500.0, 1500.0, 3000.0), (20.0, 100.0, 300.0), (40.0, 80.0, 120.0)
-LAWS: dict[TorqueLoss, str] = {
+LAWS: dict[str, str] = {
     "palmgren": "Palmgren",
     "zhou_hoeprich_1991": "Zhou and Hoeprich",
     "biboulet_houpert_2010": "Biboulet and Houpert",
@@ -23,7 +22,7 @@ LAWS: dict[TorqueLoss, str] = {
 _DRAG = LOSS_SOURCES.index("bearing_torque")
 
 
-def losses(law: TorqueLoss) -> AxleLosses:
+def losses(law: str) -> AxleLosses:
     """Return the losses of the shipped axle with a law of bearing drag."""
     return axle_losses(
         replace(mohammadpour_2015_axle(), bearing_torque_loss=law),
@@ -54,7 +53,7 @@ def table() -> str:
                 lines.append("| " + " | ".join(cells) + " |")
     drag = {law: one.power[..., _DRAG] for law, one in found.items()}
 
-    def over(law: TorqueLoss) -> str:
+    def over(law: str) -> str:
         ratio: Array = drag["solved_films"] / drag[law]
         return f"{ratio.min():.2f} to {ratio.max():.2f}, median {np.median(ratio):.2f}"
 

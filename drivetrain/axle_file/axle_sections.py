@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.model_section import ModelSection
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.parameters import Film, HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import chosen_model
@@ -260,7 +260,7 @@ class ModelOptions(ModelSection):
     flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
         default=None, description="Rolling loss of the flanks"
     )
-    bearing_torque_loss: TorqueLoss | None = Field(
+    bearing_torque_loss: Annotated[str, OneOf(lambda _: TORQUE_LOSSES)] | None = Field(
         default=None,
         description="Drag torque of the bearings. palmgren: under the preload; palmgren_loaded, "
         "skf_2013: under the forces on each bearing; others: raceways, ribs and oil, under the "

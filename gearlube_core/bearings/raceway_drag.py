@@ -7,13 +7,7 @@ from typing import NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.cage_frame import ApproachTerms, approach_terms
-from gearlube_core.bearings.losses.laws import (
-    AIHARA_HEATING,
-    ZHOU_HOEPRICH,
-    ZHU_CHENG_HEATING,
-    heating_factor,
-    rolling_force,
-)
+from gearlube_core.bearings.losses.laws import heating_factor, rolling_force, usual_heating
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
     FILM_FLOOR_APPROACH,
@@ -101,7 +95,7 @@ def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingP
     u = p.film_speed_radius * abs(motion.speed)
     if u == 0.0:
         return 0.0
-    heating = ZHU_CHENG_HEATING if law == ZHOU_HOEPRICH else AIHARA_HEATING
+    heating = usual_heating(law)
     number = inlet_heating_number(oil.eta0, oil.beta, u, oil.conductivity)
     rollers = steady_rollers(motion, oil, p)
     R_inner, R_outer = line_radii(p)

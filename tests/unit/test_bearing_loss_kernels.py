@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube.studies.bearing.figures import LAW_NAMES
 from gearlube_core.bearings.losses import (
     aihara_1987,
     goksem_hargreaves_1978,
@@ -22,8 +23,9 @@ from gearlube_core.bearings.losses import (
     zhou_hoeprich_1991,
 )
 from gearlube_core.bearings.losses.geometry import Rib
-from gearlube_core.bearings.losses.loss import LossModel
+from gearlube_core.bearings.losses.loss import UNCALIBRATED, LossModel
 from gearlube_core.contact import asperity_share
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import biboulet_houpert_2010, groups, zhu_cheng_1989
 from gearlube_core.oil.lubricant import Lubricant
@@ -139,3 +141,18 @@ def test_starved_contacts_lose_less_than_flooded_ones():
     assert starved.parts["rolling"] < 0.7 * flooded.parts["rolling"]
     assert starved.parts["rib"] == flooded.parts["rib"]
     assert LossModel().inlet_layer == 0.0
+
+
+def test_a_law_of_rolling_is_known_everywhere_by_its_line_in_the_table():
+    names = [one.name for one in laws.ROLLING]
+    assert names == list(laws.ROLLING_LAWS)
+    for code, one in enumerate(laws.ROLLING):
+        assert laws.ROLLING_LAWS[one.name] == code != laws.SOLVED_FILMS
+        assert laws.rolling_force(code, *CONTACT) == one.force(*CONTACT)
+        assert laws.usual_heating(code) == laws.HEATINGS[one.heating]
+        assert UNCALIBRATED[one.name] == one.factor
+        assert LAW_NAMES[one.name] == one.words
+        if one.in_axle:
+            assert BEARING_LAWS[one.in_axle] == one.name
+            assert one.in_axle in TORQUE_LOSSES
+    assert LAW_NAMES["zhou_hoeprich"] == "Zhou and Hoeprich"

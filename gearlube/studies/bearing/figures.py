@@ -9,14 +9,11 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
+from gearlube_core.bearings.losses.laws import ROLLING
 from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
-LAW_NAMES = {
-    "biboulet_houpert": "Biboulet and Houpert",
-    "zhou_hoeprich": "Zhou and Hoeprich",
-    "goksem_hargreaves": "Goksem and Hargreaves",
-    "aihara": "Aihara",
+LAW_NAMES = {one.name: one.words for one in ROLLING} | {
     "solved_films": "Solved films",
     "palmgren": "Palmgren",
     "skf": "SKF",

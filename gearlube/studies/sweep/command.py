@@ -108,9 +108,8 @@ def sweep(
     bearing_torque_loss: Annotated[
         str | None,
         typer.Option(
-            help="Drag torque of the bearings: palmgren, none, zhou_hoeprich_1991, "
-            "biboulet_houpert_2010, aihara_1987, palmgren_loaded or skf_2013. Default: that of the "
-            "axle."
+            help="Drag torque of the bearings, as in an axle file, e.g. palmgren, none or "
+            "zhou_hoeprich_1991. Default: that of the axle."
         ),
     ] = None,
     driver: Annotated[

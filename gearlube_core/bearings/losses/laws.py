@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Final
+from collections.abc import Callable
+from typing import Any, Final, NamedTuple
+
+from numba.extending import register_jitable
 
 from gearlube_core.bearings.losses.aihara_1987 import aihara_force, aihara_heating
 from gearlube_core.bearings.losses.goksem_hargreaves_1978 import goksem_hargreaves_force
@@ -11,15 +14,32 @@ from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.kernels.jit import kernel
 
-BIBOULET_HOUPERT, ZHOU_HOEPRICH, GOKSEM_HARGREAVES, AIHARA = 0, 1, 2, 3
-ROLLING_LAWS = {
-    "biboulet_houpert": BIBOULET_HOUPERT,
-    "zhou_hoeprich": ZHOU_HOEPRICH,
-    "goksem_hargreaves": GOKSEM_HARGREAVES,
-    "aihara": AIHARA,
-}
+
+class RollingLaw(NamedTuple):
+    """A law of rolling of the raceways; all that names such laws takes them from `ROLLING`."""
+
+    name: str  # of authors; of `gearlube bearing`
+    force: Callable[..., tuple[float, int]]  # a kernel, see `rolling_force`
+    heating: str  # the inlet heating that it is used with, once
+    factor: float  # of its error bar, see `loss.UNCALIBRATED`
+    in_axle: str = ""  # its name as an option of the axle; "": none
+
+    @property
+    def words(self) -> str:
+        """Its authors for figures."""
+        return " and ".join(author.capitalize() for author in self.name.split("_"))
+
+
+# the code of a law for kernels is its place
+ROLLING = (
+    RollingLaw("biboulet_houpert", biboulet_houpert_force, "aihara", 5.0, "biboulet_houpert_2010"),
+    RollingLaw("zhou_hoeprich", zhou_hoeprich_force, "zhu_cheng", 2.0, "zhou_hoeprich_1991"),
+    RollingLaw("goksem_hargreaves", goksem_hargreaves_force, "aihara", 2.5),
+    RollingLaw("aihara", aihara_force, "aihara", 3.0, "aihara_1987"),
+)
+ROLLING_LAWS = {one.name: code for code, one in enumerate(ROLLING)}
 # films by a film model, see `race_rolling`; for contacts that `rolling_force` does not know
-SOLVED_FILMS = 4
+SOLVED_FILMS = -1
 RACE_LAWS = {**ROLLING_LAWS, "solved_films": SOLVED_FILMS}
 MATERIAL_LIMIT_WORDS = "M 0.2 to 200, L 4 to 16"  # range of biboulet_houpert_2010
 CATALOGUE_LAWS = ("palmgren", "skf", "timken")
@@ -30,14 +50,27 @@ DEFAULT_LAW: Final = "palmgren"
 
 NO_HEATING, AIHARA_HEATING, ZHU_CHENG_HEATING = 0, 1, 2
 HEATINGS = {"none": NO_HEATING, "aihara": AIHARA_HEATING, "zhu_cheng": ZHU_CHENG_HEATING}
-# what each law is used with, once
-USUAL_HEATING = {
-    "biboulet_houpert": "aihara",
-    "zhou_hoeprich": "zhu_cheng",
-    "goksem_hargreaves": "aihara",
-    "aihara": "aihara",
-    "solved_films": "none",
-}
+USUAL_HEATING = {one.name: one.heating for one in ROLLING} | {"solved_films": "none"}
+_USUAL_CODES = tuple(HEATINGS[one.heating] for one in ROLLING)
+
+
+def _force_by_code(code: int) -> Any:
+    """Return the force of the law of a code or below: which, says its first argument."""
+    force = ROLLING[code].force
+    if code == 0:
+        return register_jitable(lambda law, *contact: force(*contact))
+    below = _force_by_code(code - 1)
+
+    @register_jitable
+    def chosen(law: int, *contact: float) -> Any:
+        if law == code:
+            return force(*contact)
+        return below(law, *contact)
+
+    return chosen
+
+
+_force = _force_by_code(len(ROLLING) - 1)
 
 
 @kernel
@@ -54,13 +87,13 @@ def rolling_force(
 
     `law` is a value of ROLLING_LAWS; the rest as in `biboulet_houpert_force`.
     """
-    if law == ZHOU_HOEPRICH:
-        return zhou_hoeprich_force(R, line_load, reduced_modulus, eta0, alpha, speed)
-    if law == GOKSEM_HARGREAVES:
-        return goksem_hargreaves_force(R, line_load, reduced_modulus, eta0, alpha, speed)
-    if law == AIHARA:
-        return aihara_force(R, line_load, reduced_modulus, eta0, alpha, speed)
-    return biboulet_houpert_force(R, line_load, reduced_modulus, eta0, alpha, speed)
+    return _force(law, R, line_load, reduced_modulus, eta0, alpha, speed)  # type: ignore[no-any-return]
+
+
+@kernel
+def usual_heating(law: int) -> int:
+    """Return the code of the inlet heating that a law of rolling is used with."""
+    return _USUAL_CODES[law]
 
 
 @kernel

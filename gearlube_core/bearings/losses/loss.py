@@ -15,6 +15,7 @@ from gearlube_core.bearings.losses.laws import (
     HEATINGS,
     LAWS,
     RACE_LAWS,
+    ROLLING,
     USUAL_HEATING,
 )
 from gearlube_core.bearings.losses.physical_loss import LossSettings, physical_loss
@@ -38,14 +39,10 @@ from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 # Factors of the error bar, k = 2. A priori 2: the state of lubrication is not known. More where
 # the misfits of measured bearings ask for it, see docs/bearing.md; timken was not compared.
-UNCALIBRATED = {
-    "zhou_hoeprich": 2.0,
-    "goksem_hargreaves": 2.5,
-    "aihara": 3.0,
+UNCALIBRATED = {one.name: one.factor for one in ROLLING} | {
     "palmgren": 3.0,
     "timken": 3.0,
     "skf": 5.5,
-    "biboulet_houpert": 5.0,
     "solved_films": 5.0,
 }
 CALIBRATED = 1.25  # with a measured torque of the bearing

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple, get_args
+from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
@@ -18,8 +18,8 @@ from gearlube_core.bearings.bearing_type import (
     shaft_forces,
     solved_raceways,
 )
-from gearlube_core.bearings.losses.laws import AIHARA, BIBOULET_HOUPERT, SKF, ZHOU_HOEPRICH
 from gearlube_core.bearings.losses.laws import PALMGREN as PALMGREN_LAW
+from gearlube_core.bearings.losses.laws import ROLLING, ROLLING_LAWS, SKF
 from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
@@ -27,7 +27,16 @@ from gearlube_core.dynamics.hypoid_axle.state import W_G, W_P
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
-TorqueLoss = Literal[
+_BY_ROLLING = {one.in_axle: one.name for one in ROLLING if one.in_axle}
+# what `bearings.losses.laws` calls them
+BEARING_LAWS = {
+    "palmgren": "palmgren",
+    "palmgren_loaded": "palmgren",
+    "skf_2013": "skf",
+    "solved_films": "solved_films",
+} | _BY_ROLLING
+# their places are values of an FMU's parameter: the released ones stay, later laws stand behind
+_RELEASED = (
     "none",
     "palmgren",
     "zhou_hoeprich_1991",
@@ -36,21 +45,10 @@ TorqueLoss = Literal[
     "palmgren_loaded",
     "skf_2013",
     "solved_films",
-]
-TORQUE_LOSSES: tuple[str, ...] = get_args(TorqueLoss)
-# what `bearings.losses.laws` calls them
-BEARING_LAWS = {
-    "palmgren": "palmgren",
-    "zhou_hoeprich_1991": "zhou_hoeprich",
-    "biboulet_houpert_2010": "biboulet_houpert",
-    "aihara_1987": "aihara",
-    "palmgren_loaded": "palmgren",
-    "skf_2013": "skf",
-    "solved_films": "solved_films",
-}
+)
+TORQUE_LOSSES = (*_RELEASED, *(name for name in _BY_ROLLING if name not in _RELEASED))
+_ROLLING_CODES = tuple(ROLLING_LAWS.get(_BY_ROLLING.get(name, ""), 0) for name in TORQUE_LOSSES)
 PALMGREN = float(TORQUE_LOSSES.index("palmgren"))
-_ZHOU_HOEPRICH = float(TORQUE_LOSSES.index("zhou_hoeprich_1991"))
-_AIHARA = float(TORQUE_LOSSES.index("aihara_1987"))
 _PALMGREN_LOADED = float(TORQUE_LOSSES.index("palmgren_loaded"))
 _SKF = float(TORQUE_LOSSES.index("skf_2013"))
 SOLVED_FILMS = float(TORQUE_LOSSES.index("solved_films"))
@@ -149,11 +147,7 @@ def bearing_drag(
             raceways.gear.torque + beside_g,
             drag_bound_of(s, raceways),
         )
-    law = BIBOULET_HOUPERT
-    if p.drag == _ZHOU_HOEPRICH:
-        law = ZHOU_HOEPRICH
-    elif p.drag == _AIHARA:
-        law = AIHARA
+    law = _ROLLING_CODES[int(p.drag)]
     return BearingDrag(
         raceway_torque(p.bearing_p, pinion, law, oil) + beside_p,
         raceway_torque(p.bearing_g, gear, law, oil) + beside_g,

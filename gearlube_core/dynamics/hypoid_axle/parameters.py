@@ -9,6 +9,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
+from gearlube_core.checks import check_option
 from gearlube_core.contact.greenwood_tripp_1971 import (
     FLANK_SIGMA_OVER_BETA,
     FLANK_XI_BETA_SIGMA,
@@ -23,7 +24,6 @@ from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, Churni
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
     BEARING_LAWS,
     TORQUE_LOSSES,
-    TorqueLoss,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL
@@ -122,9 +122,9 @@ class HypoidAxleParameters(AxleScalars):
         losses alone, a march refuses it. See `flank_bulk`.
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
-    bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
-        "aihara_1987", "palmgren_loaded", "skf_2013", "solved_films"}
-        Drag torque of the bearings. "palmgren": under the preload. "palmgren_loaded", "skf_2013":
+    bearing_torque_loss : str
+        Drag torque of the bearings, one of `bearing_drag.TORQUE_LOSSES`. "none". "palmgren": under
+        the preload. "palmgren_loaded", "skf_2013":
         laws of catalogues under the forces on each bearing. The others: a law of rolling for the
         raceways, with ribs, hysteresis and oil drag, under the load of each roller. "solved_films":
         rolling and films of the raceways by a model of solved films, see `solved_race`.
@@ -173,7 +173,7 @@ class HypoidAxleParameters(AxleScalars):
     film_limiting_slope: Annotated[float, Number("1", 0.0, 1.0, "0.05 is usual.")] = 0.0
     flank_bulk_resistance: Annotated[float, Number("K/W", 0.0, 10.0, "Try 0.03 K/W.")] = 0.0
     rolling: FlankRolling = "none"
-    bearing_torque_loss: TorqueLoss = DEFAULT_LAW
+    bearing_torque_loss: str = DEFAULT_LAW
     churning: ChurningLaw = "none"
     ring_diameter: Annotated[float, Number("m", 0.01, 3.0, "165 mm is 0.165 m.")] = 0.165
     ring_width: Annotated[float, Number("m", 1e-3, 1.0, "30 mm is 0.03 m.")] = 0.030
@@ -185,6 +185,7 @@ class HypoidAxleParameters(AxleScalars):
     def __post_init__(self) -> None:
         check_fields(self)
         friction_law(self.friction)
+        check_option("bearing_torque_loss", self.bearing_torque_loss, TORQUE_LOSSES)
         if self.flank_film_model is not None:
             of_kind(self.flank_film_model, FLANK, "flank_film_model")
         if self.roller_film_model is not None:
