@@ -264,7 +264,7 @@ def all_cases():
             )
             for of_speeds in (0.0, 1.0)
         ),
-        (step_control.highest_frequency, (stiffness, p, zeros(8), zeros(8))),
+        (step_control.highest_frequency, (stiffness, p, zeros(64))),
         (
             step_control.write_step_control,
             (state, 64.0, 22.0, 60.0, OIL, table, lossless, zeros(START_WORK), zeros(5)),

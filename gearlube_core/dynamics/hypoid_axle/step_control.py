@@ -15,8 +15,8 @@ from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshLevels
 from gearlube_core.dynamics.hypoid_axle.start import OK, mean_series
-from gearlube_core.kernels.eigenvalues import eigenvalues
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.spectral_radius import spectral_radius
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_G, R_P
 
 NO_MODES = 5  # beside the statuses of `integrate.advance` and `start.rest`
@@ -27,38 +27,29 @@ NO_MODES_WORDS = (
 
 _AT_SERIES = DERIVATIVES_WORK
 _AT_MATRIX = _AT_SERIES + N_SERIES
-_AT_REAL = _AT_MATRIX + N_COORDINATES**2
-_AT_IMAGINARY = _AT_REAL + N_COORDINATES
-CONTROL_WORK = _AT_IMAGINARY + N_COORDINATES
+_AT_SQUARE = _AT_MATRIX + N_COORDINATES**2
+CONTROL_WORK = _AT_SQUARE + N_COORDINATES**2
 
 
 @kernel
-def highest_frequency(
-    stiffness: Array, p: AxleParameters, real: Array, imaginary: Array
-) -> tuple[int, float]:
-    """Return a status and the highest natural frequency [Hz] of a stiffness, 0 without any.
+def highest_frequency(stiffness: Array, p: AxleParameters, work: Array) -> float:
+    """Return the highest natural frequency [Hz] of a stiffness, NaN or infinite of such a one.
 
-    sqrt(Re(l))/(2 pi) of the largest eigenvalue l of M^-1 K; of the printed equations K is not
-    symmetric and some l are complex.
+    sqrt(|l|)/(2 pi) of the largest eigenvalue l of M^-1 K. Of the printed equations K is not
+    symmetric and l may be complex.
 
     Parameters
     ----------
     stiffness : ndarray of shape (N_COORDINATES**2,)
         Row by row, SI; overwritten.
     p : AxleParameters
-    real, imaginary : ndarray of shape (N_COORDINATES,)
-        Work space.
+    work : ndarray of shape (N_COORDINATES**2,)
     """
     n = N_COORDINATES
     for i in range(n):
         for j in range(n):
             stiffness[i * n + j] /= mass_of(i, p)
-    if eigenvalues(stiffness, n, real, imaginary) != OK:
-        return NO_MODES, 0.0
-    largest = 0.0
-    for i in range(n):
-        largest = max(largest, real[i])
-    return OK, math.sqrt(largest) / (2.0 * math.pi)
+    return math.sqrt(spectral_radius(stiffness, n, work)) / (2.0 * math.pi)
 
 
 @kernel
@@ -86,11 +77,9 @@ def write_step_control(
     control : ndarray of shape (5,)
     """
     series = work[_AT_SERIES:_AT_MATRIX]
-    matrix = work[_AT_MATRIX:_AT_REAL]
+    matrix = work[_AT_MATRIX:_AT_SQUARE]
     force_derivatives(s, 0.0, torque, oil_temperature, mesh, p, work, matrix)
-    status, frequency = highest_frequency(
-        matrix, p, work[_AT_REAL:_AT_IMAGINARY], work[_AT_IMAGINARY:CONTROL_WORK]
-    )
+    frequency = highest_frequency(matrix, p, work[_AT_SQUARE:CONTROL_WORK])
     mean_series(torque, mesh, series)
     turning = series[R_P] * series[R_P] / p.I_p + series[R_G] * series[R_G] / p.I_g
     found = StepControl(
@@ -102,4 +91,4 @@ def write_step_control(
     )
     for i in range(len(found)):
         control[i] = found[i]
-    return status
+    return OK if frequency < math.inf else NO_MODES

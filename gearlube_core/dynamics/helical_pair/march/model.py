@@ -14,7 +14,7 @@ from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     OK,
     highest_frequency,
     rest,
-    squared_frequencies,
+    stiffness_over_mass,
 )
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     MAX_STEPS,
@@ -162,12 +162,14 @@ class HelicalPairModel(SteppedModel[StepControl]):
         ConvergenceError
             When they are not finite.
         """
-        real, imaginary = np.zeros(MAX_UNKNOWNS), np.zeros(MAX_UNKNOWNS)
+        matrix = np.zeros(MAX_UNKNOWNS**2)
         data = self._fields, self._data, self._scratch
-        status, n = squared_frequencies(self._state.copy(), *data, real, imaginary)
-        if status != OK:
-            raise ConvergenceError(f"{NO_FREQUENCIES_WORDS}.")
-        return np.sort(np.sqrt(np.maximum(real[:n], 0.0))) / (2.0 * np.pi)
+        n = stiffness_over_mass(self._state.copy(), *data, matrix)
+        try:
+            squares = np.linalg.eigvals(matrix[: n * n].reshape(n, n)).real
+        except np.linalg.LinAlgError:
+            raise ConvergenceError(f"{NO_FREQUENCIES_WORDS}.") from None
+        return np.sort(np.sqrt(np.maximum(squares, 0.0))) / (2.0 * np.pi)
 
     def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
         """Write the equilibrium at mesh phase zero; the gear turns in the ratio of the teeth."""
