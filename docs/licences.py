@@ -34,6 +34,7 @@ PURPOSES = {
     "sound": "loudness, tonality; measured transfer paths",
     "export": "VTK files, measurement files",
     "cycles": "driving cycles",
+    "cluster": "points on other machines",
     "film-model": "fit of film models",
     "docs": "this site",
     "test": "tests",

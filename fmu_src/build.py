@@ -21,7 +21,7 @@ from fmu_src.identity import IDENTITY_FILE, guid_of, identity_text
 from fmu_src.model_description import model_description
 from fmu_src.native.build import NativeOptions, build_native
 from gearlube_core.checks import check_option
-from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.errors import ParameterError
 
 MODELS = ("hypoid-axle", "helical-pair", "driveline")
 DEFINITIONS = (hypoid_axle.DEFINITION, helical_pair.DEFINITION)
@@ -41,13 +41,8 @@ def _clean_imports(module: str) -> Iterator[None]:
 
 def _packed_by_pythonfmu(script: Path) -> dict[str, bytes]:
     """Return binaries and loader files of the FMU that pythonfmu makes of `script`."""
-    try:
-        from pythonfmu import FmuBuilder
-    except ImportError as error:
-        raise GearLubeError(
-            f"Building an FMU needs pythonfmu, not found: {error}. "
-            "Install it with `pip install pythonfmu`."
-        ) from error
+    from pythonfmu import FmuBuilder
+
     with tempfile.TemporaryDirectory() as name, _clean_imports(script.stem):
         folder = Path(name)
         copy = Path(shutil.copy(script, folder))

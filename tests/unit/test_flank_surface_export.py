@@ -113,5 +113,5 @@ def test_failed_writing_keeps_the_old_file_and_leaves_no_part(gear, tmp_path, mo
 
 def test_missing_trimesh_is_named(gear, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
-    with pytest.raises(ParameterError, match="pip install trimesh"):
+    with pytest.raises(ParameterError, match=r"pip install 'gearlube\[export\]'"):
         write_solid(tooth_solid(gear, 3, 3), tmp_path / "gear.stl")

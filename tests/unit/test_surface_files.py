@@ -5,13 +5,13 @@ from __future__ import annotations
 import datetime
 import math
 import struct
+import sys
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.surface import files
 from gearlube_core.surface.files import read_surface, write_surface
 from gearlube_core.surface.gaussian_filter import filtered
 from gearlube_core.surface.heights import (
@@ -238,10 +238,7 @@ def test_wrong_files_are_refused(name, content, words, tmp_path):
 
 
 def test_a_missing_package_is_named_with_its_extra(monkeypatch, tmp_path):
-    def missing(name):
-        raise ImportError(name)
-
-    monkeypatch.setattr(files, "import_module", missing)
+    monkeypatch.setitem(sys.modules, "sdfio", None)
     with pytest.raises(ParameterError, match=r"pip install 'gearlube\[surfaces\]'"):
         read_surface(tmp_path / "a.sdf")
 

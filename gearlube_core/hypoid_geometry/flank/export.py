@@ -10,6 +10,7 @@ import numpy as np
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.extras import extra_package
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.tooth_solid import Solid
 from gearlube_core.storage.atomic_file import atomic_write
@@ -74,12 +75,7 @@ def write_solid(solid: Solid, path: str | Path) -> Path:
         For another suffix, and when trimesh, which writes both, is not installed.
     """
     kind = check_option("suffix", Path(path).suffix.lstrip(".").lower(), FORMATS)
-    try:
-        import trimesh
-    except ImportError:
-        raise ParameterError(
-            "STL and GLB files need the package trimesh: pip install trimesh."
-        ) from None
+    trimesh = extra_package("trimesh", "export", "An STL or GLB file is written")
     scale = 1.0 / MILLIMETRE if kind == "stl" else 1.0
     mesh = trimesh.Trimesh(solid.vertices * scale, solid.faces, process=False)
     with _in_one_move(path) as partial:
