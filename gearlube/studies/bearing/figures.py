@@ -47,7 +47,7 @@ def torque_of_laws(dataset: xr.Dataset) -> Any:
                     ax.fill_between(x, *band, color=GREY, alpha=0.4, lw=0.0, label=words)
                 ax.plot(x, one["torque"], label=LAW_NAMES[str(law)], **_look(i))
             ax.set(title=place_words(place))
-            ax.set_ylim(bottom=0.0)
+        panels[0].set_ylim(bottom=0.0)  # of all panels, once all are drawn
         _label_outer(panels, _AXES[along])
         _legend_below(figure, panels[0])
         figure.suptitle(f"{dataset.attrs['name']}, oil {dataset.attrs['oil']}", fontsize=11.5)

@@ -105,7 +105,7 @@ def pair_losses(dataset: xr.Dataset) -> Any:
                         lw=0.0,
                     )
             ax.set(xlabel="pinion speed [rpm]", title=f"oil {temperature:g} °C")
-            ax.set_ylim(bottom=0.0)
+        panels[0].set_ylim(bottom=0.0)  # of all panels, once all are drawn
         panels[0].set_ylabel("loss torque at the pinion [N·m]")
         handles, names = panels[0].get_legend_handles_labels()
         figure.legend(
