@@ -170,6 +170,7 @@ def test_the_archive_has_the_licence_of_every_part(archives: dict[str, Path]) ->
         assert all(owner in texts[name] for name, owner in owners.items())
 
 
+@pytest.mark.slow
 def test_a_driveline_for_windows_shows_fmi_alone() -> None:
     """casadi marks each function that it writes for export there."""
     windows = PLATFORMS[1]
