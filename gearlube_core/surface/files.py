@@ -158,8 +158,8 @@ def _package(name: str, path: Path) -> Any:
 
 def _read(path: Path, kind: str, read: Any, error: type[Exception]) -> Any:
     check_file(path, f"{kind} file", largest=LARGEST)
+    check_unpacked(path)
     try:
-        check_unpacked(path)
         return read(path)
     except (error, *DAMAGED) as reason:
         raise ParameterError(f"{path} is not a readable {kind} file: {why(reason)}.") from None
