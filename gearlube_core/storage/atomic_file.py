@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlube_core.checks import check_file
-from gearlube_core.errors import FileError
+from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.storage.checksums import check_seal, seal
 
 if TYPE_CHECKING:  # not every user of this module has datasets
@@ -79,6 +79,12 @@ def write_text(text: str, path: Path) -> None:
         partial.write_text(text, encoding="utf-8")
 
 
+def write_figure(figure: Any, path: Path, dpi: int = 150) -> None:
+    """Write a figure of matplotlib as PNG; `dpi` [1/inch]."""
+    with atomic_write(path) as partial:
+        figure.savefig(partial, format="png", dpi=dpi)
+
+
 def write_arrays(path: Path, arrays: Mapping[str, Any], *, compress: bool = False) -> None:
     """Write arrays as an npz file with a checksum, flushed to the disk."""
     save = np.savez_compressed if compress else np.savez
@@ -132,10 +138,14 @@ def _check_claims(path: Path, size: int) -> None:
 
 
 def check_unpacked(path: Path) -> None:
-    """Raise ValueError for a ZIP file whose parts claim too much memory; others pass."""
-    if zipfile.is_zipfile(path):
-        with zipfile.ZipFile(path) as archive:
-            _check_claims(path, sum(entry.file_size for entry in archive.infolist()))
+    """Raise ParameterError for a damaged ZIP file or one that claims too much; others pass."""
+    try:
+        if zipfile.is_zipfile(path):
+            with zipfile.ZipFile(path) as archive:
+                _check_claims(path, sum(entry.file_size for entry in archive.infolist()))
+    except DAMAGED as error:
+        kind = path.suffix[1:].upper()
+        raise ParameterError(f"{path} is not a readable {kind} file: {_why(error)}.") from error
 
 
 def _check_sealed(good: bool, path: Path) -> None:

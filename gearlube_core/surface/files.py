@@ -150,8 +150,8 @@ def _from_rows(path: Path, rows: Array, steps: tuple[float, float]) -> Surface:
 
 def _read(path: Path, kind: str, read: Any, error: type[Exception]) -> Any:
     check_file(path, f"{kind} file", largest=LARGEST)
+    check_unpacked(path)
     try:
-        check_unpacked(path)
         return read(path)
     except (error, *DAMAGED) as reason:
         raise ParameterError(f"{path} is not a readable {kind} file: {why(reason)}.") from None

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
-from gearlube_core.storage.atomic_file import atomic_write
+from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
 LAW_NAMES = {
@@ -86,8 +86,7 @@ def save_bearing_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
     files = []
     for name, draw in BEARING_CATALOGUE.items():
         path = folder / f"{name}.png"
-        with atomic_write(path) as partial:
-            draw(dataset).savefig(partial, format="png", dpi=150)
+        write_figure(draw(dataset), path)
         files.append(path)
     return files
 

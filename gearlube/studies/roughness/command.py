@@ -343,9 +343,9 @@ def _run(
     name: str, surfaces: Callable[[], dict[str, Surface]], out: Path, *, overwrite: bool
 ) -> None:
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        found = surfaces()
         from gearlube.studies.roughness.results import statistics_rows, write_results
 
-        found = surfaces()
         with results_folder(out, f"roughness {name}", overwrite=overwrite):
             written = write_results(found, out)
         for what, surface in found.items():

@@ -17,7 +17,7 @@ from gearlube_core.rough_patch.patir_cheng_1978 import (
     pressure_flow_factor,
     shear_flow_factor,
 )
-from gearlube_core.storage.atomic_file import atomic_write, write_dataset, write_text
+from gearlube_core.storage.atomic_file import write_dataset, write_figure, write_text
 
 _RATIO = "film h over roughness σ"
 _SHOWN = {
@@ -50,8 +50,7 @@ def flow_results(table: xr.Dataset, out: Path, peklenik: float | None) -> list[P
         for k, ratio in enumerate(table.film_ratio)
     )
     write_text(csv_text(("film_ratio", *names), rows), sheet)
-    with atomic_write(picture) as partial:
-        flow_figure([(peklenik, table)]).savefig(partial, format="png")
+    write_figure(flow_figure([(peklenik, table)]), picture)
     return [netcdf, sheet, picture]
 
 
