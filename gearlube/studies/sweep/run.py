@@ -171,8 +171,8 @@ def run_sweep(
     )
     if not speeds or not loads:
         raise ParameterError("A sweep needs at least one speed and one preload, got none.")
-    points = len(speeds) * len(loads)
-    check_within("speeds times preloads", points, 1, _MOST_POINTS, "", "Take fewer of them.")
+    wanted = len(speeds) * len(loads)
+    check_within("speeds times preloads", wanted, 1, _MOST_POINTS, "", "Take fewer of them.")
     if jobs is not None:
         check_within("jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all processors.")
     if fmu is not None and model.compile_first is not None:
