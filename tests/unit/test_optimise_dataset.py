@@ -8,7 +8,6 @@ from gearlube.studies.optimise.summary import measure_rows
 from tests.helpers.contact_cases import shipped_file
 from tests.helpers.known_answers import assert_variables, named
 
-
 OF_ORDERS = ("orders", "whine", "spread", "swing")
 
 
