@@ -251,6 +251,6 @@ def test_every_variable_has_its_unit_and_recorded_size():
     for name, (unit, mean, largest) in RECORDED.items():
         values = found[name].values[np.isfinite(found[name].values)].astype(float)
         assert found[name].attrs["units"] == unit, name
-        # seven digits are recorded
+        # seven digits are recorded: half a unit of the last is at most 5e-7
         sizes = np.sqrt((values**2).mean()), np.abs(values).max()
-        assert sizes == pytest.approx((mean, largest), rel=2e-7), name
+        assert sizes == pytest.approx((mean, largest), rel=6e-7), name
