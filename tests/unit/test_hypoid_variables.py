@@ -1,8 +1,12 @@
 """Every variable of a design and of a sensitivity analysis: known answers of made-up contacts."""
 
+from dataclasses import dataclass
+
 import numpy as np
+import pytest
 
 from gearlube.studies.design import dataset as design
+from gearlube_core.hypoid_contact import tooth_body
 from gearlube_core.hypoid_contact.sensitivity.sensitivity_dataset import sensitivity_dataset
 from tests.helpers.contact_cases import shipped_file
 from tests.helpers.known_answers import assert_attributes, assert_variables, made_up, named
@@ -154,3 +158,19 @@ def test_variables_of_a_sensitivity_analysis_are_known():
         expected[f"{name}_rate"] = f"{unit} per unit of the parameter", changes
     assert_variables(made, expected)
     assert_attributes(made, {"torque": 50.0})
+
+
+@pytest.mark.parametrize("left", SIDES)
+def test_compliances_lie_on_the_whole_flank_of_their_side(left, monkeypatch):
+    """A body that begins at 0.2 of the profile: 0, 1/2 and 1 of it are 0.2, 0.6 and 1."""
+
+    @dataclass
+    class Flank:
+        s: np.ndarray
+
+    monkeypatch.setattr(tooth_body, "lowest_profile_position", lambda file, role: 0.2)
+    flanks = Flank(np.array([0.0, 0.5, 1.0])), Flank(np.array([0.25, 0.75, 1.0]))
+    found = tooth_body._by_side(None, "pinion", flanks, left)
+    right = "coast" if left == "drive" else "drive"
+    np.testing.assert_allclose(found[left].s, [0.2, 0.6, 1.0], rtol=1e-14)
+    np.testing.assert_allclose(found[right].s, [0.4, 0.8, 1.0], rtol=1e-14)

@@ -117,7 +117,9 @@ def test_ranges_balance_and_failed_points(sweep, monkeypatch):
     failed = merge([PRELOAD], [20.0], {(20.0, PRELOAD): failed_point(20.0, PRELOAD, "no")})
     for indexed in (failed, failed.set_xindex("speed_kmh")):
         monkeypatch.setattr(datasets, "read_dataset", lambda _, one=indexed: one)
-        at = datasets.load_sweep("sweep.nc").sel(speed_kmh=20.0, preload=PRELOAD)
+        loaded = datasets.load_sweep("sweep.nc")
+        assert "speed_kmh" in loaded.xindexes
+        at = loaded.sel(speed_kmh=20.0, preload=PRELOAD)
         assert float(at["speed"]) == pytest.approx(20.0 / 3.6)
     (only,) = findings(failed)
     assert only.headline == "1 of 1 points failed."
