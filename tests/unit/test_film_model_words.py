@@ -1,4 +1,4 @@
-"""What the film model's commands print and write: known answers of films that are written down."""
+"""What the film model's commands print and write, and what it learns from: known answers."""
 
 import math
 
@@ -11,8 +11,11 @@ from gearlube.studies.film_model.calibration import Misses, conformal_bounds
 from gearlube.studies.film_model.calibration import tests_table as table_of_tests
 from gearlube.studies.film_model.limiting import limit_in_words, limits_of
 from gearlube.studies.film_model.model_lines import model_lines
+from gearlube.studies.film_model.process import _film_features
+from gearlube.studies.film_model.samples import HYPOID_BOX, box_contacts
 from gearlube.studies.film_model.train import failures_in_words
 from gearlube_core.errors import ConvergenceError
+from gearlube_core.film_model.groups import contact_groups
 from gearlube_core.film_model.model import FLANK, LINE
 from gearlube_core.film_model.solved_film import SolvedFilm
 from tests.helpers.known_answers import named, quantities
@@ -136,3 +139,27 @@ def test_a_model_is_shown_with_its_known_numbers():
     model.kind, model.provenance = LINE, {"state": "final"}
     lines = [" ".join(line.split()) for line in model_lines(model)]
     assert lines == [shown[0], "state: final", *shown[3:6], shown[8]]
+
+
+def test_films_are_learnt_from_numbers_of_the_contact():
+    """Of box contacts in SI: alpha, Moes' material group, alpha p, Roelands' law and shear."""
+    contacts = box_contacts(HYPOID_BOX, 20, seed=3)
+    groups = np.array([contact_groups(one) for one in contacts])
+    features = _film_features(groups)
+    for c, of, found in zip(contacts, groups, features, strict=True):
+        g = dict(zip(contact_groups(c)._fields, of, strict=True))
+        log_eta, Z = math.log(c.eta0 / 6.315e-5), math.exp(g["exponent"])
+        alpha = Z * log_eta  # times Roelands' pressure
+        across = c.entrainment_speed * math.cos(g["psi"])
+        rolling = c.eta0 * across / (c.contact_modulus * c.R_x)
+        pressure = math.exp(g["pressure"]) * c.contact_modulus  # Pa
+        rise = log_eta * ((1.0 + pressure / 1.962e8) ** Z - 1.0)
+        film = g["thickness"] ** 2 * math.exp(2.0 * g["pressure"])  # over R_x, but for a factor
+        shear = c.eta0 * c.sliding_speed / (film * c.R_x * c.tau0)
+        expected = [
+            g["thickness"], math.log(alpha * rolling**0.25),
+            math.log(alpha * pressure / c.contact_modulus), math.log(c.tau0 / pressure),
+            rise, math.log(shear),
+        ]  # fmt: skip
+        # constants of Roelands' law and the modulus of steel to their digits
+        assert found[[0, 1, 2, 3, 15, 16]] == pytest.approx(expected, rel=2e-3)

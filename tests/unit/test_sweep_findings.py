@@ -56,6 +56,8 @@ def test_largest_mesh_order_is_the_one_put_in_and_its_place_is_told(sweep):
 
 def test_a_peak_away_from_every_mode_is_no_warning(sweep):
     apart = sweep.assign(mode_frequency=2.5 * sweep["mode_frequency"])
+    above = sweep.assign(mode_frequency=0.75 * sweep["mode_frequency"])
+    assert "% above the nearest natural frequency" in found(above, "largest mesh order").detail
     assert found(apart, "largest mesh order").level == NOTE
     assert found(sweep.drop_vars("mode_frequency"), "largest mesh order").level == NOTE
 
