@@ -207,3 +207,6 @@ def test_figures_show_numbers_in_the_units_of_their_labels():
     catalogue._loaded(loaded, dataset.sel(side="coast"))
     found = [np.ptp(line.get_ydata()) for line in loaded.lines]
     assert found == pytest.approx(2.0 * np.array(AMPLITUDE))  # um
+    seven = dataset.isel(torque=[0] * 7).assign_coords(torque=np.arange(1.0, 8.0))
+    catalogue._loaded(loaded := catalogue.new_figure(3.0, 3.0).subplots(), seven.sel(side="drive"))
+    assert [line.get_label()[0] for line in loaded.lines] == ["1", "2", "4", "5", "7"]
