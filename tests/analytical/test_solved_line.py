@@ -64,6 +64,15 @@ def test_inside_the_domain_film_and_friction_are_the_models():
     wanted = MODEL.friction_bound * film.friction_coefficient
     assert found.coefficient_bound == pytest.approx(wanted, rel=1e-12)
     assert found.film_bound == MODEL.film_bound
+    # a band of 2 b that moves, joined with a round source at rest, and the film's own rise
+    b = (4.0 * 1e5 * R / (math.pi * SOLID.contact_modulus)) ** 0.5
+    flux = found.state.viscous_friction * SLIP / (2.0 * b)
+    heat = SOLID.conductivity * SOLID.density * SOLID.heat_capacity
+    moving = 2.0 / 3.0 * (2.0 * b / (math.pi * heat * SPEED)) ** 0.5
+    still = 4.0 / (3.0 * math.pi) * 4.7 * b / SOLID.conductivity
+    surface = (moving**-2 + still**-2) ** -0.5
+    rise = flux * (surface + film.central_film / (12.0 * OIL.conductivity))
+    assert found.state.temperature_rise == pytest.approx(rise, rel=1e-9)
     # a rough flank: asperities on the solved film, whose load a thinner film would raise
     rough = solved(1e5)
     assert rough.coefficient_bound * 1e5 > MODEL.friction_bound * rough.state.viscous_friction

@@ -72,9 +72,11 @@ def compare_marches(
     outcome = f"All {len(cycles)} marches converged."
     if failed:
         outcome = f"Steps did not converge in {', '.join(failed)}."
-    return xr.concat(curves, names, join="outer", combine_attrs="drop").assign_attrs(
-        contact="helical_marches",
-        film_exponent=film_exponent,
-        converged=int(not failed),
-        outcome=outcome,
-    )
+    found = xr.concat(curves, names, join="outer", combine_attrs="override")
+    found.attrs = {
+        "contact": "helical_marches",
+        "film_exponent": film_exponent,
+        "converged": int(not failed),
+        "outcome": outcome,
+    }
+    return found
