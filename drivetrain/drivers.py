@@ -11,7 +11,7 @@ from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.driveline.steady_state import GEAR_INERTIA, PINION_INERTIA
 from drivetrain.road_load import RoadLoad
-from drivetrain.slow_loop import SlowLoop
+from drivetrain.speed_ramp import SlowLoop
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError, StepError

@@ -15,12 +15,15 @@ from drivetrain.axle_file.axle_sections import (
     OwnFilmModels,
     Steel,
 )
-from drivetrain.axle_file.bearing_section import BearingSection
-from drivetrain.axle_file.car_sections import DrivelineSection, TyreSection, VehicleSection
-from drivetrain.axle_file.drag_sections import Housing, Seals
-from drivetrain.axle_file.engine_section import EngineSection, GearboxSection
-from drivetrain.axle_file.member_section import Member
-from drivetrain.axle_file.oil_section import OilSection
+from drivetrain.axle_file.bearing_section import BearingSection, Member
+from drivetrain.axle_file.car_sections import (
+    DrivelineSection,
+    EngineSection,
+    GearboxSection,
+    TyreSection,
+    VehicleSection,
+)
+from drivetrain.axle_file.oil_section import Housing, OilSection, Seals
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import FinalDrive, RoadLoad
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, Literal, NamedTuple
 import numpy as np
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.model_section import ModelSection
+from drivetrain.axle_file.section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.parameters import Film, Friction, HypoidAxleParameters
 from gearlube_core.film_model.chosen_model import chosen_model

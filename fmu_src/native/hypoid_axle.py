@@ -11,9 +11,14 @@ import numpy as np
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.definition import Definition, Value
 from fmu_src.hypoid_axle import car_axle_in
-from fmu_src.native.axle_settings import AxleSettings, axle_settings
 from fmu_src.native.model import Exchange, NativeModel, Operation
-from fmu_src.native.parameter_map import ParameterMap, parameter_map, write_packed
+from fmu_src.native.parameter_map import (
+    AxleSettings,
+    ParameterMap,
+    axle_settings,
+    parameter_map,
+    write_packed,
+)
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.race_rolling import roller_film_model

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import build_fmu
 from drivetrain.axle_file.axle_file import AxleFile
-from fmu_src import fmu_cache, identity
+from fmu_src import build, identity
 from fmu_src.archive import write_archive
 from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
@@ -245,11 +245,11 @@ def test_the_cache_keeps_one_fmu_for_each_table(
 ) -> None:
     monkeypatch.setattr("platformdirs.user_cache_path", lambda name: tmp_path / name)
     own, default = (
-        fmu_cache.cached_hypoid_axle(mesh_table, native=False) for mesh_table in (table, None)
+        build.cached_hypoid_axle(mesh_table, native=False) for mesh_table in (table, None)
     )
     assert own != default
     written = own.stat().st_mtime_ns
-    assert fmu_cache.cached_hypoid_axle(table, native=False) == own
+    assert build.cached_hypoid_axle(table, native=False) == own
     assert own.stat().st_mtime_ns == written
 
 

@@ -15,7 +15,7 @@ from fmu_src.definition import Definition, Model
 from fmu_src.hypoid_axle import DEFINITION
 from fmu_src.model_description import model_description
 from fmu_src.values import Values
-from fmu_src.variable_kinds import output, parameter
+from fmu_src.variable import output, parameter
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 
 FLOOR = parameter("mesh.frequency_floor", "Hz", "Lowest frequency of the mesh damping", start=50.0,

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
-from drivetrain.axle_file.field_units import attribute_of
 from drivetrain.axle_file.read_axle import read_axle
+from drivetrain.axle_file.section import attribute_of
 from fmu_src.axle_arguments import axle_parameters, start_arguments
 from fmu_src.hypoid_axle import (
     AXLE_FILE,

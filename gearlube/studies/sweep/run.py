@@ -162,7 +162,7 @@ def run_sweep(
     ...     settings, speeds_kmh=[60.0], preloads=[2500.0, 6000.0], out="gearlube_sweep"
     ... )
     """
-    from fmu_src.fmu_cache import cached_hypoid_axle
+    from fmu_src.build import cached_hypoid_axle
 
     speeds = sorted({check_within("speed", v, *SPEED_RANGE, "km/h") for v in speeds_kmh})
     loads = sorted(
