@@ -27,7 +27,7 @@ from fmu_src.variable import (
     velocities,
 )
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
-from gearlube_core.drag.churning import CHURNING_LAWS
+from gearlube_core.drag import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
 from gearlube_core.friction.flank_laws import FILM_MODELS

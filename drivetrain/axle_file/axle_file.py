@@ -36,11 +36,9 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_notes
-from gearlube_core.input_file.input_file import InputFile, toml_data
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputFile, InputNote, toml_data
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
-from gearlube_core.mesh_table.netcdf import read_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import DescribedOil, read_oil_file

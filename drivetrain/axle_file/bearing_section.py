@@ -10,14 +10,13 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.section import ModelSection, field_value, unit_of
-from gearlube_core.bearings.bearing_fields import BearingFields, Diameter
-from gearlube_core.bearings.catalogue_rollers import add_catalogue_rollers
+from gearlube_core.bearings.bearing_fields import BearingFields, Diameter, add_catalogue_rollers
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Usual
-from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.input_file.input_file import InputNote, Origin
 
 LARGEST_PRELOAD = 1e5  # N
 

@@ -14,7 +14,7 @@ from drivetrain.engine import LARGEST_ORDER, Engine, EngineKind, Gearbox, Torque
 from drivetrain.road_load import CIRCUMFERENCE_FACTOR, Tyre, Vehicle, mohammadpour_2015_vehicle
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Usual
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputNote
 
 Text = Annotated[str, Field(min_length=1)]
 Mass = Annotated[float, Field(ge=100.0, le=1e5, allow_inf_nan=False), Usual(500.0, 50000.0)]

@@ -8,8 +8,7 @@ from decimal import Decimal
 from typing import Any, ClassVar
 
 from gearlube_core.input_file.field_notes import field_unit
-from gearlube_core.input_file.input_file import Section
-from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.input_file.input_file import InputNote, Origin, Section
 from gearlube_core.units import ZERO_CELSIUS
 
 # power of ten from a unit to SI; what is absent is SI

@@ -22,8 +22,8 @@ from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.section import moving_section
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil import film_properties
 from gearlube_core.oil.film_oil_data import film_oil
-from gearlube_core.oil.film_properties import film_properties
 
 # [jamali_2015] Table 7.1: 720 N over 2 mm, mean 6.71 m/s, slide-roll ratio 0.36
 R, W, FAST, SLOW, MODULUS = 0.014, 3.6e5, 7.9178, 5.5022, 0.5 * 227.5e9

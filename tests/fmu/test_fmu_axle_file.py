@@ -42,10 +42,9 @@ from gearlube.studies.sweep.point import run_point
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.errors import InterruptedRunError, ParameterError
-from gearlube_core.input_file.input_note import notes_as_text
+from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.kernels.flat_tuples import flatten
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, shipped_mesh_table, write_mesh_table
 from tests.helpers.fmu_cases import H
 from tests.helpers.fmu_host import OK, Host
 from tests.helpers.object_code import LoadedModel

@@ -27,8 +27,7 @@ from gearlube.studies.sweep.point import run_point
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.errors import InterruptedRunError, ParameterError, TableError
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, shipped_mesh_table, write_mesh_table
 from tests.helpers.axle_cases import with_coast_flanks, with_shaft_errors
 from tests.helpers.fmu_host import FATAL, OK, Host
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
+from gearlube_core.contact.hertz import log_curvature_ratio
 from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.solution import PointSolution

@@ -28,7 +28,7 @@ _SHOWN = 4  # orders of a member in a row
 
 def _write_example(folder: Path | None) -> None:
     """Write the example and stop; needs no other argument."""
-    from gearlube_core.hypoid_geometry.measured.example import write_example
+    from gearlube_core.hypoid_geometry.measured.measured_flanks import write_example
 
     if folder is None:
         return

@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.film_nodes import (
-    N_FILMS,
-)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_axle.state import (
+    N_FILMS,
+    PHI_P,
+    W_G,
+    W_P,
+)
 from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
     flank_coefficients,
     sliding_speed,
@@ -30,7 +32,7 @@ from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 _PAIRS = PAIRS
 # places of what `flank_sum` keeps

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array, Flags
-from gearlube_core.contact.half_space import HalfSpaceConvolution
-from gearlube_core.contact.half_space_graded import GradedConvolution
+from gearlube_core.contact.half_space import GradedConvolution, HalfSpaceConvolution
 from gearlube_core.ehl.point.equations.closed_deflection import ClosedDeflection
 from gearlube_core.ehl.point.equations.grid import PointGrid
 

@@ -8,8 +8,12 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
+from gearlube_core.contact.half_space import (
+    GradedConvolution,
+    HalfSpaceConvolution,
+    graded_coefficients,
+    love_coefficients,
+)
 from gearlube_core.contact.half_space_periodic import periodic_coefficients, periodic_modes
 from gearlube_core.ehl.point.equations.closed_deflection import ClosedDeflection
 from gearlube_core.ehl.point.equations.mesh import (

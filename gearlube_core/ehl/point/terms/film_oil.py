@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gearlube_core.arrays import Array
-from gearlube_core.oil.film_oil import FilmOil
-from gearlube_core.oil.film_properties import film_properties
+from gearlube_core.oil.film_oil import FilmOil, film_properties
 
 Properties = tuple[Array, Array, Array, Array]
 
