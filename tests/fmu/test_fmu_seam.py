@@ -95,7 +95,7 @@ def naming(text: str, *folders: str) -> set[str]:
     [
         (AXLE, "variables", '"mesh.stiffness"', "output_names"),
         (AXLE, "variables", '"axle.efficiency"', "output_names"),
-        (AXLE, "variables", "roller_load_min", "bearing_outputs"),
+        (AXLE, "variables", "roller_load_min", "output_names"),
         (PAIR, "helical_variables", '"mesh.coast_contact"', "outputs"),
         (PAIR, "helical_variables", '"pair.efficiency"', "outputs"),
         (PAIR, "helical_variables", "film_thickness_mean", "line_outputs"),
