@@ -62,9 +62,9 @@ from gearlube_core.ehl.line.problem import LineProblem as LineProblem
 from gearlube_core.ehl.line.problem import LineSettings as LineSettings
 from gearlube_core.ehl.line.solver import solve_line as solve_line
 from gearlube_core.ehl.point.problem import PointContactProblem as PointContactProblem
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain as ContactDomain
-from gearlube_core.ehl.point.line_section import line_section as line_section
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact as elliptical_contact
+from gearlube_core.ehl.point.contact_domain import ContactDomain as ContactDomain
+from gearlube_core.ehl.point.contact_domain import line_section as line_section
+from gearlube_core.ehl.point.contact_domain import elliptical_contact as elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings as PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact as solve_point_contact
 

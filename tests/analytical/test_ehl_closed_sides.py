@@ -11,16 +11,15 @@ from gearlube_core.contact.half_space_periodic import PeriodicDeflection, period
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
+from gearlube_core.ehl.point.contact_domain import elliptical_contact, line_section
 from gearlube_core.ehl.point.dry_contact import dry_contact
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
-from gearlube_core.ehl.point.line_section import line_section
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.transient.history import MarchRecord
 from gearlube_core.ehl.transient.march import FilmMarch
-from gearlube_core.ehl.transient.record import MarchRecord
-from gearlube_core.ehl.transient.section import moving_section
+from gearlube_core.ehl.transient.problem import moving_section
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import film_properties
 from gearlube_core.oil.film_oil_data import film_oil

@@ -11,7 +11,7 @@ from gearlube_core.contact.half_space import (
     graded_coefficients,
     love_coefficients,
 )
-from gearlube_core.ehl.point.equations.mesh import Grading, cell_faces
+from gearlube_core.ehl.point.equations.stencil import Grading, cell_faces
 from gearlube_core.errors import ParameterError
 
 E = 1.15e11

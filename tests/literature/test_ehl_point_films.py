@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain, elliptical_contact
+from gearlube_core.ehl.point.contact_domain import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact

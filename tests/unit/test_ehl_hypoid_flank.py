@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
+from gearlube_core.ehl.gears.hypoid_flank import pair_contact, phase_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path

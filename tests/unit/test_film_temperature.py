@@ -14,8 +14,7 @@ from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.line import energy as line_energy
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.thermal import energy, surfaces
-from gearlube_core.ehl.point.thermal.moving_heat import moving_heat_coefficients
-from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
+from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature, moving_heat_coefficients
 from gearlube_core.oil.film_laws import log_viscosity
 from gearlube_core.oil.film_oil_data import film_oil
 from gearlube_core.oil.oil_heat import OilHeat

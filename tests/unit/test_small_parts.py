@@ -11,11 +11,11 @@ import pytest
 from gearlube_core.dynamics.helical_pair import supports
 from gearlube_core.ehl.line import traction
 from gearlube_core.ehl.line.problem import LineProblem
-from gearlube_core.ehl.line.scaling import line_scales, row_coefficients
-from gearlube_core.ehl.point.newton.coarse import CoarseSolution
+from gearlube_core.ehl.line.system import line_scales, row_coefficients
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
-from gearlube_core.ehl.point.terms.storage import NoStorage, Storage
-from gearlube_core.ehl.point.thermal.anderson_mixing import AndersonMixing
+from gearlube_core.ehl.point.newton.preconditioner import CoarseSolution
+from gearlube_core.ehl.point.terms.differences import NoStorage, Storage
+from gearlube_core.ehl.point.thermal.surfaces import AndersonMixing
 from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.row_operators import operator_of, some_entries

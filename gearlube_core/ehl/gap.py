@@ -1,4 +1,4 @@
-"""Ridge, dent and waviness on a point contact, and gaps with measured heights."""
+"""Shapes of the gap: ridges, dents, waviness, measured heights."""
 
 from __future__ import annotations
 
