@@ -82,7 +82,7 @@ class SpeedHold:
 
     Notes
     -----
-    The loop is that of `slow_loop.SlowLoop`. With the slow
+    The loop is that of `SlowLoop`. With the slow
     loop alone an unknown loss of 1 % of the torque costs up to 8 % of speed at 20 km/h. A gain
     that falls with 1/t averages the ripple over all the time that has passed. By default f is 2.8
     after 0.4 s and 1 from 1.1 s on.

@@ -152,7 +152,7 @@ class RampHold:
     proportional_gain : float
         K at the pinion [N m s/rad]; small, so that the modes of the axle keep their damping.
     start_factor : float
-        By which the loop is faster at the start [-]; see `slow_loop.SlowLoop`.
+        By which the loop is faster at the start [-]; see `SlowLoop`.
     """
 
     def __init__(

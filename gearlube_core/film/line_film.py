@@ -34,7 +34,7 @@ def power_law_line_film(
     line_load: float,
     reduced_modulus: float,
 ) -> float:
-    """Return C R U^s G^m W'^l [m]; arguments as in `dowson_toyoda_1979.line_film_thickness`.
+    """Return C R U^s G^m W'^l [m]; arguments as in `line_film_thickness`.
 
     U = eta0 u/(E' R),  G = alpha E',  W' = w/(E' R),  u = (u_1 + u_2)/2
     """
@@ -187,7 +187,7 @@ def minimum_line_film_thickness(
     Parameters
     ----------
     R, eta0, alpha, entrainment_speed, line_load, reduced_modulus
-        As in `dowson_toyoda_1979.line_film_thickness`.
+        As in `line_film_thickness`.
 
     Returns
     -------

@@ -190,7 +190,7 @@ class MixedFlankFriction(NamedTuple):
     """Mixed friction of Mohammadpour et al. 2015; see `flank.flank_friction`.
 
     With the film SOLVED its film and the friction of the oil are those of a film model, see
-    `solved_flank.solved_flank_friction`.
+    `solved_flank_friction`.
     """
 
     surface: SurfaceParameters

@@ -27,7 +27,7 @@ _LARGEST_RATIO = math.exp(_LARGEST_EXPONENT)
 class FilmOil(NamedTuple):
     """Oil of a film at its inlet temperature, in SI units; `film_oil` and `film_oil_of` make one.
 
-    Its three laws are NamedTuples as described in `viscosity_law`, `density_law` and `shear_law`.
+    Its three laws are NamedTuples as described in `film_laws`.
 
     Examples
     --------

@@ -101,9 +101,9 @@ class BearingGeometry:
     roughness : float
         Composite rms roughness of roller and race [m].
     f0, f1 : float
-        Viscous and load factor of `palmgren_1959` [-].
+        Viscous and load factor of `drag_torque` [-].
     timken_g1 : float
-        Geometry factor of `timken`; 0: not known [-].
+        Geometry factor of `timken_torque`; 0: not known [-].
     rolling_scale : float, optional
         Measured rolling torque divided by the computed one; None: not calibrated [-].
     solid : Solid

@@ -101,7 +101,7 @@ class HelicalPairParameters:
         Parts of a line, each with two quadrature points; one is exact for linear contact.
     bearing_moments, support_damping, mesh_sign
         The paper's equations where they run as printed: `printed_support_stiffness`,
-        `support_matrices.support_damping` per bearing, and the sign of [he_2007 (4)], which is
+        `supports.support_damping` per bearing, and the sign of [he_2007 (4)], which is
         unstable.
 
     References

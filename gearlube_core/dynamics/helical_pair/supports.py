@@ -37,7 +37,7 @@ class MemberStiffness(NamedTuple):
 
 @kernel
 def bearing_at_gear(bearing: SupportStiffness) -> MemberStiffness:
-    """Return T^T K_SB T of one bearing, see `support_matrices.support_stiffness`."""
+    """Return T^T K_SB T of one bearing, see `support_stiffness`."""
     arm = bearing.position
     K_x_ay = arm * bearing.K_xx + bearing.K_x_theta_y
     K_y_ax = -arm * bearing.K_yy + bearing.K_y_theta_x

@@ -154,7 +154,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
     ) -> int:
         """Write the flattened StepControl about the equilibrium `s`; return a status.
 
-        Arguments as in `static_state` and `step_control.write_step_control`.
+        Arguments as in `static_state` and `force_derivatives.write_step_control`.
         """
         p: AxleParameters = tuple_from_array(lossless, AxleParameters, bearing, law)
         return write_step_control(

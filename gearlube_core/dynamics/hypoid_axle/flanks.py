@@ -38,7 +38,7 @@ _PAIRS = PAIRS
 # places of what `flank_sum` keeps
 BOUND = 3 * PAIRS  # of the friction coefficient of each pair
 BOUND_POWER = 4 * PAIRS  # of the power lost in friction
-FILMS = BOUND_POWER + 1  # `film_nodes`
+FILMS = BOUND_POWER + 1  # films at the nodes of the mesh table
 N_FRICTION = FILMS + N_FILMS
 
 
@@ -106,7 +106,7 @@ def flank_sum(
     friction : ndarray of shape (N_FRICTION,)
         Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
         of the friction over load [-], that of the power lost in friction, always anew [W], and
-        the films at the nodes, see `film_nodes`.
+        the films at the nodes, see `state.keep_flank`.
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
     film_model : ndarray

@@ -93,7 +93,7 @@ class Body:
 class HelicalMarchParameters(MarchScalars):
     """Everything that defines one pair in motion.
 
-    Its other fields are those of `constants.MarchScalars` and of `flank_views.FlankScalars`, such
+    Its other fields are those of `state.MarchScalars` and of `state.FlankScalars`, such
     as the backlash.
 
     Parameters
