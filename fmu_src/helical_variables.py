@@ -6,26 +6,24 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
-from fmu_src.common_outputs import (
+from fmu_src.variable import (
     MEMBERS,
+    Variable,
+    count,
     displacements,
     energies,
-    load_level,
-    motion,
-    ranges,
-    tilt_speeds,
-    velocities,
-)
-from fmu_src.variable import Variable
-from fmu_src.variable_kinds import (
-    count,
     input_,
+    load_level,
     local,
+    motion,
     option,
     options_by_number,
     output,
     parameter,
+    ranges,
     rates,
+    tilt_speeds,
+    velocities,
 )
 from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
 from gearlube_core.friction.flank_laws import FILM_MODELS

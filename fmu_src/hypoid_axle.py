@@ -20,8 +20,12 @@ from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import file_of_model, model_in
 from gearlube_core.film_model.model import FLANK, ROLLER, read_model_content
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_table_content
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import (
+    FILE_IN_FMU,
+    mesh_table_from_bytes,
+    read_table_content,
+    shipped_mesh_table,
+)
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
 from gearlube_core.oil.oil_file import described_oil_of, read_oil_content

@@ -15,8 +15,7 @@ from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PRESSURE, SHARE, pack_mesh
 from gearlube_core.friction.flank_laws import printed_traction
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from gearlube_core.units import kmh_to_ms
 
 SPEEDS = (20.0, 60.0, 100.0)  # km/h

@@ -9,13 +9,13 @@ from typing import Annotated, ClassVar, Literal, NamedTuple
 import numpy as np
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.model_section import ModelSection
+from drivetrain.axle_file.section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.parameters import Film, Friction, HypoidAxleParameters
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import FLANK, ROLLER, SHIPPED, FilmModel
 from gearlube_core.input_file.field_notes import Usual
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputNote
 
 Text = Annotated[str, Field(min_length=1)]
 Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False), Usual(1.0, 20000.0)]

@@ -15,8 +15,8 @@ from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.film_model.solved_line import solved_line
-from gearlube_core.friction.line_friction import line_friction
+from gearlube_core.film_model.solved_film import solved_line
+from gearlube_core.friction.line_points import line_friction
 from gearlube_core.friction.solved_line import (
     LINE_FORMULA_FILM_BOUND,
     LINE_FORMULA_FRICTION_TOP,
@@ -24,8 +24,7 @@ from gearlube_core.friction.solved_line import (
     solved_line_friction,
 )
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 TEMPERATURE = 353.15
 LUBRICANT = Lubricant.named("mohammadpour_2015")

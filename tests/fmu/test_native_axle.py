@@ -36,8 +36,7 @@ from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
-from gearlube_core.mesh_table.netcdf import write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table, write_mesh_table
 from tests.helpers.axle_cases import with_coast_flanks, with_shaft_errors
 from tests.helpers.object_code import (
     FREESTANDING,

@@ -7,7 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.film.line_film_law import LineFilmLaw, power_law_line_film
+from gearlube_core.film.line_film import LineFilmLaw, power_law_line_film
 from gearlube_core.friction.flank_data import FlankState
 from gearlube_core.kernels.jit import kernel
 

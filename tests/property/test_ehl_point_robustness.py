@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.limiter import limited_faces
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.solution import limited_faces
 from gearlube_core.ehl.point.solver import solve_point_contact
 from tests.helpers.ehl_point_cases import moes_contact, moes_film, radius_ratio, sliding_along
 

@@ -15,7 +15,7 @@ from gearlube_core.dynamics.hypoid_axle.start import RestProblem, mean_series, r
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, U_G, U_P, W_G, W_P
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.mesh_table.kernels import N_SERIES, N_X, R_P
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import axle_with
 
 OIL = 350.0  # K

@@ -10,10 +10,10 @@ import pytest
 
 from gearlube_core.ehl.point.equations import factor_fields
 from gearlube_core.ehl.point.equations.factor_fields import ShearUnits
-from gearlube_core.ehl.point.sides import AMBIENT
+from gearlube_core.ehl.point.settings import AMBIENT
 from gearlube_core.ehl.time_error import TimeError
-from gearlube_core.ehl.transient import deflection_window
-from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
+from gearlube_core.ehl.transient import rows
+from gearlube_core.ehl.transient.rows import WindowedDeflection
 from gearlube_core.kernels.row_workers import ALONE
 from gearlube_core.oil.eyring_1936 import Eyring
 from tests.helpers.source_of import interpret
@@ -30,7 +30,7 @@ def window(monkeypatch):
         made.append(coefficients.shape)
         return np.ones_like
 
-    monkeypatch.setattr(deflection_window, "HalfSpaceConvolution", convolution)
+    monkeypatch.setattr(rows, "HalfSpaceConvolution", convolution)
     grid = SimpleNamespace(
         shape=SHAPE,
         graded=False,

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_geometry.flank.export import (
+from gearlube_core.hypoid_geometry.flank.tooth import Tooth
+from gearlube_core.hypoid_geometry.flank.tooth_solid import (
+    gear_solid,
     mirror_image,
+    tooth_solid,
     write_flank_csv,
     write_solid,
 )
-from gearlube_core.hypoid_geometry.flank.tooth import Tooth
-from gearlube_core.hypoid_geometry.flank.tooth_solid import gear_solid, tooth_solid
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 trimesh = pytest.importorskip("trimesh")

@@ -27,7 +27,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_G,
     W_P,
 )
-from gearlube_core.dynamics.helical_pair.supports.support_matrices import support_damping
+from gearlube_core.dynamics.helical_pair.supports import support_damping
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.kernels.flat_tuples import flatten

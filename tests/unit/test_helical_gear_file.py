@@ -10,8 +10,8 @@ from gearlube.output.toml_text import toml_text
 from gearlube_core.errors import ParameterError
 from gearlube_core.flank_optimisation.problem import read_gear_file
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.helical_geometry.modification import PowerTipRelief, TipRelief
 from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
-from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
 from gearlube_core.input_file.field_notes import field_notes
 
 HE = HelicalGearFile.named("he_2007")

@@ -12,8 +12,8 @@ from gearlube.studies.helical import (
     sweep_grid,
 )
 from gearlube.studies.helical.labels import FORCES, LENGTHS, MOMENTS, TILTS
-from gearlube_core.dynamics.helical_pair.linear.harmonic_grid import QUANTITIES
-from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
+from gearlube.studies.helical.sweep_grid import QUANTITIES
+from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from tests.helpers.known_answers import assert_attributes, assert_variables, made_up, named
 
 PHASE = np.arange(64) / 64

@@ -13,7 +13,7 @@ import xarray as xr
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface.files import read_surface, write_surface
-from gearlube_core.surface.gaussian_filter import filtered
+from gearlube_core.surface.gaussian_filter import filtered, levelled, peaks_cut
 from gearlube_core.surface.heights import (
     HeightMap,
     Profile,
@@ -21,9 +21,7 @@ from gearlube_core.surface.heights import (
     check_plausible,
     evenly_spaced,
 )
-from gearlube_core.surface.levelling import levelled
 from gearlube_core.surface.measured_heights import MeasuredProfile, filled
-from gearlube_core.surface.running_in import peaks_cut
 from gearlube_core.surface.statistics import profile_statistics
 
 HEIGHT = 1e-7 * np.random.default_rng(1).standard_normal((9, 6))  # (x, y)

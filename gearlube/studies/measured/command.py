@@ -30,7 +30,7 @@ def _write_example(folder: Path | None) -> None:
     """Write the example and stop; needs no other argument."""
     if folder is None:
         return
-    from gearlube_core.hypoid_geometry.measured.example import write_example
+    from gearlube_core.hypoid_geometry.measured.measured_flanks import write_example
 
     with exit_on_error():
         written = write_example(folder)

@@ -18,8 +18,8 @@ from gearlube.studies.resonance.response import Response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube.studies.resonance.study import study_resonance
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_torsional.load_problem import LoadProblem
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
+from gearlube_core.dynamics.hypoid_torsional.period_problem import LoadProblem
 from gearlube_core.periodic import Branch, follow, solve_periodic
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_figure

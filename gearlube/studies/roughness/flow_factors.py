@@ -12,7 +12,7 @@ from gearlube.output.csv_text import csv_text
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 from gearlube_core.contact.greenwood_tripp_1971 import asperity_load, gear_flanks
 from gearlube_core.errors import ParameterError
-from gearlube_core.rough_patch.patir_cheng_1978 import (
+from gearlube_core.rough_patch.flow import (
     PEKLENIK,
     pressure_flow_factor,
     shear_flow_factor,

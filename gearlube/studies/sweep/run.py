@@ -40,7 +40,7 @@ from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import InterruptedRunError, ParameterError
-from gearlube_core.input_file.input_note import notes_as_text
+from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.folder_lock import locked_folder
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
@@ -163,7 +163,7 @@ def run_sweep(
     ...     settings, speeds_kmh=[60.0], preloads=[2500.0, 6000.0], out="gearlube_sweep"
     ... )
     """
-    from fmu_src.fmu_cache import cached_hypoid_axle
+    from fmu_src.build import cached_hypoid_axle
 
     speeds = sorted({check_within("speed", v, *SPEED_RANGE, "km/h") for v in speeds_kmh})
     loads = sorted(

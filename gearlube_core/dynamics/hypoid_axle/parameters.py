@@ -20,7 +20,7 @@ from gearlube_core.contact.solid import (
     contact_modulus,
     solid_parameters,
 )
-from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
+from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, ChurningLaw
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
     BEARING_LAWS,
     TORQUE_LOSSES,
@@ -33,12 +33,11 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     equivalent_mass,
     modal_damping,
 )
-from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
-from gearlube_core.dynamics.ranges import Range, range_limits
+from gearlube_core.dynamics.ranges import Range, model_ranges, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.errors import ParameterError
-from gearlube_core.film import chittenden_1985
+from gearlube_core.film import point_film
 from gearlube_core.film_model.chosen_model import check_oil, of_kind
 from gearlube_core.film_model.model import FLANK, ROLLER, FilmModel, shipped_model
 from gearlube_core.friction.flank_film import flank_film_model
@@ -273,8 +272,8 @@ class HypoidAxleParameters(AxleScalars):
             self.torque_range,
             "Run `gearlube contact` with higher torques.",
             self.oil,
-            chittenden_1985.LOAD_RANGE,
-            chittenden_1985.MATERIAL_RANGE,
+            point_film.LOAD_RANGE,
+            point_film.MATERIAL_RANGE,
         )
 
     @property

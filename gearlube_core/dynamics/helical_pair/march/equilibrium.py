@@ -6,8 +6,7 @@ import math
 from typing import TypeAlias
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, MotionConstants
-from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.integrate import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
@@ -27,12 +26,14 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     V_P,
     W_G,
     W_P,
+    MarchConstants,
+    MotionConstants,
 )
 from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.spectral_radius import spectral_radius
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 OK = 0
 NO_EQUILIBRIUM = 1

@@ -6,7 +6,6 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.communication import communication_step
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     EQUILIBRIUM_WORK,
     MAX_UNKNOWNS,
@@ -33,7 +32,12 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES, write_outputs
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
-from gearlube_core.dynamics.helical_pair.march.state import LOAD_TORQUE, N_ODE, N_STATE
+from gearlube_core.dynamics.helical_pair.march.state import (
+    LOAD_TORQUE,
+    N_ODE,
+    N_STATE,
+    MarchConstants,
+)
 from gearlube_core.dynamics.ranges import TOO_FAR
 from gearlube_core.dynamics.stepped_model import (
     TOO_FAR_WORDS,
