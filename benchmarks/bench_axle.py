@@ -37,7 +37,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     SIDE,
     X,
 )
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 _LOGGER = logging.getLogger("bench_axle")
 RATIO = 36 / 13

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_contact.gap_map import gap_map
@@ -25,8 +25,7 @@ from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosi
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.sensitivity.analysis import error_rates
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import loaded_rates
-from gearlube_core.hypoid_contact.sensitivity.parameter import usual_parameters
-from gearlube_core.hypoid_contact.sensitivity.variations import Variations
+from gearlube_core.hypoid_contact.sensitivity.parameter import Variations, usual_parameters
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

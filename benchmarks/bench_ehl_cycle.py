@@ -28,7 +28,7 @@ from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, HelicalFilm, jamali_2015_film
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.oil.film_properties import fill_properties
+from gearlube_core.oil.film_oil import fill_properties
 
 Mesh = tuple[str, tuple[int, int], tuple[tuple[float, float], ...]]
 THESIS: Mesh = ("that of the thesis", (182, 857), ())

@@ -19,11 +19,10 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.line_section import line_section
+from gearlube_core.ehl.point.contact_domain import line_section
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.march import FilmMarch
-from gearlube_core.ehl.transient.problem import MovingFilm
-from gearlube_core.ehl.transient.section import moving_section
+from gearlube_core.ehl.transient.problem import MovingFilm, moving_section
 from gearlube_core.oil.film_oil_data import film_oil
 
 NODES = (801, 64)

@@ -22,7 +22,7 @@ from fmpy import extract, read_model_description
 from fmu_src.build import build_models
 from fmu_src.native.build import NativeOptions
 from fmu_src.native.platforms import platform_of_this_machine
-from fmu_src.native_host import native_environment
+from gearlube.cli.native import native_environment
 
 _LOGGER = logging.getLogger("bench_native_fmu")
 _SOURCE = Path(__file__).parents[1] / "tests" / "fmu" / "native_host.c"

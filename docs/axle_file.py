@@ -6,8 +6,8 @@ from pathlib import Path
 
 from docs.field_tables import field_tables
 from drivetrain.axle_file.axle_file import AxleFile
-from drivetrain.axle_file.field_units import attribute_of
 from drivetrain.axle_file.read_axle import read_axle
+from drivetrain.axle_file.section import attribute_of
 from fmu_src.axle_arguments import start_arguments
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.friction.flank_friction import friction_laws

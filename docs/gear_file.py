@@ -132,8 +132,9 @@ TAIL = """
    ```
 
 5. Export the gears: `gearlube contact my_gear.toml --export` writes the flanks as points (CSV) and
-   as exact surfaces (STEP), and teeth and gears as triangles (STL, GLB). In Python use
-   `write_flank_csv` and `write_solid` in `gearlube_core/hypoid_geometry/flank/export.py`, and
+   as exact surfaces (STEP), and teeth and gears as triangles (STL, GLB; install
+   `gearlube[export]` for them). In Python use
+   `write_flank_csv` and `write_solid` in `gearlube_core/hypoid_geometry/flank/tooth_solid.py`, and
    `write_step` in `step_file.py`. The exported flanks are the flanks as cut, without reliefs and
    crowns. A STEP file contains both flanks of one tooth as bicubic B-splines, within 0.01 um of the
    flank. They start at the height from which the flank has no undercut over the whole face width,

@@ -34,6 +34,7 @@ PURPOSES = {
     "sound": "loudness, tonality; measured transfer paths",
     "export": "VTK files, measurement files",
     "cycles": "driving cycles",
+    "cluster": "points on other machines",
     "film-model": "fit of film models",
     "docs": "this site",
     "test": "tests",
@@ -57,7 +58,8 @@ must keep all their licences.
   writes for gearlube's equations.
 - **FFTW is GPL.** pyfftw brings it. A native FMU holds nothing of it. Who passes on a program or a
   container with pyfftw must follow the GPL for it: FFTW's source, or a written offer of it, goes
-  with the copy. Using gearlube inside a company is no such case.
+  with the copy. Using gearlube inside a company is no such case. Who will not do that removes
+  pyfftw: SciPy's transforms take over, with the same numbers to round-off.
 - **casadi is LGPL.** It is loaded as a separate library, which a user can exchange. No native FMU
   holds it.
 - **asammdf is LGPL.** It comes with the extra `export` alone, is loaded as it is, only while a

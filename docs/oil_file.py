@@ -14,8 +14,7 @@ from gearlube_core.oil.base_oils import (
     MEASURED_ALPHA_FACTOR,
     BaseOil,
 )
-from gearlube_core.oil.lubricant import lubricant_names
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_names, lubricant_state
 from gearlube_core.oil.oil_file import OilFile, read_oil
 
 PAGE = Path(__file__).with_suffix(".md")

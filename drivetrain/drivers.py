@@ -11,7 +11,7 @@ from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.driveline.steady_state import GEAR_INERTIA, PINION_INERTIA
 from drivetrain.road_load import RoadLoad
-from drivetrain.slow_loop import SlowLoop
+from drivetrain.speed_ramp import SlowLoop
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError, StepError
@@ -82,7 +82,7 @@ class SpeedHold:
 
     Notes
     -----
-    The loop is that of `slow_loop.SlowLoop`. With the slow
+    The loop is that of `SlowLoop`. With the slow
     loop alone an unknown loss of 1 % of the torque costs up to 8 % of speed at 20 km/h. A gain
     that falls with 1/t averages the ripple over all the time that has passed. By default f is 2.8
     after 0.4 s and 1 from 1.1 s on.

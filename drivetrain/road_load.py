@@ -3,15 +3,167 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 
-from drivetrain.tyre import Tyre
-from drivetrain.vehicle import Vehicle, mohammadpour_2015_vehicle
-from gearlube_core.checks import check_within
+from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 
+STANDARD_GRAVITY = 9.80665  # m/s2, [cgpm_1901]
+_INCH = 0.0254  # m
+_SIZE = re.compile(r"^\s*(?:P|LT)?(\d{3})\s*/\s*(\d{2})\s*Z?R\s*(\d{2})\b.*$", re.IGNORECASE)
+
+# Rolling circumference of a radial tyre over its unladen diameter (ETRTO standards manual).
+CIRCUMFERENCE_FACTOR = 3.05
+# Loaded rolling radius over the unladen radius, a rule of thumb for radial car tyres.
+_RADIUS_FACTOR = 0.965
+
+ROLLING_RADII = ("circumference", "fraction")
 _HIGHEST_SPEED = 120.0  # m/s
 _SPEED_CURE = "Speeds are in m/s and forward; use gearlube_core.units.kmh_to_ms for km/h."
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Vehicle:
+    """A vehicle on a road of constant gradient.
+
+    Parameters
+    ----------
+    mass : float
+        Mass of the loaded vehicle m [kg].
+    frontal_area : float
+        A_f [m2].
+    drag_coefficient : float
+        C_D [-].
+    rolling_coefficient : float
+        f_rl [-].
+    air_density : float
+        rho [kg/m3].
+    grade : float
+        Rise over horizontal distance; 0.05 is a 5 % climb [-].
+    gravity : float
+        g [m/s2].
+    """
+
+    mass: float
+    frontal_area: float
+    drag_coefficient: float
+    rolling_coefficient: float
+    air_density: float
+    grade: float = 0.0
+    gravity: float = STANDARD_GRAVITY
+
+    def __post_init__(self) -> None:
+        check_within("mass", self.mass, 100.0, 1e5, "kg", "Give a mass, not a weight in newton.")
+        check_within("frontal_area", self.frontal_area, 0.1, 20.0, "m2")
+        check_within("drag_coefficient", self.drag_coefficient, 0.0, 2.0)
+        check_within("rolling_coefficient", self.rolling_coefficient, 0.0, 0.2, "", "Try 0.015.")
+        check_within("air_density", self.air_density, 0.0, 2.0, "kg/m3", "Try 1.2 kg/m3.")
+        check_within("grade", self.grade, -0.5, 0.5, "", "5 % is 0.05.")
+        check_within("gravity", self.gravity, 1.0, 30.0, "m/s2", "Try 9.80665 m/s2.")
+
+    @property
+    def rolling_resistance(self) -> float:
+        """R_rl = f_rl m g cos(slope) [N] ([mohammadpour_2015 (8)])."""
+        normal = self.mass * self.gravity * math.cos(math.atan(self.grade))
+        return self.rolling_coefficient * normal
+
+    @property
+    def grade_resistance(self) -> float:
+        """R_G = m g sin(slope) [N], positive uphill."""
+        return self.mass * self.gravity * math.sin(math.atan(self.grade))
+
+    @property
+    def drag_area(self) -> float:
+        """Air resistance over V^2: rho/2 C_D A_f [N s2/m2] ([mohammadpour_2015 (8)])."""
+        return 0.5 * self.air_density * self.drag_coefficient * self.frontal_area
+
+
+def mohammadpour_2015_vehicle(grade: float = 0.0) -> Vehicle:
+    """Return the vehicle of [mohammadpour_2015 Table A3].
+
+    Notes
+    -----
+    The table gives a "vehicle weight" of 1300 kg; it is the mass, and the weight W of
+    [mohammadpour_2015 (8)] is m g. Grade zero is the flat road of the paper.
+    """
+    return Vehicle(
+        mass=1300.0,
+        frontal_area=2.2,
+        drag_coefficient=0.33,
+        rolling_coefficient=0.0166,
+        air_density=1.22,
+        grade=grade,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tyre:
+    """A tyre reduced to its radii.
+
+    Parameters
+    ----------
+    unladen_radius : float
+        Half the outer diameter of the inflated, unloaded tyre [m].
+    rolling_radius : float
+        Laden dynamic radius r_t: vehicle speed over the angular speed of a freely rolling wheel
+        [m].
+
+    Notes
+    -----
+    Mohammadpour et al. 2015 name the tyre (Table A3: 195/65R16) and use "the laden dynamic tyre
+    radius" in [mohammadpour_2015 (7)] without its value.
+    """
+
+    unladen_radius: float
+    rolling_radius: float
+
+    def __post_init__(self) -> None:
+        check_within("unladen_radius", self.unladen_radius, 0.1, 1.0, "m", "Use metres.")
+        check_within(
+            "rolling_radius",
+            self.rolling_radius,
+            0.9 * self.unladen_radius,
+            self.unladen_radius,
+            "m",
+            "A loaded tyre rolls a few per cent shorter than its unladen circumference.",
+        )
+
+    @classmethod
+    def from_size(cls, size: str, *, rolling_radius: str = "circumference") -> Tyre:
+        """Return the tyre of a metric size code such as "195/65R16".
+
+        D = 25.4 mm * rim + 2 * width * aspect / 100
+
+        Parameters
+        ----------
+        size : str
+            Width [mm] / aspect ratio [%] R rim diameter [inch].
+        rolling_radius : str
+            "circumference": r_t = 3.05 D / (2 pi), the rolling circumference that the ETRTO
+            standards give to radial tyres; "fraction": r_t = 0.965 D / 2.
+
+        Notes
+        -----
+        195/65R16 has D/2 = 329.95 mm and r_t = 320.3 mm ("circumference") or 318.4 mm.
+        """
+        check_option("rolling_radius", rolling_radius, ROLLING_RADII)
+        match = _SIZE.match(size) if isinstance(size, str) else None
+        if match is None:
+            raise ParameterError(
+                f"The tyre size must read width/aspect R rim, got {size!r}. "
+                "Write for example 195/65R16 (mm, per cent, inch)."
+            )
+        width_mm, aspect_percent, rim_inch = (float(group) for group in match.groups())
+        check_within("tyre width", width_mm, 105.0, 355.0, "mm", "Write for example 195/65R16.")
+        check_within("tyre aspect ratio", aspect_percent, 25.0, 85.0, "%", "Try 65.")
+        check_within("tyre rim diameter", rim_inch, 10.0, 24.0, "inch", "Try 16.")
+        radius = 0.5 * rim_inch * _INCH + width_mm * 1e-3 * aspect_percent / 100.0
+        if rolling_radius == "circumference":
+            rolling = CIRCUMFERENCE_FACTOR * 2.0 * radius / (2.0 * math.pi)
+        else:
+            rolling = _RADIUS_FACTOR * radius
+        return cls(unladen_radius=radius, rolling_radius=rolling)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

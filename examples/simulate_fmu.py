@@ -8,7 +8,7 @@ import numpy as np
 from fmpy import simulate_fmu
 from numpy.typing import NDArray
 
-from fmu_src.fmu_cache import cached_hypoid_axle
+from fmu_src.build import cached_hypoid_axle
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 STEP = 1e-3  # s, communication step

@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 
 from fmu_src.definition import Definition
-from fmu_src.units import UNITS
+from fmu_src.model_description import UNITS
 from fmu_src.variable import Variable
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.errors import ParameterError

@@ -8,26 +8,24 @@ from __future__ import annotations
 
 from functools import partial
 
-from fmu_src.common_outputs import (
+from fmu_src.variable import (
     MEMBERS,
+    Variable,
+    declared,
     displacements,
     energies,
-    load_level,
-    motion,
-    ranges,
-    tilt_speeds,
-    velocities,
-)
-from fmu_src.variable import Variable
-from fmu_src.variable_kinds import (
-    declared,
     input_,
+    load_level,
     local,
+    motion,
     option,
     options_by_number,
     output,
     parameter,
+    ranges,
     rates,
+    tilt_speeds,
+    velocities,
 )
 from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters

@@ -12,8 +12,7 @@ from drivetrain.axle_file.axle_sections import OwnFilmModels
 from fmu_src.axle_arguments import CUSTOM_OIL, axle_parameters, start_arguments
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
-from fmu_src.variable import Variable
-from fmu_src.variable_kinds import declared
+from fmu_src.variable import Variable, declared
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics import hypoid_axle
@@ -22,8 +21,12 @@ from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import file_of_model, model_in
 from gearlube_core.film_model.model import FLANK, ROLLER, read_model_content
 from gearlube_core.friction.flank_friction import FlankFriction
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_table_content
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import (
+    FILE_IN_FMU,
+    mesh_table_from_bytes,
+    read_table_content,
+    shipped_mesh_table,
+)
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
 from gearlube_core.oil.oil_file import described_oil_of, read_oil_content

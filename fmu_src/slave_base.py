@@ -23,13 +23,11 @@ from pythonfmu import Boolean, Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variab
 from pythonfmu.enums import Fmi2Status
 
 from fmu_src.definition import Definition, Model, Value
-from fmu_src.host_thread import HostThread
 from fmu_src.identity import IDENTITY_FILE, check_identity, guid_of
 from fmu_src.model_description import LOG_CATEGORIES
-from fmu_src.state_bytes import Snapshot
-from fmu_src.values import Values
+from fmu_src.values import Snapshot, Values
 from fmu_src.variable import Variable
-from fmu_src.wrapper import guarded, told_on_stderr, unload_before_libraries
+from fmu_src.wrapper import HostThread, guarded, told_on_stderr, unload_before_libraries
 from gearlube_core.dynamics.stepped_model import MAX_STEP, STEP_ROUNDING
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, get_args
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, Literal, get_args, get_type_hints
 
 from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
+from gearlube_core.number import numbers_of
 
 VariableType = Literal["Real", "Integer", "Boolean", "Enumeration"]
 Causality = Literal["parameter", "input", "output", "local"]
+# unit of a state -> unit and typical size of its derivative
+_RATES = {
+    "m": ("m/s", 0.01),
+    "m/s": ("m/s2", 10.0),
+    "rad": ("rad/s", 100.0),
+    "rad/s": ("rad/s2", 1e3),
+    "J": ("W", 1e3),
+    "N.m": ("N.m/s", 1e3),
+}
+MEMBERS = (("pinion", "pinion"), ("wheel", "gear"))  # in names, in words
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +40,7 @@ class Variable:
     description : str
         One line for the user.
     unit, display_unit : str
-        Names from `fmu_src.units`; every Real has a unit, "1" when dimensionless.
+        Names from `fmu_src.model_description`; every Real has a unit, "1" when dimensionless.
     start : float, optional
         Start value in `unit`; an enumeration counts its literals from 1. Outputs have none.
     minimum, maximum : float, optional
@@ -111,3 +123,179 @@ class Variable:
         if self.type == "Integer":
             return int(value)
         return bool(value) if self.type == "Boolean" else float(value)
+
+
+def input_(name: str, unit: str, description: str, **limits: float | str) -> Variable:
+    """Return a Real input."""
+    return Variable(
+        name=name, type="Real", causality="input", unit=unit, description=description,
+        **limits,  # type: ignore[arg-type]
+    )  # fmt: skip
+
+
+def parameter(name: str, unit: str, description: str, **limits: float | str) -> Variable:
+    """Return a Real parameter."""
+    return Variable(
+        name=name, type="Real", causality="parameter", unit=unit, description=description,
+        **limits,  # type: ignore[arg-type]
+    )  # fmt: skip
+
+
+def declared(model: type, argument: str, name: str = "", text: str = "", **shown: Any) -> Variable:
+    """Return the parameter of a number that a model declares: its unit, limits and default.
+
+    Parameters
+    ----------
+    model : type
+        Dataclass with the number.
+    argument : str
+        Name of the field.
+    name, text : str
+        FMI name and description; by default those of the declaration.
+    **shown
+        Nominal value and display unit; a start value where the field has no default.
+    """
+    one = numbers_of(model)[argument]
+    given: dict[str, Any] = {field.name: field.default for field in fields(model)}
+    given = {"start": given[argument]} | shown
+    real = get_type_hints(model)[argument] is not int
+    return Variable(
+        name=name or one.fmi, type="Real" if real else "Integer", causality="parameter",
+        description=text or one.text, unit=one.unit if real else "", argument=argument,
+        minimum=one.low, maximum=one.high, **given,
+    )  # fmt: skip
+
+
+def declared_in(model: type, known: Collection[str]) -> tuple[Variable, ...]:
+    """Return the parameters of all numbers with an FMI name, but those `known` by argument."""
+    found = numbers_of(model).items()
+    return tuple(declared(model, name) for name, one in found if one.fmi and name not in known)
+
+
+def option(name: str, description: str, *literals: str, start: str, argument: str) -> Variable:
+    """Return an enumeration for a model option."""
+    return Variable(
+        name=name, type="Enumeration", causality="parameter", description=description,
+        start=1 + literals.index(start), literals=literals, argument=argument,
+    )  # fmt: skip
+
+
+def options_by_number(variables: Sequence[Variable]) -> tuple[Variable, ...]:
+    """Return an Integer parameter for each enumeration, for hosts without enumerations."""
+    return tuple(
+        Variable(
+            name=f"{one.name}.number", type="Integer", causality="parameter",
+            description=f"{one.name} by number, starting at 1; 0 keeps the value of {one.name}",
+            start=0, minimum=0, maximum=len(one.literals), option_of=one.name,
+        )
+        for one in variables if one.literals
+    )  # fmt: skip
+
+
+def count(
+    name: str, description: str, start: int, minimum: int, maximum: int, argument: str
+) -> Variable:
+    """Return an Integer parameter."""
+    return Variable(
+        name=name, type="Integer", causality="parameter", description=description,
+        start=start, minimum=minimum, maximum=maximum, argument=argument,
+    )  # fmt: skip
+
+
+def local(
+    name: str, unit: str, description: str, nominal: float = 1.0, display_unit: str = ""
+) -> Variable:
+    """Return a Real that a solver needs and no connection."""
+    return replace(output(name, unit, description, nominal, display_unit), causality="local")
+
+
+def rates(states: Sequence[Variable]) -> tuple[Variable, ...]:
+    """Return the derivative by time of each continuous state."""
+    return tuple(
+        replace(
+            local(f"der({one.name})", unit, f"Time derivative: {_in_a_sentence(one)}", nominal),
+            rate_of=one.name,
+        )
+        for one in states
+        for unit, nominal in [_RATES[one.unit]]
+    )  # fmt: skip
+
+
+def _in_a_sentence(variable: Variable) -> str:
+    return variable.description[0].lower() + variable.description[1:]
+
+
+def output(
+    name: str, unit: str, description: str, nominal: float = 1.0, display_unit: str = ""
+) -> Variable:
+    """Return a Real output."""
+    return Variable(
+        name=name, type="Real", causality="output", unit=unit, description=description,
+        nominal=nominal, display_unit=display_unit,
+    )  # fmt: skip
+
+
+def motion() -> tuple[Variable, ...]:
+    """Return rotation, speed and acceleration of both members."""
+    angle = [output(f"{m}.angle", "rad", f"Rotation of the {w}", display_unit="deg")
+             for m, w in MEMBERS]  # fmt: skip
+    speed = [output(f"{m}.speed", "rad/s", f"Speed of the {w}", 100.0, "rpm") for m, w in MEMBERS]
+    acceleration = [output(f"{m}.acceleration", "rad/s2", f"Angular acceleration of the {w}", 1e3)
+                    for m, w in MEMBERS]  # fmt: skip
+    return (*angle, *speed, *acceleration)
+
+
+def displacements(member: str, word: str) -> tuple[Variable, ...]:
+    """Return the displacements of a member."""
+    return tuple(
+        output(f"{member}.displacement.{axis}", "m", f"Displacement of the {word} along {axis}",
+               1e-5, "um")
+        for axis in "xyz"
+    )  # fmt: skip
+
+
+def velocities(member: str, word: str) -> tuple[Variable, ...]:
+    """Return the velocities of a member."""
+    return tuple(
+        local(f"{member}.velocity.{axis}", "m/s", f"Velocity of the {word} along {axis}", 0.01)
+        for axis in "xyz"
+    )
+
+
+def tilt_speeds(member: str, word: str) -> tuple[Variable, ...]:
+    """Return the speeds at which a member tilts."""
+    return tuple(
+        local(f"{member}.tilt_speed.{axis}", "rad/s", f"Tilting speed of the {word} about {axis}",
+              0.1)
+        for axis in "xy"
+    )  # fmt: skip
+
+
+def load_level() -> Variable:
+    """Return the state by which the load level of the mesh data follows the pinion torque."""
+    return local("mesh.load_torque", "N.m", "Pinion torque at which the mesh data are read: "
+                 "absolute value, low-pass filtered with 20 ms", 100.0)  # fmt: skip
+
+
+def energies(words: dict[str, str]) -> tuple[Variable, ...]:
+    """Return energies by name and description."""
+    return tuple(output(f"energy.{name}", "J", text, 100.0) for name, text in words.items())
+
+
+def ranges() -> tuple[Variable, ...]:
+    """Return the quantities that decide whether tables and formulas are within their ranges."""
+    at = "at the most loaded contact; 0 when not in use"
+    return (
+        Variable(
+            name="range.exceeded", type="Integer", causality="output",
+            description="0: all quantities are in range; else the sum of 1 torque, 2 film_load, "
+            "4 film_material, 8 traction, 16 temperature, 32 pressure, see docs/fmu.md",
+        ),
+        output("range.torque", "N.m", "Pinion torque of the mesh data, or the torque of the "
+               "teeth if larger; negative on the coast flanks", 100.0),
+        output("range.film_load", "1", f"Load group M of Moes {at}", 1e3),
+        output("range.film_material", "1", f"Material group L of Moes {at}", 10.0),
+        output("range.traction", "1", f"Dimensionless group of the traction map {at}", 10.0),
+        output("range.temperature", "K", f"Film temperature {at}", 300.0, "degC"),
+        output("range.pressure", "Pa", f"Largest Hertz pressure {at}", 1e9, "GPa"),
+    )  # fmt: skip

@@ -10,29 +10,27 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from fmu_src.common_outputs import (
+from fmu_src.variable import (
     MEMBERS,
-    displacements,
-    energies,
-    load_level,
-    motion,
-    ranges,
-    velocities,
-)
-from fmu_src.variable import Variable
-from fmu_src.variable_kinds import (
+    Variable,
     declared,
     declared_in,
+    displacements,
+    energies,
     input_,
+    load_level,
     local,
+    motion,
     option,
     options_by_number,
     output,
     parameter,
+    ranges,
     rates,
+    velocities,
 )
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
-from gearlube_core.drag.churning import CHURNING_LAWS
+from gearlube_core.drag import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters

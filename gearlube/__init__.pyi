@@ -49,22 +49,22 @@ from gearlube_core.rexs.exchange import read_rexs as read_rexs
 from gearlube_core.rexs.exchange import write_rexs as write_rexs
 from gearlube_core.mesh_table.table import MeshTable as MeshTable
 from gearlube_core.mesh_table.netcdf import read_mesh_table as read_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table as shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table as shipped_mesh_table
 
 # -- Film formulas
-from gearlube_core.film.chittenden_1985 import central_film_thickness as chittenden_central_film
-from gearlube_core.film.chittenden_1985 import minimum_film_thickness as chittenden_minimum_film
-from gearlube_core.film.dowson_toyoda_1979 import central_line_film as dowson_toyoda_film
-from gearlube_core.film.hamrock_dowson_1977 import hamrock_dowson_films as hamrock_dowson_films
+from gearlube_core.film.point_film import central_film_thickness as chittenden_central_film
+from gearlube_core.film.point_film import minimum_film_thickness as chittenden_minimum_film
+from gearlube_core.film.line_film import central_line_film as dowson_toyoda_film
+from gearlube_core.film.point_film import hamrock_dowson_films as hamrock_dowson_films
 
 # -- Films solved in full
 from gearlube_core.ehl.line.problem import LineProblem as LineProblem
 from gearlube_core.ehl.line.problem import LineSettings as LineSettings
 from gearlube_core.ehl.line.solver import solve_line as solve_line
 from gearlube_core.ehl.point.problem import PointContactProblem as PointContactProblem
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain as ContactDomain
-from gearlube_core.ehl.point.line_section import line_section as line_section
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact as elliptical_contact
+from gearlube_core.ehl.point.contact_domain import ContactDomain as ContactDomain
+from gearlube_core.ehl.point.contact_domain import line_section as line_section
+from gearlube_core.ehl.point.contact_domain import elliptical_contact as elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings as PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact as solve_point_contact
 
@@ -73,7 +73,7 @@ from gearlube_core.surface.heights import Profile as SurfaceProfile
 from gearlube_core.surface.heights import HeightMap as HeightMap
 from gearlube_core.surface.files import read_surface as read_surface
 from gearlube_core.surface.files import write_surface as write_surface
-from gearlube_core.surface.levelling import levelled as levelled_surface
+from gearlube_core.surface.gaussian_filter import levelled as levelled_surface
 from gearlube_core.surface.gaussian_filter import filtered as filtered_surface
 from gearlube_core.surface.statistics import profile_statistics as profile_statistics
 from gearlube_core.surface.statistics import map_statistics as map_statistics
@@ -83,7 +83,7 @@ from gearlube_core.surface.generator import generated_map as generated_map
 from gearlube_core.surface.extrusion import Lay as Lay
 from gearlube_core.surface.extrusion import ExtrudedProfile as ExtrudedProfile
 from gearlube_core.surface.extrusion import periodic_section as periodic_section
-from gearlube_core.surface.running_in import peaks_cut as peaks_cut
+from gearlube_core.surface.gaussian_filter import peaks_cut as peaks_cut
 from gearlube_core.surface.stand_ins import stand_in as stand_in
 from gearlube_core.surface.moving import MovingSurface as MovingSurface
 from gearlube_core.surface.moving import MovingRoughness as MovingRoughness
@@ -94,7 +94,7 @@ from gearlube_core.rough_patch.table import gaussian_patches as gaussian_patches
 from gearlube_core.rough_patch.table import patch_table as patch_table
 from gearlube_core.rough_patch.table import greenwood_tripp_fit as greenwood_tripp_fit
 from gearlube_core.rough_patch.flow import flow_factors as flow_factors
-from gearlube_core.rough_patch.dry_contact import press_patch as press_patch
+from gearlube_core.rough_patch.table import press_patch as press_patch
 from gearlube_core.contact.half_space_stress import HalfSpaceStress as HalfSpaceStress
 from gearlube_core.contact.half_space_stress import greatest_shear as greatest_shear
 from gearlube_core.contact.half_space_stress import mises_stress as mises_stress
@@ -122,7 +122,7 @@ from gearlube.studies.measured.run import run_measured as run_measured
 from gearlube.studies.measured.teeth import run_tooth_errors as run_tooth_errors
 
 # -- Study: tooth contact of a hypoid pair
-from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact
 from gearlube_core.hypoid_contact.sensitivity.analysis import (
     SensitivitySettings as SensitivitySettings,

@@ -7,15 +7,19 @@ from __future__ import annotations
 
 import itertools
 import logging
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import wraps
 from importlib import import_module
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_group
 
+from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.option_groups import group_options
 
 _MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would swallow [units]
@@ -63,7 +67,60 @@ class LazyCommand:
             app.command(self.name, cls=chosen, context_settings=dict(self.context_settings))(found)
         command = get_group(app).commands[self.name]
         group_options(command)
+        _read_files_first(command)
         return command
+
+
+# words for a file by what stands for it in the help
+_INPUTS = {
+    "AXLE": "axle file",
+    "GEAR": "gear file",
+    "BLANK": "blank file",
+    "BEARING": "bearing file",
+    "OIL": "oil file",
+    "CASE": "case file",
+    "PROBLEM": "problem file",
+}
+
+
+def _read_files_first(command: Any) -> None:
+    """Make a command and its subcommands refuse unreadable files before they load what computes."""
+    for one in getattr(command, "commands", {}).values():
+        _read_files_first(one)
+    run = command.callback
+
+    def after_reading(**given: Any) -> Any:
+        for one in command.params:
+            values = given.get(one.name)
+            for value in values if isinstance(values, list | tuple) else [values]:
+                if isinstance(value, str | Path) and one.name != "out":
+                    _check_file(str(value), _INPUTS.get(one.metavar or ""))
+        return run(**given)
+
+    if run is not None:
+        command.callback = wraps(run)(after_reading)
+
+
+def _check_file(value: str, what: str | None) -> None:
+    """Exit with the reason where `value` is the path of a file that cannot be read.
+
+    TOML is read; archives must not claim more than they may. Without `what`, the kind of file, a
+    path that is not there passes: it may be a result's.
+    """
+    path = Path(value)
+    with exit_on_error():
+        if value.endswith(".toml") and (what or os.path.lexists(value)):
+            from gearlube_core.input_file.input_file import read_toml
+
+            read_toml(value, what or "file")
+        elif value.endswith(".fmu") and path.is_file():
+            from gearlube.studies.sweep.unpack import check_fmu
+
+            check_fmu(path)
+        elif value.endswith((".npz", ".x3p")) and path.is_file():
+            from gearlube_core.storage.atomic_file import check_unpacked
+
+            check_unpacked(path)
 
 
 # headings in the list of commands

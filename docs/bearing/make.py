@@ -18,10 +18,9 @@ from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.bearing.figures import LAW_NAMES
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.geometry import BearingGeometry, Rib
-from gearlube_core.bearings.losses.laws import DEFAULT_LAW
+from gearlube_core.bearings.losses.laws import DEFAULT_LAW, zhou_hoeprich_force
 from gearlube_core.bearings.losses.loss import UNCALIBRATED, BearingLoss, LossModel, bearing_loss
 from gearlube_core.bearings.losses.race_rolling import ROLLER_MODEL
-from gearlube_core.bearings.losses.zhou_hoeprich_1991 import zhou_hoeprich_force
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
@@ -278,7 +277,7 @@ def solved() -> str:
 
 
 def _alpha(_parameters: Any) -> float:
-    from gearlube_core.oil.lubricant_state import lubricant_state
+    from gearlube_core.oil.lubricant import lubricant_state
 
     return lubricant_state(_parameters, celsius_to_kelvin(50.0)).alpha
 

@@ -18,7 +18,7 @@ from gearlube.output.toml_text import toml_text
 from gearlube.studies.contact.summary import contact_summary
 from gearlube.studies.design.summary import unmet_targets
 from gearlube_core.errors import GearLubeError
-from gearlube_core.hypoid_contact.analysis import analyse_contact
+from gearlube_core.hypoid_contact.contact_dataset import analyse_contact
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 from gearlube_core.hypoid_contact.refusal import check_pair
 from gearlube_core.hypoid_design.blank_file import BlankFile

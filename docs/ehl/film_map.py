@@ -16,11 +16,11 @@ from pathlib import Path
 
 from docs.ehl.store import Store
 from gearlube.studies.films.film_formulas import point_film_formulas
-from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.contact.hertz import log_curvature_ratio
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.film.nijenbanning_1994 import regime_films
+from gearlube_core.film.point_film import regime_films
 from gearlube_core.oil.film_oil_data import film_oil
 
 logger = logging.getLogger("docs.ehl")

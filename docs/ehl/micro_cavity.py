@@ -17,7 +17,7 @@ import numpy as np
 from docs.ehl.store import MissingFilmError, Store
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import EllipticParaboloid
-from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.steady import solve_steady_film

@@ -16,7 +16,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.record import MarchRecord
+from gearlube_core.ehl.transient.history import MarchRecord
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.storage.atomic_file import write_arrays

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
-from gearlube_core.ehl.gears.film_columns import central_film
+from gearlube_core.ehl.transient.curves import central_film
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.storage.atomic_file import write_text
 

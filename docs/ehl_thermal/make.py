@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.ehl.case.contact_case import PointCase
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import solve_thermal_point

@@ -20,19 +20,17 @@ from gearlube.studies.film_model.limiting import limit_in_words
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.film_model.solved_line import solved_line
-from gearlube_core.friction.line_friction import line_friction
-from gearlube_core.friction.line_points import line_points, uniform_line_load
+from gearlube_core.film_model.solved_film import solved_line
+from gearlube_core.friction.line_points import line_friction, line_points, uniform_line_load
 from gearlube_core.friction.solved_line import (
     LINE_FORMULA_FILM_BOUND,
     LINE_FORMULA_FRICTION_TOP,
     line_inlet,
     solved_line_friction,
 )
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 

@@ -21,7 +21,7 @@ from gearlube.studies.film_model.samples import axle_contacts
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.oil_file import read_oil
 
 HERE = Path(__file__).parent

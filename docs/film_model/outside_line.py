@@ -18,11 +18,11 @@ from gearlube.studies.film_model.kinds import HELICAL_LINE
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solves import SolveRow, SolveTable
 from gearlube_core.arrays import Array
-from gearlube_core.contact.line_hertz import line_mean_pressure
-from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from gearlube_core.contact.hertz import line_mean_pressure
+from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.film_model.solved_line import solved_line
+from gearlube_core.film_model.solved_film import solved_line
 from gearlube_core.friction.evans_johnson_1986 import (
     solid_resistance,
     surface_heating_number,

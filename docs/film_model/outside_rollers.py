@@ -19,13 +19,13 @@ from gearlube.studies.film_model.kinds import BEARING_ROLLER
 from gearlube.studies.film_model.roller_samples import AXLE_BEARING, roller_contacts
 from gearlube.studies.film_model.solves import SolveRow
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.losses.aihara_1987 import aihara_heating
+from gearlube_core.bearings.losses.laws import aihara_heating
 from gearlube_core.bearings.losses.race_rolling import (
     FORMULA_FORCE_BOUND,
     FORMULA_RACE_FILM_BOUND,
     ROLLER_MODEL,
 )
-from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.line_contact import line_parts, line_reference_film

@@ -19,18 +19,16 @@ from docs.film_model.marked_page import IMAGES, put
 from docs.film_model.published_formulas import FORMULAS, SIGMA, Local
 from gearlube.plotting.style import BLUE, GREEN, ORANGE, PURPLE, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
-from gearlube_core.contact.elliptical_hertz import ellipticity
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.hertz import ellipticity
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.ehl.gears.hypoid_window import pair_contact
+from gearlube_core.ehl.gears.hypoid_flank import pair_contact
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import ContactGeometry, contact_geometry
-from gearlube_core.friction.flank_film import flank_film_model
+from gearlube_core.friction.flank_film import FlankEllipse, flank_film_model
 from gearlube_core.friction.flank_laws import SOLVED, Consistent
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
+from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
 from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY, ROELANDS_PRESSURE
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 

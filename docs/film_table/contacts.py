@@ -12,7 +12,7 @@ import numpy as np
 from scipy.interpolate import interpn
 
 from docs.ehl.film_map import RADIUS, REDUCED_MODULUS, Contact
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.ehl.grid_error import FilmNumbers, peak_error
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings

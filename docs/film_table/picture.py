@@ -10,7 +10,7 @@ import numpy as np
 from docs.film_table.contacts import LOADS, MATERIALS
 from docs.film_table.extrapolated import Row
 from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
-from gearlube_core.film.nijenbanning_1994 import central_film_group
+from gearlube_core.film.point_film import central_film_group
 
 _SHAPES = ((1.0, 0.0), (4.0, 0.0))  # those shown
 

@@ -9,9 +9,8 @@ import numpy as np
 from docs.helical.cases import Evidence
 from docs.helical.verdicts import Claim, Verdict, judge
 from gearlube_core.arrays import Array
-from gearlube_core.helical_geometry.contact_line import line_count
+from gearlube_core.helical_geometry.contact_line import line_count, line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.load_sharing import position_of, positions_at, shared_load
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015

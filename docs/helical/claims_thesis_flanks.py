@@ -9,8 +9,8 @@ import numpy as np
 from docs.helical.cases import Evidence
 from docs.helical.claims_thesis import DESIGNS, MODIFIED, PAIRS, SPEED, both, limits
 from docs.helical.verdicts import Claim, Verdict, judge
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.lay_angle import equal_radius_line, lay_angle_limits, lay_angles
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import contact_line_gap

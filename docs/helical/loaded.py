@@ -10,16 +10,19 @@ import xarray as xr
 
 from docs.helical.cases import HE, LINE_LOAD, SPUR
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_TORQUE
-from gearlube_core.helical_contact.contact_dataset import contact_dataset
-from gearlube_core.helical_contact.line_mesh import line_mesh
+from gearlube_core.helical_contact.contact_dataset import contact_dataset, line_mesh
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.iso_6336_stiffness import IsoStiffness, iso_stiffness
-from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.modification import (
+    Crown,
+    FlankModification,
+    ModifiedPair,
+    TipRelief,
+)
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.tip_relief import TipRelief
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity

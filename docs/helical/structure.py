@@ -20,13 +20,13 @@ from docs.helical.cases import (
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import harmonics
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import SLIDING, X
-from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import mesh_stiffness_matrix
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_stiffness_matrix
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
     IsoStiffness,
     iso_stiffness,
     virtual_teeth,
 )
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.pair import HelicalPair
 
 PHASES = np.linspace(0.0, 0.99, 34)

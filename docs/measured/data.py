@@ -13,12 +13,12 @@ from gearlube_core.hypoid_contact.settings_fit import flank_deviation
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.deviation_grid import COLUMNS
-from gearlube_core.hypoid_geometry.measured.example import EXAMPLE
 from gearlube_core.hypoid_geometry.measured.measured_file import (
     PITCH_COLUMNS,
     WAVE_COLUMNS,
     MeasuredFile,
 )
+from gearlube_core.hypoid_geometry.measured.measured_flanks import EXAMPLE
 from gearlube_core.storage.atomic_file import write_text
 
 FOLDER = EXAMPLE

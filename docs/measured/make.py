@@ -24,9 +24,9 @@ from gearlube.studies.measured.run import run_measured
 from gearlube.studies.measured.teeth import run_tooth_errors
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.hypoid_contact.analysis import ContactSettings
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
-from gearlube_core.hypoid_geometry.measured.example import EXAMPLE
+from gearlube_core.hypoid_geometry.measured.measured_flanks import EXAMPLE
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.spectra import AngleWindow, order_spectrum, resample

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 from docs.resonance.contacts import Contacts
-from gearlube_core.dynamics.hypoid_torsional.flank_torques import thermal_pair
-from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import PAIRS_AT
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import PAIRS_AT, TorsionalParameters
+from gearlube_core.dynamics.hypoid_torsional.rates import thermal_pair
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.friction.thermal_eyring_data import INLET
 

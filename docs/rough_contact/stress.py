@@ -12,7 +12,7 @@ from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_fig
 from gearlube_core.arrays import Array
 from gearlube_core.contact.dang_van import QUENCHED_42CRMO4, dang_van_number, passage_history
 from gearlube_core.contact.half_space_stress import HalfSpaceStress, greatest_shear
-from gearlube_core.rough_patch.dry_contact import press_patch
+from gearlube_core.rough_patch.table import press_patch
 from gearlube_core.surface.extrusion import ExtrudedProfile, Lay, periodic_section
 from gearlube_core.surface.generator import generated_profile
 from gearlube_core.surface.generator_request import RoughnessRequest

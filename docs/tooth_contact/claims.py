@@ -17,7 +17,7 @@ from docs.tooth_contact.measures import (
     variation,
 )
 from docs.validation.claims import FAILS, HOLDS, PARTLY, Claim, Verdict
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
 

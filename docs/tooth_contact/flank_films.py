@@ -12,7 +12,7 @@ from pathlib import Path
 from gearlube.studies.contact.film_option import film_request, write_films
 from gearlube.studies.contact.run import ContactResults
 from gearlube.studies.contact.settings import QUICK
-from gearlube_core.hypoid_contact.analysis import analyse_contact
+from gearlube_core.hypoid_contact.contact_dataset import analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 

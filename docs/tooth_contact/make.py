@@ -29,7 +29,7 @@ from docs.tooth_contact.relief import relief_table
 from docs.tooth_contact.study import analysed, axle_sweep
 from docs.tooth_contact.variants import variants
 from gearlube.studies.contact.figures import save_contact_figures
-from gearlube_core.hypoid_contact.analysis import ContactSettings
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 
 ROOT = Path(__file__).resolve().parents[2]

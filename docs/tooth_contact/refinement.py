@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gearlube_core.hypoid_contact.analysis import ContactSettings
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 from gearlube_core.hypoid_contact.strips import StripSettings

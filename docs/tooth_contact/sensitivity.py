@@ -29,8 +29,7 @@ from gearlube_core.hypoid_contact.sensitivity.analysis import (
     contact_sensitivity,
 )
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import loaded_rates
-from gearlube_core.hypoid_contact.sensitivity.parameter import Parameter
-from gearlube_core.hypoid_contact.sensitivity.variations import Variations
+from gearlube_core.hypoid_contact.sensitivity.parameter import Parameter, Variations
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

@@ -14,7 +14,7 @@ from fmu_src.build import build_hypoid_axle
 from gearlube.studies.sweep.run import SweepModel, run_sweep
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core import __version__
-from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import write_mesh_table

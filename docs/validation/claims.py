@@ -16,12 +16,10 @@ from docs.validation.measures import (
     strongest_other_line,
     unloading_preload,
 )
-from drivetrain.road_load import RoadLoad
-from drivetrain.tyre import Tyre
-from drivetrain.vehicle import mohammadpour_2015_vehicle
+from drivetrain.road_load import RoadLoad, Tyre, mohammadpour_2015_vehicle
 from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
-from gearlube_core.film.chittenden_1985 import central_film_thickness
+from gearlube_core.film.point_film import central_film_thickness
 from tests.helpers.bearing_statics import natural_frequencies, stiffness
 
 HOLDS, FAILS, PARTLY = "holds", "does not hold", "holds in part"

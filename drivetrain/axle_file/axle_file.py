@@ -15,12 +15,15 @@ from drivetrain.axle_file.axle_sections import (
     OwnFilmModels,
     Steel,
 )
-from drivetrain.axle_file.bearing_section import BearingSection
-from drivetrain.axle_file.car_sections import DrivelineSection, TyreSection, VehicleSection
-from drivetrain.axle_file.drag_sections import Housing, Seals
-from drivetrain.axle_file.engine_section import EngineSection, GearboxSection
-from drivetrain.axle_file.member_section import Member
-from drivetrain.axle_file.oil_section import OilSection
+from drivetrain.axle_file.bearing_section import BearingSection, Member
+from drivetrain.axle_file.car_sections import (
+    DrivelineSection,
+    EngineSection,
+    GearboxSection,
+    TyreSection,
+    VehicleSection,
+)
+from drivetrain.axle_file.oil_section import Housing, OilSection, Seals
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import FinalDrive, RoadLoad
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
@@ -33,11 +36,9 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_notes
-from gearlube_core.input_file.input_file import InputFile, toml_data
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputFile, InputNote, toml_data
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
-from gearlube_core.mesh_table.netcdf import read_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import DescribedOil, read_oil_file

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.model_section import ModelSection
+from drivetrain.axle_file.section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.parameters import Film, HypoidAxleParameters
 from gearlube_core.errors import ParameterError
@@ -17,7 +17,7 @@ from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import FLANK, ROLLER, SHIPPED, FilmModel
 from gearlube_core.friction.flank_friction import friction_law, friction_laws
 from gearlube_core.input_file.field_notes import OneOf, Usual
-from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.input_file.input_file import InputNote, Origin
 from gearlube_core.number import numbers_of
 
 Text = Annotated[str, Field(min_length=1)]

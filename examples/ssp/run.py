@@ -18,7 +18,7 @@ from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from examples.ssp.system import CONNECTIONS, REQUEST, ParameterSet, write_ssp, write_ssv
-from fmu_src.fmu_cache import cached_hypoid_axle
+from fmu_src.build import cached_hypoid_axle
 from fmu_src.hypoid_axle import DEFINITION
 from fmu_src.native.build import NativeOptions, build_native
 from fmu_src.native.driveline import driveline_model

@@ -15,15 +15,21 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from drivetrain.driveline.equations import INDEX, STATES, driveline_equations
+from drivetrain.driveline.equations import (
+    INDEX,
+    LONGEST_INNER_STEP,
+    MEMORY,
+    SLOT,
+    STATES,
+    driveline_equations,
+    driveline_stepper,
+)
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.driveline.steady_state import periodic_deviation, steady_state
-from drivetrain.driveline.stepper import LONGEST_INNER_STEP, MEMORY, SLOT, driveline_stepper
 from drivetrain.road_load import mohammadpour_2015_road_load
 from fmu_src.definition import Definition, Model, Value
 from fmu_src.native.model import NativeModel
-from fmu_src.variable import Variable
-from fmu_src.variable_kinds import count, input_, output, parameter
+from fmu_src.variable import Variable, count, input_, output, parameter
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.units import kmh_to_ms, rpm_to_rads

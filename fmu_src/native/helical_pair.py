@@ -24,7 +24,6 @@ from gearlube_core.dynamics.helical_pair.march.communication import (
     state_status,
     step_without_outputs,
 )
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.continuous import (
     EVENT_INDICATORS,
     STATE_NAMES,
@@ -77,8 +76,9 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     N_CONTINUOUS,
     N_STATE,
     TIME_IN_STEP,
+    MarchConstants,
 )
-from gearlube_core.dynamics.helical_pair.supports.shaft_support import COUPLING_CURE
+from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import SOLVED

@@ -11,9 +11,14 @@ import numpy as np
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.definition import Definition, Value
 from fmu_src.hypoid_axle import car_axle_in
-from fmu_src.native.axle_settings import AxleSettings, axle_settings
 from fmu_src.native.model import Exchange, NativeModel, Operation
-from fmu_src.native.parameter_map import ParameterMap, parameter_map, write_packed
+from fmu_src.native.parameter_map import (
+    AxleSettings,
+    ParameterMap,
+    axle_settings,
+    parameter_map,
+    write_packed,
+)
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
@@ -28,6 +33,7 @@ from gearlube_core.dynamics.hypoid_axle.continuous import (
     STATE_NAMES,
     UNITS_OF_STATES,
 )
+from gearlube_core.dynamics.hypoid_axle.force_derivatives import NO_MODES, NO_MODES_WORDS
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields
@@ -43,7 +49,6 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 )
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE, OK
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, TIME_IN_STEP
-from gearlube_core.dynamics.hypoid_axle.step_control import NO_MODES, NO_MODES_WORDS
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY

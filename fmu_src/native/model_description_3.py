@@ -15,8 +15,8 @@ from fmu_src.model_description import (
     write_units,
     xml_bytes,
 )
-from fmu_src.native.array_variables import ArrayVariable, array_variables
 from fmu_src.native.model import Exchange
+from fmu_src.native.sources import ArrayVariable, array_variables
 from fmu_src.variable import Variable
 
 _TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}

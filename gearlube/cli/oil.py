@@ -194,7 +194,7 @@ def show(
     from gearlube.plotting.oil_properties import properties_figure
     from gearlube_core.errors import ParameterError
     from gearlube_core.oil.oil_file import read_oil
-    from gearlube_core.storage.atomic_file import atomic_write
+    from gearlube_core.storage.atomic_file import write_figure
 
     with exit_on_error():
         if figure is not None and figure.suffix != ".png":
@@ -211,8 +211,7 @@ def show(
         for line in property_lines(described):
             typer.echo(line)
         if figure is not None:
-            with atomic_write(figure) as partial:
-                properties_figure(described).savefig(partial, format="png", dpi=150)
+            write_figure(properties_figure(described), figure)
             logger.info("Figure: %s", figure)
 
 

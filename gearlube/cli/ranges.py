@@ -33,7 +33,7 @@ def numbers_from(
     example
         A sensible range, for error messages.
     most
-        Largest number of values in a range.
+        Largest number of values of all ranges together.
 
     Raises
     ------
@@ -63,10 +63,10 @@ def numbers_from(
                 f"got {last:g}{space}. {cure}"
             )
         steps = (last - first) / step * (1.0 + 1e-9)
-        if not steps < most:
+        if not len(values) + steps < most:
             raise ParameterError(
-                f"{option} must give at most {most} values, got {steps + 1.0:.6g}. Use a larger "
-                "step."
+                f"{option} must give at most {most} values, got {len(values) + steps + 1.0:.6g}. "
+                "Use a larger step."
             )
         count = math.floor(steps) + 1
         values += [first + i * step for i in range(count)]

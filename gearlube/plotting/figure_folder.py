@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from gearlube_core.storage.atomic_file import write_figure
+
 
 def save_figure_folder(figures: Mapping[str, Any], folder: Path, dpi: int = 150) -> list[Path]:
     """Write figures by name as PNG and return the files; what an earlier run drew does not stay.
@@ -20,5 +22,5 @@ def save_figure_folder(figures: Mapping[str, Any], folder: Path, dpi: int = 150)
     elif folder.is_dir() and not any(folder.iterdir()):
         folder.rmdir()
     for figure, path in zip(figures.values(), paths, strict=True):
-        figure.savefig(path, dpi=dpi)
+        write_figure(figure, path, dpi)
     return paths

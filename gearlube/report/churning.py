@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import NOTE, WARNING, Finding
 from gearlube_core.arrays import Array
-from gearlube_core.drag.churning import fast_regime
+from gearlube_core.drag import fast_regime
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 
 REGIME = ("1", "churning by its slow formula at 0, by its fast one at 1")  # unit, words

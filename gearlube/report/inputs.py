@@ -9,8 +9,7 @@ from typing import Any
 from gearlube.report.numbers import unit_words
 from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, NOTE, WARNING, Finding, Input
 from gearlube_core.input_file.field_notes import field_notes
-from gearlube_core.input_file.input_file import InputFile
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputFile, InputNote
 
 try:  # newer versions of typer have a click of their own
     from typer._click.globals import get_current_context

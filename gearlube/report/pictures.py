@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from gearlube.report.parts import Figure
+from gearlube_core.storage.atomic_file import write_figure
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +41,7 @@ def save_pictures(
     files = []
     for name, one in catalogue.items():
         path = folder / f"{prefix}{name}.png"
-        one.draw(*given).savefig(path, dpi=dpi)
+        write_figure(one.draw(*given), path, dpi)
         files.append(path)
     return files
 

@@ -5,12 +5,10 @@ from __future__ import annotations
 import hashlib
 from typing import Any
 
-from distributed import get_worker
-
 from gearlube.variation.block import Block, computed_block
 from gearlube.variation.design import Design
 from gearlube.variation.point_study import PointStudy
-from gearlube_core.storage.dask_pool import NamedPlugin
+from gearlube_core.storage.dask_pool import NamedPlugin, get_worker
 
 
 class StudyOnWorker(NamedPlugin):

@@ -30,8 +30,7 @@ from gearlube.variation.block import MISSING, Block
 from gearlube.variation.design import Axis, Design
 from gearlube.variation.point_study import PointStudy, Quantity
 from gearlube_core.errors import FileError, ParameterError
-from gearlube_core.storage.atomic_file import write_text
-from gearlube_core.storage.checksums import file_hash
+from gearlube_core.storage.atomic_file import file_hash, write_text
 
 logger = logging.getLogger(__name__)
 

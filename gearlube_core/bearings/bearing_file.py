@@ -13,8 +13,9 @@ from gearlube_core.bearings.bearing_fields import (
     LoadFactor,
     Series,
     ViscousFactor,
+    add_catalogue_rollers,
 )
-from gearlube_core.bearings.catalogue_rollers import add_catalogue_rollers
+from gearlube_core.bearings.losses.catalogue import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.losses.geometry import (
     BearingGeometry,
     Rib,
@@ -28,13 +29,11 @@ from gearlube_core.bearings.losses.rib import (
     RIB_SHARE_B,
     RIB_SHARE_C,
 )
-from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import ROLLER, FilmModel
 from gearlube_core.input_file.field_notes import Usual, field_notes
-from gearlube_core.input_file.input_file import InputFile, Section
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputFile, InputNote, Section
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.units import DEGREE, MILLIMETRE
 

@@ -13,7 +13,7 @@ from typing import NamedTuple, Protocol, Self
 
 from gearlube_core.arrays import Array
 from gearlube_core.kernels.by_class import by_class
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 N_EXPANSION = 25  # largest number of floats in the expansion of the forces on one shaft
 

@@ -6,13 +6,14 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
-from gearlube_core.bearings.cage_frame import ApproachTerms, approach_terms
 from gearlube_core.bearings.losses.laws import heating_factor, rolling_force, usual_heating
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
     FILM_FLOOR_APPROACH,
     SIN_TABLE,
+    ApproachTerms,
     BearingParameters,
+    approach_terms,
 )
 from gearlube_core.bearings.roller_contact import (
     N_LINE,
@@ -22,7 +23,7 @@ from gearlube_core.bearings.roller_contact import (
 )
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 
 class SteadyRollers(NamedTuple):

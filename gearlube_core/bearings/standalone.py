@@ -13,10 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
-from gearlube_core.bearings.cage_frame import cage_torque
-from gearlube_core.bearings.parameters import BearingParameters
+from gearlube_core.bearings.parameters import BearingParameters, cage_torque
 from gearlube_core.bearings.roller_loads import bearing_forces, roller_loads
-from gearlube_core.bearings.shaft_energy import bearing_energy
+from gearlube_core.bearings.shaft_expansion import bearing_energy
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.kernels.jit import kernel

@@ -6,9 +6,14 @@ import math
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
+from gearlube_core.bearings.losses.catalogue import (
+    F0_TAPERED_OIL_BATH,
+    F1_TAPERED,
+    OTHER_SERIES,
+    SERIES,
+    SERIES_NAMES,
+)
 from gearlube_core.bearings.losses.rib import RIB_BOUNDARY_FRICTION, RIB_HEIGHT, RIB_ROUGHNESS
-from gearlube_core.bearings.losses.skf_2013 import OTHER_SERIES, SERIES, SERIES_NAMES
-from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.parameters import (
     FILM_FLOOR_APPROACH,
     ROLLERS_MAX,

@@ -10,6 +10,83 @@ from scipy.special import gamma, pbdv
 
 from gearlube_core.kernels.jit import kernel
 
+LAMBDA_CRITICAL = 3.0  # Mohammadpour et al. 2015, below [mohammadpour_2015 (19)]
+# of rollers on a race, the values of [wingertszahn_2023]; none for gear flanks are known
+RACE_B, RACE_C = 2.32, 0.97
+
+
+@kernel
+def f_5_2_as_printed(film_ratio: float) -> float:
+    """Return the load integral as printed.
+
+    -0.004 l^5 + 0.057 l^4 - 0.296 l^3 + 0.784 l^2 - 1.078 l + 0.617, zero for l > 3
+
+    Parameters
+    ----------
+    film_ratio
+        l = h/sigma [-].
+
+    Returns
+    -------
+    float
+        [-].
+
+    Notes
+    -----
+    Three printed decimals are too few: the value at l = 3 is 0.092 (exact 0.00017) and rises
+    from about l = 1.8 on. Source: [mohammadpour_2015 (18)]. Use `f_5_2`.
+    """
+    l = film_ratio  # noqa: E741
+    if l > LAMBDA_CRITICAL:
+        return 0.0
+    return 0.617 + l * (-1.078 + l * (0.784 + l * (-0.296 + l * (0.057 - 0.004 * l))))
+
+
+@kernel
+def f_2_as_printed(film_ratio: float) -> float:
+    """Return the area integral as printed.
+
+    -0.002 l^5 + 0.028 l^4 - 0.173 l^3 + 0.526 l^2 - 0.804 l + 0.500, zero for l > 3
+
+    Parameters
+    ----------
+    film_ratio
+        l = h/sigma [-].
+
+    Returns
+    -------
+    float
+        [-], negative from about l = 2 to 3.
+
+    Notes
+    -----
+    Source: [mohammadpour_2015 (19)]. Use `f_2`.
+    """
+    l = film_ratio  # noqa: E741
+    if l > LAMBDA_CRITICAL:
+        return 0.0
+    return 0.500 + l * (-0.804 + l * (0.526 + l * (-0.173 + l * (0.028 - 0.002 * l))))
+
+
+@kernel
+def asperity_share(film_ratio: float, B: float, C: float) -> float:
+    """Return the share of the load that asperities carry, exp(-B Lambda^C) [-].
+
+    Parameters
+    ----------
+    film_ratio
+        Lambda, film over composite rms roughness [-].
+    B, C
+        Of the pair of surfaces [-]: 1.90 and 0.99 for a rib, 2.32 and 0.97 for a race, the
+        values of [wingertszahn_2023].
+
+    Notes
+    -----
+    The printed equation lost its minus; without it the share would be above 1.
+    Source: [zhou_hoeprich_1991 (45)]
+    """
+    return math.exp(-B * max(film_ratio, 0.0) ** C)
+
 
 class SurfaceParameters(NamedTuple):
     """Roughness of a pair of surfaces; all floats, SI."""

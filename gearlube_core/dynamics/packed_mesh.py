@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.contact.elliptical_hertz import ellipticity
+from gearlube_core.contact.hertz import ellipticity
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_rolling import rolling_geometry
 from gearlube_core.friction.thermal_eyring_data import circular_pressure_coefficient

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.film.status import IN_RANGE, OUT_OF_RANGE
 from gearlube_core.kernels.jit import kernel
 
+IN_RANGE = 0  # within the range that the law was fitted for, as far as it is known
+OUT_OF_RANGE = 1  # computed, but outside that range
 LOAD_RANGE, MATERIAL_RANGE = (0.2, 200.0), (4.0, 16.0)  # of M and L below
 
 

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.checks import check_option, check_positive
-from gearlube_core.film.chittenden_1985 import film_geometry
+from gearlube_core.film.point_film import film_geometry
 from gearlube_core.kernels.jit import kernel
 
 # [karagiannis_2012 (10)]

@@ -14,8 +14,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.groups import FilmInlet, film_inlet
 from gearlube_core.film_model.model import FLANK, LINE, ROLLER, FilmModel, model_names
 from gearlube_core.film_model.solved_film import MODULUS_MARGIN
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA
 from gearlube_core.units import kelvin_to_celsius
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
-from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
+from gearlube_core.contact.hertz import ellipticity, hertz_coefficients
+from gearlube_core.film.point_film import central_film_thickness, film_geometry
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.film.groups import line_moes_groups
-from gearlube_core.film.moes_1992 import central_film_group
+from gearlube_core.film.line_film import central_film_group
 from gearlube_core.film_model.groups import LEAST_SPEED, FilmGroups, FilmInlet, contact_inlet
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA

@@ -27,8 +27,7 @@ from gearlube_core.helical_contact.tooth_body import flank_position, tooth_form
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
-from gearlube_core.tooth_contact.frozen_equilibrium import frozen_compliance
-from gearlube_core.tooth_contact.held_contact import Mask
+from gearlube_core.tooth_contact.held_contact import Mask, frozen_compliance
 
 MEMBERS = ("pinion", "gear")
 _REACH = 1.5  # closing of the held strips over that of the contact as the flanks stand

@@ -36,8 +36,7 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import (
 )
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
-from gearlube_core.tooth_contact.frozen_equilibrium import frozen_compliance
-from gearlube_core.tooth_contact.held_contact import Mask
+from gearlube_core.tooth_contact.held_contact import Mask, frozen_compliance
 
 ROLES = ("pinion", "gear")
 _REACH = 1.5  # closing of the held strips over that of the contact as the flanks stand

@@ -8,15 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.flank_optimisation.evaluation import Evaluation
-from gearlube_core.flank_optimisation.goal import Goal
-from gearlube_core.flank_optimisation.held_model import HeldModel, Teeth
-from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
+from gearlube_core.flank_optimisation.held_model import CheckSettings, HeldModel, Teeth, plain_check
+from gearlube_core.flank_optimisation.held_position import Evaluation
 from gearlube_core.flank_optimisation.problem import GearFile, Problem
 from gearlube_core.flank_optimisation.problem_file import Limits
 from gearlube_core.flank_optimisation.search import (
     KEPT,
     Found,
+    Goal,
     Round,
     SearchSettings,
     best_in_box,

@@ -6,11 +6,11 @@ import math
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.film.chittenden_1985 import central_film_thickness
+from gearlube_core.film.point_film import central_film_thickness
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR, mixed_friction
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 LOAD_FLOOR = 1.0e-3  # N, film and pressure of an unloaded flank are those at this floor
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from gearlube_core.contact.elliptical_hertz import hertz_coefficients
-from gearlube_core.film.chittenden_1985 import film_geometry
+from gearlube_core.contact.hertz import hertz_coefficients
+from gearlube_core.film.point_film import film_geometry
 from gearlube_core.kernels.jit import kernel
 
 CONSISTENT = 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,17 +13,46 @@ from gearlube_core.film_model import net
 from gearlube_core.film_model.groups import FilmInlet, film_inlet, film_place
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film_at
-from gearlube_core.friction.flank_bound import FlankEllipse, ModelFilm
-from gearlube_core.friction.flank_data import ContactGeometry
+from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 # behind the numbers of the model: the oil that the numbers behind it belong to, and these
 _OIL = net.N_ARRAY
 _INLET = _OIL + count_floats(LubricantState) + 1
 N_FLANK_MODEL = _INLET + count_floats(FilmInlet)
 _LEAST_FRICTION = 1e-12  # so that there is a logarithm without sliding
+
+
+class FlankEllipse(NamedTuple):
+    """What a film model needs of a contact besides `ContactGeometry`; all floats, SI."""
+
+    R_x: float  # relative radius along the minor axis of the contact ellipse [m]
+    R_y: float  # along its major axis [m]
+    ellipticity: float  # major over minor semi-axis [-]
+    psi: float  # entrainment from the minor axis, 0 to pi/2 [rad]
+    delta: float  # sliding from entrainment, positive away from the minor axis, modulo pi [rad]
+
+
+class ModelFilm(NamedTuple):
+    """What a film model says of a contact; all floats, fit to be interpolated."""
+
+    log_film: float  # ln of the central film in m
+    log_friction: float  # ln of the friction coefficient of the film alone
+    outside: float  # 0 within the model's domain, 1 where it says nothing [-]
+
+
+class BoundedFlank(NamedTuple):
+    """State of one flank contact and bounds of it; all floats."""
+
+    state: FlankState
+    outside: float  # 0: film and friction are the film model's; 1: the formulas'; between: both [-]
+    film_bound: float  # of the film thickness, relative; 0 where no model tells it [-]
+    friction_bound: float  # of the friction force, relative, likewise [-]
+
+
+NO_MODEL_FILM = ModelFilm(0.0, 0.0, 1.0)
 
 
 def flank_film_model(model: FilmModel) -> Array:

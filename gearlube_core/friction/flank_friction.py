@@ -28,7 +28,7 @@ from typing import ClassVar
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.film import chittenden_1985
+from gearlube_core.film import point_film
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
 from gearlube_core.number import check_fields, numbers_of
 
@@ -49,8 +49,8 @@ class FlankFriction(ABC):
     solved_film: ClassVar[bool] = False  # whether a solved film can replace that of the law
     pressure: ClassVar[str] = "elliptical"  # mean pressure that the law is given, or "circular"
     # groups M and L of Moes within which the film of the law holds
-    film_load: ClassVar[tuple[float, float]] = chittenden_1985.LOAD_RANGE
-    film_material: ClassVar[tuple[float, float]] = chittenden_1985.MATERIAL_RANGE
+    film_load: ClassVar[tuple[float, float]] = point_film.LOAD_RANGE
+    film_material: ClassVar[tuple[float, float]] = point_film.MATERIAL_RANGE
 
     def __init_subclass__(cls, name: str = "", text: str = "") -> None:
         cls.name, cls.text = name, text

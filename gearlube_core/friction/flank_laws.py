@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.friction.flank import flank_friction
-from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse, ModelFilm
+from gearlube_core.film_model import net
+from gearlube_core.friction.evans_johnson_1986 import solid_resistance
+from gearlube_core.friction.flank import LOAD_FLOOR, flank_friction
 from gearlube_core.friction.flank_data import (
     AS_PRINTED,
     CONSISTENT,
@@ -17,21 +19,177 @@ from gearlube_core.friction.flank_data import (
     ContactGeometry,
     FlankState,
 )
-from gearlube_core.friction.flank_film import flank_model_film
+from gearlube_core.friction.flank_film import (
+    BoundedFlank,
+    FlankEllipse,
+    ModelFilm,
+    flank_model_film,
+)
 from gearlube_core.friction.flank_friction import FlankFriction
-from gearlube_core.friction.solved_flank import solved_flank_friction
+from gearlube_core.friction.mixed_friction import (
+    SPEED_FLOOR,
+    asperity_contact,
+    boundary_friction,
+    friction_with_asperities,
+)
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
+from gearlube_core.oil.lubricant import LubricantState
 
+# How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
+# with at least 0.1 GPa, see docs/film_model/outside.py. Of the film, relative to the formula's; and
+# the most friction of the film, over that of an isothermal Eyring film as thick as the formula's.
+FORMULA_FILM_BOUND = 0.38
+FORMULA_FRICTION_TOP = 1.1
 FORMULA, SOLVED = range(2)  # places in FILM_MODELS
 FILM_MODELS = ("formula", "solved")  # where film and friction of the oil are from
+
+
+@kernel
+def formula_doubt(
+    load: float,
+    slip: float,
+    formula: FlankState,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+) -> float:
+    """Return how far off the formulas' friction may be outside of the model's domain [N].
+
+    0 <= f <= 1.1 F (tau0/p) asinh[eta0 exp(alpha p) dU/(h tau0)], and what asperities add
+
+    Parameters
+    ----------
+    load
+        F [N].
+    slip
+        Magnitude of the sliding speed dU [m/s].
+    formula
+        State of the flank by the formulas, with p and h.
+    lubricant, surface, solid, form
+        As in `flank.flank_friction`.
+
+    Notes
+    -----
+    Not relative to the formula's friction: Evans and Johnson's regression goes to zero in light
+    contacts, whose films are nearly isothermal. A film thinner by its bound raises the load of
+    asperities.
+    """
+    p, h = formula.mean_pressure, formula.film_thickness
+    newtonian_ratio = lubricant.eta0 * slip / (h * lubricant.tau0)
+    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, lubricant.alpha * p)
+    most = FORMULA_FRICTION_TOP * stress / p * load
+    W_a, A_a = asperity_contact(
+        load, load / p, h * (1.0 - FORMULA_FILM_BOUND) / surface.sigma, surface, solid, form
+    )
+    more = boundary_friction(W_a, A_a, slip, lubricant) - formula.boundary_friction
+    off = max(formula.viscous_friction, most - formula.viscous_friction)
+    return off + max(more, 0.0)
+
+
+@kernel
+def _with_doubt(state: FlankState, outside: float, film_bound: float, doubt: float) -> BoundedFlank:
+    """Return a state with its bounds, that of friction from a force [N]; no friction, no bound."""
+    friction = state.viscous_friction + state.boundary_friction
+    return BoundedFlank(state, outside, film_bound, doubt / friction if friction > 0.0 else 0.0)
+
+
+@kernel
+def solved_flank_friction(
+    load: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    geometry: ContactGeometry,
+    film: ModelFilm,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+    film_model: Array,
+) -> BoundedFlank:
+    """Return film, friction and temperature of one flank contact by a film model, with bounds.
+
+    f_v = mu (F - W_a),  f_b = tau_l0 A_a + gamma W_a, with h and mu of the solved film
+
+    Parameters
+    ----------
+    load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
+        As in `flank.flank_friction`; the form decides about asperities alone.
+    film
+        What the film model says of the contact.
+    film_model : ndarray
+        Numbers of the film model, for its bounds.
+
+    Returns
+    -------
+    BoundedFlank
+        Bounds of the film and of the sum of viscous and boundary friction.
+
+    Notes
+    -----
+    Towards the outside of the model's domain h and f go over into those of `flank_friction` with
+    the weight `outside`; beyond, all is as there. The bound of friction is that of the film's own
+    friction, plus what asperities change where the film is thinner by its bound: a thinner film
+    raises their load.
+    """
+    w, doubt = film.outside, 0.0
+    F, slip = max(load, 0.0), abs(sliding_speed)
+    formula = FlankState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if w > 0.0:
+        formula = flank_friction(
+            load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
+        )
+        doubt = w * formula_doubt(F, slip, formula, lubricant, surface, solid, form)
+        if w >= 1.0:
+            return _with_doubt(formula, 1.0, FORMULA_FILM_BOUND, doubt)
+    F_film = max(F, LOAD_FLOOR)
+    speed = max(abs(entrainment_speed), SPEED_FLOOR)
+    v = 1.0 - w
+    h = math.exp(film.log_film)
+    p = geometry.pressure_coefficient * math.exp(math.log(F_film) / 3.0)
+    effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity
+    modulus = 2.0 * solid.contact_modulus
+    solved = friction_with_asperities(
+        math.exp(film.log_friction),
+        F,
+        F_film,
+        p,
+        h,
+        slip,
+        solid_resistance(geometry.R_e, p, speed, modulus, effusivity_squared),
+        F_film / p,
+        lubricant,
+        surface,
+        solid,
+        form,
+    )
+    model_bound = film_model[net.BOUNDS]
+    W_a, A_a = asperity_contact(
+        F, F / p, h * (1.0 - model_bound) / surface.sigma, surface, solid, form
+    )
+    more = boundary_friction(W_a, A_a, slip, lubricant) - solved.boundary_friction
+    doubt += v * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
+    f_v = v * solved.viscous_friction + w * formula.viscous_friction
+    f_b = v * solved.boundary_friction + w * formula.boundary_friction
+    h = v * h + w * formula.film_thickness
+    state = FlankState(
+        h,
+        h / surface.sigma,
+        f_v,
+        f_b,
+        v * solved.friction_coefficient + w * formula.friction_coefficient,
+        v * solved.temperature_rise + w * formula.temperature_rise,
+        p,
+    )
+    return _with_doubt(state, w, v * model_bound + w * FORMULA_FILM_BOUND, doubt)
 
 
 class MixedFlankFriction(NamedTuple):
     """Mixed friction of Mohammadpour et al. 2015; see `flank.flank_friction`.
 
     With the film SOLVED its film and the friction of the oil are those of a film model, see
-    `solved_flank.solved_flank_friction`.
+    `solved_flank_friction`.
     """
 
     surface: SurfaceParameters

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Literal, NamedTuple, get_args
 
-from gearlube_core.contact.elliptical_hertz import hertz_coefficients
+from gearlube_core.contact.hertz import hertz_coefficients
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 FlankRolling = Literal["none", "biboulet_houpert_2010"]
 FLANK_ROLLING_LAWS: tuple[str, ...] = get_args(FlankRolling)

@@ -12,16 +12,13 @@ from gearlube_core.checks import check_positive
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
+from gearlube_core.film.line_film import minimum_line_film_thickness
 from gearlube_core.film_model.model import MOST_OUTSIDE
-from gearlube_core.friction.line_friction import LINE_LOAD_FLOOR
-from gearlube_core.friction.line_points import LinePoints
+from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LinePoints
 from gearlube_core.friction.solved_line import bounded_line_friction
-from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
 
 _QUANTITIES = 10
 

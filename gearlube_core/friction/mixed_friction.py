@@ -9,14 +9,17 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube_core.contact.asperity_share import RACE_B, RACE_C, asperity_share
 from gearlube_core.contact.greenwood_tripp_1971 import (
+    RACE_B,
+    RACE_C,
     SurfaceParameters,
     asperity_area_factor,
     asperity_integrals,
     asperity_load_factor,
+    asperity_share,
+    f_2_as_printed,
+    f_5_2_as_printed,
 )
-from gearlube_core.contact.greenwood_tripp_as_printed import f_2_as_printed, f_5_2_as_printed
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.friction.evans_johnson_1986 import (
     solid_resistance,
@@ -25,7 +28,7 @@ from gearlube_core.friction.evans_johnson_1986 import (
 )
 from gearlube_core.friction.flank_data import AS_PRINTED, PRINTED_TRACTION, ZHOU_HOEPRICH_SHARE
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 SPEED_FLOOR = 1.0e-6  # m/s, film and heat of a resting contact are those at this floor
 BOUNDARY_SPEED = 1.0e-3  # m/s, boundary friction builds up over this sliding speed

@@ -6,15 +6,14 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model.groups import FilmInlet, film_inlet
 from gearlube_core.film_model.line_contact import line_place
-from gearlube_core.film_model.solved_film import SolvedFilm
-from gearlube_core.film_model.solved_line import solved_line_at
+from gearlube_core.film_model.solved_film import SolvedFilm, solved_line_at
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
 from gearlube_core.friction.flank_data import CONSISTENT
-from gearlube_core.friction.line_friction import (
+from gearlube_core.friction.line_points import (
     LINE_LOAD_FLOOR,
     STILL_AREA_OVER_WIDTH_SQUARED,
     LineState,
@@ -28,7 +27,7 @@ from gearlube_core.friction.mixed_friction import (
 )
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
 # with at least 0.1 GPa, see docs/film_model/outside_line.py. Of the film, over that of the formula;

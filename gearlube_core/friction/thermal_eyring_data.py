@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.checks import check_option
-from gearlube_core.contact.elliptical_hertz import hertz_coefficients
+from gearlube_core.contact.hertz import hertz_coefficients
 from gearlube_core.film.grubin_1949 import grubin_convention, grubin_geometry
 from gearlube_core.friction.flank_data import ContactGeometry
 from gearlube_core.kernels.jit import kernel

@@ -17,10 +17,13 @@ from gearlube_core.checks import check_positive
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, SolidParameters, solid_parameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.evans_johnson_1986 import MAP_RANGE, traction_map_number
-from gearlube_core.friction.traction_curve import FilmPoint, film_point, traction_coefficient
-from gearlube_core.friction.traction_measurements import TractionMeasurements
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.friction.traction_measurements import (
+    FilmPoint,
+    TractionMeasurements,
+    film_point,
+    traction_coefficient,
+)
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 STRESS_RANGE = (0.1e6, 100e6)  # Pa, of the search
 _STARTS = tuple(1e6 * 2.0 ** (0.5 * k) for k in range(11))  # Pa, the best of them

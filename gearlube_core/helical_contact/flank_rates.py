@@ -22,7 +22,7 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
-from gearlube_core.tooth_contact.frozen_equilibrium import FrozenEquilibrium, frozen_compliance
+from gearlube_core.tooth_contact.held_contact import FrozenEquilibrium, frozen_compliance
 
 # of differences of the gap alone; the gap is linear in amounts, but not in lengths
 _STEPS = {"um": 1e-2, "mm": 2e-4}

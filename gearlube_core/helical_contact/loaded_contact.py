@@ -27,9 +27,10 @@ from gearlube_core.tooth_contact.coupled_strips import (
     CoupledSolution,
     CoupledStrip,
     PairStiffness,
+    StripGrowth,
     solve_coupled,
+    solve_on_growing_strips,
 )
-from gearlube_core.tooth_contact.strip_growth import StripGrowth, solve_on_growing_strips
 
 _GROWTH = StripGrowth(factor=1.5, margin=1.1, attempts=10)
 _FIRST_DENSITY = 1.2e10  # N/m2 of contact line, only to size the first strips

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import gearlube_core.mesh_table
-from gearlube_core.helical_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.helical_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.sample_pairs import named_pair

@@ -21,9 +21,14 @@ from gearlube_core.helical_geometry.gear_file_sections import (
     Operation,
     Pair,
 )
-from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.modification import (
+    Crown,
+    FlankModification,
+    ModifiedPair,
+    PowerTipRelief,
+    TipRelief,
+)
 from gearlube_core.helical_geometry.pair import LARGEST_SHIFT, HelicalPair
-from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
 from gearlube_core.helical_geometry.tooth_limits import profile_shift_sum
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile

@@ -9,8 +9,11 @@ from numpy.typing import ArrayLike
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
-from gearlube_core.helical_geometry.facets import parabola_distance
-from gearlube_core.helical_geometry.involute import involute_flank, relative_position
+from gearlube_core.helical_geometry.involute import (
+    involute_flank,
+    parabola_distance,
+    relative_position,
+)
 from gearlube_core.helical_geometry.pair import HelicalPair
 
 FORMS = ("involute", "parabola")

@@ -15,10 +15,11 @@ from numpy.typing import ArrayLike
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
-from gearlube_core.helical_geometry.facets import facet_depth, facet_depth_parabola
 from gearlube_core.helical_geometry.involute import (
     MEMBERS,
     InvoluteFlank,
+    facet_depth,
+    facet_depth_parabola,
     involute_flank,
     relative_position,
     roll_at_tangent_distance,

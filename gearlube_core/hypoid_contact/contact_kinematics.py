@@ -10,7 +10,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_path import ContactPath
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample, shape_operator
+from gearlube_core.hypoid_contact.placement import placed_axis, placed_sample, shape_operator
 from gearlube_core.hypoid_geometry.flank.flank import Flank, FlankSample
 
 _LARGEST_LEAN = 0.1  # rad, between normals that still count as opposite: edges lean

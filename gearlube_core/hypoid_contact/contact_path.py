@@ -15,10 +15,13 @@ from gearlube_core.hypoid_contact.contact_point import (
     find_contact,
     trace_contact,
 )
-from gearlube_core.hypoid_contact.first_contact_point import FirstContactPoint, first_contact_point
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placed_flank import placed_sample, tooth_position
-from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
+from gearlube_core.hypoid_contact.placement import placed_sample, tooth_position
+from gearlube_core.hypoid_contact.searched_transmission_error import (
+    FirstContactPoint,
+    first_contact_point,
+    searched_transmission_error,
+)
 
 _LONGEST_STEP = 0.125  # of a pitch, between solutions that start from one another
 _DIFFERENCE = 1e-3  # of a pitch: errors of both difference and rounding below 1e-8 m

@@ -10,8 +10,12 @@ from numpy.typing import NDArray
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_line
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placed_flank import tooth_position
-from gearlube_core.hypoid_contact.placement import Placement, place_direction, place_point
+from gearlube_core.hypoid_contact.placement import (
+    Placement,
+    place_direction,
+    place_point,
+    tooth_position,
+)
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.vectors import Vector

@@ -32,7 +32,10 @@ _CHANGED = {
     "torques_hash": "other torques are asked for",
     "analysis_hash": "it is from another version of the analysis",
 }
-_SOURCES = ("gearlube_core.hypoid_contact.analysis", "gearlube_core.hypoid_contact.contact_table")
+_SOURCES = (
+    "gearlube_core.hypoid_contact.contact_dataset",
+    "gearlube_core.hypoid_contact.contact_table",
+)
 
 logger = logging.getLogger(__name__)
 
@@ -152,7 +155,7 @@ class KeptTable:
         )
 
     def _computed(self, wanted: dict[str, str], jobs: int | None, progress: Progress) -> MeshTable:
-        from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+        from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
         from gearlube_core.hypoid_contact.contact_table import contact_table, levels_left_out
         from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
         from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings

@@ -13,7 +13,7 @@ from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.hypoid_contact.gap_map import GapMap, gap_map
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placed_flank import tooth_position
+from gearlube_core.hypoid_contact.placement import tooth_position
 from gearlube_core.hypoid_contact.strips import (
     Strip,
     StripFrame,
@@ -26,9 +26,10 @@ from gearlube_core.tooth_contact.coupled_strips import (
     CoupledSolution,
     CoupledStrip,
     PairStiffness,
+    StripGrowth,
     solve_coupled,
+    solve_on_growing_strips,
 )
-from gearlube_core.tooth_contact.strip_growth import StripGrowth, solve_on_growing_strips
 
 _GROWTH = StripGrowth(factor=1.6, margin=1.15, attempts=8)
 _FIRST_STIFFNESS = 3e8  # N/m, only to size the first strips

@@ -16,8 +16,7 @@ from gearlube_core.hypoid_contact.loaded_contact import (
     MeshPosition,
 )
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placed_flank import tooth_position
-from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
+from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment, tooth_position
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress

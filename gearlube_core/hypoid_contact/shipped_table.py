@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import gearlube_core.mesh_table
-from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import write_mesh_table

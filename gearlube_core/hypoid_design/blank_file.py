@@ -18,8 +18,7 @@ from gearlube_core.hypoid_design.blank_sections import (
 )
 from gearlube_core.hypoid_geometry.gear_file_sections import UNMODELLED
 from gearlube_core.input_file.field_notes import field_notes
-from gearlube_core.input_file.input_file import InputFile
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputFile, InputNote
 from gearlube_core.storage.file_names import Name
 
 Text = Annotated[str, Field(min_length=1)]

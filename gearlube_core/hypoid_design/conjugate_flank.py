@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.gap_map import along_normals, closing_arm
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placed_flank import tooth_position
+from gearlube_core.hypoid_contact.placement import tooth_position
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,8 +21,12 @@ from gearlube_core.hypoid_design.chosen_relief import (
     relief_fields,
 )
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
-from gearlube_core.hypoid_design.flank_target import FlankTarget, MeanContact
-from gearlube_core.hypoid_design.measured_contact import MeasuredContact, measured_contact
+from gearlube_core.hypoid_design.flank_target import (
+    FlankTarget,
+    MeanContact,
+    MeasuredContact,
+    measured_contact,
+)
 from gearlube_core.hypoid_design.pinion_fit import SIDES, Fit, fit_pinion
 from gearlube_core.hypoid_design.start_settings import start_pair
 from gearlube_core.hypoid_geometry.flank.flank import Side

@@ -9,11 +9,10 @@ from typing import NamedTuple
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.hypoid_design.blank_file import BlankFile
-from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead, ToothTrace
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank, MemberBlank
 from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, method_1, method_2, method_3
-from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones, ToothTrace
+from gearlube_core.input_file.input_file import InputNote
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 

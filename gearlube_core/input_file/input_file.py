@@ -3,19 +3,51 @@
 from __future__ import annotations
 
 import codecs
+import json
 import logging
 import re
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, Literal, NamedTuple, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError, unread
 from gearlube_core.input_file.field_notes import as_meant, doubts, field_notes, sentence
+
+Origin = Literal["given", "inferred", "assumed"]
+
+
+class InputNote(NamedTuple):
+    """One input of a model and where its value is from.
+
+    `value` is in `unit`; `why` is empty where the file gives a value that is plausible.
+    """
+
+    field: str  # dotted name in the file
+    value: Any
+    unit: str
+    origin: Origin
+    why: str
+
+    @property
+    def value_text(self) -> str:
+        """The value as a table shows it."""
+        return _text(self.value)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, tuple | list):
+        return ", ".join(_text(one) for one in value) or "none"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def notes_as_text(notes: Sequence[InputNote]) -> str:
+    """Return notes as one text, for an attribute of a dataset."""
+    return json.dumps([[n.field, n.value_text, n.unit, n.origin, n.why] for n in notes])
 
 
 class _FileKind(NamedTuple):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import csv
+import io
 import math
 import re
 from collections.abc import Iterator
@@ -21,6 +22,7 @@ from gearlube_core.errors import ParameterError
 TABLES = (".csv", ".txt", ".tsv")  # endings of names of tables
 COMMENTS = ("#", "%", "//")  # a line that begins with one of them is no row
 LARGEST = 50_000_000  # bytes
+_MOST_CELLS = 2_500_000  # a profile of a million heights has two million
 _SEPARATORS = ("\t", ";", ",")  # the first that parts the names
 _SHOWN = 60  # characters of a wrong row
 _NUMBER = re.compile(r"[+-]?([0-9]+[.,]?[0-9]*|[.,][0-9]+)([eE][+-]?[0-9]+)?")
@@ -224,29 +226,39 @@ def _rows(
     path: str | Path, text: str, comments: tuple[str, ...], cure: str
 ) -> tuple[list[tuple[int, list[str]]], str]:
     """Return rows that are not empty, each with its line and cells, and the separator."""
-    lines = [
-        "" if line.lstrip(' \t"').startswith(comments) else line
-        for line in re.split("\r\n|\r|\n", text)
-    ]
-    first = next((k for k, line in enumerate(lines) if line.strip()), None)
+
+    def lines() -> Iterator[str]:  # one at a time: a list of them takes more than the text
+        for line in io.StringIO(text, newline=None):
+            yield "\n" if line.lstrip(' \t"').startswith(comments) else line
+
+    first, head = next(((k, one) for k, one in enumerate(lines()) if one.strip()), (None, ""))
     if first is None:
         raise ParameterError(f"{path} must have a line of names and rows, got none. {cure}".strip())
-    named = re.fullmatch(r"sep=([,;\t])", lines[first].strip(" "))
+    named = re.fullmatch(r"sep=([,;\t])", head.strip(" \n"))
     if named:
-        mark, lines[first] = named[1], ""
+        mark = named[1]
     else:
-        bare = re.sub(r"\s*([,;])\s*", r"\1", re.sub('"[^"]*"?', "", lines[first]).strip())
+        bare = re.sub(r"\s*([,;])\s*", r"\1", re.sub('"[^"]*"?', "", head).strip())
         mark = next((one for one in _SEPARATORS if one in bare), ",")
     reader = csv.reader(
-        (f"{line}\n" for line in lines), delimiter=mark, skipinitialspace=True, strict=True
+        ("\n" if named and k == first else line for k, line in enumerate(lines())),
+        delimiter=mark,
+        skipinitialspace=True,
+        strict=True,
     )
-    rows, read = [], 0
+    rows, read, count = [], 0, 0
     try:
         for cells in reader:
             stripped = [cell.strip() for cell in cells]
             if any(stripped):
                 rows.append((read + 1, stripped))
             read = reader.line_num
+            count += len(cells)
+            if count > _MOST_CELLS:
+                raise ParameterError(
+                    f"{path} must have at most {_MOST_CELLS} cells, got more up to line {read}. "
+                    "Leave out rows or columns."
+                )
     except csv.Error as reason:
         if reader.line_num > read + 1 or "unexpected end" in str(reason):
             raise ParameterError(

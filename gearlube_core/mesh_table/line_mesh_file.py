@@ -11,7 +11,7 @@ import xarray as xr
 from gearlube_core.checks import read_content
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
+from gearlube_core.mesh_table.netcdf import dataset_from_bytes
 from gearlube_core.storage.atomic_file import write_dataset
 
 FORMAT = 1

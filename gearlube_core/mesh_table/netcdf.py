@@ -6,6 +6,10 @@ entered by two threads, and a co-simulation host may start two axles at once.
 
 from __future__ import annotations
 
+import io
+import logging
+import warnings
+from importlib.resources import as_file, files
 from pathlib import Path
 from typing import cast
 
@@ -13,8 +17,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube_core.checks import read_content
-from gearlube_core.errors import TableError
-from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
+from gearlube_core.errors import FileError, TableError
 from gearlube_core.mesh_table.table import (
     MEMBERS,
     SERIES_UNITS,
@@ -24,8 +27,9 @@ from gearlube_core.mesh_table.table import (
     MeshTable,
     Provenance,
 )
-from gearlube_core.storage.atomic_file import write_dataset
+from gearlube_core.storage.atomic_file import DAMAGED, check_seal, write_dataset
 
+logger = logging.getLogger(__name__)
 FORMAT = 2  # 1 had one sign of torque, no tangent stiffness, sliding angle or highest pressure
 SHAFT_FORMAT = 3  # with errors that repeat with a shaft
 FILE_IN_FMU = "mesh_table.nc"  # name among the resources of an FMU with a table of its own
@@ -33,6 +37,43 @@ _ATTRIBUTES = ("name", "pinion_teeth", "gear_teeth", "contact_ratio")
 _SETTING = "setting_"
 _SHAFT = "e_"  # and the member
 _TOOTH = ("gear_face_width", "gear_tooth_height")  # m
+
+
+def dataset_from_bytes(content: bytes, name: str, writer: str) -> xr.Dataset:
+    """Return the dataset in the content of a file.
+
+    Parameters
+    ----------
+    content : bytes
+    name : str
+        What errors call the file.
+    writer : str
+        The function that writes such files.
+
+    Raises
+    ------
+    TableError
+        The content is cut off, damaged or of another format, or has a wrong checksum. One without
+        a checksum is read with a warning.
+    """
+    try:
+        if not check_seal(io.BytesIO(content), name):
+            logger.warning(
+                "%s has no checksum, so damage to it would not be seen. %s writes one.",
+                name,
+                writer,
+            )
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", RuntimeWarning)
+            return xr.load_dataset(io.BytesIO(content), engine="scipy")
+    except FileError as reason:
+        raise TableError(str(reason)) from None
+    except (*DAMAGED, RuntimeWarning) as reason:
+        lines = str(reason).strip().splitlines() or [type(reason).__name__]
+        raise TableError(
+            f"{name} is not a readable NetCDF 3 file: {lines[0].rstrip('.')}. It may be cut off. "
+            f"Write it with {writer}, or from xarray with to_netcdf(path, engine='scipy')."
+        ) from None
 
 
 def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
@@ -163,3 +204,26 @@ def _check_format(dataset: xr.Dataset, name: str) -> None:
             f"reads formats {FORMAT} and {SHAFT_FORMAT}. Install that version, or run `gearlube "
             "contact` of this one."
         )
+
+
+def shipped_mesh_table(name: str) -> MeshTable:
+    """Return a mesh table that ships with the package, by its name, e.g. "mohammadpour_2015".
+
+    Raises
+    ------
+    TableError
+        No table has that name.
+
+    Examples
+    --------
+    >>> round(shipped_mesh_table("mohammadpour_2015").ratio, 3)
+    2.769
+    """
+    resource = files("gearlube_core.mesh_table") / "data" / f"{name}.nc"
+    if not resource.is_file():
+        raise TableError(
+            f"No mesh table is called {name!r}. Shipped: mohammadpour_2015. "
+            "A file's name ends in .nc."
+        )
+    with as_file(resource) as path:
+        return read_mesh_table(path)

@@ -2,5 +2,5 @@
 
 A law is a NamedTuple of floats whose kernels are methods. To add one, write such a class (in any
 file) and hand it to `film_oil` in `gearlube_core.oil.film_oil_data`. What it needs stands in
-`viscosity_law`, `density_law` and `shear_law`.
+`film_laws`.
 """

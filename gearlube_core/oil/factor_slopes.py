@@ -13,6 +13,7 @@ import math
 from typing import Any, NamedTuple
 
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.film_laws import rate_ratio
 from gearlube_core.oil.shear_flow import (
     LARGEST_COUETTE,
     LARGEST_SIGMA,
@@ -22,7 +23,6 @@ from gearlube_core.oil.shear_flow import (
     equilibrium,
     flow_factors,
 )
-from gearlube_core.oil.shear_law import rate_ratio
 
 # a smaller Sigma along sliding gives way to this: the factor changes with its square
 SMALL_SIGMA = 1.0e-4

@@ -5,11 +5,15 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from gearlube_core.arrays import Array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.density_law import density_in_units, density_ratio
 from gearlube_core.oil.eyring_1936 import NEWTONIAN
-from gearlube_core.oil.viscosity_law import (
+from gearlube_core.oil.film_laws import (
     cooling_factor,
+    density_in_units,
+    density_ratio,
     log_viscosity,
     viscosity_decline,
     viscosity_in_units,
@@ -23,7 +27,7 @@ _LARGEST_RATIO = math.exp(_LARGEST_EXPONENT)
 class FilmOil(NamedTuple):
     """Oil of a film at its inlet temperature, in SI units; `film_oil` and `film_oil_of` make one.
 
-    Its three laws are NamedTuples as described in `viscosity_law`, `density_law` and `shear_law`.
+    Its three laws are NamedTuples as described in `film_laws`.
 
     Examples
     --------
@@ -129,3 +133,99 @@ def limiting_stress(oil: FilmOil, p: float) -> float:
     """Return the limiting shear stress tau_limit + slope p [Pa]; infinite where there is none."""
     limit = oil.tau_limit + oil.limit_slope * max(p, 0.0)
     return limit if limit > 0.0 else math.inf
+
+
+@kernel
+def fill_properties(
+    oil: FilmOil,
+    p: np.ndarray,
+    eta: np.ndarray,
+    eta_slope: np.ndarray,
+    rho: np.ndarray,
+    rho_slope: np.ndarray,
+) -> None:
+    """Fill viscosity [Pa s], density [kg/m3] and their slopes with pressure.
+
+    Parameters
+    ----------
+    oil
+        Of the film.
+    p
+        Pressure [Pa], one-dimensional.
+    eta, eta_slope, rho, rho_slope
+        Filled; of the shape of `p`.
+    """
+    for i in range(p.size):
+        _fill_node(oil, p[i], 1.0, 1.0, i, eta, eta_slope, rho, rho_slope)
+
+
+@kernel
+def fill_heated_properties(
+    oil: FilmOil,
+    p: np.ndarray,
+    cooling: np.ndarray,
+    dilation: np.ndarray,
+    eta: np.ndarray,
+    eta_slope: np.ndarray,
+    rho: np.ndarray,
+    rho_slope: np.ndarray,
+) -> None:
+    """Fill viscosity, density and their slopes in a film of uneven temperature.
+
+    Parameters
+    ----------
+    oil, p, eta, eta_slope, rho, rho_slope
+        As in `fill_properties`.
+    cooling, dilation
+        `cooling_factor` and the density's factor by heat, of the shape of `p` [-].
+    """
+    for i in range(p.size):
+        _fill_node(oil, p[i], cooling[i], dilation[i], i, eta, eta_slope, rho, rho_slope)
+
+
+@kernel
+def _fill_node(
+    oil: FilmOil,
+    p: float,
+    cooling: float,
+    dilation: float,
+    i: int,
+    eta: np.ndarray,
+    eta_slope: np.ndarray,
+    rho: np.ndarray,
+    rho_slope: np.ndarray,
+) -> None:
+    y, steepness = log_viscosity(oil.viscosity, p, cooling)
+    value, slope = bounded_exponential(y)
+    eta[i] = oil.eta0 * value
+    eta_slope[i] = oil.eta0 * slope * steepness
+    ratio, ratio_slope, _ = density_ratio(oil.density, p)
+    rho[i] = dilation * oil.rho0 * ratio
+    rho_slope[i] = dilation * oil.rho0 * ratio_slope
+
+
+def film_properties(
+    oil: FilmOil, pressure: Array, warm: tuple[Array, Array] | None
+) -> tuple[Array, Array, Array, Array]:
+    """Return viscosity, density and their pressure derivatives, of the pressure's shape.
+
+    Parameters
+    ----------
+    oil, pressure
+        In the same units.
+    warm
+        `cooling_factor` of the temperature and the density's factor by heat, of the pressure's
+        shape [-]; None: at the oil's temperature.
+
+    Returns
+    -------
+    tuple of ndarray
+        eta, d eta/dp, rho, d rho/dp.
+    """
+    filled = np.empty((4, *pressure.shape))
+    flat = (filled[0].ravel(), filled[1].ravel(), filled[2].ravel(), filled[3].ravel())
+    if warm is None:
+        fill_properties(oil, pressure.ravel(), *flat)
+    else:
+        fill_heated_properties(oil, pressure.ravel(), warm[0].ravel(), warm[1].ravel(), *flat)
+    return filled[0], filled[1], filled[2], filled[3]

@@ -7,17 +7,21 @@ from typing import Any
 
 from gearlube_core.checks import check_finite, check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.density_law import density_ratio
-from gearlube_core.oil.dowson_higginson_1966 import DOWSON_HIGGINSON_1966, INCOMPRESSIBLE
 from gearlube_core.oil.eyring_1936 import NEWTONIAN, Eyring
+from gearlube_core.oil.film_laws import (
+    DOWSON_HIGGINSON_1966,
+    INCOMPRESSIBLE,
+    barus,
+    density_ratio,
+    log_viscosity,
+    rate_ratio,
+    roelands,
+)
 from gearlube_core.oil.film_oil import FilmOil, viscosity_cooling
 from gearlube_core.oil.houpert_1985 import houpert_log_viscosity, houpert_parameters
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_heat import OilHeat
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
-from gearlube_core.oil.roelands_houpert import barus, roelands
-from gearlube_core.oil.shear_law import rate_ratio
-from gearlube_core.oil.viscosity_law import log_viscosity
 
 _MINERAL = OilHeat()
 

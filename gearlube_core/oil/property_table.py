@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.oil.base_oils import REFERENCE_DENSITY_DEGC
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.units import celsius_to_kelvin, kelvin_to_celsius
 

@@ -14,10 +14,10 @@ import numpy as np
 
 from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.eyring_flow import eyring_mean_stress
+from gearlube_core.oil.eyring_1936 import eyring_mean_stress
 from gearlube_core.oil.factor_slopes import Means, factor_changes
+from gearlube_core.oil.film_laws import rate_ratio
 from gearlube_core.oil.shear_flow import NODES, WEIGHTS, Equilibrium
-from gearlube_core.oil.shear_law import rate_ratio
 
 BLOCK = 128  # points
 _STEPS = 8

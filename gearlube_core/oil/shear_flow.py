@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.eyring_flow import eyring_mean_stress
-from gearlube_core.oil.shear_law import rate_ratio
+from gearlube_core.oil.eyring_1936 import eyring_mean_stress
+from gearlube_core.oil.film_laws import rate_ratio
 
 LARGEST_SIGMA = 100.0  # as in one dimension
 LARGEST_COUETTE = 1.0e86  # e^198: products of two rates stay below the largest double

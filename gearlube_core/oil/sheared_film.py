@@ -12,8 +12,8 @@ import numpy as np
 
 from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.film_laws import rate_ratio
 from gearlube_core.oil.shear_flow import shear_flow
-from gearlube_core.oil.shear_law import rate_ratio
 
 # slopes by a small Sigma are taken there: they change with its square
 _SMALL_SIGMA = 1.0e-4

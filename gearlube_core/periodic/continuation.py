@@ -11,10 +11,16 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.periodic.arclength import ArclengthCorrector, Node, hermite, turning_angle
 from gearlube_core.periodic.branch import Branch, Ending, SpecialPoint
 from gearlube_core.periodic.floquet import stable
-from gearlube_core.periodic.newton import Correction, NewtonSettings
+from gearlube_core.periodic.newton import (
+    ArclengthCorrector,
+    Correction,
+    NewtonSettings,
+    Node,
+    hermite,
+    turning_angle,
+)
 from gearlube_core.periodic.problem import PeriodicProblem
 from gearlube_core.periodic.shooting import require
 from gearlube_core.periodic.special_points import Crossing, crossings, locate

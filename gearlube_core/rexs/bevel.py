@@ -7,7 +7,7 @@ from typing import Any
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
-from gearlube_core.rexs.bevel_document import member_attributes
+from gearlube_core.rexs.document import member_attributes
 from gearlube_core.rexs.stage import Stage
 from gearlube_core.storage.file_names import as_name
 from gearlube_core.units import DEGREE

@@ -13,9 +13,8 @@ from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes, sentence
 from gearlube_core.rexs.bevel import blank_data, nested
-from gearlube_core.rexs.bevel_document import write_blank, write_hypoid
 from gearlube_core.rexs.cylindrical import helical_data, lacking_fields, write_helical
-from gearlube_core.rexs.document import Document
+from gearlube_core.rexs.document import Document, write_blank, write_hypoid
 from gearlube_core.rexs.model import RexsModel
 from gearlube_core.rexs.stage import ExchangeNote, Stage
 

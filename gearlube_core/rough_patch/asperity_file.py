@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError, TableError
-from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
+from gearlube_core.mesh_table.netcdf import dataset_from_bytes
 from gearlube_core.rough_patch.table import GreenwoodTrippFit, greenwood_tripp_fit
 
 FILE_IN_FMU = "asperity_table.nc"  # name among the resources of an FMU with asperities of its own

@@ -6,10 +6,16 @@ from gearlube_core.spectra.angle_grid import (
     resample,
     whole_revolutions,
 )
-from gearlube_core.spectra.extremes import Extremes, extremes
-from gearlube_core.spectra.order_spectrum import OrderSpectrum, order_cut, order_spectrum
+from gearlube_core.spectra.order_spectrum import (
+    Extremes,
+    OrderSpectrum,
+    Waterfall,
+    extremes,
+    order_cut,
+    order_spectrum,
+    waterfall,
+)
 from gearlube_core.spectra.order_track import OrderBlocks, order_blocks, samples_for
-from gearlube_core.spectra.waterfalls import Waterfall, waterfall
 
 __all__ = [
     "AngleWindow",

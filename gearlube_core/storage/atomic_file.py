@@ -1,7 +1,14 @@
-"""Atomic writes: a file is complete or not there."""
+"""Atomic writes: a file is complete or not there.
+
+A checksum at the end of a stored file: a single wrong bit is found when the file is read.
+
+The readers of NetCDF and of npz (ZIP) files pass over what stands behind their data, so the files
+stay what they are for every other program.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import math
 import os
 import secrets
@@ -12,17 +19,19 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from tokenize import TokenError
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
 from gearlube_core.checks import check_file
-from gearlube_core.errors import FileError
-from gearlube_core.storage.checksums import check_seal, seal
+from gearlube_core.errors import FileError, ParameterError
 
-if TYPE_CHECKING:  # not every user of this module has datasets
+if TYPE_CHECKING:
     import xarray as xr
 
+_MARK = b"\ngearlube SHA-256 "
+_LENGTH = len(_MARK) + 64 + 1  # of the last line: mark, hexadecimal digits, end of line
+_TOGETHER = 1 << 20  # bytes
 LARGEST_ARRAYS = 200_000_000  # bytes of one file's arrays in memory
 # what NumPy, SciPy, netCDF4 and xarray raise on files that are cut off or have wrong bytes
 DAMAGED = (
@@ -44,6 +53,49 @@ DAMAGED = (
 _OVERHEAD = 1 << 24  # [byte] that a file of many small variables may have beside its numbers
 
 Arrays = dict[str, Any]  # ndarrays by name; texts and numbers are arrays of no dimension
+
+
+def seal(path: Path, *, flush: bool = False) -> None:
+    """Write the checksum of a whole file at its end, and flush it to the disk if asked."""
+    with path.open("r+b") as stream:
+        stream.write(_last_line(stream, stream.seek(0, os.SEEK_END)))
+        if flush:
+            stream.flush()
+            os.fsync(stream.fileno())
+
+
+def check_seal(stream: BinaryIO, where: str) -> bool:
+    """Return whether a file has a checksum; raise FileError, naming it `where`, for a wrong one."""
+    end = max(stream.seek(0, os.SEEK_END) - _LENGTH, 0)
+    stream.seek(end)
+    given = stream.read()
+    if not given.startswith(_MARK):
+        return False
+    if given != _last_line(stream, end):
+        raise FileError(
+            f"{where} is damaged: its content does not belong to the checksum at its end. Write "
+            "it again, or take a copy of it."
+        )
+    return True
+
+
+def file_hash(path: Path) -> str:
+    """Return the SHA-256 of a file as hexadecimal digits; "" for none that can be read."""
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return ""
+
+
+def _last_line(stream: BinaryIO, size: int) -> bytes:
+    """Return the last line of a file whose first `size` bytes are its content."""
+    digest = hashlib.sha256()
+    stream.seek(0)
+    while size > 0 and (part := stream.read(min(size, _TOGETHER))):
+        digest.update(part)
+        size -= len(part)
+    return _MARK + digest.hexdigest().encode() + b"\n"
 
 
 @contextmanager
@@ -77,6 +129,12 @@ def write_text(text: str, path: Path) -> None:
     """Write a text in UTF-8."""
     with atomic_write(path) as partial:
         partial.write_text(text, encoding="utf-8")
+
+
+def write_figure(figure: Any, path: Path, dpi: int = 150) -> None:
+    """Write a figure of matplotlib as PNG; `dpi` [1/inch]."""
+    with atomic_write(path) as partial:
+        figure.savefig(partial, format="png", dpi=dpi)
 
 
 def write_arrays(path: Path, arrays: Mapping[str, Any], *, compress: bool = False) -> None:
@@ -132,10 +190,14 @@ def _check_claims(path: Path, size: int) -> None:
 
 
 def check_unpacked(path: Path) -> None:
-    """Raise ValueError for a ZIP file whose parts claim too much memory; others pass."""
-    if zipfile.is_zipfile(path):
-        with zipfile.ZipFile(path) as archive:
-            _check_claims(path, sum(entry.file_size for entry in archive.infolist()))
+    """Raise ParameterError for a damaged ZIP file or one that claims too much; others pass."""
+    try:
+        if zipfile.is_zipfile(path):
+            with zipfile.ZipFile(path) as archive:
+                _check_claims(path, sum(entry.file_size for entry in archive.infolist()))
+    except DAMAGED as error:
+        kind = path.suffix[1:].upper()
+        raise ParameterError(f"{path} is not a readable {kind} file: {_why(error)}.") from error
 
 
 def _check_sealed(good: bool, path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Workers of an existing Dask cluster."""
+"""Workers of an existing Dask cluster, whose packages are imported from here alone."""
 
 from __future__ import annotations
 
@@ -11,10 +11,18 @@ from dataclasses import dataclass
 from importlib import metadata
 from threading import Event, Thread
 
-from distributed import Client, WorkerPlugin
-
 from gearlube_core import __version__
-from gearlube_core.errors import GearLubeError
+from gearlube_core.errors import GearLubeError, ParameterError
+
+try:
+    from distributed import Client, Worker, WorkerPlugin, get_worker
+except ImportError:
+    raise ParameterError(
+        "Points on a cluster (--scheduler) need the packages distributed and dask, which are not "
+        "installed. Install them: pip install 'gearlube[cluster]'."
+    ) from None
+
+__all__ = ["DaskPool", "NamedPlugin", "Worker", "get_worker"]
 
 logger = logging.getLogger(__name__)
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -12,11 +14,13 @@ from concurrent.futures import (
     Future,
     wait,
 )
+from contextlib import contextmanager
+from dataclasses import dataclass
 from itertools import islice
+from types import FrameType
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
 from gearlube_core.errors import is_of_machine
-from gearlube_core.storage.interrupts import deferred_interrupts
 from gearlube_core.storage.process_pool import Pool, check_alive, single_threaded
 
 Task = TypeVar("Task")
@@ -27,6 +31,39 @@ logger = logging.getLogger(__name__)
 _POLL = 0.25  # s, time after which Ctrl-C is noticed
 _ATTEMPTS = 3  # pools, should processes die
 _SUBMITTED = 1000  # tasks that wait for a worker; more would only cost time and memory
+
+
+@dataclass(slots=True)
+class Interrupt:
+    """Whether someone has pressed Ctrl-C."""
+
+    requested: bool = False
+
+
+@contextmanager
+def deferred_interrupts() -> Iterator[Interrupt]:
+    """Turn the first Ctrl-C into a flag; a second one raises KeyboardInterrupt.
+
+    An exception at an arbitrary place could leave a lock of the NetCDF library held, and the next
+    write would wait for ever. Outside the main thread, where signals do not arrive, the flag
+    stays down.
+    """
+    interrupt = Interrupt()
+    if threading.current_thread() is not threading.main_thread():
+        yield interrupt
+        return
+    previous = signal.getsignal(signal.SIGINT) or signal.default_int_handler
+
+    def request(_number: int, _frame: FrameType | None) -> None:
+        if interrupt.requested:
+            raise KeyboardInterrupt
+        interrupt.requested = True
+
+    signal.signal(signal.SIGINT, request)
+    try:
+        yield interrupt
+    finally:
+        signal.signal(signal.SIGINT, previous)
 
 
 class Store(Protocol[Result]):

@@ -11,6 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_file
 from gearlube_core.errors import ParameterError, why
+from gearlube_core.extras import extra_package
 from gearlube_core.input_file.table import TABLES
 from gearlube_core.storage.atomic_file import DAMAGED, check_unpacked, write_arrays, write_text
 from gearlube_core.surface.heights import MICROMETRE, HeightMap, Profile, Surface, evenly_spaced
@@ -99,14 +100,14 @@ def profile_csv(profile: Profile) -> str:
 
 
 def _read_sdf(path: Path) -> Surface:
-    sdfio = _package("sdfio", path)
+    sdfio = extra_package("sdfio", "surfaces", f"{path} is read")
     found = _read(path, "SDF", sdfio.read, sdfio.SdfError)
     header = found.header
     return _from_rows(path, found.data, (header.x_scale, header.y_scale))
 
 
 def _read_x3p(path: Path) -> Surface:
-    x3pio = _package("x3pio", path)
+    x3pio = extra_package("x3pio", "surfaces", f"{path} is read")
     found = _read(path, "X3P", x3pio.read, x3pio.X3pError)
     kinds = x3pio.Profile | x3pio.Surface
     if not isinstance(found, kinds) or len(found.layers) != 1 or not found.is_regular_grid:
@@ -122,7 +123,7 @@ def _read_x3p(path: Path) -> Surface:
 
 
 def _read_topography(path: Path) -> Surface:
-    package = _package("SurfaceTopography", path)
+    package = extra_package("SurfaceTopography", "surfaces", f"{path} is read")
     error = import_module("SurfaceTopography.Exceptions").ReadFileError
     kind = path.suffix[1:]
 
@@ -147,19 +148,10 @@ def _from_rows(path: Path, rows: Array, steps: tuple[float, float]) -> Surface:
     return HeightMap(height=height, spacing=steps, name=name)
 
 
-def _package(name: str, path: Path) -> Any:
-    try:
-        return import_module(name)
-    except ImportError:
-        raise ParameterError(
-            f"{path} needs the package {name}. Install it with: pip install 'gearlube[surfaces]'."
-        ) from None
-
-
 def _read(path: Path, kind: str, read: Any, error: type[Exception]) -> Any:
     check_file(path, f"{kind} file", largest=LARGEST)
+    check_unpacked(path)
     try:
-        check_unpacked(path)
         return read(path)
     except (error, *DAMAGED) as reason:
         raise ParameterError(f"{path} is not a readable {kind} file: {why(reason)}.") from None

@@ -7,17 +7,136 @@ from dataclasses import dataclass, replace
 from typing import Generic
 
 import numpy as np
+from numpy.polynomial import legendre
 from scipy.signal import oaconvolve
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_option, check_positive
+from gearlube_core.checks import check_finite, check_option, check_positive
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface.heights import MICROMETRE, Profile, S, Surface
 
+_HIGHEST = 8  # degree; more is the work of a filter
+_MOST = 0.5  # of the points: beyond, no peaks are cut but the surface
 ALPHA = math.sqrt(math.log(2.0) / math.pi)  # half of the amplitude passes at the cut-off
 ENDS = ("regression", "cut")
 _ROUNDING = 1e-6  # of a spacing
 _REACH = 1.0  # cut-offs to each side; beyond, the weights are below 1e-6 of the largest
+
+
+def levelled(surface: S, degree: int = 1) -> S:
+    """Return a surface without its form: its least-squares polynomial is subtracted.
+
+    Parameters
+    ----------
+    surface
+        Profile or map.
+    degree
+        Degree of the polynomial, to 8. 0: the mean; 1: a line or plane; of a map in x and y
+        together. Along periodic sides the degree is always 0, because they have no slope.
+
+    Raises
+    ------
+    ParameterError
+        The degree is no whole number from 0 to 8, or there are too few points for it.
+
+    Examples
+    --------
+    >>> slope = Profile(height=1e-8 * np.arange(50.0), spacing=1e-6)
+    >>> bool(abs(levelled(slope).height).max() < 1e-18)
+    True
+    """
+    if isinstance(degree, bool) or degree not in range(_HIGHEST + 1):
+        raise ParameterError(
+            f"degree must be a whole number within 0 to {_HIGHEST}, got {degree!r}. Use a filter "
+            "to remove waviness."
+        )
+    height = surface.height
+    if min(height.shape) <= degree:
+        raise ParameterError(
+            f"{surface.name}: degree must be below the {min(height.shape)} points along a side, "
+            f"got {degree}."
+        )
+    if isinstance(surface, Profile):
+        basis = _basis(height.size, 0 if surface.periodic else degree)
+        return replace(surface, height=height - basis @ (basis.T @ height))
+    along_x, along_y = (
+        _basis(count, 0 if closed else degree)
+        for count, closed in zip(height.shape, surface.periodic, strict=True)
+    )
+    weights = along_x.T @ height @ along_y
+    powers = np.add.outer(np.arange(weights.shape[0]), np.arange(weights.shape[1]))
+    weights[powers > degree] = 0.0
+    return replace(surface, height=height - along_x @ weights @ along_y.T)
+
+
+def _basis(count: int, degree: int) -> Array:
+    """Return orthonormal polynomials (count, degree + 1) at even points."""
+    legendres = legendre.legvander(np.linspace(-1.0, 1.0, count), degree)
+    return np.asarray(np.linalg.qr(legendres)[0])
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class RunIn(Generic[S]):
+    """A surface after its peaks were cut.
+
+    Parameters
+    ----------
+    surface
+        Its mean is zero again.
+    height
+        At which the peaks were cut, above the mean of before [m].
+    share
+        Of the points that were above it [-].
+    removed
+        Mean height of the removed material [m].
+    """
+
+    surface: S
+    height: float
+    share: float
+    removed: float
+
+
+def peaks_cut(surface: S, height: float) -> RunIn[S]:
+    """Return a surface whose peaks are cut off flat at a height, as a model of running-in.
+
+    This is no simulation of wear: real running-in rounds the peaks and bends material aside. The
+    cuts have edges, which add shorter waves than before. Filter them with lambda_s if the grid is
+    too coarse for them.
+
+    Parameters
+    ----------
+    surface
+        Levelled profile or map.
+    height
+        Height of the cut [m] above the mean; a value below 0 is below the mean.
+
+    Raises
+    ------
+    ParameterError
+        More than half of the points would be cut.
+
+    Examples
+    --------
+    >>> from gearlube_core.surface.heights import Profile
+    >>> profile = Profile(height=1e-7 * np.sin(np.arange(500.0)), spacing=1e-5)
+    >>> round(peaks_cut(profile, 0.5e-7).share, 2)  # a third of a sine
+    0.33
+    """
+    check_finite("height", height, "m")
+    deviation = surface.height - surface.height.mean()
+    share = float(np.mean(deviation > height))
+    if share > _MOST:
+        raise ParameterError(
+            f"height must cut at most {100.0 * _MOST:g} % of the points of {surface.name}, from "
+            f"{np.quantile(deviation, 1.0 - _MOST) / MICROMETRE:.3g} um on, got "
+            f"{height / MICROMETRE:.3g} um, which cuts {100.0 * share:.3g} %."
+        )
+    cut = np.minimum(deviation, height)
+    removed = -float(cut.mean())
+    return RunIn(
+        surface=replace(surface, height=cut + removed), height=height, share=share, removed=removed
+    )
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

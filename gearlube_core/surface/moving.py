@@ -22,8 +22,12 @@ from gearlube_core.surface.heights import (
     check_closed,
     check_plausible,
 )
-from gearlube_core.surface.moving_kernels import Moved, add_moved_heights
-from gearlube_core.surface.periodic_spline import rows_of_map, spline_coefficients
+from gearlube_core.surface.moving_kernels import (
+    Moved,
+    add_moved_heights,
+    rows_of_map,
+    spline_coefficients,
+)
 from gearlube_core.surface.schedule import RoughSchedule
 from gearlube_core.units import MILLIMETRE
 

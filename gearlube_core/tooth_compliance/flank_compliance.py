@@ -27,10 +27,13 @@ from gearlube_core.tooth_compliance.hat_grid import (
     lengthwise_nodes,
     profile_nodes,
 )
-from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, tooth_model
-from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
-from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity, tooth_mesh
-from gearlube_core.tooth_compliance.tooth_section import Flank
+from gearlube_core.tooth_compliance.tooth_geometry import Flank, ToothGeometry
+from gearlube_core.tooth_compliance.tooth_mesh import (
+    MeshDensity,
+    normal_hat_loads,
+    tooth_mesh,
+    tooth_model,
+)
 
 # cells between the centres of two hats along each parameter; the error falls with the square of
 # the cells' size, so two sizes extrapolate: 0.1 % is left inside, 0.5 % in the corners

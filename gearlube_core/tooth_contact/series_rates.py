@@ -9,13 +9,14 @@ from typing import Protocol
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.mesh_table.fourier import fourier, orders_kept
 from gearlube_core.mesh_table.table import (
     PAIRS,
     SERIES_UNITS,
     WINDOW_UNITS,
     MeshTable,
     Provenance,
+    fourier,
+    orders_kept,
 )
 from gearlube_core.storage.result_store import Record
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from gearlube_core.dynamics.hypoid_axle.mesh_force import backlash_deflection
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from tests.helpers.axle_cases import (
     axle_with,
     conservative,

@@ -9,14 +9,13 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
-from gearlube_core.bearings.cage_frame import cage_torque
 from gearlube_core.bearings.ninth_root import (
     ROOT_MAX,
     ROOT_MIN,
     ninth_root,
     ninth_root_change,
 )
-from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, FILM_RANGE
+from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, FILM_RANGE, cage_torque
 from gearlube_core.bearings.roller_contact import (
     N_LINE,
     approach_with_film,
@@ -27,9 +26,9 @@ from gearlube_core.bearings.roller_contact import (
     roller_response_line,
 )
 from gearlube_core.bearings.roller_loads import bearing_forces, roller_loads
-from gearlube_core.bearings.shaft_energy import roller_energy, shaft_bearing_energy
-from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
+from gearlube_core.bearings.shaft_expansion import roller_energy, shaft_bearing_energy
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_kernels import shaft_bearing_forces
 from gearlube_core.film.mostofi_gohar_1983 import central_film
 
 OIL = (0.0171, 2.383e-8)  # Pa s, 1/Pa

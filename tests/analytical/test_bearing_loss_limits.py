@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from gearlube_core.bearings.losses.aihara_1987 import (
+from gearlube_core.bearings.losses.geometry import Rib
+from gearlube_core.bearings.losses.laws import (
     aihara_force,
     aihara_heating,
     aihara_rib_torque,
+    goksem_hargreaves_force,
+    zhou_hoeprich_force,
 )
-from gearlube_core.bearings.losses.geometry import Rib
-from gearlube_core.bearings.losses.goksem_hargreaves_1978 import goksem_hargreaves_force
-from gearlube_core.bearings.losses.ring_loads import roller_loads_between_rings
-from gearlube_core.bearings.losses.zhou_hoeprich_1991 import zhou_hoeprich_force
-from gearlube_core.contact.asperity_share import asperity_share
+from gearlube_core.bearings.roller_loads import roller_loads_between_rings
+from gearlube_core.contact.greenwood_tripp_1971 import asperity_share
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.film.biboulet_houpert_2010 import (

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
-from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_kernels import shaft_bearing_forces
 from gearlube_core.errors import ConvergenceError
 from tests.helpers.bearing_statics import (
     natural_frequencies,

@@ -10,15 +10,14 @@ import pytest
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.losses.laws import PALMGREN, SKF
-from gearlube_core.bearings.skf_drag import skf_drag
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_kernels import skf_drag
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import loaded_drag
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 PRELOAD, SPEED, OIL_TEMPERATURE = 3000.0, 180.0, 343.15
 OIL = lubricant_state(Lubricant.named("mohammadpour_2015").parameters(), OIL_TEMPERATURE)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
-from gearlube_core.film.chittenden_1985 import (
+from gearlube_core.film.point_film import (
     central_film_thickness,
     film_geometry,
     minimum_film_geometry,

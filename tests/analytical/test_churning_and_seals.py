@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from drivetrain.axle_file.axle_file import AxleFile
-from gearlube_core.drag.churning import (
+from gearlube_core.drag import (
     CHURNING_LAWS,
     ChurningConstants,
     changenet_velex_factor,
     churning_torque,
+    seal_torque,
 )
-from gearlube_core.drag.seals import seal_torque
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (

@@ -9,7 +9,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import contact_kinematics, path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_line
-from gearlube_core.hypoid_contact.placed_flank import placed_sample, shape_operator
+from gearlube_core.hypoid_contact.placement import placed_sample, shape_operator
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from tests.helpers.conjugate_curvature import conjugate_relative_curvature
 from tests.helpers.contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair

@@ -14,8 +14,8 @@ from gearlube_core.contact.dang_van import (
     dang_van_number,
     followed_history,
     passage_history,
+    smallest_ball,
 )
-from gearlube_core.contact.smallest_ball import smallest_ball
 from gearlube_core.errors import ParameterError
 
 STEEL = FatigueLimits(bending=400e6, torsion=250e6)  # alpha = 0.375

@@ -13,7 +13,7 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.density_law import density_in_units, density_ratio
+from gearlube_core.oil.film_laws import density_in_units, density_ratio
 from gearlube_core.oil.film_oil import density, density_slope
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import flow_out

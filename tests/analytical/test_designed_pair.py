@@ -10,7 +10,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.design import design_pair, misses
-from gearlube_core.hypoid_design.measured_contact import measured_contact
+from gearlube_core.hypoid_design.flank_target import measured_contact
 from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 

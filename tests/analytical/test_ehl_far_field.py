@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain, elliptical_contact
+from gearlube_core.ehl.point.contact_domain import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.far_field import FarField
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings

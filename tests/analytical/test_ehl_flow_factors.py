@@ -10,8 +10,7 @@ from scipy.optimize import root
 from gearlube_core.ehl.point.equations.film_shear import FilmShear
 from gearlube_core.ehl.point.equations.shear_factors import ObliqueFactors
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.eyring_1936 import Eyring
-from gearlube_core.oil.eyring_flow import eyring_flow_factor, eyring_mean_stress
+from gearlube_core.oil.eyring_1936 import Eyring, eyring_flow_factor, eyring_mean_stress
 from gearlube_core.oil.film_oil_data import film_oil
 from gearlube_core.oil.shear_flow import shear_flow
 

@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import gearlube_core.ehl.transient.front as transient_front
+import gearlube_core.ehl.transient.newton as transient_front
 import gearlube_core.ehl.transient.newton as transient_newton
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
-from gearlube_core.ehl.transient.front import advance_front, mark_band, relax_band
 from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.newton import advance_front, mark_band, relax_band
 
 ROW = np.array([[0, 0], [0, -1], [0, 1]])
 

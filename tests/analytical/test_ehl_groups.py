@@ -5,8 +5,8 @@ import math
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
 from gearlube_core.film.groups import point_contact_groups
+from gearlube_core.film.point_film import central_film_thickness, film_geometry
 
 CASE = {
     "viscosity": 0.0171,

@@ -6,10 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.ehl.gears.hypoid_cycle import march_flank, steady_films
+from gearlube_core.contact.hertz import hertz_ellipse
+from gearlube_core.ehl.gears.hypoid_cycle import flank_traction, march_flank, steady_films
 from gearlube_core.ehl.gears.hypoid_film import FLOWS
-from gearlube_core.ehl.gears.hypoid_traction import flank_traction
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact

@@ -11,11 +11,10 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from gearlube_core.ehl.line.deflection import LineDeflection, hat_coefficients
 from gearlube_core.ehl.line.newton import newton
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import hertz_start, solve_line
-from gearlube_core.ehl.line.system import LineState, LineSystem
+from gearlube_core.ehl.line.system import LineDeflection, LineState, LineSystem, hat_coefficients
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_line_cases import thesis_line

@@ -10,10 +10,11 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.eyring_flow import eyring_flow_factor, eyring_mean_stress
+from gearlube_core.oil.eyring_1936 import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.oil.film_oil import (
     density,
     density_slope,
+    fill_properties,
     limiting_stress,
     pressure_viscosity,
     thermal_viscosity,
@@ -21,7 +22,6 @@ from gearlube_core.oil.film_oil import (
     viscosity_slope,
 )
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of, jamali_2015_oil
-from gearlube_core.oil.film_properties import fill_properties
 from gearlube_core.oil.lubricant import Lubricant
 
 PRESSURES = (0.0, 1e6, 2e8, 1e9, 3e9)

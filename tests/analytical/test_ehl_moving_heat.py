@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from scipy.special import k0
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
-from gearlube_core.ehl.point.thermal.moving_heat import MovingHeat, moving_heat_coefficients
+from gearlube_core.ehl.point.thermal.surfaces import MovingHeat, moving_heat_coefficients
 from gearlube_core.errors import ParameterError
 
 K = STEEL.conductivity

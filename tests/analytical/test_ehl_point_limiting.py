@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.equations.film_shear import FilmShear
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.traction import point_traction

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain, elliptical_contact
+from gearlube_core.ehl.point.contact_domain import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.solver import solve_point_contact

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain
+from gearlube_core.ehl.point.contact_domain import ContactDomain
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution

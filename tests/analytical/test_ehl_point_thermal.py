@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.thermal import solve_thermal_line
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import PointThermalSettings, solve_thermal_point

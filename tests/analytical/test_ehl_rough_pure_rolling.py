@@ -10,7 +10,7 @@ import pytest
 from gearlube.studies.films.rough.gather import new_statistics
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.transient.march import FilmMarch
-from gearlube_core.ehl.transient.section import moving_section
+from gearlube_core.ehl.transient.problem import moving_section
 from gearlube_core.ehl.transient.solution import FilmSolution
 
 U = 6.71  # m/s

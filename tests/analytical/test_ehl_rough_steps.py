@@ -11,10 +11,9 @@ import pytest
 import gearlube_core.ehl.transient.newton as transient_newton
 from gearlube.studies.films.rough.run import run_rough
 from gearlube_core.ehl.case.rough_case import RoughCase
-from gearlube_core.ehl.transient.history import FilmHistory
-from gearlube_core.ehl.transient.lift import lifted, lifted_off_solids
+from gearlube_core.ehl.transient.history import FilmHistory, MarchRecord
+from gearlube_core.ehl.transient.level import lifted, lifted_off_solids
 from gearlube_core.ehl.transient.march import FilmMarch
-from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.solution import FilmSolution
 
 # ridges that cross and touch, on a grid that takes seconds

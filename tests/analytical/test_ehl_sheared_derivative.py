@@ -8,21 +8,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact, line_section
 from gearlube_core.ehl.point.equations.grid import PointGrid
-from gearlube_core.ehl.point.equations.limiter import limited_faces
-from gearlube_core.ehl.point.equations.mesh import Grading
-from gearlube_core.ehl.point.grid_film import nested_film
+from gearlube_core.ehl.point.equations.stencil import Grading
 from gearlube_core.ehl.point.level import PointLevel
-from gearlube_core.ehl.point.line_section import line_section
 from gearlube_core.ehl.point.problem import expected_film
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solution import limited_faces
+from gearlube_core.ehl.point.solver import nested_film
 from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.ehl.point.terms.state import FilmState
-from gearlube_core.ehl.transient.conditions import FilmConditions
-from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.level import FilmConditions, MovingLevel
 from gearlube_core.oil.film_oil_data import film_oil
 
 TAU0 = 4e6

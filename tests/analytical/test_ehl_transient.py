@@ -8,13 +8,13 @@ from functools import partial
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.equations.stencil import Grading
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.history import MarchRecord
+from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import MovingFilm
-from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import density as oil_density

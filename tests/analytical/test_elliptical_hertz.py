@@ -7,8 +7,12 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import ellipe, ellipk, ellipkm1
 
-from gearlube_core.contact.elliptic_integrals import complete_elliptic_k_d
-from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients, hertz_ellipse
+from gearlube_core.contact.hertz import (
+    complete_elliptic_k_d,
+    ellipticity,
+    hertz_coefficients,
+    hertz_ellipse,
+)
 from tests.references.hertz_reference import HertzContact
 
 E_STAR = 115.4e9

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle, film_nodes, flanks, rhs, tooth_pair
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle, flanks, rhs, state, tooth_pair
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
@@ -11,7 +11,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
 )
 from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_STATE, PHI_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with
 
 FORCE, SPEED, TORQUE, TEETH = 2500.0, 145.0, 60.0, 13
@@ -97,10 +97,10 @@ def test_nodes_that_share_a_place_do_not_serve_one_another(axle):
     axle.losses(0.3, tooth_pair.BETWEEN_NODES)
     films = axle.kept[flanks.FILMS :]
     node = int(0.3 * axle.nodes)
-    other = node + film_nodes.NODES_KEPT
-    assert film_nodes.place_of_node(other) == film_nodes.place_of_node(node)
-    assert film_nodes.still_holds(films, node, FORCE, SPEED, OIL)
-    assert not film_nodes.still_holds(films, other, FORCE, SPEED, OIL)
+    other = node + state.NODES_KEPT
+    assert state.place_of_node(other) == state.place_of_node(node)
+    assert state.still_holds(films, node, FORCE, SPEED, OIL)
+    assert not state.still_holds(films, other, FORCE, SPEED, OIL)
 
 
 @pytest.mark.parametrize("now", [{"force": 1.025 * FORCE}, {"speed": 0.975 * SPEED}])
@@ -120,7 +120,7 @@ def test_what_is_kept_follows_force_and_speed(axle, now):
 
 def power_law(force, speed):
     # slopes over relative changes are the exponents times the value
-    return film_nodes.NodeFlank(
+    return state.NodeFlank(
         -15.0 - 0.07 * np.log(force) + 0.7 * np.log(speed),
         -3.0 + 0.3 * np.log(force) - 0.2 * np.log(speed),
         1e-3 * force**0.3 * speed**-0.2,
@@ -132,22 +132,22 @@ def power_law(force, speed):
 
 def kept_after(*states):
     """Films of node 3 under forces and speeds that follow one another."""
-    films = np.zeros(film_nodes.N_FILMS)
-    more = 1.0 + film_nodes.NUDGE
+    films = np.zeros(state.N_FILMS)
+    more = 1.0 + state.NUDGE
     for k, (F, w) in enumerate(states):
         if k == 0:
             nudged = power_law(more * F, w), power_law(F, more * w)
-            film_nodes.keep_flank(films, 3, F, w, OIL, power_law(F, w), *nudged)
+            state.keep_flank(films, 3, F, w, OIL, power_law(F, w), *nudged)
         else:
-            assert film_nodes.tells_slopes(films, 3, F, w, OIL)
-            film_nodes.follow_flank(films, 3, F, w, power_law(F, w))
+            assert state.tells_slopes(films, 3, F, w, OIL)
+            state.follow_flank(films, 3, F, w, power_law(F, w))
     return films
 
 
 @pytest.mark.parametrize("then", [(2000.0, 150.0), (2500.0, 130.0), (1800.0, 160.0)])
 def test_renewed_slopes_give_back_the_values_before(then):
     films = kept_after(then, (FORCE, SPEED))
-    before = film_nodes.flank_between(films, 3, 3, 0.0, *then)
+    before = state.flank_between(films, 3, 3, 0.0, *then)
     assert before[:4] == pytest.approx(power_law(*then)[:4], rel=1e-13)
 
 
@@ -155,7 +155,7 @@ def test_renewed_slopes_stay_across_the_change():
     films = kept_after((FORCE, SPEED), (1.1 * FORCE, SPEED))
     # only the force has changed: the slope over speed is the first one, a secant over NUDGE of
     # the values at the first force
-    faster = film_nodes.flank_between(films, 3, 3, 0.0, 1.1 * FORCE, 1.02 * SPEED)
+    faster = state.flank_between(films, 3, 3, 0.0, 1.1 * FORCE, 1.02 * SPEED)
     now = power_law(1.1 * FORCE, SPEED)
     first, nudged = power_law(FORCE, SPEED), power_law(FORCE, 1.02 * SPEED)
     for k in range(4):
@@ -188,4 +188,4 @@ def test_values_follow_a_force_that_goes_on_changing(axle):
 def test_slopes_are_taken_from_nothing_after_large_changes(now, tells):
     films = kept_after((FORCE, SPEED))
     force, speed = (given * now.get(n, 1.0) for n, given in (("force", FORCE), ("speed", SPEED)))
-    assert film_nodes.tells_slopes(films, 3, force, speed, OIL + now.get("oil", 0.0)) == tells
+    assert state.tells_slopes(films, 3, force, speed, OIL + now.get("oil", 0.0)) == tells

@@ -5,9 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.modification import (
+    Crown,
+    FlankModification,
+    ModifiedPair,
+    PowerTipRelief,
+    TipRelief,
+)
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
 
 TIP, EXTENT, AMOUNT = 0.083305, 2e-3, 70e-6
 START = TIP - EXTENT

@@ -6,12 +6,16 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_optimisation.goal import Goal
-from gearlube_core.flank_optimisation.held_model import HELICAL_CELLS, HeldModel, differences
-from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
+from gearlube_core.flank_optimisation.held_model import (
+    HELICAL_CELLS,
+    CheckSettings,
+    HeldModel,
+    differences,
+    plain_check,
+)
 from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import Limits, OptimisationFile
-from gearlube_core.flank_optimisation.search import SearchSettings, search
+from gearlube_core.flank_optimisation.search import Goal, SearchSettings, search
 from tests.helpers.helical_contact_cases import stiff_teeth
 
 TEETH = dict.fromkeys(("drive", "coast"), stiff_teeth(1.1e11))

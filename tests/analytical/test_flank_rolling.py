@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.loss_map.datasets import not_modelled
-from gearlube_core.contact.elliptical_hertz import hertz_coefficients, hertz_ellipse
+from gearlube_core.contact.hertz import hertz_coefficients, hertz_ellipse
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
@@ -23,7 +23,7 @@ from gearlube_core.friction.flank_rolling import (
     flank_rolling_force,
     rolling_geometry,
 )
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
 MODULUS = 115e9  # E* [Pa]
 R_X, LOAD, SPEED = 0.015, 2500.0, 3.0

@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 from gearlube_core.flank_optimisation import optimise
-from gearlube_core.flank_optimisation.goal import Goal
 from gearlube_core.flank_optimisation.optimise import Better, OptimiseSettings
 from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
-from gearlube_core.flank_optimisation.search import Found, search
+from gearlube_core.flank_optimisation.search import Found, Goal, search
 
 UNIT = np.zeros(2), np.ones(2)
 

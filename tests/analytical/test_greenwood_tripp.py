@@ -13,9 +13,10 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     asperity_integrals,
     asperity_load,
     f_2,
+    f_2_as_printed,
     f_5_2,
+    f_5_2_as_printed,
 )
-from gearlube_core.contact.greenwood_tripp_as_printed import f_2_as_printed, f_5_2_as_printed
 
 SURFACE = SurfaceParameters(sigma=0.5e-6, xi_beta_sigma=0.055, sigma_over_beta=0.001)
 

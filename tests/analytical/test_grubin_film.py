@@ -7,7 +7,6 @@ import pytest
 from scipy.integrate import quad
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
 from gearlube_core.film.grubin_1949 import (
     CONSISTENT_COEFFICIENT,
     GRUBIN_INTEGRAL,
@@ -16,6 +15,7 @@ from gearlube_core.film.grubin_1949 import (
     grubin_geometry,
     inlet_heating_factor,
 )
+from gearlube_core.film.point_film import central_film_thickness, film_geometry
 
 E_STAR = 115.4e9
 CONSISTENT = grubin_convention("consistent", E_STAR)

@@ -5,9 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
-from gearlube_core.ehl.point.equations.mesh import Grading, cell_faces
+from gearlube_core.contact.half_space import (
+    GradedConvolution,
+    HalfSpaceConvolution,
+    graded_coefficients,
+    love_coefficients,
+)
+from gearlube_core.ehl.point.equations.stencil import Grading, cell_faces
 from gearlube_core.errors import ParameterError
 
 E = 1.15e11

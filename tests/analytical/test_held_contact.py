@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.strip_compliance import StripCompliance
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.tooth_contact.frozen_equilibrium import frozen_compliance
-from gearlube_core.tooth_contact.held_contact import solve_held
+from gearlube_core.tooth_contact.coupled_strips import StripCompliance
+from gearlube_core.tooth_contact.held_contact import frozen_compliance, solve_held
 
 CELL, SHAPE, MODULUS = (0.04e-3, 0.3e-3), (13, 17), 1.15e11
 TORQUE = 40.0

@@ -8,12 +8,12 @@ import pytest
 from gearlube_core.helical_geometry.contact_line import (
     clip_line,
     line_count,
+    line_kinematics,
     line_position,
     pitch_crossing,
     segment_length,
 )
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.load_sharing import positions_at, shared_load
 from gearlube_core.helical_geometry.modification import ModifiedPair
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from gearlube.studies.helical.stability import instability_map
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.linear.instability_map import instability_map
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     LinearSystem,
     linear_system,

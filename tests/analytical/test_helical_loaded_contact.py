@@ -9,7 +9,7 @@ import pytest
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_contact.tooth_body import pair_stiffness
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity

@@ -9,17 +9,15 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.supports.shaft_support import (
+from gearlube_core.dynamics.helical_pair.supports import (
     Bearing,
     ShaftEnds,
     ShaftSupport,
-    symmetric_support,
-)
-from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     bearing_matrix,
     printed_support_stiffness,
     support_damping,
     support_stiffness,
+    symmetric_support,
 )
 
 _BEARING_1 = Bearing(

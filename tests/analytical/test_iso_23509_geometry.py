@@ -10,9 +10,8 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead, ToothTrace
 from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, apex_misfit, method_2
-from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
+from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones, ToothTrace
 
 FIELDS = ("shaft", "gear_angle", "teeth", "radius", "offset", "spiral")
 CASES = [

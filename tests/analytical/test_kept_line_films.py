@@ -10,18 +10,24 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.march import kept_films, line_points
-from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
-from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView, coast_view, drive_view
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.integrate import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.state import MU, POINTS_PER_LINE, W_P
-from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from gearlube_core.dynamics.helical_pair.march.state import (
+    MU,
+    POINTS_PER_LINE,
+    W_P,
+    FlankView,
+    coast_view,
+    drive_view,
+)
+from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.friction.solved_line import line_film, line_inlet, solved_line_friction
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 PARAMETERS = replace(helical_march_parameters(HelicalGearFile.named("he_2007")), film="solved")
 TEETH = HelicalGearFile.named("he_2007").pinion.teeth

@@ -8,8 +8,11 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
-from gearlube_core.film.dowson_toyoda_1979 import central_line_film, line_film_thickness
+from gearlube_core.film.line_film import (
+    central_line_film,
+    line_film_thickness,
+    minimum_line_film_thickness,
+)
 
 Film = Callable[..., float]
 # R, eta0, alpha, u, w, E'

@@ -5,16 +5,14 @@ import math
 import pytest
 from scipy.integrate import quad
 
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.contact.line_hertz import LARGEST_OVER_MEAN, line_mean_pressure
+from gearlube_core.contact.hertz import LARGEST_OVER_MEAN, hertz_ellipse, line_mean_pressure
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import CONSISTENT, FlankState, contact_geometry
-from gearlube_core.friction.line_friction import LINE_LOAD_FLOOR, LineState, line_friction
+from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LineState, line_friction
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 STEEL = STEEL_MOHAMMADPOUR_2015
 SOLID = solid_parameters(STEEL, STEEL)

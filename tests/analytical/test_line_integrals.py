@@ -10,20 +10,19 @@ import pytest
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.friction.line_friction import line_friction
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import (
+    line_friction,
     line_points,
     normal_force,
     table_line_load,
     uniform_line_load,
 )
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 SURFACE = SurfaceParameters(sigma=0.5e-6, xi_beta_sigma=0.055, sigma_over_beta=0.001)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipk
 
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition

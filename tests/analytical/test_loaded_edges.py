@@ -3,8 +3,8 @@
 import numpy as np
 
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
-from gearlube_core.hypoid_contact.loaded_edges import beside_edge, loaded_edges
 from gearlube_core.hypoid_contact.strips import StripSettings
+from gearlube_core.hypoid_design.chosen_relief import beside_edge, loaded_edges
 from tests.helpers.contact_cases import shipped_pair
 from tests.helpers.loaded_cases import stiffness
 

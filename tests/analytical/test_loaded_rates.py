@@ -10,8 +10,7 @@ from gearlube_core.contact.unilateral_problem import UnilateralProblem
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import QUANTITIES, loaded_rates
-from gearlube_core.hypoid_contact.sensitivity.parameter import usual_parameters
-from gearlube_core.hypoid_contact.sensitivity.variations import Variations
+from gearlube_core.hypoid_contact.sensitivity.parameter import Variations, usual_parameters
 from tests.helpers.contact_cases import shipped_file, shipped_pair
 from tests.helpers.differences import changed_pair, extrapolated
 from tests.helpers.frozen_contact import PHASE, SOFT_TEETH, TORQUE, Frozen

@@ -4,11 +4,16 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_optimisation.goal import Goal
-from gearlube_core.flank_optimisation.held_model import HYPOID_CELLS, HeldModel, differences
-from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
+from gearlube_core.flank_optimisation.held_model import (
+    HYPOID_CELLS,
+    CheckSettings,
+    HeldModel,
+    differences,
+    plain_check,
+)
 from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import Limits, OptimisationFile
+from gearlube_core.flank_optimisation.search import Goal
 from tests.helpers.loaded_cases import stiffness
 
 TEETH = {"drive": stiffness(), "coast": stiffness(0.6e-9)}

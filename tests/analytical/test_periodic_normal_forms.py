@@ -140,14 +140,22 @@ def test_prescribed_speed_walks_past_the_folds_of_a_prescribed_load_and_tells_th
     assert [stable for _, stable in branch.runs()] == [True, False, True]
 
 
-@pytest.mark.parametrize("slope", [0.3, 1.0, 3.0])
-def test_corner_of_a_piecewise_linear_branch_is_passed(slope):
-    # p = slope z up to the corner at 0, then p = -slope z: blunter and sharper than a right angle
+@pytest.mark.parametrize("way", [1.0, -1.0])
+@pytest.mark.parametrize(("slope", "size"), [(0.3, 1.0), (1.0, 1.0), (3.0, 1.0), (3.0, 0.1)])
+def test_corner_of_a_piecewise_linear_branch_is_passed(slope, size, way):
+    # way p = slope z up to the corner at 0, then -slope z: blunter and sharper than a right angle;
+    # the size of the equation does not matter
     problem = normal_form(
-        lambda z, p: p + slope * abs(z), lambda z, p: math.copysign(slope, z), lambda z, p: 1.0
+        lambda z, p: size * (way * p + slope * abs(z)),
+        lambda z, p: size * math.copysign(slope, z),
+        lambda z, p: size * way,
     )
-    branch = follow(problem, np.array([-0.5]), -0.5 * slope, limits=(-2.0, 1.0))
+    limits = sorted([-2.0 * way, way])
+    start = -0.5 * way * slope
+    branch = follow(problem, np.array([-0.5]), start, limits=limits, heading=way)
     assert branch.ending == "parameter limit"
     assert branch.unknowns[-1, 0] == pytest.approx(2.0 / slope, abs=1e-8)
-    assert branch.parameter == pytest.approx(-slope * np.abs(branch.unknowns[:, 0]), abs=1e-8)
-    assert np.max(branch.parameter) == pytest.approx(0.0, abs=slope * 1e-2)  # steps shrink to it
+    places = -slope * np.abs(branch.unknowns[:, 0])
+    assert way * branch.parameter == pytest.approx(places, abs=1e-8)
+    # steps shrink to it
+    assert np.max(way * branch.parameter) == pytest.approx(0.0, abs=slope * 1e-2)

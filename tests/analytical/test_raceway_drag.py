@@ -26,8 +26,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 PRELOAD, SPEED, OIL_TEMPERATURE = 3000.0, 180.0, 343.15
 OIL = lubricant_state(Lubricant.named("mohammadpour_2015").parameters(), OIL_TEMPERATURE)

@@ -14,15 +14,14 @@ from gearlube_core.bearings.losses.laws import ROLLING_LAWS
 from gearlube_core.bearings.losses.loss import LossModel, bearing_loss
 from gearlube_core.bearings.losses.rib import rib_friction
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.bearings.rib_drag import rib_contact, rib_drag, roller_half_cone
 from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_kernels import rib_contact, rib_drag, roller_half_cone
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 FVA = Lubricant.named("fva_3")
 KELVIN, PRELOAD = 353.15, 5000.0

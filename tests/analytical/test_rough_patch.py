@@ -14,9 +14,13 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     asperity_load,
 )
 from gearlube_core.errors import ParameterError
-from gearlube_core.rough_patch.dry_contact import press_patch
 from gearlube_core.rough_patch.flow import flow_factors
-from gearlube_core.rough_patch.table import gaussian_patches, greenwood_tripp_fit, patch_table
+from gearlube_core.rough_patch.table import (
+    gaussian_patches,
+    greenwood_tripp_fit,
+    patch_table,
+    press_patch,
+)
 from gearlube_core.surface.heights import HeightMap
 
 A = 3e-7  # m, amplitude of waves

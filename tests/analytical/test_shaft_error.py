@@ -15,8 +15,7 @@ from gearlube_core.mesh_table.kernels import (
     shaft_error_rate,
     transmission_error,
 )
-from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table, write_mesh_table
 from tests.helpers.axle_cases import OIL, conservative, output, record, running_axle
 
 TABLE = shipped_mesh_table("mohammadpour_2015")

@@ -12,8 +12,8 @@ from gearlube_core.bearings.shaft_expansion import (
     expand_shaft_bearings,
     expanded_shaft_forces,
 )
-from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_kernels import shaft_bearing_forces
 
 OIL = (0.0171, 2.383e-8)  # Pa s, 1/Pa
 WET = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.hertz import ellipticity, hertz_coefficients
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
@@ -14,18 +14,17 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.groups import FilmContact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film
-from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import contact_geometry
-from gearlube_core.friction.flank_film import flank_film_model
-from gearlube_core.friction.flank_laws import SOLVED, Consistent
-from gearlube_core.friction.solved_flank import (
+from gearlube_core.friction.flank_film import FlankEllipse, flank_film_model
+from gearlube_core.friction.flank_laws import (
     FORMULA_FILM_BOUND,
     FORMULA_FRICTION_TOP,
+    SOLVED,
+    Consistent,
     formula_doubt,
     solved_flank_friction,
 )
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.axle_cases import OIL as AXLE_OIL
 from tests.helpers.axle_cases import operating_point
 

@@ -15,8 +15,8 @@ from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.film_model.solved_line import solved_line
-from gearlube_core.friction.line_friction import line_friction
+from gearlube_core.film_model.solved_film import solved_line
+from gearlube_core.friction.line_points import line_friction
 from gearlube_core.friction.solved_line import (
     LINE_FORMULA_FILM_BOUND,
     LINE_FORMULA_FRICTION_TOP,
@@ -24,8 +24,7 @@ from gearlube_core.friction.solved_line import (
     solved_line_friction,
 )
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 TEMPERATURE = 353.15
 LUBRICANT = Lubricant.named("mohammadpour_2015")
@@ -64,6 +63,15 @@ def test_inside_the_domain_film_and_friction_are_the_models():
     wanted = MODEL.friction_bound * film.friction_coefficient
     assert found.coefficient_bound == pytest.approx(wanted, rel=1e-12)
     assert found.film_bound == MODEL.film_bound
+    # a band of 2 b that moves, joined with a round source at rest, and the film's own rise
+    b = (4.0 * 1e5 * R / (math.pi * SOLID.contact_modulus)) ** 0.5
+    flux = found.state.viscous_friction * SLIP / (2.0 * b)
+    heat = SOLID.conductivity * SOLID.density * SOLID.heat_capacity
+    moving = 2.0 / 3.0 * (2.0 * b / (math.pi * heat * SPEED)) ** 0.5
+    still = 4.0 / (3.0 * math.pi) * 4.7 * b / SOLID.conductivity
+    surface = (moving**-2 + still**-2) ** -0.5
+    rise = flux * (surface + film.central_film / (12.0 * OIL.conductivity))
+    assert found.state.temperature_rise == pytest.approx(rise, rel=1e-9)
     # a rough flank: asperities on the solved film, whose load a thinner film would raise
     rough = solved(1e5)
     assert rough.coefficient_bound * 1e5 > MODEL.friction_bound * rough.state.viscous_friction

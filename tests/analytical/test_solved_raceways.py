@@ -23,17 +23,17 @@ from gearlube_core.bearings.roller_nodes import (
     N_ROLLER_NODES,
     centre_nodes,
     kept_roller_film,
+    races_of,
     roller_film,
+    solved_raceway_drag,
 )
-from gearlube_core.bearings.solved_raceways import races_of, solved_raceway_drag
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.bearing_32216 import BEARING
 
 SPEED, TEMPERATURE = 200.0, 353.15

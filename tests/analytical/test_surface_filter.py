@@ -7,9 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.surface.gaussian_filter import filtered
+from gearlube_core.surface.gaussian_filter import filtered, levelled
 from gearlube_core.surface.heights import HeightMap, Profile
-from gearlube_core.surface.levelling import levelled
 from gearlube_core.surface.spectrum import (
     map_spectrum,
     profile_autocorrelation,

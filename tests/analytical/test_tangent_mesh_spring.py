@@ -5,7 +5,7 @@ import pytest
 
 from gearlube_core.dynamics.packed_mesh import pack_mesh
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_P, E
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 
 TABLE = shipped_mesh_table("mohammadpour_2015")
 ANGLE = 2.0 * np.pi * np.arange(240) / 240  # of the mesh period

@@ -9,12 +9,12 @@ from skfem import Basis, ElementHexS2
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.tooth_compliance.flank_compliance import half_space_compliance
-from gearlube_core.tooth_compliance.tooth_fe import (
+from gearlube_core.tooth_compliance.tooth_geometry import Flank
+from gearlube_core.tooth_compliance.tooth_mesh import (
     energy_products,
     normal_hat_loads,
     stiffness_matrix,
 )
-from gearlube_core.tooth_compliance.tooth_section import Flank
 from tests.helpers.compliance_cases import box_mesh
 
 FACTOR = (1.0 - STEEL.poisson_ratio**2) / (math.pi * STEEL.youngs_modulus)

@@ -19,11 +19,14 @@ from gearlube_core.hypoid_contact.tooth_errors.error_cycle import (
     added_rotation,
     tooth_error_cycle,
 )
-from gearlube_core.hypoid_contact.tooth_errors.hunting_turn import TurnProblem
-from gearlube_core.hypoid_contact.tooth_errors.pair_curves import contact_turns, position_curves
+from gearlube_core.hypoid_contact.tooth_errors.pair_curves import (
+    TurnProblem,
+    contact_turns,
+    position_curves,
+)
 from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, ToothErrors, Wave
 from gearlube_core.mesh_table.kernels import shaft_error
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.tooth_contact.coupled_strips import solve_coupled
 from gearlube_core.tooth_contact.mesh_cycle import stack_records
 from tests.helpers.contact_cases import shipped_pair

@@ -11,13 +11,13 @@ from skfem import Basis, ElementHexS2
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.tooth_compliance.tooth_fe import (
+from gearlube_core.tooth_compliance.tooth_mesh import (
     energy_products,
     normal_hat_loads,
     stiffness_matrix,
+    tooth_mesh,
     tooth_model,
 )
-from gearlube_core.tooth_compliance.tooth_mesh import tooth_mesh
 from tests.helpers.compliance_cases import COARSE, box_mesh, spiral_tooth
 
 

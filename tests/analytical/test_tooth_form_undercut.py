@@ -11,7 +11,7 @@ import pytest
 
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.flank import Flank, ToothRegion
-from gearlube_core.hypoid_geometry.flank.flank_root_limit import flank_root_limit
+from gearlube_core.hypoid_geometry.flank.tooth import flank_root_limit
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 
 FAR = 20.0  # radius of cutter and cradle that stand for a rack [m]

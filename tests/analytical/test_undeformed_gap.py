@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.helical_geometry.facets import facet_bounds, parabola_distance
-from gearlube_core.helical_geometry.involute import involute_flank
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.contact_line import line_kinematics
+from gearlube_core.helical_geometry.involute import facet_bounds, involute_flank, parabola_distance
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair

@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.strip_compliance import StripCompliance
 from gearlube_core.contact.unilateral import solve_torque
-from gearlube_core.contact.unilateral_problem import UnilateralProblem, UnilateralSolution
-from gearlube_core.contact.unilateral_stiffness import tangent_stiffness
+from gearlube_core.contact.unilateral_problem import (
+    UnilateralProblem,
+    UnilateralSolution,
+    tangent_stiffness,
+)
+from gearlube_core.tooth_contact.coupled_strips import StripCompliance
 from tests.references.hertz_reference import HertzContact
 
 E_STAR, LOAD = 115.4e9, 500.0

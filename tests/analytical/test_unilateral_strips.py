@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.strip_compliance import StripCompliance
 from gearlube_core.contact.unilateral import solve_rotation, solve_torque
-from gearlube_core.contact.unilateral_problem import UnilateralProblem
-from gearlube_core.contact.unilateral_stiffness import tangent_stiffness
+from gearlube_core.contact.unilateral_problem import UnilateralProblem, tangent_stiffness
+from gearlube_core.tooth_contact.coupled_strips import StripCompliance
 
 E_STAR, DX, DY, NX, NY = 115.4e9, 3e-5, 5e-4, 40, 48
 CELLS = NX * NY

@@ -6,7 +6,7 @@ import pytest
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_migration, contact_path
 from gearlube_core.hypoid_contact.ease_off import ease_off
-from gearlube_core.hypoid_contact.placed_flank import placed_sample
+from gearlube_core.hypoid_contact.placement import placed_sample
 from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
 from gearlube_core.hypoid_contact.unloaded_error import (
     _edge_angle,

@@ -10,10 +10,12 @@ from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.ease_off import ease_off
 from gearlube_core.hypoid_contact.placement import ALIGNED
 from gearlube_core.hypoid_contact.sensitivity.analysis import error_rates
-from gearlube_core.hypoid_contact.sensitivity.ease_off_rates import ease_off_rates
-from gearlube_core.hypoid_contact.sensitivity.parameter import Parameter, usual_parameters
-from gearlube_core.hypoid_contact.sensitivity.path_rates import path_rates
-from gearlube_core.hypoid_contact.sensitivity.variations import Variations
+from gearlube_core.hypoid_contact.sensitivity.parameter import (
+    Parameter,
+    Variations,
+    usual_parameters,
+)
+from gearlube_core.hypoid_contact.sensitivity.unloaded_rates import ease_off_rates, path_rates
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from tests.helpers.contact_cases import SIDES, angles_on_teeth, shipped_file, shipped_pair
 from tests.helpers.differences import apart, changed_pair, extrapolated

@@ -18,6 +18,12 @@ from gearlube_core.ehl.line.problem import LineSettings
 from gearlube_core.ehl.line.thermal import ThermalSettings, solve_thermal_line
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.film_laws import (
+    cooling_at,
+    cooling_factor,
+    log_viscosity,
+    viscosity_decline,
+)
 from gearlube_core.oil.film_oil import (
     pressure_viscosity,
     thermal_viscosity,
@@ -26,12 +32,6 @@ from gearlube_core.oil.film_oil import (
     viscosity_slope,
 )
 from gearlube_core.oil.film_oil_data import film_oil
-from gearlube_core.oil.viscosity_law import (
-    cooling_at,
-    cooling_factor,
-    log_viscosity,
-    viscosity_decline,
-)
 from tests.helpers.foreign_laws import FOREIGN_OIL, T0
 from tests.helpers.small_films import (
     SPEED,

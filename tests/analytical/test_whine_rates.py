@@ -11,12 +11,12 @@ from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mes
 from gearlube_core.dynamics.hypoid_torsional.whine_rates import whine_rates
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import QUANTITIES, loaded_rates
+from gearlube_core.hypoid_contact.sensitivity.parameter import Variations
 from gearlube_core.hypoid_contact.sensitivity.series_rates import (
     SeriesSettings,
     assembled,
 )
-from gearlube_core.hypoid_contact.sensitivity.variations import Variations
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from tests.helpers.contact_cases import shipped_file, shipped_pair
 from tests.helpers.differences import changed_pair, extrapolated
 from tests.helpers.frozen_contact import SOFT_TEETH, Frozen

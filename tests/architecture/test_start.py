@@ -35,6 +35,25 @@ def test_nothing_large_is_imported_before_a_study_starts(code: str) -> None:
     assert _imported_by(code).isdisjoint(_LARGE)
 
 
+_READING = """
+import os, sys, tempfile
+from typer.testing import CliRunner
+from gearlube.command import app
+os.chdir(tempfile.mkdtemp())
+open("bad.toml", "w").write("a = [1,,")
+studies = "sweep runup axle/show design contact optimise measured whine helical oil map cycle"
+studies += " vary/map ehl/line ehl/point ehl/hypoid ehl/helical ehl/rough bearing convert"
+for study in studies.split() + ["build-fmu/--axle", "map/--oil", "bearing/tapered/--oil"]:
+    done = CliRunner().invoke(app, [*study.split("/"), "bad.toml"])
+    assert done.exit_code == 2, (study, done.output)
+    assert os.listdir() == ["bad.toml"], study
+"""
+
+
+def test_a_file_that_is_no_toml_is_refused_before_anything_large_is_imported() -> None:
+    assert _imported_by(_READING) & set(_LARGE) <= {"pydantic"}
+
+
 def test_a_film_on_a_grid_is_solved_without_dask() -> None:
     """pyfftw would import dask's arrays, and with them pandas, for an interface nobody uses."""
     loaded = _imported_by("from gearlube_core.ehl.point.solver import solve_point_contact")

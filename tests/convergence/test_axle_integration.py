@@ -5,16 +5,15 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import AxleRaceways, bearing_drag
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import AxleRaceways, bearing_drag, drag_near
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     CONTACT_PARTS,
     contact_parts,
     displacements,
     largest_change,
 )
-from gearlube_core.dynamics.hypoid_axle.kept_drag import drag_near
 from gearlube_core.dynamics.hypoid_axle.state import KEPT_DRAG, N_ODE, N_STATE, X
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import (
     OIL,
     axle_with,

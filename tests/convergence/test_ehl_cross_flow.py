@@ -12,7 +12,6 @@ from gearlube_core.ehl.point.equations.cross_flow import (
     add_cross_derivatives,
     add_cross_flow,
 )
-from gearlube_core.ehl.point.equations.mesh import mesh_metric
 from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
 from gearlube_core.ehl.point.equations.shear_factors import ObliqueFactors
 from gearlube_core.ehl.point.equations.stencil import (
@@ -22,8 +21,9 @@ from gearlube_core.ehl.point.equations.stencil import (
     NodeSlopes,
     StencilParameters,
     TensorSlopes,
+    mesh_metric,
 )
-from gearlube_core.ehl.point.sides import AMBIENT
+from gearlube_core.ehl.point.settings import AMBIENT
 
 STEP = 1e-4  # of the differences that stand for derivatives of the smooth fields
 

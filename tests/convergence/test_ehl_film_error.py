@@ -10,8 +10,8 @@ from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.transient.history import MarchRecord
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS, FilmMarch
-from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError
 from tests.helpers.ehl_line_cases import thesis_line

@@ -8,13 +8,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
-from gearlube_core.ehl.point.equations.finite_elements import (
-    ELEMENT_OFFSETS,
-    element_derivatives,
-    element_residual,
-    upwind_shares,
-)
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
 from gearlube_core.ehl.point.equations.stencil import (
     CarriedMass,
@@ -25,14 +19,18 @@ from gearlube_core.ehl.point.equations.stencil import (
 )
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
 from gearlube_core.ehl.point.newton.newton import newton
-from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.newton.transfer import Hierarchy, Transfer, grid_shapes
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.sides import AMBIENT
+from gearlube_core.ehl.point.settings import AMBIENT, PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.point.terms.elements import Elements
+from gearlube_core.ehl.point.terms.elements import (
+    ELEMENT_OFFSETS,
+    Elements,
+    element_derivatives,
+    element_residual,
+    upwind_shares,
+)
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.oil.film_oil_data import film_oil
 

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain
+from gearlube_core.ehl.point.contact_domain import ContactDomain
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact

@@ -8,7 +8,7 @@ import pytest
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain
+from gearlube_core.ehl.point.contact_domain import ContactDomain
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil_data import film_oil

@@ -10,7 +10,7 @@ import pytest
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.solution import FilmSolution

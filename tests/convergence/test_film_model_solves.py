@@ -15,7 +15,7 @@ from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, axle_contacts, box_contacts
 from gearlube.studies.film_model.solve import solve_contact
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.lubricant import Lubricant
 
 pytestmark = pytest.mark.slow

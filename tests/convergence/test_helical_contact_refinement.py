@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gearlube_core.helical_contact.line_mesh import line_mesh
+from gearlube_core.helical_contact.contact_dataset import line_mesh
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings

@@ -13,9 +13,13 @@ from gearlube_core.tooth_compliance.flank_compliance import (
     tooth_compliance,
 )
 from gearlube_core.tooth_compliance.hat_grid import lengthwise_nodes, profile_nodes
-from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, tooth_model
-from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity, tooth_mesh
-from gearlube_core.tooth_compliance.tooth_section import Flank
+from gearlube_core.tooth_compliance.tooth_geometry import Flank
+from gearlube_core.tooth_compliance.tooth_mesh import (
+    MeshDensity,
+    normal_hat_loads,
+    tooth_mesh,
+    tooth_model,
+)
 from tests.helpers.compliance_cases import spiral_tooth
 
 TOOTH = spiral_tooth(neighbour_pitches=1.0, base_depth=12e-3)

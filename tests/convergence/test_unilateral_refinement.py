@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.strip_compliance import StripCompliance
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem
+from gearlube_core.tooth_contact.coupled_strips import StripCompliance
 from tests.references.hertz_reference import HertzContact
 
 HERTZ = HertzContact(R_x=0.02, R_y=0.6, contact_modulus=115.4e9, load=500.0)

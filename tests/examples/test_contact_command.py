@@ -16,7 +16,7 @@ from gearlube.studies.contact import sensitivity
 from gearlube.studies.contact.figures import CONTACT_CATALOGUE
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.hypoid_contact import contact_dataset, mesh_cycle
-from gearlube_core.hypoid_contact.analysis import ContactSettings
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.strips import StripSettings
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

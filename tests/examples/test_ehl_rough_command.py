@@ -17,8 +17,8 @@ from gearlube.studies.films.rough import run
 from gearlube.studies.films.rough.files import frame_files, read_frames
 from gearlube.studies.films.rough.run import run_rough, statistics_again
 from gearlube_core.ehl.case.rough_case import RoughCase
+from gearlube_core.ehl.transient.history import MarchRecord
 from gearlube_core.ehl.transient.march import FilmMarch
-from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.errors import ConvergenceError, ParameterError
 from tests.helpers.ehl_command import run as command
 

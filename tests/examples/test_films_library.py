@@ -17,7 +17,7 @@ from gearlube.studies.films.run_steady import run_helical_line, run_line
 from gearlube_core.ehl.case.contact_case import LineCase
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile

@@ -12,9 +12,8 @@ from gearlube import command as cli
 from gearlube.studies.measured import teeth
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.measured.example import EXAMPLE
-from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.hypoid_geometry.measured.measured_flanks import EXAMPLE
+from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table, write_mesh_table
 from tests.helpers.axle_cases import OIL, drive_only
 from tests.helpers.loaded_cases import FILE as FILE_SHIPPED
 from tests.helpers.loaded_cases import stiffness

@@ -12,7 +12,7 @@ from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
 from gearlube.studies.optimise.figures import OPTIMISE_CATALOGUE
 from gearlube_core.flank_optimisation import held_model, optimise
-from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
+from gearlube_core.flank_optimisation.held_model import CheckSettings, plain_check
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from tests.helpers.helical_contact_cases import stiff_teeth

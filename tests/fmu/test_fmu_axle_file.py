@@ -16,7 +16,7 @@ from fmpy import extract
 from typer.testing import CliRunner
 
 from drivetrain.axle_file.read_axle import read_axle
-from fmu_src import fmu_cache, identity
+from fmu_src import build, identity
 from fmu_src.axle_arguments import CUSTOM_OIL, axle_parameters, start_arguments
 from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
@@ -42,10 +42,9 @@ from gearlube.studies.sweep.point import run_point
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.errors import InterruptedRunError, ParameterError
-from gearlube_core.input_file.input_note import notes_as_text
+from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.kernels.flat_tuples import flatten
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, shipped_mesh_table, write_mesh_table
 from tests.helpers.fmu_cases import H
 from tests.helpers.fmu_host import OK, Host
 from tests.helpers.object_code import LoadedModel
@@ -266,14 +265,14 @@ def test_the_cache_keeps_one_fmu_for_each_content(
     axle_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("platformdirs.user_cache_path", lambda name: tmp_path / name)
-    own = fmu_cache.cached_hypoid_axle(axle=axle_file, native=False)
+    own = build.cached_hypoid_axle(axle=axle_file, native=False)
     written = own.stat().st_mtime_ns
     copy = axle_file.with_name("copy.toml")
     copy.write_bytes(axle_file.read_bytes())
-    assert fmu_cache.cached_hypoid_axle(axle=copy, native=False) == own
+    assert build.cached_hypoid_axle(axle=copy, native=False) == own
     assert own.stat().st_mtime_ns == written
     copy.write_text(TEXT.replace("9.0", "9.5"))
-    assert fmu_cache.cached_hypoid_axle(axle=copy, native=False) != own
+    assert build.cached_hypoid_axle(axle=copy, native=False) != own
     assert car_axle_of(own).axle.pinion_mass == 9.0
 
 
@@ -363,7 +362,7 @@ def test_a_road_that_asks_for_too_much_torque_is_refused_before_anything_is_buil
     def built(*_arguments: object, **_options: object) -> None:
         raise AssertionError("built")
 
-    monkeypatch.setattr(fmu_cache, "cached_hypoid_axle", built)
+    monkeypatch.setattr(build, "cached_hypoid_axle", built)
     lorry = tmp_path / "lorry.toml"
     lorry.write_text('gear_set.mesh_table = "mohammadpour_2015"\nvehicle.mass_kg = 40000.0\n')
     out = tmp_path / "out"

@@ -60,11 +60,11 @@ def test_an_fmu_does_not_depend_on_commands_films_by_grid_or_builders(case: Case
 
 # file, text, text instead of it, whether the GUID changes
 _EDITS = [
-    ("gearlube_core/film/chittenden_1985.py", '"""', '"""Better words. ', False),
-    ("gearlube_core/film/chittenden_1985.py", "\n\n\n", "\r\n\r\n# a comment\r\n\r\n\r\n", False),
+    ("gearlube_core/film/point_film.py", '"""', '"""Better words. ', False),
+    ("gearlube_core/film/point_film.py", "\n\n\n", "\r\n\r\n# a comment\r\n\r\n\r\n", False),
     ("gearlube_core/ehl/__init__.py", '"""', 'NEW = 1.0\n"""', False),
-    ("gearlube_core/film/chittenden_1985.py", " = 4.31", " = 4.32", True),
-    ("gearlube_core/bearings/palmgren_1959.py", " = 160e-7", " = 161e-7", True),
+    ("gearlube_core/film/point_film.py", " = 4.31", " = 4.32", True),
+    ("gearlube_core/bearings/losses/catalogue.py", " = 160e-7", " = 161e-7", True),
     ("gearlube_core/oil/lubricants.toml", "density = [870.0", "density = [871.0", True),
 ]
 

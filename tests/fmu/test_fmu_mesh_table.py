@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import build_fmu
 from drivetrain.axle_file.axle_file import AxleFile
-from fmu_src import fmu_cache, identity
+from fmu_src import build, identity
 from fmu_src.archive import write_archive
 from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
@@ -27,8 +27,7 @@ from gearlube.studies.sweep.point import run_point
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.errors import InterruptedRunError, ParameterError, TableError
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, shipped_mesh_table, write_mesh_table
 from tests.helpers.axle_cases import with_coast_flanks, with_shaft_errors
 from tests.helpers.fmu_host import FATAL, OK, Host
 
@@ -245,11 +244,11 @@ def test_the_cache_keeps_one_fmu_for_each_table(
 ) -> None:
     monkeypatch.setattr("platformdirs.user_cache_path", lambda name: tmp_path / name)
     own, default = (
-        fmu_cache.cached_hypoid_axle(mesh_table, native=False) for mesh_table in (table, None)
+        build.cached_hypoid_axle(mesh_table, native=False) for mesh_table in (table, None)
     )
     assert own != default
     written = own.stat().st_mtime_ns
-    assert fmu_cache.cached_hypoid_axle(table, native=False) == own
+    assert build.cached_hypoid_axle(table, native=False) == own
     assert own.stat().st_mtime_ns == written
 
 

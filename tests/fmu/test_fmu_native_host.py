@@ -15,7 +15,7 @@ import fmpy
 import pytest
 from fmpy import read_model_description
 
-from fmu_src.native_host import native_environment, shared_python, shell_lines
+from gearlube.cli.native import native_environment, shared_python, shell_lines
 from gearlube_core.errors import GearLubeError
 from tests.helpers.fmu_cases import CASES, Case, H
 

@@ -16,7 +16,7 @@ from fmu_src.definition import Definition, Model
 from fmu_src.hypoid_axle import DEFINITION
 from fmu_src.model_description import model_description
 from fmu_src.values import Values
-from fmu_src.variable_kinds import declared_in, output, parameter
+from fmu_src.variable import declared_in, output, parameter
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.number import Number
 
@@ -113,7 +113,7 @@ def naming(text: str, *folders: str) -> set[str]:
     [
         (AXLE, "variables", '"mesh.stiffness"', "output_names"),
         (AXLE, "variables", '"axle.efficiency"', "output_names"),
-        (AXLE, "variables", "roller_load_min", "bearing_outputs"),
+        (AXLE, "variables", "roller_load_min", "output_names"),
         (PAIR, "helical_variables", '"mesh.coast_contact"', "outputs"),
         (PAIR, "helical_variables", '"pair.efficiency"', "outputs"),
         (PAIR, "helical_variables", "film_thickness_mean", "line_outputs"),

@@ -11,6 +11,7 @@ import pytest
 
 from docs.fmu_hosts.hosts import Job, c_host, in_c_host, in_fmpy
 from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Gearbox
 from fmu_src import build
 from fmu_src.build import DEFINITIONS
@@ -29,9 +30,25 @@ OUTPUTS = ("pinion.torque", "wheel.torque", "vehicle.speed", "engine.speed", "st
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+def model() -> NativeModel:
+    return driveline_model()
+
+
+@pytest.fixture(scope="module")
+def fmus(model: NativeModel, tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     options = NativeOptions(platforms=[platform_of_this_machine()])
-    return build_native(driveline_model(), tmp_path_factory.mktemp("driveline"), options)
+    return build_native(model, tmp_path_factory.mktemp("driveline"), options)
+
+
+@pytest.fixture(scope="module")
+def one_gear(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, DrivelineParameters, float]:
+    """An FMU with one gear, its car, and a speed of its table of starts [m/s]."""
+    car = dataclasses.replace(default_car(), gearbox=Gearbox(ratios=(2.0,)))
+    model = driveline_model(car)
+    options = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
+    (fmu,) = build_native(model, tmp_path_factory.mktemp("one_gear"), options)
+    # engine speeds at idle and at most, then speeds of the vehicle in this gear
+    return fmu, car, float(model.data[4])
 
 
 def expected(car: Driveline, ripple: float, steps: int, h: float) -> list[float]:
@@ -80,21 +97,14 @@ def test_it_starts_as_the_driveline_of_the_package(fmus: list[Path], speed: floa
     [(1.0, 2.0**-13, True), (0.0, 2.0**-13, True), (1.0, 2.0**-8, True), (1.0, 2.0**-8, False)],
 )
 def test_it_computes_what_the_package_computes(
-    fmus: list[Path], ripple: float, h: float, connected: bool
+    one_gear: tuple[Path, DrivelineParameters, float], ripple: float, h: float, connected: bool
 ) -> None:
     """At a speed of the table of starts, to rounding: the highest of the only gear.
 
     Longer steps than the integration resolves are taken in parts. Angles that are not connected
     stay at their start value and are continued with the speeds.
     """
-    car = dataclasses.replace(default_car(), gearbox=Gearbox(ratios=(2.0,)))
-    model = driveline_model(car)
-    folder = fmus[0].parent / f"one_gear_{ripple:g}_{h:g}_{connected}"
-    options = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
-    (fmu,) = build_native(model, folder, options)
-    assert len(fmus) == 2
-    # engine speeds at idle and at most, then speeds of the vehicle in this gear
-    speed = float(model.data[4])
+    fmu, car, speed = one_gear
     python = Driveline(car, speed * (1.0 - 1e-12))
     steps = round(0.0625 / h)
     names = OUTPUTS[:4]
@@ -151,17 +161,16 @@ def test_it_holds_its_speed_by_its_defaults_in_any_step(fmus: list[Path], h: flo
         assert not result["range.exceeded"].any()
 
 
-def test_every_value_that_a_host_sets_has_finite_limits() -> None:
-    models = [driveline_model(), *map(native_model, DEFINITIONS)]
+def test_every_value_that_a_host_sets_has_finite_limits(model: NativeModel) -> None:
+    models = [model, *map(native_model, DEFINITIONS)]
     given = [v for one in models for v in one.definition.variables if not v.is_computed]
     assert [v.name for v in given if not all(map(math.isfinite, v.range))] == []
 
 
 @pytest.mark.parametrize("version", [2, 3])
 def test_random_and_extreme_calls_never_break_it(
-    fmus: list[Path], version: int, tmp_path: Path
+    model: NativeModel, fmus: list[Path], version: int, tmp_path: Path
 ) -> None:
-    model = driveline_model()
     path = unpacked_library(fmus[version - 2], version, tmp_path)
     library = NativeLibrary(path, model, str(native_guid(model)), version)
     counts = walk(library, sequences=150, seed=1)
@@ -171,9 +180,8 @@ def test_random_and_extreme_calls_never_break_it(
 
 @pytest.mark.parametrize("h", [5e-324, 1e-320, 2e-308, 1e-15])
 def test_the_shortest_steps_have_the_torques_of_that_moment(
-    fmus: list[Path], h: float, tmp_path: Path
+    model: NativeModel, fmus: list[Path], h: float, tmp_path: Path
 ) -> None:
-    model = driveline_model()
     path = unpacked_library(fmus[0], 2, tmp_path)
     instance = NativeInstance(NativeLibrary(path, model, str(native_guid(model)), 2))
     assert instance.start() == OK
@@ -197,7 +205,7 @@ def test_a_start_speed_without_a_gear_is_refused(fmus: list[Path], tmp_path: Pat
 
 
 def test_the_car_of_an_axle_file_is_built_beside_its_axle(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    model: NativeModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = tmp_path / "light.toml"
     file.write_text('[gear_set]\nmesh_table = "mohammadpour_2015"\n[vehicle]\nmass_kg = 900.0\n')
@@ -210,13 +218,12 @@ def test_the_car_of_an_axle_file_is_built_beside_its_axle(
     monkeypatch.setattr(build, "build_native", kept)
     build.build_models(tmp_path, axle=file, native=NativeOptions())
     assert [one.definition.name for one in made] == ["HypoidAxle", "Driveline"]
-    shipped = driveline_model()
-    assert native_guid(made[1]) != native_guid(shipped)
-    torque = [car.definition.variables[1].start for car in (made[1], shipped)]
+    assert native_guid(made[1]) != native_guid(model)
+    torque = [car.definition.variables[1].start for car in (made[1], model)]
     assert torque[0] == pytest.approx(torque[1], rel=1e-2)
     # a row of the first gear: the engine's torque at idle pulls less of a lighter car
     first = 5 + 2 * 10
-    assert made[1].data[first] < shipped.data[first]
+    assert made[1].data[first] < model.data[first]
 
 
 def test_the_driveline_has_no_fmu_that_computes_in_python(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 from functools import reduce
 
 from drivetrain.axle_file.axle_file import AxleFile
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 
 MESH = shipped_mesh_table("mohammadpour_2015")
 BARE = {"gear_set": {"mesh_table": "mohammadpour_2015"}}

@@ -5,10 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle import film_nodes, flanks, tooth_pair
+from gearlube_core.dynamics.hypoid_axle import flanks, tooth_pair
+from gearlube_core.dynamics.hypoid_axle import state as axle_state
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.friction.flank_bound import NO_MODEL_FILM, ModelFilm
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.friction.flank_film import NO_MODEL_FILM, ModelFilm
+from gearlube_core.oil.lubricant import LubricantState
 
 SPEED = 145.0  # of the pinion [rad/s], as where the axle runs
 
@@ -33,13 +34,13 @@ def film_cases(axle):
     state, force, window, n_nodes, oil, p, by_model, numbers, channels, friction = axle
     law = by_model.flank_law
     z_p = p.mesh.z_p
-    before = film_nodes.NodeFlank(-15.0, -4.0, 3e-3, 4e-3, 0.0, 1e-4)
-    after = film_nodes.NodeFlank(-15.1, -3.9, 2.9e-3, 4.1e-3, 0.2, 2e-4)
-    kept = np.zeros(film_nodes.N_FILMS)
+    before = axle_state.NodeFlank(-15.0, -4.0, 3e-3, 4e-3, 0.0, 1e-4)
+    after = axle_state.NodeFlank(-15.1, -3.9, 2.9e-3, 4.1e-3, 0.2, 2e-4)
+    kept = np.zeros(axle_state.N_FILMS)
     for node in (7, 8):
-        film_nodes.keep_flank(kept, node, force, SPEED, oil.temperature, before, after, after)
+        axle_state.keep_flank(kept, node, force, SPEED, oil.temperature, before, after, after)
     of_nodes = (window, n_nodes, oil)
-    films = np.zeros(film_nodes.N_FILMS)
+    films = np.zeros(axle_state.N_FILMS)
     return [
         (tooth_pair.pair_film, (state, 900.0, 0.7, channels, oil, law, numbers)),
         *(
@@ -77,13 +78,13 @@ def film_cases(axle):
                 (numbers, tooth_pair.BETWEEN_NODES),
             )
         ),
-        (film_nodes.place_of_node, (film_nodes.NODES_KEPT + 1,)),
-        *((film_nodes._relative, (SPEED, then)) for then in (140.0, 0.0)),
-        (film_nodes._value, (kept, film_nodes.place_of_node(7), 2, 0.01, -0.02)),
-        (film_nodes.film_of, (before,)),
+        (axle_state.place_of_node, (axle_state.NODES_KEPT + 1,)),
+        *((axle_state._relative, (SPEED, then)) for then in (140.0, 0.0)),
+        (axle_state._value, (kept, axle_state.place_of_node(7), 2, 0.01, -0.02)),
+        (axle_state.film_of, (before,)),
         *(
             (kernel, (kept, *now))
-            for kernel in (film_nodes.still_holds, film_nodes.tells_slopes)
+            for kernel in (axle_state.still_holds, axle_state.tells_slopes)
             for now in (
                 (7, force, SPEED, oil.temperature),
                 (6, force, SPEED, oil.temperature),
@@ -93,12 +94,12 @@ def film_cases(axle):
             )
         ),
         (
-            film_nodes.keep_flank,
+            axle_state.keep_flank,
             (kept.copy(), 3, force, SPEED, oil.temperature, before, after, after),
         ),
-        (film_nodes._keep_state, (kept.copy(), 3, force, SPEED, oil.temperature, before)),
-        (film_nodes.follow_flank, (kept.copy(), 7, 1.1 * force, 0.9 * SPEED, after)),
-        (film_nodes.flank_between, (kept, 7, 8, 0.4, 1.01 * force, 0.98 * SPEED)),
+        (axle_state._keep_state, (kept.copy(), 3, force, SPEED, oil.temperature, before)),
+        (axle_state.follow_flank, (kept.copy(), 7, 1.1 * force, 0.9 * SPEED, after)),
+        (axle_state.flank_between, (kept, 7, 8, 0.4, 1.01 * force, 0.98 * SPEED)),
         *(
             (
                 flanks.flank_sum,

@@ -4,28 +4,24 @@ from functools import cache
 
 import numpy as np
 
-from gearlube_core.bearings import bearing_type, cage_frame, shaft_expansion
+from gearlube_core.bearings import bearing_type, parameters, shaft_expansion
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.dynamics import flank_force, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
     bearing_drag,
-    bearing_outputs,
     communication,
     continuous,
-    film_nodes,
     flank_outputs,
     flanks,
     force_derivatives,
     integrate,
-    kept_drag,
-    loss_outputs,
     mesh_at_load,
     mesh_force,
+    output_names,
     outputs,
     rhs,
     start,
-    step_control,
     tooth_pair,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
@@ -42,6 +38,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     N_CONTINUOUS,
     N_DRAG,
+    N_FILMS,
     N_ODE,
     N_STATE,
     PHI_P,
@@ -56,7 +53,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
 from gearlube_core.mesh_table import kernels
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with, running_axle, with_coast_flanks
 from tests.helpers.axle_compiled_arguments import compiled_cases
 from tests.helpers.axle_film_arguments import AxleFlank, film_cases
@@ -71,17 +68,17 @@ def drag_cases(state, oil, p):
     """The kernels of what is kept of the drag by Biboulet and Houpert's law."""
     by_roller = p._replace(drag=float(bearing_drag.TORQUE_LOSSES.index("biboulet_houpert_2010")))
     films, kept = bearing_type.RollerFilms(zeros(0), zeros(0), 0.0), zeros(N_DRAG)
-    kept_drag.renew_drag(state, oil, by_roller, films, kept, zeros(N_STATE))
+    bearing_drag.renew_drag(state, oil, by_roller, films, kept, zeros(N_STATE))
     moved = state.copy()
     moved[U_P : U_P + 3] += 0.5
     moved[W_P] *= 1.01
     return [
-        *((kept_drag._change, (moved, kept, shaft, i)) for shaft in (0, 1) for i in (1, 3)),
-        *((kept_drag._moved, (state, i, zeros(N_STATE))) for i in (1, 3)),
-        *((kept_drag.drag_holds, (one, oil.temperature, kept)) for one in (state, moved)),
-        (kept_drag.drag_near, (moved, kept)),
+        *((bearing_drag._change, (moved, kept, shaft, i)) for shaft in (0, 1) for i in (1, 3)),
+        *((bearing_drag._moved, (state, i, zeros(N_STATE))) for i in (1, 3)),
+        *((bearing_drag.drag_holds, (one, oil.temperature, kept)) for one in (state, moved)),
+        (bearing_drag.drag_near, (moved, kept)),
         *(
-            (kept_drag.renew_drag, (moved, oil, by_roller, films, one, zeros(N_STATE)))
+            (bearing_drag.renew_drag, (moved, oil, by_roller, films, one, zeros(N_STATE)))
             for one in (kept, zeros(N_DRAG))
         ),
     ]
@@ -124,7 +121,7 @@ def all_cases():
     )
     motion = bearing_type.ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
     moved = bearing_type.ShaftMotion(3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0)
-    terms = cage_frame.ApproachTerms(10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0)
+    terms = parameters.ApproachTerms(10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0)
     loop = (12, terms, 0.7, 3e-5, 40.0, 3e-5, 0.0)
     expansion = np.zeros(bearing_type.N_EXPANSION)
     shaft_expansion.expand_shaft_bearings(motion, 300.0, 0.0171, 2.4e-8, p.bearing_p, expansion)
@@ -264,9 +261,9 @@ def all_cases():
             )
             for of_speeds in (0.0, 1.0)
         ),
-        (step_control.highest_frequency, (stiffness, p, zeros(8), zeros(8))),
+        (force_derivatives.highest_frequency, (stiffness, p, zeros(64))),
         (
-            step_control.write_step_control,
+            force_derivatives.write_step_control,
             (state, 64.0, 22.0, 60.0, OIL, table, lossless, zeros(START_WORK), zeros(5)),
         ),
         (mesh_force.modal_damping, (0.06, 5e8, 3.4)),
@@ -371,13 +368,13 @@ def all_cases():
                 flank_outputs.write_flanks,
                 (
                     *(state, force, window, mesh.nodes, OIL, state_of_oil, one, model, asked),
-                    *(zeros(film_nodes.N_FILMS), FLANKS, FIRST_FLANK_BOUND, channels),
+                    *(zeros(N_FILMS), FLANKS, FIRST_FLANK_BOUND, channels),
                     zeros(N_OUTPUTS),
                 ),
             )
             for one, model, asked in ((p, zeros(0), 1.0), (by_model, numbers, 2.0))
         ),
-        (bearing_outputs.write_shaft, (*write_shaft, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
+        (output_names.write_shaft, (*write_shaft, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
         *((communication.state_status, (one,)) for one in (state, *no_good)),
         (mean_power.keep_means, (at_start, state, PINION_WORK, WORK_MARK, 10, TIME_IN_STEP)),
         *(
@@ -385,7 +382,7 @@ def all_cases():
             for duration in (0.0, 1e-4)
         ),
         *(
-            (loss_outputs.write_losses, (state, slope, 7.0, 3.0, zeros(N_OUTPUTS)))
+            (output_names.write_losses, (state, slope, 7.0, 3.0, zeros(N_OUTPUTS)))
             for state in (state, at_start)
         ),
         *(

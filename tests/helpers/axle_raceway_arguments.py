@@ -7,7 +7,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import NO_RACEWAYS, RollerFilms, SolvedRaceways
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
-from gearlube_core.dynamics.hypoid_axle import bearing_drag, bearing_outputs
+from gearlube_core.dynamics.hypoid_axle import bearing_drag, output_names
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     BEARING_SHARE_OUTSIDE,
@@ -15,7 +15,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     N_OUTPUTS,
 )
 from gearlube_core.dynamics.hypoid_axle.state import N_ROLLERS
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 
 def raceway_cases(state: Array, oil: LubricantState, p: AxleParameters) -> list[tuple]:
@@ -41,7 +41,7 @@ def raceway_cases(state: Array, oil: LubricantState, p: AxleParameters) -> list[
         (bearing_drag.drag_bound_of, (state, some)),
         *(
             (
-                bearing_outputs.write_raceways,
+                output_names.write_raceways,
                 (found, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, np.zeros(N_OUTPUTS)),
             )
             for found in (some, bearing_drag.AxleRaceways(NO_RACEWAYS, NO_RACEWAYS))

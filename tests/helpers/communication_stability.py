@@ -10,9 +10,14 @@ import casadi as ca
 import numpy as np
 from scipy.linalg import expm
 
-from drivetrain.driveline.equations import INDEX, STATES
+from drivetrain.driveline.equations import (
+    INDEX,
+    LONGEST_INNER_STEP,
+    MEMORY,
+    STATES,
+    driveline_stepper,
+)
 from drivetrain.driveline.model import Driveline
-from drivetrain.driveline.stepper import LONGEST_INNER_STEP, MEMORY, driveline_stepper
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ConvergenceError

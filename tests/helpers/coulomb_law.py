@@ -11,7 +11,7 @@ from typing import Annotated, NamedTuple
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.film.line_film_law import LineFilmLaw, power_law_line_film
+from gearlube_core.film.line_film import LineFilmLaw, power_law_line_film
 from gearlube_core.friction.flank_data import FlankState
 from gearlube_core.friction.flank_friction import FlankFriction
 from gearlube_core.kernels.jit import kernel

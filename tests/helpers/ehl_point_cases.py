@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.contact.hertz import log_curvature_ratio
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.oil.film_oil import FilmOil, density, viscosity

@@ -8,7 +8,7 @@ import numpy as np
 
 from gearlube_core.contact.half_space import love_coefficients
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
-from gearlube_core.hypoid_contact.placed_flank import tooth_position
+from gearlube_core.hypoid_contact.placement import tooth_position
 from gearlube_core.hypoid_contact.strips import StripSettings, cut_strip
 from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
 from tests.helpers.loaded_cases import stiffness

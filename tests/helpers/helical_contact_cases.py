@@ -9,10 +9,9 @@ from functools import cache
 import numpy as np
 
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
-from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair, TipRelief
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from gearlube_core.helical_geometry.tip_relief import TipRelief
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness

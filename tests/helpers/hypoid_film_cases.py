@@ -3,9 +3,8 @@
 import numpy as np
 
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
-from gearlube_core.ehl.gears.hypoid_flank import FlankCycle
-from gearlube_core.ehl.gears.hypoid_window import pair_contact
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.ehl.gears.hypoid_flank import FlankCycle, pair_contact
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.film_oil_data import film_oil
 
 SPEED, TORQUE = 144.2, 40.0  # rad/s, N.m

@@ -6,8 +6,11 @@ fails, as does one that is missing.
 
 from __future__ import annotations
 
+import math
 import re
+import zlib
 from collections.abc import Iterable, Mapping, Sequence
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -86,10 +89,28 @@ def assert_cells(found: Sequence[Any], expected: Sequence[Any], where: str) -> N
             assert got == pytest.approx(cell, rel=ROUNDING, nan_ok=True), (where, list(found))
 
 
+def named(**values: Any) -> SimpleNamespace:
+    """Return values by name, for a function that reads some attributes of an object."""
+    return SimpleNamespace(**values)
+
+
+def made_up(name: str, *shape: int) -> Any:
+    """Return numbers within 1 to 2 that only this name has, in one order or shape."""
+    drawn = 1.0 + np.random.default_rng(zlib.crc32(name.encode())).random(math.prod(shape))
+    return drawn.reshape(shape) if shape else float(drawn[0])
+
+
 def assert_variables(
-    dataset: xr.Dataset, expected: Mapping[str, tuple[str, Any]], tolerance: float = ROUNDING
+    dataset: xr.Dataset,
+    expected: Mapping[str, tuple[str, Any]],
+    tolerance: float = ROUNDING,
+    zero: Sequence[str] = (),
 ) -> None:
-    """Assert every variable and coordinate of a dataset: unit and values of each, by name."""
+    """Assert every variable and coordinate of a dataset: unit and values of each, by name.
+
+    Numbers that are all zero or missing would be the same times any factor: only those of `zero`
+    may be so.
+    """
     assert sorted(map(str, dataset.variables)) == sorted(expected)
     for name, (unit, values) in expected.items():
         one = dataset[name]
@@ -97,9 +118,21 @@ def assert_variables(
         wanted = np.asarray(values)
         assert one.shape == wanted.shape, name
         if one.dtype.kind in "fiub":
-            scale = float(np.nanmax(np.abs(wanted))) if wanted.size else 0.0
+            scale = float(np.nanmax(np.abs(wanted)))
+            assert scale > 0.0 or name in zero, name
             np.testing.assert_allclose(
                 one.values, wanted, rtol=tolerance, atol=tolerance * scale, err_msg=name
             )
         else:
             assert one.values.tolist() == wanted.tolist(), name
+
+
+def assert_attributes(dataset: xr.Dataset, expected: Mapping[str, Any]) -> None:
+    """Assert some attributes of a dataset."""
+    found = [dataset.attrs[name] for name in expected]
+    assert_cells(found, list(expected.values()), ", ".join(expected))
+
+
+def units_of(dataset: xr.Dataset) -> dict[str, str]:
+    """Return the unit of every variable and coordinate by name, "" where it has none."""
+    return {str(name): one.attrs.get("units", "") for name, one in dataset.variables.items()}

@@ -9,8 +9,8 @@ from ctypes import c_void_p as pointer
 from pathlib import Path
 from typing import Any
 
-from fmu_src.native.array_variables import array_variables
 from fmu_src.native.model import NativeModel
+from fmu_src.native.sources import array_variables
 
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)
 

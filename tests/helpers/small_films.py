@@ -9,12 +9,12 @@ import numpy as np
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solution import LineSolution
 from gearlube_core.ehl.line.solver import solve_line
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.solution import FilmSolution

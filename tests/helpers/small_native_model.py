@@ -10,12 +10,11 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from fmu_src.common_outputs import ranges
 from fmu_src.definition import Definition, Model, Value
 from fmu_src.native.model import Exchange, NativeModel
 from fmu_src.object_code import array_at
-from fmu_src.variable import Variable
-from fmu_src.variable_kinds import (
+from fmu_src.variable import (
+    Variable,
     count,
     input_,
     local,
@@ -23,6 +22,7 @@ from fmu_src.variable_kinds import (
     options_by_number,
     output,
     parameter,
+    ranges,
     rates,
 )
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS, Range

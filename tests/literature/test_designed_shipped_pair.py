@@ -12,8 +12,7 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.design import nearest_fit
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
-from gearlube_core.hypoid_design.flank_target import FlankTarget
-from gearlube_core.hypoid_design.measured_contact import measured_contact
+from gearlube_core.hypoid_design.flank_target import FlankTarget, measured_contact
 from gearlube_core.hypoid_design.start_settings import image_pair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 

@@ -16,11 +16,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.line_section import line_section
+from gearlube_core.ehl.point.contact_domain import line_section
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.transient.march import FilmMarch
-from gearlube_core.ehl.transient.section import moving_section
+from gearlube_core.ehl.transient.problem import moving_section
 from gearlube_core.oil.film_oil_data import film_oil
 
 # 0.5 GPa, alpha p = 6: as good as parallel, viscosity even over a short wave at the centre

@@ -12,7 +12,7 @@ from docs.film_table.extrapolated import contact_of, extrapolated, read_table
 from docs.film_table.make import KEPT
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.film.nijenbanning_1994 import central_film_group
+from gearlube_core.film.point_film import central_film_group
 
 Row = dict[str, float]
 NODES = 129  # a grid that is not among those of the table

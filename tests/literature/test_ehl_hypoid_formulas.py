@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.gears.hypoid_cycle import steady_films
-from gearlube_core.film.chittenden_1985 import (
+from gearlube_core.film.point_film import (
     central_film_thickness,
     film_geometry,
     minimum_film_geometry,

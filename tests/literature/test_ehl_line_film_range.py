@@ -8,7 +8,7 @@ import pytest
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
-from gearlube_core.film.dowson_toyoda_1979 import LOAD_RANGE, MATERIAL_RANGE, central_line_film
+from gearlube_core.film.line_film import LOAD_RANGE, MATERIAL_RANGE, central_line_film
 from gearlube_core.oil.film_oil_data import film_oil
 
 VISCOSITY, MODULUS, RADIUS = 0.04, 227.5e9, 0.014

@@ -11,8 +11,7 @@ import pytest
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
-from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
-from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from gearlube_core.film.line_film import line_film_thickness, minimum_line_film_thickness
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_line_cases import thesis_line
 

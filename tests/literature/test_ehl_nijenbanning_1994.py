@@ -5,8 +5,8 @@ import pytest
 
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.moes_1992 import central_film_group as line_film_group
-from gearlube_core.film.nijenbanning_1994 import central_film_group, regime_films
+from gearlube_core.film.line_film import central_film_group as line_film_group
+from gearlube_core.film.point_film import central_film_group, regime_films
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import moes_contact, moes_film
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain, elliptical_contact
+from gearlube_core.ehl.point.contact_domain import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.oil.dowson_higginson_1966 import DowsonHigginson
+from gearlube_core.oil.film_laws import DowsonHigginson
 from gearlube_core.oil.film_oil_data import film_oil
 
 # films [m] of Mourier's contact by nodes along a side, ErikHansenGit/EHL: first-order upwind

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
 from gearlube_core.oil.film_oil import viscosity_cooling

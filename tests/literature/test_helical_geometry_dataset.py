@@ -186,3 +186,71 @@ def test_gap_across_the_line_has_the_relative_radius_of_the_path(design):
     edge = x[[0, -1]] ** 2 / (2.0 * R)
     assert gap.values[[0, -1]] == pytest.approx(edge, rel=0.03)
     assert gap.values.min() == pytest.approx(0.0, abs=1e-12)
+
+
+# name: unit, root mean square and largest amount; design A, recorded at version 0.1.0 in November
+# 2026 where the tests of this file, of loads, gaps and lay angles held
+RECORDED = {
+    "length": ("m", 0.02646855, 0.04636371),
+    "total_length": ("m", 0.05882832, 0.07254829),
+    "load": ("N", 6942.481, 15192.3),
+    "line_load": ("N/m", 254695.9, 376997),
+    "period_length": ("m", 0.0587639, 0.07254829),
+    "lines_in_contact": ("1", 2.323898, 3),
+    "mean_length": ("m", 0.05875897, 0.07165945),
+    "length_variation": ("1", 0.03812158, 0.04649114),
+    "R_transverse": ("m", 0.01373223, 0.0144024),
+    "R_normal": ("m", 0.01446994, 0.01517611),
+    "R_pinion": ("m", 0.02903767, 0.0391724),
+    "R_gear": ("m", 0.02991756, 0.04007284),
+    "entrainment": ("m/s", 6.685642, 6.72309),
+    "sliding": ("m/s", 2.907172, 5.032227),
+    "slide_roll": ("1", 0.434862, 0.7569395),
+    "lay_pinion": ("rad", 0.1243999, 0.1670567),
+    "lay_pinion_limit": ("rad", 0.1237511, 0.1664001),
+    "lay_gear": ("rad", 0.1231258, 0.1646012),
+    "lay_gear_limit": ("rad", 0.1237572, 0.1652399),
+    "lay_chord": ("m", 0.001, 0.001),
+    "shown_position": ("m", 0.009883825, 0.0157),
+    "end_z": ("m", 0.01841052, 0.022),
+    "end_s": ("m", 0.007576858, 0.0108381),
+    "unrelieved_s": ("m", 0.006351435, 0.006360942),
+    "line_sliding": ("m/s", 2.655838, 5.030288),
+    "hertz_half_width": ("m", 0.0002485588, 0.0002485588),
+    "line_gap": ("m", 1.666102e-05, 6.822036e-05),
+    "crown_gap": ("m", 6.806049e-06, 1.518429e-05),
+    "pinion_relief_start": ("m", 0.02925486, 0.04674334),
+    "gear_relief_start": ("m", 0.03046896, 0.04748523),
+    "line_gap_by_form": ("m", 1.886608e-05, 6.822036e-05),
+    "crown_form": ("m", 2.460413e-06, 7.592145e-06),
+    "surface_gap": ("m", 1.032672e-05, 5.323137e-05),
+    "surface_crown_start": ("1", 0.25, 0.25),
+    "smooth_height": ("m", 2.677438e-06, 6.072971e-06),
+    "faceted_height": ("m", 2.730681e-06, 6.205972e-06),
+    "relief_removal": ("m", 3.107905e-05, 6.643127e-05),
+    "relief_line": ("m", 0.004100907, 0.007510274),
+    "relief_line_shown": ("1", 2, 2),
+    "position": ("m", 0.01316786, 0.02617794),
+    "phase": ("1", 0.5769172, 0.999),
+    "s": ("m", 0.006261289, 0.0108381),
+    "shown": ("1", 2.160247, 3),
+    "y": ("m", 0.01339925, 0.02318185),
+    "x": ("m", 0.0003490114, 0.0006035005),
+    "k": ("1", 0.6454972, 1),
+    "crown_start": ("1", 0.2949576, 0.45),
+    "surface_x": ("m", 0.0003541908, 0.0006035005),
+    "surface_y": ("m", 0.01353529, 0.02318185),
+    "facets": ("1", 71.18052, 100),
+    "level": ("1", 0.586302, 1),
+}
+
+
+def test_every_variable_has_its_unit_and_recorded_size():
+    found = {n: v for n, v in DATASETS["a"].variables.items() if v.dtype.kind in "fiu"}
+    assert sorted(found) == sorted(RECORDED)
+    for name, (unit, mean, largest) in RECORDED.items():
+        values = found[name].values[np.isfinite(found[name].values)].astype(float)
+        assert found[name].attrs["units"] == unit, name
+        # seven digits are recorded: half a unit of the last is at most 5e-7
+        sizes = np.sqrt((values**2).mean()), np.abs(values).max()
+        assert sizes == pytest.approx((mean, largest), rel=6e-7), name

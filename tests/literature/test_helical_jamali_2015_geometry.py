@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gearlube_core.helical_geometry.contact_line import clip_line, segment_length
+from gearlube_core.helical_geometry.contact_line import clip_line, line_kinematics, segment_length
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.load_sharing import (
     position_of,
     relief_on_path,

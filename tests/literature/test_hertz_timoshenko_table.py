@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.contact.hertz import hertz_ellipse
 
 # theta [deg], m, n with a = m L, b = n L, L^3 = 3 P/(4 E* (A + B)), cos theta = (B - A)/(B + A)
 TABLE = [

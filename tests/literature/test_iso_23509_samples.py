@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank, MemberBlank
 from gearlube_core.hypoid_geometry.blank.iso_23509 import (
     HypoidDesign,
@@ -22,7 +21,7 @@ from gearlube_core.hypoid_geometry.blank.iso_23509 import (
     method_2,
     method_3,
 )
-from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
+from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones
 from tests.helpers.member_profile import MemberProfile
 
 RAD = math.radians

@@ -10,9 +10,8 @@ from dataclasses import replace
 
 import pytest
 
-from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead
 from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, curvature_misfit, method_1
-from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
+from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 BLANK = HypoidGearFile.named("mohammadpour_2015").blank()

@@ -13,12 +13,12 @@ import pytest
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.contact.line_hertz import LARGEST_OVER_MEAN, line_mean_pressure
+from gearlube_core.contact.hertz import LARGEST_OVER_MEAN, line_mean_pressure
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
+from gearlube_core.film.line_film import minimum_line_film_thickness
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import line_points, uniform_line_load
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.oil.lubricant import Lubricant
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.contact.hertz import hertz_ellipse
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.table import PAIRS, SERIES_UNITS, TOOTH_UNITS, WINDOW_UNITS
 
 TABLE = shipped_mesh_table("mohammadpour_2015")

@@ -6,9 +6,14 @@ import math
 
 import pytest
 
-from gearlube_core.oil.astm_d2270 import viscosity_at_40, viscosity_at_100, viscosity_index
-from gearlube_core.oil.gold_2001 import ambient_coefficient, secant_coefficient
 from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.sheet_values import (
+    ambient_coefficient,
+    secant_coefficient,
+    viscosity_at_40,
+    viscosity_at_100,
+    viscosity_index,
+)
 from gearlube_core.oil.walther_1931 import walther_coefficients, walther_kinematic_viscosity
 
 # [arana_2019 Tables 2 and 3]: nu at 40 degC [mm2/s]; a1, a2, b1, b2 of p/(A + B p) [Pa, Pa/K]

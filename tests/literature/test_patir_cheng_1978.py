@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.rough_patch.patir_cheng_1978 import (
+from gearlube_core.rough_patch.flow import (
     PEKLENIK,
     pressure_flow_factor,
     shear_flow_factor,

@@ -4,9 +4,13 @@ import math
 
 import pytest
 
-from drivetrain.road_load import FinalDrive, RoadLoad, mohammadpour_2015_road_load
-from drivetrain.tyre import Tyre
-from drivetrain.vehicle import mohammadpour_2015_vehicle
+from drivetrain.road_load import (
+    FinalDrive,
+    RoadLoad,
+    Tyre,
+    mohammadpour_2015_road_load,
+    mohammadpour_2015_vehicle,
+)
 from gearlube_core.units import kmh_to_ms
 
 # Vehicle speed [km/h], ring gear torque [N m], pinion torque [N m]; worked out by hand from

@@ -14,8 +14,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.friction.friction_torques import flank_speeds, friction_torques
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
@@ -28,7 +28,7 @@ from gearlube_core.friction.thermal_eyring_data import (
 )
 from gearlube_core.friction.thermal_eyring_flank import thermal_eyring_flank
 from gearlube_core.friction.traction_regime import EYRING, flank_regime
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.houpert_1985 import (
     houpert_log_viscosity,
     houpert_parameters,

@@ -15,7 +15,6 @@ from lxml import etree
 
 from fmu_src.archive import write_archive
 from fmu_src.check import fmpy_problems, fmutool_problems
-from fmu_src.native.array_variables import array_variables
 from fmu_src.native.build import (
     NativeOptions,
     build_native,
@@ -26,7 +25,7 @@ from fmu_src.native.build import (
 )
 from fmu_src.native.driveline import driveline_model
 from fmu_src.native.platforms import PLATFORMS, fmi_headers, universal_library
-from fmu_src.native.sources import c_sources
+from fmu_src.native.sources import array_variables, c_sources
 from tests.helpers.binary_formats import Binary, elf, mach_o, pe
 from tests.helpers.small_native_builds import LINUX, MODEL, linux_library
 from tests.helpers.small_native_model import small_native_model
@@ -170,6 +169,7 @@ def test_the_archive_has_the_licence_of_every_part(archives: dict[str, Path]) ->
         assert all(owner in texts[name] for name, owner in owners.items())
 
 
+@pytest.mark.slow
 def test_a_driveline_for_windows_shows_fmi_alone() -> None:
     """casadi marks each function that it writes for export there."""
     windows = PLATFORMS[1]

@@ -23,7 +23,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.mesh_table.kernels import mesh_series
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from tests.helpers.axle_cases import (
     OIL,

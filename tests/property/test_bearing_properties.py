@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
-from gearlube_core.bearings.palmgren_1959 import drag_torque
+from gearlube_core.bearings.losses.catalogue import drag_torque
 from gearlube_core.bearings.roller_loads import roller_loads
-from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
-from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
+from gearlube_core.bearings.shaft_expansion import shaft_bearing_energy
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_kernels import shaft_bearing_forces
 
 OIL = (0.0171, 2.383e-8)
 TIGHT = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.limiter import limited_faces
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.solution import limited_faces
 from gearlube_core.ehl.point.solver import solve_point_contact
 from tests.helpers.ehl_point_cases import moes_contact, moes_film, radius_ratio, sliding_along
 
@@ -83,6 +83,12 @@ def test_limits_act_where_the_film_halves_in_a_cell_and_nowhere_else() -> None:
     mass[:, 10:] = 0.49
     # 1.5 0.49 - 0.5 < 0.5 0.49 on the face behind column 10, in 17 rows
     assert limited_faces(level.stencil, pressure, mass)[0] == 17
+    # at the border too: 1.5 - 0.5 3 < 0.5 on the face behind the second column, and row
+    crossed = level.stencil._replace(wedge_y=1.0)
+    for axis, count in ((1, 17), (0, 21)):
+        mass = np.ones((19, 23))
+        mass[(0, slice(None))[:: 1 - 2 * axis]] = 3.0
+        assert limited_faces(crossed, pressure, mass)[0] == count
 
 
 @pytest.mark.parametrize(

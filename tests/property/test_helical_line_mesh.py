@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.helical_contact.line_mesh import line_mesh
+from gearlube_core.helical_contact.contact_dataset import line_mesh
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position, segment_length

@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position, segment_length
 from gearlube_core.helical_geometry.load_sharing import positions_at, shared_load
-from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair, TipRelief
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.tip_relief import TipRelief
 
 FEW = settings(max_examples=60)
 

@@ -20,8 +20,10 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     X,
     Z,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import mesh_stiffness_matrix
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import friction_power
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
+    friction_power,
+    mesh_stiffness_matrix,
+)
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from tests.helpers.helical_accelerations import points_damping
 from tests.helpers.helical_dynamics_cases import (

@@ -14,7 +14,7 @@ from gearlube_core.mesh_table.kernels import (
     mesh_series,
     pair_channels,
 )
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 
 TABLE = shipped_mesh_table("mohammadpour_2015")
 Z_P = 13.0

@@ -10,8 +10,12 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface.generator import generated_map, generated_profile
-from gearlube_core.surface.generator_request import RoughnessRequest
-from gearlube_core.surface.johnson_1949 import johnson_transform, lognormal_kurtosis, normal_scores
+from gearlube_core.surface.generator_request import (
+    RoughnessRequest,
+    johnson_transform,
+    lognormal_kurtosis,
+    normal_scores,
+)
 from gearlube_core.surface.spectrum import map_autocorrelation, profile_spectrum
 from gearlube_core.surface.statistics import map_statistics, profile_statistics
 

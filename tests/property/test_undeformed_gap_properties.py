@@ -9,9 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gearlube_core.helical_geometry.involute import relative_position, roll_at_tangent_distance
-from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.modification import (
+    Crown,
+    FlankModification,
+    ModifiedPair,
+    PowerTipRelief,
+    TipRelief,
+)
 from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
-from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 
 reliefs = st.one_of(

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
-from gearlube_core.hypoid_contact.contact_pattern import contact_pattern
-from gearlube_core.hypoid_contact.ease_off import ease_off
+from gearlube_core.hypoid_contact.ease_off import contact_pattern, ease_off
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import Misalignment
 from gearlube_core.hypoid_contact.unloaded_error import contact_ratio, unloaded_error

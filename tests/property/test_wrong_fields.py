@@ -23,8 +23,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile, read_toml
 from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes
-from gearlube_core.mesh_table.netcdf import mesh_table_from_bytes
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import mesh_table_from_bytes, shipped_mesh_table
 from gearlube_core.oil.oil_file import OilFile
 
 NAN, INF = math.nan, math.inf

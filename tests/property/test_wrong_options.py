@@ -105,7 +105,7 @@ def nothing_computes(monkeypatch, tmp_path):
         monkeypatch.setattr(name, reached)
     # checks of the gear file alone, which no option changes
     monkeypatch.setattr("gearlube.studies.contact.summary.gear_file_warnings", lambda file: [])
-    monkeypatch.setattr("fmu_src.fmu_cache.cached_hypoid_axle", built)
+    monkeypatch.setattr("fmu_src.build.cached_hypoid_axle", built)
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.periodic import arclength as module
-from gearlube_core.periodic.arclength import ArclengthCorrector, Node, hermite, turning_angle
+from gearlube_core.periodic import newton as module
+from gearlube_core.periodic.newton import ArclengthCorrector, Node, hermite, turning_angle
 
 
 def node_at(angle):

@@ -1,6 +1,6 @@
 """Variables of FMI 3: which scalars become elements of an array."""
 
-from fmu_src.native.array_variables import array_variables
+from fmu_src.native.sources import array_variables
 from fmu_src.variable import Variable
 from fmu_src.variables import HYPOID_AXLE
 

@@ -12,21 +12,21 @@ import xarray as xr
 from drivetrain.axle_file.read_axle import read_axle
 from fmu_src import identity
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
-from gearlube_core.contact.elliptical_hertz import ellipticity
 from gearlube_core.contact.greenwood_tripp_1971 import (
     SurfaceParameters,
     asperity_area,
     asperity_load,
 )
+from gearlube_core.contact.hertz import ellipticity
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.friction.flank import flank_friction
-from gearlube_core.friction.flank_bound import FlankEllipse
 from gearlube_core.friction.flank_data import CONSISTENT, contact_geometry
+from gearlube_core.friction.flank_film import FlankEllipse
 from gearlube_core.friction.flank_laws import Consistent
 from gearlube_core.kernels.flat_tuples import flatten
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 RATIOS = np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0])
 USUAL = SurfaceParameters(0.5e-6, 0.055, 0.001)  # of finished gear flanks

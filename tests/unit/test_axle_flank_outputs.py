@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.hypoid_axle import flank_outputs, flanks, tooth_pair
-from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE, V_G, V_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_axle.state import N_FILMS, N_STATE, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_contact_groups
-from gearlube_core.friction.flank_bound import NO_MODEL_FILM, BoundedFlank
 from gearlube_core.friction.flank_data import FlankState
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.friction.flank_film import NO_MODEL_FILM, BoundedFlank
+from gearlube_core.oil.lubricant import LubricantState
 from tests.helpers.source_of import source_of
 
 OIL = LubricantState(0.02, 1.8e-8, 0.04, 2.5e-5, 3e6, 0.0, 0.07, 0.14, 350.0, 1.74e6)

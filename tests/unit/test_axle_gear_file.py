@@ -20,8 +20,7 @@ from gearlube.variation.file_variants import AxleVariants, files_named
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.hypoid_contact import kept_table
 from gearlube_core.hypoid_contact.kept_table import KeptTable
-from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table, write_mesh_table
 from gearlube_core.storage.process_pool import ProcessPool
 
 GEARS = files("gearlube_core.hypoid_geometry") / "data" / "mohammadpour_2015.toml"
@@ -232,7 +231,7 @@ def test_an_interrupt_ends_processes_at_once():
 
 @pytest.mark.slow  # a loaded contact analysis
 def test_the_kept_table_is_that_of_the_contact_analysis(tmp_path, monkeypatch):
-    from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+    from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
     from gearlube_core.hypoid_contact.contact_table import contact_table
     from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

@@ -6,6 +6,7 @@ import xarray as xr
 
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
+from gearlube.studies.bearing.figures import _panel_grid
 from gearlube.studies.bearing.findings import findings, numbers
 from gearlube.studies.bearing.report import bearing_report
 from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
@@ -105,3 +106,9 @@ def test_bearing_warns_of_thin_films_and_of_laws_outside_their_range(a_bearing):
     films, *_ = (one for one in findings(solved) if "Model: mine" in one.detail)
     assert_findings([films], [(NOTE, "model of solved films", "25 %")])
     assert "calibrated with a measured torque" in findings(solved)[4].headline
+
+
+def test_panels_of_a_figure_have_the_same_axes():
+    _, panels = _panel_grid(3)
+    panels[0].set(xlim=(1.0, 2.0), ylim=(3.0, 4.0))
+    assert [(one.get_xlim(), one.get_ylim()) for one in panels] == 3 * [((1.0, 2.0), (3.0, 4.0))]

@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 
 from gearlube_core.bearings import (
-    cage_frame,
     ninth_root,
-    palmgren_1959,
+    parameters,
     roller_contact,
     roller_loads,
-    shaft_energy,
-    shaft_forces,
+    shaft_expansion,
     standalone,
+    tapered_roller_kernels,
 )
 from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.losses import catalogue
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.contact.solid import pi_contact_modulus
 from gearlube_core.film import mostofi_gohar_1983 as film
@@ -48,14 +48,14 @@ CASES = [
     (roller_contact.roller_load_general, (8.0, 300.0, 0.7, 3e-5, 40.0, 3e-5, 0.0, 1.3)),
     (roller_contact.film_and_slope, (8.0, 0.7, 1.3)),
     (roller_contact.approach_with_film, (8.0, 0.7, 1.3)),
-    (cage_frame.approach_terms, (MOTION, 0.8, 0.6, P)),
-    (cage_frame.cage_torque, (1e-6, 2e-6, 300.0, -200.0)),
-    (shaft_forces.shaft_bearing_forces, SHAFT),
+    (parameters.approach_terms, (MOTION, 0.8, 0.6, P)),
+    (parameters.cage_torque, (1e-6, 2e-6, 300.0, -200.0)),
+    (tapered_roller_kernels.shaft_bearing_forces, SHAFT),
     (roller_loads.bearing_forces, (*SHAFT, -1.0)),
-    (shaft_energy.roller_energy, (8.0, 0.7, 1.3)),
-    (shaft_energy.bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P, 1.0)),
-    (shaft_energy.shaft_bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P)),
-    (palmgren_1959.drag_torque, (150.0, 2500.0, 0.0, 19e-6, P)),
+    (shaft_expansion.roller_energy, (8.0, 0.7, 1.3)),
+    (shaft_expansion.bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P, 1.0)),
+    (shaft_expansion.shaft_bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P)),
+    (catalogue.drag_torque, (150.0, 2500.0, 0.0, 19e-6, P)),
 ]
 
 
@@ -115,7 +115,7 @@ def test_relaxed_sums_change_the_forces_by_rounding_only():
         "import json\n"
         "from gearlube_core.bearings.bearing_type import ShaftMotion\n"
         "from gearlube_core.bearings.parameters import BearingParameters\n"
-        "from gearlube_core.bearings.shaft_forces import shaft_bearing_forces\n"
+        "from gearlube_core.bearings.tapered_roller_kernels import shaft_bearing_forces\n"
         f"p = BearingParameters(*{list(P)!r})\n"
         f"a = {[list(a) for a in _grid()]!r}\n"
         "print(json.dumps([shaft_bearing_forces(ShaftMotion(*x[:8]), *x[8:], p) for x in a]))\n"
@@ -125,7 +125,7 @@ def test_relaxed_sums_change_the_forces_by_rounding_only():
         [sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True
     )
     for args, expected in zip(_grid(), json.loads(out.stdout), strict=True):
-        F = shaft_forces.shaft_bearing_forces(ShaftMotion(*args[:8]), *args[8:], P)
+        F = tapered_roller_kernels.shaft_bearing_forces(ShaftMotion(*args[:8]), *args[8:], P)
         # 24 rollers of 1 kN summed in another order: a few 1e-16 each
         assert F[:6] == pytest.approx(expected[:6], rel=0, abs=1e-14 * 24e3)
         assert F[6] == pytest.approx(expected[6], rel=1e-12)
@@ -153,8 +153,6 @@ def test_drag_follows_the_printed_units():
     M1 = 4e-4 * 2 * 0.4 / math.tan(math.radians(15)) * 2500.0 * 61.85
     # the smoothing factor is 1 - 2e-5 at 150 rad/s
     expected = 1e-3 * (M0 + M1) / math.sqrt(1 + 1 / speed**2)
-    assert palmgren_1959.drag_torque(speed, 2500.0, 0.0, 19e-6, P) == pytest.approx(
-        expected, rel=1e-12
-    )
+    assert catalogue.drag_torque(speed, 2500.0, 0.0, 19e-6, P) == pytest.approx(expected, rel=1e-12)
     slow = 1e-3 * (160e-7 * 6 * 61.85**3 + M1) / math.sqrt(1 + 1 / 25)
-    assert palmgren_1959.drag_torque(5.0, 2500.0, 0.0, 19e-6, P) == pytest.approx(slow, rel=1e-12)
+    assert catalogue.drag_torque(5.0, 2500.0, 0.0, 19e-6, P) == pytest.approx(slow, rel=1e-12)

@@ -8,28 +8,15 @@ import numpy as np
 import pytest
 
 from gearlube.studies.bearing.figures import LAW_NAMES
-from gearlube_core.bearings.losses import (
-    aihara_1987,
-    goksem_hargreaves_1978,
-    laws,
-    liebrecht_drag,
-    physical_loss,
-    race_rolling,
-    rib,
-    ring_loads,
-    rolling,
-    skf_2013,
-    timken,
-    zhou_hoeprich_1991,
-)
+from gearlube_core.bearings import roller_loads
+from gearlube_core.bearings.losses import catalogue, laws, physical_loss, race_rolling, rib, rolling
 from gearlube_core.bearings.losses.geometry import Rib
 from gearlube_core.bearings.losses.loss import UNCALIBRATED, LossModel
-from gearlube_core.contact import asperity_share
+from gearlube_core.contact import greenwood_tripp_1971
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import biboulet_houpert_2010, groups, zhu_cheng_1989
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.bearing_32216 import BEARING, DEG, loss_at
 
 OIL = lubricant_state(Lubricant.named("fva_3").parameters(), 323.15)
@@ -41,19 +28,19 @@ CONTACT = (9.8e-3, 6e4, 2.3e11, 0.05, 2.1e-8, 1.4)
 CASES = [
     (biboulet_houpert_2010.biboulet_houpert_force, CONTACT),
     (biboulet_houpert_2010.biboulet_houpert_starvation, (1e-5, 1e-6)),
-    (zhou_hoeprich_1991.zhou_hoeprich_force, CONTACT),
-    (asperity_share.asperity_share, (0.5, 1.9, 0.99)),
-    (goksem_hargreaves_1978.goksem_hargreaves_force, CONTACT),
-    (aihara_1987.aihara_force, CONTACT),
-    (aihara_1987.aihara_heating, (0.5,)),
-    (aihara_1987.aihara_rib_torque, (6000.0, 2e-3, 0.1, 0.99)),
+    (laws.zhou_hoeprich_force, CONTACT),
+    (greenwood_tripp_1971.asperity_share, (0.5, 1.9, 0.99)),
+    (laws.goksem_hargreaves_force, CONTACT),
+    (laws.aihara_force, CONTACT),
+    (laws.aihara_heating, (0.5,)),
+    (laws.aihara_rib_torque, (6000.0, 2e-3, 0.1, 0.99)),
     (zhu_cheng_1989.zhu_cheng_heating, (0.5, 0.004, 0.3)),
     (rolling.rolling_power, (75.0, 1.4, 0.02)),
     (groups.inlet_heating_number, (0.05, 0.04, 1.4, 0.13)),
     (rolling.hysteresis_power, (1400.0, 6e4, 9.8e-3, 2.3e11, 1.4)),
-    (liebrecht_drag.liebrecht_drag, (870.0, 6e-5, 0.02, 0.017, 0.1, 20.0)),
-    (skf_2013.skf_torque, (BEARING.skf(), 200.0, 6000.0, 3000.0, 6e-5)),
-    (timken.timken_torque, (60.0, 200.0, 6000.0, 0.05)),
+    (rolling.liebrecht_drag, (870.0, 6e-5, 0.02, 0.017, 0.1, 20.0)),
+    (catalogue.skf_torque, (BEARING.skf(), 200.0, 6000.0, 3000.0, 6e-5)),
+    (catalogue.timken_torque, (60.0, 200.0, 6000.0, 0.05)),
     (rib.rib_friction, (P.rib, 100.0, 30.0, OIL)),
     (rib.rib_friction, (P.rib, 0.0, 30.0, OIL)),
     (laws.heating_factor, (laws.AIHARA_HEATING, 0.5, 0.004)),
@@ -90,8 +77,8 @@ def test_compiled_kernels_agree_with_python(kernel, args):
 def test_compiled_loads_of_rollers_agree_with_python():
     compiled, plain = np.zeros(16), np.zeros(16)
     rollers = BEARING.dry_rollers()
-    assert ring_loads.ring_loads(6000.0, 6500.0, rollers, compiled) == 0
-    assert ring_loads.ring_loads.py_func(6000.0, 6500.0, rollers, plain) == 0
+    assert roller_loads.ring_loads(6000.0, 6500.0, rollers, compiled) == 0
+    assert roller_loads.ring_loads.py_func(6000.0, 6500.0, rollers, plain) == 0
     assert compiled == pytest.approx(plain, rel=1e-9)
 
 

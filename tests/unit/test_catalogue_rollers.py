@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from gearlube_core.bearings.catalogue_rollers import (
+from gearlube_core.bearings.bearing_fields import (
     rating_factor,
     roller_length_of_rating,
     usual_roller_count,

@@ -6,9 +6,15 @@ from dataclasses import replace
 
 import pytest
 
-from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.errors import FileError, ParameterError
-from gearlube_core.film_model.chosen_model import check_oil, chosen_model, file_of_model
+from gearlube_core.film_model.chosen_model import (
+    _OIL_GROUPS,
+    _inlet_of,
+    check_oil,
+    chosen_model,
+    file_of_model,
+)
 from gearlube_core.film_model.model import FilmModel, model_names, shipped_model
 from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.own_film_models import copy_of
@@ -107,3 +113,20 @@ def test_another_solid_is_refused():
     aluminium = replace(STEEL_MOHAMMADPOUR_2015, youngs_modulus=70e9)
     with pytest.raises(ParameterError, match=r"contact modulus E\* 3.* GPa \(model: 11"):
         check_oil(FLANKS, OIL, aluminium, "x")
+
+
+def test_groups_of_an_oil_are_told_in_its_own_numbers():
+    solid = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
+    inlet = _inlet_of(OIL, 353.15, solid)
+    expected = {
+        "viscosity": (OIL.dynamic_viscosity(353.15), "Pa.s"),
+        "exponent": (OIL.roelands_z, ""),
+        "stress": (1e-6 * OIL.eyring_stress, "MPa"),
+        "conductivity": (OIL.conductivity, "W/(m.K)"),
+        "capacity": (1e-6 * OIL.density * OIL.heat_capacity, "MJ/(m3.K)"),
+    }
+    found = {g.group: (g.plain(getattr(inlet, g.group), inlet, solid), g.unit) for g in _OIL_GROUPS}
+    for name, (value, unit) in expected.items():
+        # constants of Roelands' law agree to 4e-7
+        assert found[name] == (pytest.approx(value, rel=1e-6), unit), name
+    assert found["cooling"][0] > 0.0

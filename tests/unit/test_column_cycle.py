@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.line_section import line_section
+from gearlube_core.ehl.point.contact_domain import line_section
 from gearlube_core.ehl.point.newton import column_levels, column_multigrid, preconditioner
 from gearlube_core.ehl.point.newton.column_levels import held_rows
 from gearlube_core.ehl.point.newton.column_multigrid import ColumnCycle
 from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_operator
-from gearlube_core.ehl.point.newton.hierarchy import build_hierarchy
-from gearlube_core.ehl.point.newton.krylov import flexible_gmres
+from gearlube_core.ehl.point.newton.newton import flexible_gmres
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
+from gearlube_core.ehl.point.newton.transfer import build_hierarchy
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.ehl.point.settings import Sides
 from gearlube_core.kernels import row_workers
 from gearlube_core.kernels.row_workers import RowWorkers
 from gearlube_core.oil.film_oil_data import film_oil

@@ -5,7 +5,6 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_path import contact_path
-from gearlube_core.hypoid_contact.contact_pattern import contact_pattern
 from gearlube_core.hypoid_contact.contact_point import (
     APART,
     TOUCHING,
@@ -14,12 +13,20 @@ from gearlube_core.hypoid_contact.contact_point import (
     linearise_contacts,
     solve_in_place,
 )
-from gearlube_core.hypoid_contact.ease_off import ease_off
-from gearlube_core.hypoid_contact.first_contact_point import first_contact_point
+from gearlube_core.hypoid_contact.ease_off import contact_pattern, ease_off
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample, tooth_position
-from gearlube_core.hypoid_contact.placement import Misalignment, place_direction, place_point
-from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
+from gearlube_core.hypoid_contact.placement import (
+    Misalignment,
+    place_direction,
+    place_point,
+    placed_axis,
+    placed_sample,
+    tooth_position,
+)
+from gearlube_core.hypoid_contact.searched_transmission_error import (
+    first_contact_point,
+    searched_transmission_error,
+)
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from tests.helpers.contact_cases import SIDES, shipped_file, shipped_pair

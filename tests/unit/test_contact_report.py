@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
+from gearlube.studies.contact.figures import catalogue
 from gearlube.studies.contact.figures.charts import stiffness_chart
 from gearlube.studies.contact.findings import edge_torque, findings, numbers, transmission_orders
 from gearlube.studies.contact.run import _table
@@ -165,3 +166,47 @@ def test_the_table_of_the_loaded_contact_is_known():
     ]  # fmt: skip
     rows = [[side, *(a * b for a, b in zip(row, scale, strict=True))] for side, *row in expected]
     assert_tables([_table(known())], {"Loaded contact": [heads, *rows]})
+
+
+def test_figures_show_numbers_in_the_units_of_their_labels():
+    """Each quantity has one value: what is drawn is this value in the unit of the axis."""
+    sizes = {  # SI, and as drawn
+        "R_x": (0.011, "mm", 11.0), "R_y": (0.7, "m", 0.7), "R_sliding": (0.031, "mm", 31.0),
+        "entrainment_arm": (0.013, "mm", 13.0), "sliding_arm": (0.017, "mm", 17.0),
+        "psi": (np.pi / 6.0, "°", 30.0), "chi": (np.pi / 4.0, "°", 45.0), "share": (0.5, "-", 0.5),
+        "pressure_max": (1.5e9, "GPa", 1.5), "k_m": (3e8, "N/µm", 300.0),
+        "k_t": (2e8, "N/µm", 200.0), "R_p": (ARM, "mm", 20.0), "R_g": (0.05, "mm", 50.0),
+    }  # fmt: skip
+    of_pairs = contact()["share"]
+    states = contact()["k_m"]
+    dataset = contact().assign(
+        {
+            name: (states if name in ("k_m", "k_t", "R_p", "R_g") else of_pairs) * 0.0 + value
+            for name, (value, _, _) in sizes.items()
+        }
+    )
+    dataset["share"] = of_pairs  # of two pairs of five
+    shown = []
+    for figure in (
+        catalogue.contact_properties(dataset),
+        catalogue._load_shares(dataset),
+        catalogue._stiffness_and_radii(dataset),
+    ):
+        for left, right in zip(figure.axes[::2], figure.axes[1::2], strict=True):
+            values = [line.get_ydata() for ax in (left, right) for line in ax.lines[: len(TORQUES)]]
+            drawn = np.concatenate(values)
+            (one,) = np.unique(np.round(drawn[np.isfinite(drawn)], 9))
+            shown.append((left.get_ylabel().partition("[")[2].rstrip("]"), one))
+    assert shown == [(unit, pytest.approx(one, rel=1e-9)) for _, unit, one in sizes.values()]
+    figure = catalogue._stiffness_against_torque(dataset)
+    for ax, expected in zip(figure.axes, ([300.0, 200.0], [2.0, 2.0]), strict=True):
+        for line, value in zip(ax.lines, 2 * expected, strict=True):
+            assert line.get_xdata() == pytest.approx(TORQUES)
+            assert line.get_ydata() == pytest.approx(value)
+    loaded = catalogue.new_figure(3.0, 3.0).subplots()
+    catalogue._loaded(loaded, dataset.sel(side="coast"))
+    found = [np.ptp(line.get_ydata()) for line in loaded.lines]
+    assert found == pytest.approx(2.0 * np.array(AMPLITUDE))  # um
+    seven = dataset.isel(torque=[0] * 7).assign_coords(torque=np.arange(1.0, 8.0))
+    catalogue._loaded(loaded := catalogue.new_figure(3.0, 3.0).subplots(), seven.sel(side="drive"))
+    assert [line.get_label()[0] for line in loaded.lines] == ["1", "2", "4", "5", "7"]

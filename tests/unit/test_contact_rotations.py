@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gearlube_core.hypoid_contact import contact_rotation_kernel, placement
+from gearlube_core.hypoid_contact import contact_rotations, placement
 from gearlube_core.hypoid_contact.flank_intersection import HIT, MISSED
 from gearlube_core.hypoid_contact.placement import Placement
 from gearlube_core.hypoid_geometry.flank import vectors
@@ -63,14 +63,14 @@ class Flank:
 def search(monkeypatch, count: int, middle: int, without=(), holes=()) -> tuple[Flank, np.ndarray]:
     turns = TURN * np.arange(count)
     flank = Flank(turns, set(without))
-    interpret(monkeypatch, contact_rotation_kernel, placement, vectors)
-    monkeypatch.setattr(contact_rotation_kernel, "intersect_rotation", flank)
+    interpret(monkeypatch, contact_rotations, placement, vectors)
+    monkeypatch.setattr(contact_rotations, "intersect_rotation", flank)
     points = POINTS.copy()
     for hole in holes:
         points[hole] = math.nan
     found = np.full((count, *SHAPE, 4), math.nan)
     start = truth(middle, *CENTRE)
-    contact_rotation_kernel.find_contact_rotations(
+    contact_rotations.find_contact_rotations(
         "pinion", PINION, GEAR, points, turns, middle, RATIO, start, found
     )
     assert (start == truth(middle, *CENTRE)).all()
@@ -124,12 +124,12 @@ def test_centre_that_is_missed_is_looked_for_from_the_start_at_the_next_angle(mo
 def test_rotations_from_near_by_start_from_their_own_values(monkeypatch):
     turns = np.zeros(1)
     flank = Flank(turns, {(0, 1, 1)})
-    interpret(monkeypatch, contact_rotation_kernel, placement, vectors)
-    monkeypatch.setattr(contact_rotation_kernel, "intersect_rotation", flank)
+    interpret(monkeypatch, contact_rotations, placement, vectors)
+    monkeypatch.setattr(contact_rotations, "intersect_rotation", flank)
     places = [(0, 1), (1, 1), (3, 4)]
     found = np.array([truth(0, *at) + 0.2 for at in places])
     points = np.array([POINTS[at] for at in places])
-    contact_rotation_kernel.rotations_to_points("pinion", PINION, GEAR, points, np.zeros(3), found)
+    contact_rotations.rotations_to_points("pinion", PINION, GEAR, points, np.zeros(3), found)
     whole = np.array([truth(0, *at) for at in places])
     whole[1] = math.nan  # where there is no flank
     np.testing.assert_array_equal(found, whole)

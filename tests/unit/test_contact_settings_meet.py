@@ -5,7 +5,7 @@ import re
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from tests.helpers.contact_cases import shipped_file
 
 

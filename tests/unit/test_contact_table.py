@@ -9,10 +9,9 @@ from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.contact_table import contact_table, levels_left_out
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.mesh_table.fourier import fourier
 from gearlube_core.mesh_table.kernels import mesh_series, pair_channels, transmission_error
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from gearlube_core.mesh_table.table import PAIRS
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
+from gearlube_core.mesh_table.table import PAIRS, fourier
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 Z_P = 13

@@ -9,9 +9,7 @@ from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.parameters import DrivelineParameters, shaft_stiffness
 from drivetrain.drivers import CoupledVehicle, SpeedHold
 from drivetrain.engine import Engine, Gearbox, TorqueOrder
-from drivetrain.road_load import FinalDrive, mohammadpour_2015_road_load
-from drivetrain.tyre import Tyre
-from drivetrain.vehicle import Vehicle
+from drivetrain.road_load import FinalDrive, Tyre, Vehicle, mohammadpour_2015_road_load
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.units import rpm_to_rads
 

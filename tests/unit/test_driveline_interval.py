@@ -8,8 +8,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from drivetrain.driveline.equations import POWERS, STATES
-from drivetrain.driveline.stepper import MEMORY, driveline_stepper
+from drivetrain.driveline.equations import MEMORY, POWERS, STATES, driveline_stepper
 from tests.helpers.communication_stability import interval_jacobian
 
 N, COUNT = len(STATES), len(POWERS)

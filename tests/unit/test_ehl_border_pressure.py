@@ -7,8 +7,8 @@ import pytest
 
 from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
-from gearlube_core.ehl.point.border_pressure import border_pressure
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
+from gearlube_core.ehl.point.far_field import border_pressure
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil_data import film_oil
 

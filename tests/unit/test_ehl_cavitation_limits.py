@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from gearlube_core.ehl.point.cavitation import check_cavitation, refuse_rupture
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import check_cavitation, refuse_rupture
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import moes_contact

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.equations.stencil import Grading
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
+from gearlube_core.ehl.transient.rows import WindowedDeflection
 from gearlube_core.oil.film_oil_data import film_oil
 
 SHAPE = (97, 41)  # (ny, nx)

@@ -22,7 +22,7 @@ from docs.ehl.film_map import (
     turned_contacts,
 )
 from docs.ehl.micro_cavity import FASTER, ROLLING, SLIDING, SPEED, A, Passage, shift_between, speeds
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.film.groups import point_contact_groups
 
 FILM = Film(Contact(2.0, 50.0, 5.0), FINE, True, "upwind-2", 0.0, 2e-7, 1e-7, 0.5)

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
+from gearlube_core.ehl.gears.hypoid_flank import pair_contact, phase_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.sliding_direction import sliding_direction
 from tests.helpers.hypoid_film_cases import flank_cycle, hypoid_film
 

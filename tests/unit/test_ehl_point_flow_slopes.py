@@ -22,7 +22,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     TensorSlopes,
     mean_fluidity,
 )
-from gearlube_core.ehl.point.sides import AMBIENT
+from gearlube_core.ehl.point.settings import AMBIENT
 from tests.helpers.source_of import interpret, source_of
 
 SHAPE = (6, 7)

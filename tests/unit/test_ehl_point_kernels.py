@@ -8,17 +8,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.mesh import Grading
 from gearlube_core.ehl.point.equations.reynolds import reynolds_residual
+from gearlube_core.ehl.point.equations.stencil import Grading
 from gearlube_core.ehl.point.level import PointLevel
-from gearlube_core.ehl.point.newton.hierarchy import build_hierarchy, grid_shapes
-from gearlube_core.ehl.point.newton.krylov import flexible_gmres
+from gearlube_core.ehl.point.newton.newton import flexible_gmres
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
-from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.newton.transfer import Transfer, build_hierarchy, grid_shapes
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.sides import AMBIENT
+from gearlube_core.ehl.point.settings import AMBIENT, PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ConvergenceError, ParameterError
 from tests.helpers.ehl_point_cases import moes_contact

@@ -7,17 +7,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.cavitation import refuse_rupture
-from gearlube_core.ehl.point.equations.rupture import fill_ruptured_nodes
-from gearlube_core.ehl.point.equations.rupture_transport import carried_entries, carry_downstream
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
-from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.point.terms.ruptured_transport import RupturedTransport
+from gearlube_core.ehl.point.solver import refuse_rupture, solve_point_contact
+from gearlube_core.ehl.point.terms.cavitation import fill_ruptured_nodes
+from gearlube_core.ehl.point.terms.linearisation import (
+    RupturedTransport,
+    carried_entries,
+    carry_downstream,
+)
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ParameterError
 from tests.helpers.ehl_point_cases import moes_contact, sliding_along

@@ -7,12 +7,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.grid_film import _hertz_start
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.newton import flow_residual
 from gearlube_core.ehl.point.problem import EllipticParaboloid, expected_film
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.point.start.nested import zero_border
+from gearlube_core.ehl.point.solver import _hertz_start
+from gearlube_core.ehl.point.start import zero_border
 from tests.helpers.ehl_point_cases import ALPHA, RADIUS, REDUCED_MODULUS, moes_contact, moes_film
 
 

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.start import starvation as module
-from gearlube_core.ehl.point.start.starvation import Starvation, thin_layer
+from gearlube_core.ehl.point import start as module
+from gearlube_core.ehl.point.start import Starvation, thin_layer
 
 SETTINGS = SimpleNamespace(newton_steps=30, krylov_steps=40)
 

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.oil import factor_slopes as slopes_module
-from gearlube_core.oil.eyring_1936 import Eyring
-from gearlube_core.oil.eyring_flow import eyring_flow_factor
+from gearlube_core.oil.eyring_1936 import Eyring, eyring_flow_factor
 from gearlube_core.oil.factor_slopes import factor_slopes
 from gearlube_core.oil.shear_flow import shear_factors
 from tests.helpers.source_of import interpret

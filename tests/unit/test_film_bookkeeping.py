@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 from gearlube_core.ehl.point.equations import factor_fields
 from gearlube_core.ehl.point.equations.factor_fields import ShearUnits
-from gearlube_core.ehl.point.sides import AMBIENT
+from gearlube_core.ehl.point.settings import AMBIENT
 from gearlube_core.ehl.time_error import TimeError
-from gearlube_core.ehl.transient import deflection_window
-from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
+from gearlube_core.ehl.transient import rows
+from gearlube_core.ehl.transient.rows import WindowedDeflection
 from gearlube_core.kernels.row_workers import ALONE
 from gearlube_core.oil.eyring_1936 import Eyring
 from tests.helpers.source_of import interpret
@@ -29,7 +30,7 @@ def window(monkeypatch):
         made.append(coefficients.shape)
         return np.ones_like
 
-    monkeypatch.setattr(deflection_window, "HalfSpaceConvolution", convolution)
+    monkeypatch.setattr(rows, "HalfSpaceConvolution", convolution)
     grid = SimpleNamespace(
         shape=SHAPE,
         graded=False,
@@ -112,3 +113,32 @@ def test_film_without_slopes_and_sliding_flows_as_a_newtonian(monkeypatch):
     assert (along == 1.0).all()
     factor_fields.fill_factor_slopes(*arguments, thick, *rest, *slopes)
     assert (slopes == 0.0).all()
+
+
+def test_slopes_of_factors_at_small_stress_grow_with_the_curvature_of_the_law(monkeypatch):
+    """Rate of shear 1 + c (tau/tau0)^2 over that of a Newtonian: all factors less 1 have c."""
+    interpret(monkeypatch, factor_fields)
+    rng = np.random.default_rng(2)
+    pressure, film = 1e-3 * rng.random((5, 6)), 1.0 + rng.random((5, 6))
+    units = ShearUnits(np.full(5, 2e-3), np.full(6, 0.3), 0.2, 0.8, 0.6, 0.0, 0.0)
+    thick, rows = np.ones((5, 6)), ((0, 5), factor_fields.FactorWork.empty(6))
+
+    class Law(NamedTuple):
+        c: float
+
+        def rate_ratio(self, q):
+            return 1.0 + self.c * q, self.c
+
+    def slopes(c):
+        law = Law(c)
+        along, across, found = np.empty((5, 6)), np.empty((5, 6)), np.full((2, 4, 5, 6), np.nan)
+        stress = np.full((2, 5, 6), np.nan)
+        given = law, pressure, film, thick
+        factor_fields.fill_shear_factors(*given, units, *rows, along, across, stress)
+        wanted = np.ones((5, 6), dtype=bool)
+        factor_fields.fill_factor_slopes(*given, thick, units, stress, wanted, *rows, *found)
+        return found
+
+    eyring = slopes(1.0 / 6.0)
+    assert (np.abs(eyring).max(axis=(2, 3)) > 0.0).all()
+    np.testing.assert_allclose(slopes(1.0), 6.0 * eyring, rtol=1e-12)

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.linear import instability_map as map_module
+from gearlube.studies.helical import stability as map_module
 from gearlube_core.ehl.transient import curves as module
 from gearlube_core.ehl.transient.curves import NumberedSteps, march_curves
 from gearlube_core.errors import ConvergenceError

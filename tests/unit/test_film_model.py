@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
+from gearlube_core.contact.hertz import ellipticity, hertz_coefficients
 from gearlube_core.errors import FileError
 from gearlube_core.film_model import net
 from gearlube_core.film_model.groups import (

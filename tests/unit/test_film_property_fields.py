@@ -7,10 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.oil import film_properties as module
-from gearlube_core.oil.density_law import density_ratio
+from gearlube_core.oil import film_oil as module
+from gearlube_core.oil.film_laws import density_ratio, log_viscosity
 from gearlube_core.oil.film_oil_data import film_oil
-from gearlube_core.oil.viscosity_law import log_viscosity
 from tests.helpers.source_of import interpret
 
 OIL = film_oil(eta0=0.04, alpha=1.7e-8, rho0=870.0)

@@ -14,12 +14,11 @@ from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.line import energy as line_energy
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.thermal import energy, surfaces
-from gearlube_core.ehl.point.thermal.moving_heat import moving_heat_coefficients
-from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
+from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature, moving_heat_coefficients
+from gearlube_core.oil.film_laws import log_viscosity
 from gearlube_core.oil.film_oil_data import film_oil
 from gearlube_core.oil.oil_heat import OilHeat
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE
-from gearlube_core.oil.viscosity_law import log_viscosity
 from tests.helpers.ehl_point_cases import moes_contact
 from tests.helpers.source_of import interpret, source_of
 

@@ -6,7 +6,7 @@ import xarray as xr
 from PIL import Image
 
 import gearlube as gl
-from gearlube.plotting.drawn_tooth import DrawnTooth
+from gearlube.plotting.drawn_tooth import DrawnTooth, ellipse
 from gearlube.studies.contact.film_option import (
     FilmRequest,
     _places,
@@ -174,3 +174,12 @@ def test_an_axle_without_films_or_a_wrong_one_is_refused(tmp_path):
     wrong.write_text('[gear_set]\nmesh_table = "mohammadpour_2015"\n[pinion]\nmas_kg = 3.0\n')
     with pytest.raises(ParameterError, match="mas_kg"):
         film_request(2000.0, None, None, str(wrong))
+
+
+def test_a_drawn_ellipse_has_its_centre_and_semi_axes():
+    """Semi-axes of 2 times 0.6, 0.8 and -1.6, 1.2: twice (1, 2) along two directions."""
+    x, y = ellipse(np.array([5.0, 7.0]), np.array([0.6, 0.8]), np.array([-1.6, 1.2]), size=2.0)
+    along = 0.6 * (x - 5.0) + 0.8 * (y - 7.0)
+    across = -0.8 * (x - 5.0) + 0.6 * (y - 7.0)
+    assert (along / 2.0) ** 2 + (across / 4.0) ** 2 == pytest.approx(np.ones(x.size))
+    assert (np.ptp(along), np.ptp(across)) == pytest.approx((4.0, 8.0), rel=0.01)

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_geometry.flank.export import (
+from gearlube_core.hypoid_geometry.flank.tooth import Tooth
+from gearlube_core.hypoid_geometry.flank.tooth_solid import (
+    gear_solid,
     mirror_image,
+    tooth_solid,
     write_flank_csv,
     write_solid,
 )
-from gearlube_core.hypoid_geometry.flank.tooth import Tooth
-from gearlube_core.hypoid_geometry.flank.tooth_solid import gear_solid, tooth_solid
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 trimesh = pytest.importorskip("trimesh")
@@ -113,5 +114,5 @@ def test_failed_writing_keeps_the_old_file_and_leaves_no_part(gear, tmp_path, mo
 
 def test_missing_trimesh_is_named(gear, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
-    with pytest.raises(ParameterError, match="pip install trimesh"):
+    with pytest.raises(ParameterError, match=r"pip install 'gearlube\[export\]'"):
         write_solid(tooth_solid(gear, 3, 3), tmp_path / "gear.stl")

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gearlube_core.dynamics.helical_pair.march import flank_views as module
-from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants, FlankView
+from gearlube_core.dynamics.helical_pair.march import state as module
 from gearlube_core.dynamics.helical_pair.march.state import (
     N_STATE,
     PHI_P,
@@ -18,6 +17,8 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     TH_P,
     U_G,
     U_P,
+    FlankConstants,
+    FlankView,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from tests.helpers.source_of import interpret

@@ -6,7 +6,7 @@ from collections import Counter
 
 import pytest
 
-from fmu_src.units import UNITS, units_of
+from fmu_src.model_description import UNITS, units_of
 from fmu_src.variable import Variable
 from gearlube_core.errors import ParameterError
 

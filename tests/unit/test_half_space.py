@@ -9,8 +9,8 @@ import pytest
 from scipy.integrate import dblquad
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.strip_compliance import StripCompliance
 from gearlube_core.errors import ParameterError
+from gearlube_core.tooth_contact.coupled_strips import StripCompliance
 
 E_STAR = 115.4e9
 DX, DY = 3e-5, 5e-4

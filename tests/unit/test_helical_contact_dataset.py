@@ -5,9 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from gearlube.studies.helical.stages import _constant_density_stiffness
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from tests.helpers.helical_contact_cases import HE_2007, relieved
+from tests.helpers.known_answers import assert_variables, named, units_of
 
 EXTENT = 0.5e-3  # m of radius, relieved at both tips
 MODIFIED = relieved(HE_2007, 1e-5, EXTENT)
@@ -123,3 +125,26 @@ def test_the_rest_is_handed_on_with_its_places(data, cycle):
     np.testing.assert_array_equal(data["torque"], TORQUES)
     pitch = math.tau * R_BP / HE_2007.pinion_teeth
     assert data.attrs["base_pitch"] == pytest.approx(pitch, rel=1e-12)
+
+
+def test_every_variable_has_its_unit(data):
+    per_length = dict.fromkeys(("K", "K_tangent", "K_line", "line_load"), "N/m")
+    lengths = ("transmission_error", "transmission_error_ptp", "unloaded_error", "contact_length",
+               "relief_length", "loaded_length")  # fmt: skip
+    shares = ("share", "length_share", "corner_share", "phase", "line", "station")
+    others = {"pressure_max": "Pa", "gear_torque": "N.m", "strain_energy": "J", "torque": "N.m"}
+    expected = per_length | dict.fromkeys(lengths, "m") | dict.fromkeys(shares, "1") | others
+    assert units_of(data) == expected
+
+
+def test_stiffness_of_one_density_is_that_of_the_length_along_the_line_of_action():
+    settings = named(file=named(helical_pair=lambda: HE_2007))
+    made = _constant_density_stiffness(settings, 3e9)
+    phase, lines = made["zone_phase"].values, np.arange(3)
+    ends = np.array([[z_range(min(p, 1.0 - 1e-12), j, 0.0) for j in lines] for p in phase])
+    expected = {
+        "K_line_constant": ("N/m", 3e9 * COS_B**2 * np.diff(ends, axis=-1)[..., 0] / COS_B),
+        "zone_phase": ("1", np.linspace(0.0, 1.0, phase.size)),
+        "constant_line": ("1", lines),
+    }
+    assert_variables(made, expected, tolerance=1e-8)

@@ -6,9 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.march import film_bounds
+from gearlube_core.dynamics.helical_pair.march import line_outputs
 from gearlube_core.dynamics.helical_pair.march import line_outputs as module
-from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView
 from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,
     LINES_MAX,
@@ -16,11 +15,12 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     N_STATE,
     POINTS_PER_LINE,
     W_P,
+    FlankView,
 )
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import line_groups
 from gearlube_core.friction.flank_laws import FORMULA, SOLVED
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 from tests.helpers.source_of import interpret, source_of
 
 OIL = LubricantState(0.03, 2.1e-8, 0.045, 3.5e-5, 4e6, 0.0, 0.07, 0.15, 350.0, 1.74e6)
@@ -75,7 +75,7 @@ def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=
     )
     size = len(module.LINE_OUTPUTS)
     end = FIRST + size + 1
-    out = np.full(end + len(film_bounds.LINE_BOUNDS) + 1, -7.0)
+    out = np.full(end + len(line_outputs.LINE_BOUNDS) + 1, -7.0)
     view = FlankView(0.0, 0.0, PHASE)
     found = source_of(module.write_lines)(view, mu_at, s, HOT, "data", OIL, p, FIRST, end, out)
     assert np.all(out[:FIRST] == -7.0)

@@ -14,9 +14,8 @@ from gearlube_core.helical_geometry.load_sharing import (
     shared_load,
     unrelieved_plane,
 )
-from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair, TipRelief
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from gearlube_core.helical_geometry.tip_relief import TipRelief
 
 HE = named_pair("he_2007")
 

@@ -4,6 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from gearlube.plotting.style import new_figure
+from gearlube.studies.helical.figures.layout import stems
 from gearlube.studies.helical.report import _critical_speeds, _inputs, _losses
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.helical.summary import summary_rows
@@ -133,3 +135,21 @@ def test_the_report_of_a_study_has_its_known_tables_and_inputs():
     assert told["pinion speed"] == ("100", "rpm")
     assert told["composite roughness"] == ("0.7", "µm")
     assert told["oil temperature"] == (f"{one.oil_temperature - 273.15:.4g}", "°C")
+
+
+def test_stems_stand_beside_each_other_from_a_floor_below_the_smallest():
+    """Two spectra of orders 1 to 4: the least is 1, so the floor is 0.3; the top is thrice 8."""
+    first, second = np.array([4.0, 2.0, 1.0, 0.0]), np.array([8.0, 0.0, 5.0, 2.5])
+    ax = new_figure(3.0, 3.0).subplots()
+    stems(ax, np.arange(1.0, 5.0), [(first, "black", "a"), (second, "red", "b")])
+    for lines, dots, heights, beside in zip(
+        ax.collections, ax.lines, (first, second), (-0.11, 0.11), strict=True
+    ):
+        seen = heights > 0.0
+        places = np.arange(1.0, 5.0)[seen] + beside
+        np.testing.assert_allclose(dots.get_xydata(), np.column_stack([places, heights[seen]]))
+        ends = np.array(lines.get_segments())
+        np.testing.assert_allclose(ends[:, 0], np.column_stack([places, 0.3 + 0.0 * places]))
+        np.testing.assert_allclose(ends[:, 1], dots.get_xydata())
+    np.testing.assert_allclose(ax.get_ylim(), (0.3, 24.0))
+    np.testing.assert_allclose(ax.get_xlim(), (0.3, 4.7))

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
+    add_product,
     linear_system,
     relative_rows,
 )
-from gearlube_core.dynamics.helical_pair.linear.matrix_entries import add_product
 from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     constant_friction,
@@ -18,25 +18,23 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
 from gearlube_core.dynamics.helical_pair.separation import march as separation_march
-from gearlube_core.dynamics.helical_pair.separation.forces import (
-    N_BY,
-    N_ROWS,
-    separating_sums,
-)
 from gearlube_core.dynamics.helical_pair.separation.march import (
     N_EXTRA,
     march_separating,
     march_work,
     separating_rates,
 )
-from gearlube_core.dynamics.helical_pair.separation.points import (
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.separation.system import (
+    N_BY,
+    N_ROWS,
     OFFSET,
     OFFSET_RATE,
     STIFFNESS,
     STIFFNESS_RATE,
     StagePoints,
+    separating_sums,
 )
-from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
 from tests.helpers.helical_accelerations import pair_accelerations
 from tests.helpers.separation_cases import crowned_mesh, separating_pair

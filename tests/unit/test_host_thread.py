@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from fmu_src.host_thread import HostThread
+from fmu_src.wrapper import HostThread
 
 LOCKED = 0
 

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import zipfile
 
+import netCDF4
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -59,6 +60,28 @@ def test_many_wrong_fields_are_counted_and_the_first_are_named(tmp_path):
     with pytest.raises(ParameterError, match=r"has 200\d\d wrong field") as refused:
         HypoidGearFile.from_toml(path)
     assert len(str(refused.value)) < 20 * 1000
+
+
+def write_bomb(path, blocks):
+    """Write an archive of one part, as many blocks of 16 MB of zeros."""
+    kind = zipfile.ZIP_DEFLATED
+    with zipfile.ZipFile(path, "w", kind) as file, file.open("a", "w", force_zip64=True) as part:
+        for _ in range(blocks):
+            part.write(bytes(1 << 24))
+
+
+@pytest.mark.parametrize(
+    ("name", "command"),
+    [
+        ("a.npz", ["roughness", "read"]),
+        ("a.x3p", ["roughness", "read"]),
+        ("a.fmu", ["sweep", "--fmu"]),
+    ],
+)
+def test_a_command_refuses_an_archive_that_unpacks_to_gigabytes(name, command, tmp_path, caplog):
+    write_bomb(tmp_path / name, 36)
+    assert CliRunner().invoke(app, [*command, str(tmp_path / name)]).exit_code == 2
+    assert "got 604 MB" in caplog.text or "claims arrays of 604 MB" in caplog.text
 
 
 def zipped(**parts):
@@ -115,6 +138,15 @@ def test_a_file_that_is_far_too_large_is_not_read(kind, tmp_path):
         stream.truncate(10**12)  # without a block on the disk
     with pytest.raises(GearLubeError, match=r"must have at most [\d.]+ MB, got 1e\+06 MB"):
         READERS[kind](path)
+
+
+def test_a_table_of_millions_of_cells_is_refused_with_its_line(tmp_path):
+    path = tmp_path / "long.csv"
+    path.write_text("x,y\n" + "1,2\n" * 20, newline="\r")
+    assert read_table(path, ("x", "y")).lines == list(range(2, 22))
+    path.write_text("x\n" + "," * 2_500_000 + "\n")
+    with pytest.raises(ParameterError, match="at most 2500000 cells, got more up to line 2"):
+        read_table(path, ("x",))
 
 
 NPZ = {
@@ -200,6 +232,17 @@ def test_an_fmu_that_is_no_axle_is_refused_before_anything_is_computed(case, tmp
 def test_ranges_beyond_all_numbers_are_refused(text):
     with pytest.raises(ParameterError, match="--x must"):
         numbers_from("--x", [text], "", -1e308, 1e308, example="0:1:0.1")
+
+
+def test_ranges_together_give_no_more_values_than_one_may():
+    with pytest.raises(ParameterError, match="--x must give at most 10 values, got 12"):
+        numbers_from("--x", ["0:5:1", "10:15:1"], "", 0.0, 20.0, example="0:1:0.1", most=10)
+
+
+def test_a_sweep_of_too_many_points_is_refused_before_work():
+    speeds, preloads = np.linspace(20.0, 100.0, 500), np.linspace(2000.0, 6000.0, 201)
+    with pytest.raises(ParameterError, match="speeds times preloads must be within 1 to 100000"):
+        run_sweep(speeds_kmh=speeds, preloads=preloads)
 
 
 def page(data):
@@ -295,3 +338,46 @@ def test_each_message_comes_within_a_second_and_in_little_memory(tmp_path):
     for name, _, seconds in rows:
         assert float(seconds) < 1.0, name
     assert float(memory[2]) < 500_000  # kB, with Python and its libraries
+
+
+# message and processor time [s]: three times that of an idle machine, which two processes on one
+# core take; what loads the studies first takes 6 s so. The last three need SciPy or xarray.
+COMMANDS = {
+    "map broken.toml": ("is not a readable TOML file", 1.5),
+    "contact none.toml": ("was not found", 1.5),
+    "roughness read bomb.x3p": ("claims arrays of 2147 MB", 1.5),
+    "roughness read bomb.npz": ("claims arrays of 2147 MB", 1.5),
+    "sweep --fmu bomb.fmu": ("unpack to at most 500 MB", 1.5),
+    "export shape.nc --to csv": ("shape.nc must be a NetCDF file", 6.0),
+    "roughness read long.csv": ("long.csv", 5.0),
+    "roughness read open.csv": ("a quote opened in line 2 is never closed", 5.0),  # 15 MB
+}
+PROCESS = """
+import resource, subprocess, sys
+done = subprocess.run(sys.argv[1:], capture_output=True, text=True)
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+print(done.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss)
+print(" ".join((done.stdout + done.stderr).split()))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_command_says_its_message_in_little_time_and_memory(command, tmp_path):
+    (tmp_path / "broken.toml").write_text("a = [1,,")
+    (tmp_path / "long.csv").write_text("x_mm,height_um\n1," + "9" * 5_000_000 + "\n")
+    (tmp_path / "open.csv").write_text('x_mm,height_um\n1,"' + "9,\n" * 5_000_000)
+    with netCDF4.Dataset(tmp_path / "shape.nc", "w") as claim:
+        claim.createDimension("x", 2_000_000_000)
+        claim.createVariable("v", "f8", ("x",), zlib=True, chunksizes=(1000,))
+    for name in ("bomb.x3p", "bomb.npz", "bomb.fmu"):
+        write_bomb(tmp_path / name, 128)
+    line = [sys.executable, "-c", PROCESS, sys.executable, "-m", "gearlube", *command.split()]
+    done = subprocess.run(line, capture_output=True, text=True, check=True, cwd=tmp_path)
+    numbers, text = done.stdout.splitlines()
+    code, seconds, memory = map(float, numbers.split())
+    said, most = COMMANDS[command]
+    assert said in text
+    assert code in (1, 2)
+    assert seconds < most
+    assert memory < 500_000  # kB

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead, ToothTrace
 from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, method_2
-from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
+from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones, ToothTrace
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from tests.helpers.member_profile import MemberProfile
 

@@ -10,6 +10,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact import contact_dataset as module
 from gearlube_core.hypoid_contact.mesh_cycle import MAP_SHAPE, PAIRS_BESIDE, SIDES, CycleSettings
 from tests.helpers.contact_cases import shipped_file
+from tests.helpers.known_answers import units_of
 
 TORQUES = np.array([20.0, 60.0])
 SETTINGS = CycleSettings(torques=tuple(TORQUES), positions=4)
@@ -204,3 +205,20 @@ def test_coordinates_and_attributes_are_those_of_the_settings_and_the_file():
     assert data.attrs["face_width"] == pytest.approx(1e-3 * file.gear.face_width_mm, rel=1e-14)
     assert type(file).model_validate_json(data.attrs["gear_file"]) == file
     assert "null" not in data.attrs["gear_file"]
+
+
+def test_every_variable_has_its_unit():
+    units = {
+        "rad": "rotation psi chi error path_error",
+        "N.m": "gear_torque torque",
+        "J": "strain_energy",
+        "N/m": "k_m k_t",
+        "Pa": "pressure_max pressure_map pressure_cells",
+        "m": "R_p R_g R_x R_y R_sliding entrainment_arm sliding_arm friction_arm_p friction_arm_g "
+        "e ease_off closest",
+        "1": "n share gear_s gear_t xi minor_axis path_s path_t path_contact_ratio phase pair "
+        "map_s map_t fine_phase path_phase ease_s ease_t",
+        "": "side axis",
+    }
+    expected = {name: unit for unit, names in units.items() for name in names.split()}
+    assert units_of(found()) == expected

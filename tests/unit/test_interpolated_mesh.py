@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gearlube_core.dynamics.helical_pair import supports
 from gearlube_core.dynamics.helical_pair.march import mesh_data
 from gearlube_core.dynamics.helical_pair.march.mesh_data import LEAST_OFFSET, LEVEL
-from gearlube_core.dynamics.helical_pair.supports import support_matrices
-from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
-from gearlube_core.friction.heated_film import bracketed_secant_step
+from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.friction.line_points import line_points
+from gearlube_core.friction.thermal_eyring_flank import bracketed_secant_step
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from tests.helpers.source_of import interpret, source_of
@@ -84,12 +84,12 @@ def test_printed_support_is_two_bearings_seen_from_the_gear(monkeypatch):
         K = RNG.random((6, 6))
         matrices[position] = K + K.T
     monkeypatch.setattr(
-        support_matrices, "bearing_matrix", lambda bearing, shaft: matrices[bearing.position]
+        supports, "bearing_matrix", lambda bearing, shaft: matrices[bearing.position]
     )
     first, second = (
         Bearing(K_xx=1e8, K_yy=1e8, K_zz=1e8, position=position) for position in matrices
     )
-    found = support_matrices.printed_support_stiffness(ShaftSupport(first=first, second=second))
+    found = supports.printed_support_stiffness(ShaftSupport(first=first, second=second))
     expected = np.zeros((6, 6))
     for lever, K in matrices.items():
         # displacement of the bearing under (u_x, u_y, u_z, th_x, th_y), and its own tilt

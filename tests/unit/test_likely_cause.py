@@ -9,8 +9,7 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact import refusal as module
-from gearlube_core.hypoid_contact.refusal import likely_changes
-from gearlube_core.hypoid_contact.setting_slips import Change
+from gearlube_core.hypoid_contact.refusal import Change, likely_changes
 
 FIRST, SECOND, TEETH = "pinion.machine.tilt_deg", "gear.machine.offset_mm", "gear.teeth"
 

@@ -18,7 +18,7 @@ from gearlube.studies.film_model.solves import SolveRow, SolveTable
 from gearlube.studies.film_model.targets import own_steps
 from gearlube.studies.film_model.train import failed_row
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.moes_1992 import central_film_group
+from gearlube_core.film.line_film import central_film_group
 from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.film_model.line_contact import (
     LineContact,
@@ -28,7 +28,7 @@ from gearlube_core.film_model.line_contact import (
 )
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.reference_friction import line_reference_friction
-from gearlube_core.film_model.solved_line import solved_line, solved_line_at
+from gearlube_core.film_model.solved_film import solved_line, solved_line_at
 from gearlube_core.oil.lubricant import Lubricant
 
 E_STAR = 210e9 / (2.0 * (1.0 - 0.3**2))

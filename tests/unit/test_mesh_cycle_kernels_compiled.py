@@ -14,7 +14,7 @@ from gearlube_core.dynamics.hypoid_axle.bearing_drag import AxleRaceways
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import OIL, running_axle
 from tests.helpers.kernel_results import everything
 

@@ -18,8 +18,7 @@ from gearlube_core.mesh_table.kernels import (
     pair_channels,
     transmission_error,
 )
-from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table, write_mesh_table
 from gearlube_core.mesh_table.table import (
     SERIES_UNITS,
     TOOTH_UNITS,

@@ -11,10 +11,15 @@ from gearlube_core.helical_geometry.meshing_steps import (
     meshing_steps,
     position_of_line,
 )
-from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.modification import (
+    Crown,
+    FlankModification,
+    ModifiedPair,
+    PowerTipRelief,
+    TipRelief,
+)
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 
 PAIR = named_pair("jamali_2015_a")

@@ -16,8 +16,7 @@ from gearlube_core.surface.moving import (
     MovingRoughness,
     MovingSurface,
 )
-from gearlube_core.surface.moving_kernels import Moved, add_moved_heights
-from gearlube_core.surface.periodic_spline import spline_coefficients
+from gearlube_core.surface.moving_kernels import Moved, add_moved_heights, spline_coefficients
 from gearlube_core.surface.schedule import RoughSchedule
 from gearlube_core.surface.stand_ins import stand_in
 

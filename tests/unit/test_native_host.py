@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from fmu_src import native_host
+from gearlube.cli import native
 from gearlube.command import app
 from gearlube_core.errors import GearLubeError
 
@@ -39,13 +39,13 @@ def library(monkeypatch, tmp_path):
 @pytest.mark.parametrize("folder", ["base/lib", "stated", "stated/x86_64-linux-gnu"])
 def test_the_shared_python_is_found(library, folder):
     path = library(folder)
-    assert native_host.shared_python() == path
+    assert native.shared_python() == path
 
 
 def test_without_a_shared_python_the_user_is_told_what_to_install(library):
     library("elsewhere")
     with pytest.raises(GearLubeError, match=r"needs libpython3.*apt install libpython3"):
-        native_host.shared_python()
+        native.shared_python()
     told = CliRunner().invoke(app, ["native"])
     assert told.exit_code == 1
 
@@ -53,12 +53,12 @@ def test_without_a_shared_python_the_user_is_told_what_to_install(library):
 def test_a_path_that_the_loader_would_split_is_refused(library):
     library("my base/lib", base="my base")
     with pytest.raises(GearLubeError, match="LD_PRELOAD cannot hold"):
-        native_host.native_environment({})
+        native.native_environment({})
 
 
 def test_what_is_set_already_stays_behind(library):
     path = library("base/lib")
-    environment = native_host.native_environment({"LD_PRELOAD": "/other.so", "HOME": "/home"})
+    environment = native.native_environment({"LD_PRELOAD": "/other.so", "HOME": "/home"})
     assert environment["LD_PRELOAD"] == f"{path}:/other.so"
     assert environment["PATH"] == str(Path(sys.executable).parent)
     assert environment["HOME"] == "/home"

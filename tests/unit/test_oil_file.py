@@ -18,8 +18,7 @@ from fmu_src.identity import guid_of
 from gearlube.command import app
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
-from gearlube_core.mesh_table.netcdf import write_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table, write_mesh_table
 from gearlube_core.oil.oil_file import FILE_IN_FMU, OilFile
 
 SHEET = {

@@ -1,19 +1,12 @@
 """Every variable of optimised flanks: known answers of measures that are written down."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 from gearlube.studies.optimise.dataset import optimise_dataset
 from gearlube.studies.optimise.summary import measure_rows
 from tests.helpers.contact_cases import shipped_file
-from tests.helpers.known_answers import assert_variables
-
-
-def named(**values):
-    return SimpleNamespace(**values)
-
+from tests.helpers.known_answers import assert_variables, named
 
 OF_ORDERS = ("orders", "whine", "spread", "swing")
 
@@ -50,7 +43,7 @@ def test_optimise_variables_are_known():
         given=given,
         file=file,
         names=("pinion.machine.radial_setting_mm",),
-        low=np.array([0.0]),
+        low=np.array([5.0]),
         high=np.array([40.0]),
         scenarios=[named(name="none"), named(name="axial")],
         is_hypoid=True,
@@ -92,7 +85,7 @@ def test_optimise_variables_are_known():
         "spread": ("rad", both[..., 0, 0] * 7e-6),
         "value": ("", [[own], [12.0]]),
         "value_unit": ("", ["mm"]),
-        "low": ("", [0.0]),
+        "low": ("", [5.0]),
         "high": ("", [40.0]),
         "measure_torque": ("N.m", torque),
         "measure_name": ("", name),

@@ -10,8 +10,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.ease_off import ease_off
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.pair_check import misfits_by_cost
-from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
-from gearlube_core.hypoid_contact.setting_slips import setting
+from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings, setting
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.machine_check import edge_misfits, reference_misfit
 from gearlube_core.hypoid_geometry.flank.machine_frames import pinion_cut

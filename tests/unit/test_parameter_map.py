@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_src.native.parameter_map import parameter_map, write_packed
-from fmu_src.variable_kinds import count, option, parameter
+from fmu_src.variable import count, option, parameter
 from gearlube_core.errors import ParameterError
 
 LENGTH = parameter("a", "m", "A length", start=2.0, minimum=0.0, maximum=8.0, argument="length")

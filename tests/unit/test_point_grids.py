@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.newton import hierarchy, smoother
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
+from gearlube_core.ehl.point.newton import smoother, transfer
 from gearlube_core.ehl.point.newton.single_stencil import SingleStencil
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
+from gearlube_core.ehl.point.newton.transfer import Hierarchy, grid_shapes
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection
-from gearlube_core.ehl.point.sides import AMBIENT
+from gearlube_core.ehl.point.settings import AMBIENT
 from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.kernels.row_workers import ALONE
@@ -59,18 +59,18 @@ def test_sides_are_halved_until_the_grid_is_solved_directly(nodes, steps, coarse
 )
 def test_grids_of_a_problem_are_those_of_its_limits(monkeypatch, swap: bool, ratio, shapes):
     made = []
-    monkeypatch.setattr(hierarchy, "PointLevel", lambda *given, **more: made.append((given, more)))
-    monkeypatch.setattr(hierarchy, "Transfer", lambda fine, coarse, sides: (fine, coarse))
+    monkeypatch.setattr(transfer, "PointLevel", lambda *given, **more: made.append((given, more)))
+    monkeypatch.setattr(transfer, "Transfer", lambda fine, coarse, sides: (fine, coarse))
     # 64 steps along x over 64 m, 59 along y over 59 ratio m
     problem = SimpleNamespace(nodes=(65, 60), spacing=(1.0, ratio), sides="ambient")
     scales = SimpleNamespace(swap=swap)
-    grids = hierarchy.build_hierarchy(problem, scales, "quick", "elements", "jfo")
+    grids = transfer.build_hierarchy(problem, scales, "quick", "elements", "jfo")
     if swap:
         shapes = [shape[::-1] for shape in shapes]
     assert [given for given, _ in made] == [(problem, scales, shape, "quick") for shape in shapes]
     assert made[0][1] == {"scheme": Elements, "cavitation": "jfo"}
     assert grids.transfers == [(fine, coarse) for coarse, fine in pairwise(shapes)]
-    hierarchy.build_hierarchy(problem, scales, "quick")
+    transfer.build_hierarchy(problem, scales, "quick")
     assert made[-1][1] == {"scheme": Differences, "cavitation": "reynolds"}
 
 

@@ -145,7 +145,7 @@ class Lagged:
 
     def __init__(self, level):
         self.hierarchy, self.deflection = SimpleNamespace(levels=[level]), None
-        self.patience, self.renewals, self.told = 2, 0, []
+        self.patience, self.renewals, self.told = 2, 5, []  # 5 of earlier steps
 
     def use_for(self, linear):
         self.renewals += 1

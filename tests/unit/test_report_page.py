@@ -154,6 +154,14 @@ def test_a_report_without_charts_has_no_plotly_and_is_small(report):
     assert len(bare) < 20_000
 
 
+@pytest.mark.parametrize("drawn", [True, False])
+def test_plotly_lies_inside_where_a_chart_does_not_where_only_pictures_do(report, drawn):
+    figures = [one for one in report.figures if (one.chart is not None) == drawn]
+    assert figures
+    found = report_html(Report(study="map", title="Figures alone", figures=figures))
+    assert ("plotly-packed" in found) == drawn
+
+
 def test_every_chart_has_named_axes_with_units_and_a_caption(page, report):
     for figure in report.figures[:-1]:
         layout = figure.chart.layout

@@ -11,7 +11,7 @@ from gearlube.studies.resonance.response import Response, follow_response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube.studies.resonance.study import study_resonance
 from gearlube.studies.resonance.summary import main_special, summaries
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import DE, R_G, R_P
 from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.errors import ParameterError

@@ -13,9 +13,15 @@ import psutil
 import pytest
 import xarray as xr
 
+import gearlube
 from gearlube_core.errors import ConvergenceError, FileError
 from gearlube_core.storage import cache_folder, process_pool
-from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays
+from gearlube_core.storage.atomic_file import (
+    atomic_write,
+    read_arrays,
+    write_arrays,
+    write_figure,
+)
 from gearlube_core.storage.process_pool import ProcessPool
 from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results
@@ -278,3 +284,30 @@ def test_pool_has_as_many_processes_as_jobs_and_no_more_than_tasks(
             assert told == ["first"]
             assert executor.closed is None
     assert workers is None or executor.closed == (True, True)
+
+
+class FullDisk:
+    """A figure whose file is cut off."""
+
+    def savefig(self, path, **options):
+        Path(path).write_bytes(b"half")
+        raise OSError(errno.ENOSPC, "no space")
+
+
+def test_a_picture_that_is_not_finished_leaves_the_older_one(tmp_path):
+    path = tmp_path / "a.png"
+    path.write_bytes(b"older")
+    with pytest.raises(OSError, match="no space"):
+        write_figure(FullDisk(), path)
+    assert [(one.name, one.read_bytes()) for one in tmp_path.iterdir()] == [("a.png", b"older")]
+
+
+def test_every_picture_is_written_by_the_same_function():
+    package = Path(gearlube.__file__).parent
+    places = [
+        line
+        for file in package.rglob("*.py")
+        for line in file.read_text(encoding="utf-8").splitlines()
+        if ".savefig(" in line and ".savefig(buffer" not in line
+    ]
+    assert places == []

@@ -202,6 +202,25 @@ def test_what_is_lacking_and_what_is_left_out_is_said(written):
     assert {"lubricant", "gear_unit", "load_spectrum", "hand"} <= left_out.keys()
 
 
+@pytest.mark.parametrize("role", ["3", "4"])
+def test_heights_are_read_where_both_gears_have_them(role, written):
+    """2 mm of one gear and 3 mm of the other: the gear's share of 5 mm is 3/5 or 2/5."""
+    height = '<attribute id="mean_addendum" unit="mm">{}</attribute></component>'
+    tail = "</component>"
+
+    def higher(text, number, value):
+        begin = text.index(f'<component id="{number}" type="bevel_gear">')
+        end = text.index(tail, begin)
+        return text[:end] + height.format(value) + text[end + len(tail) :]
+
+    text = higher(bevel(*SAMPLES[1]), role, 2.0)
+    alone = read_rexs(written(text))
+    assert "mean_addendum of both gears is absent" in notes(alone, "lacking")["depth"]
+    both = read_rexs(written(higher(text, {"3": "4", "4": "3"}[role], 3.0)))
+    share = 3.0 / 5.0 if role == "3" else 2.0 / 5.0
+    assert both.file.depth.gear_addendum_factor == pytest.approx(share, abs=1e-9)
+
+
 @pytest.mark.parametrize("method", SAMPLES)
 def test_the_method_of_a_printed_sample_is_found_from_its_cones(method, written):
     """ISO 23509, annex F: each sample is computed by another method."""
@@ -211,6 +230,7 @@ def test_the_method_of_a_printed_sample_is_found_from_its_cones(method, written)
     assert pair.file.cutter.drive_pressure_angle_deg == 20.0
     agreed = notes(pair, "inferred")
     # sample F.4 stops 0.09 deg short of its own condition, see test_iso_23509_samples
+    assert "mean_addendum" in notes(pair, "lacking")["depth"]
     angles = {"mean_spiral_angle"} if method == 2 else {"mean_spiral_angle", "pitch_angle"}
     for role in ("pinion", "gear"):
         assert angles <= set(agreed[f"the blank's {role}"].partition(": ")[2].split(", "))

@@ -14,7 +14,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     NodeSlopes,
     StencilParameters,
 )
-from gearlube_core.ehl.point.sides import AMBIENT
+from gearlube_core.ehl.point.settings import AMBIENT
 from tests.helpers.source_of import interpret
 
 SHAPE = (6, 8)

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from gearlube_core.oil.roelands_houpert import RoelandsHoupert, barus, roelands
+from gearlube_core.oil.film_laws import RoelandsHoupert, barus, roelands
 from tests.helpers.source_of import source_of
 
 ETA0, ALPHA, S0, OIL = 0.05, 2.1e-8, 1.2, 350.0  # Pa s, 1/Pa, -, K

@@ -9,13 +9,12 @@ import pytest
 import xarray as xr
 
 from gearlube_core.ehl.point.solid_contact import SolidContact
-from gearlube_core.ehl.statistics.distribution import Distribution, weighted_percentiles
 from gearlube_core.ehl.statistics.rough_film import (
     FilmFriction,
     RoughFilmStatistics,
     statistics_of_run,
 )
-from gearlube_core.ehl.statistics.zone import FilmZone
+from gearlube_core.ehl.statistics.zone import Distribution, FilmZone, weighted_percentiles
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube_core.ehl.gap.micro_geometry import Dent, Ridge, RoughGap, Waviness
+from gearlube_core.ehl.gap import Dent, Ridge, RoughGap, Waviness
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface.measured_heights import (
     MeasuredMap,

@@ -10,12 +10,12 @@ import pytest
 
 from gearlube_core.contact import half_space_periodic
 from gearlube_core.contact.half_space_periodic import PeriodicDeflection, periodic_modes
-from gearlube_core.ehl.point.line_section import line_section
+from gearlube_core.ehl.point.contact_domain import line_section
 from gearlube_core.ehl.point.newton import column_multigrid
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.march import FilmMarch
-from gearlube_core.ehl.transient.section import moving_section
+from gearlube_core.ehl.transient.problem import moving_section
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels import row_workers
 from gearlube_core.kernels.row_workers import RowWorkers

@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.interpolate import CubicSpline
 
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.studies.runup import levels
 from gearlube.studies.runup.dataset import operating_shape
+from gearlube.studies.runup.figures.catalogue import bearing_spectra
 from gearlube.studies.runup.figures.tracks import order_tracks
 from gearlube.studies.runup.findings import findings, numbers
 from gearlube.studies.runup.modes import RampModes
@@ -160,3 +162,33 @@ def test_the_rollers_together_carry_the_recorded_force(ramp) -> None:
     assert axial.values == pytest.approx(at, rel=1e-3)
     turned = ramp["frame_angle"].values
     assert turned[-1] < 2.0 * math.pi <= turned[-1] + turned[1] + 1e-9
+
+
+def test_spectra_are_those_of_the_blocks_at_a_quarter_half_and_three_quarters_of_the_speeds():
+    """Block k has a level of k dB for the pinion and 10 dB more for the gear, at all orders."""
+    level = np.arange(9.0)[:, None] + np.array([0.0, 10.0])
+    force = np.sqrt(2.0) * 10.0 ** (level / 20.0)
+    places = ("bearing", "direction")
+    dataset = xr.Dataset(
+        {
+            "block_speed": ("block", 100.0 + 10.0 * np.arange(9.0)),
+            "bearing_force_orders": (
+                ("block", *places, "order"), force[:, :, None, None] * np.ones((3, 4))
+            ),
+            "axis": (places, [["x", "y", "z"]] * 2),
+        },
+        coords={"order": [0.0, 13.0, 26.0, 60.0], "bearing": ["pinion", "gear"],
+                "direction": ["axial", "radial 1", "radial 2"]},
+        attrs={"pinion_teeth": 13, "setting_pinion_torque": 80.0, "ramp": "run-up"},
+    )  # fmt: skip
+    figure = bearing_spectra(dataset)
+    for block, row in zip((2, 4, 6), np.array(figure.axes).reshape(3, 3), strict=True):
+        turns = (100.0 + 10.0 * block) / (2.0 * np.pi)
+        said = f"{60.0 * turns:.0f} rpm, H1 = {13.0 * turns:.0f} Hz"
+        assert row[0].get_ylabel().startswith(said)
+        for ax in row:
+            for lines, tops in zip(ax.collections, (block, block + 10.0), strict=True):
+                ends = np.array(lines.get_segments())  # orders above 4.3 of the mesh are left out
+                np.testing.assert_allclose(ends[:, :, 0], [[13.0, 13.0], [26.0, 26.0]])
+                np.testing.assert_allclose(ends[:, 1, 1], tops, atol=1e-9)
+    assert figure.axes[0].get_ylim()[1] == 20.0  # the next five above 16

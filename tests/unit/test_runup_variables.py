@@ -1,5 +1,6 @@
 """Every variable of a run-up's dataset: known answers of a record that is written down."""
 
+import json
 import math
 from types import SimpleNamespace
 
@@ -165,6 +166,11 @@ def test_every_track_loss_mode_and_shape_of_a_ramp_has_its_known_values_and_unit
     assert_variables(steady, expected, tolerance=4e-3)
     known = {"pinion_teeth": 13, "gear_teeth": 36, "ramp": "run-up", "setting_pinion_torque": 80.0}
     known |= {"ranges_left": "one\ntwo"}
+    inputs = settings().car_axle.inputs
+    for name in ("given", "assumed"):
+        notes = [one.field for one in inputs if (one.origin == "given") == (name == "given")]
+        assert notes
+        assert [row[0] for row in json.loads(found.attrs[f"inputs_{name}"])] == notes
     assert {name: found.attrs[name] for name in known} == known
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from gearlube_core.friction.heated_film import bracketed_secant_step
+from gearlube_core.friction.thermal_eyring_flank import bracketed_secant_step
 from tests.helpers.source_of import source_of
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gearlube_core.hypoid_contact.setting_slips import Change, setting, slips
+from gearlube_core.hypoid_contact.refusal import Change, setting, slips
 from tests.helpers.contact_cases import shipped_file
 
 FILE = shipped_file()

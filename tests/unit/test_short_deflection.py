@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.grid import PointGrid
-from gearlube_core.ehl.point.equations.short_deflection import ShortDeflection
-from gearlube_core.ehl.point.line_section import line_section
+from gearlube_core.ehl.point.contact_domain import line_section
+from gearlube_core.ehl.point.equations.grid import PointGrid, ShortDeflection
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.kernels.row_workers import ALONE, RowWorkers

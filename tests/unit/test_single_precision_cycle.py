@@ -12,7 +12,7 @@ from scipy.sparse import csr_matrix
 
 from gearlube_core.ehl.point.newton import smoother
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
-from gearlube_core.ehl.point.newton.single_operator import SingleOperator
+from gearlube_core.ehl.point.newton.preconditioner import SingleOperator
 from gearlube_core.ehl.point.newton.single_stencil import SingleStencil
 
 SHAPE = (9, 12)

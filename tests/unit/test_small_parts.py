@@ -8,14 +8,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.supports import support_kernels
+from gearlube_core.dynamics.helical_pair import supports
 from gearlube_core.ehl.line import traction
 from gearlube_core.ehl.line.problem import LineProblem
-from gearlube_core.ehl.line.scaling import line_scales, row_coefficients
-from gearlube_core.ehl.point.newton.coarse import CoarseSolution
+from gearlube_core.ehl.line.system import line_scales, row_coefficients
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
-from gearlube_core.ehl.point.terms.storage import NoStorage, Storage
-from gearlube_core.ehl.point.thermal.anderson_mixing import AndersonMixing
+from gearlube_core.ehl.point.newton.preconditioner import CoarseSolution
+from gearlube_core.ehl.point.terms.differences import NoStorage, Storage
+from gearlube_core.ehl.point.thermal.surfaces import AndersonMixing
 from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.row_operators import operator_of, some_entries
@@ -169,9 +169,9 @@ def bearing(position: float) -> SupportStiffness:
 
 
 def test_two_bearings_are_as_stiff_as_the_sum_of_their_energies(monkeypatch):
-    interpret(monkeypatch, support_kernels)
+    interpret(monkeypatch, supports)
     bearings = bearing(0.3), bearing(-0.5)
-    found = support_kernels.member_stiffness(*bearings)
+    found = supports.member_stiffness(*bearings)
     q = RNG.normal(size=5)  # x, y, z, tilt about x and y
     x, y, z, a, b = q
     energy = 0.0
@@ -188,13 +188,13 @@ def test_two_bearings_are_as_stiff_as_the_sum_of_their_energies(monkeypatch):
 
 def test_bearing_takes_what_is_given_in_the_place_of_its_own():
     own = bearing(0.3)
-    replaced = source_of(support_kernels.replaced_bearing)
+    replaced = source_of(supports.replaced_bearing)
     assert replaced(own, 1.0, 0.0, 0.0, 0.0) == own
     found = replaced(own, -1.0, 8.0, 6.0, 0.4)
     assert found == own._replace(position=-0.4, K_xx=4.0, K_yy=4.0, K_zz=3.0)
-    assert source_of(support_kernels.damping_constant)(4.0, 9.0, 0.05) == pytest.approx(0.6)
+    assert source_of(supports.damping_constant)(4.0, 9.0, 0.05) == pytest.approx(0.6)
     # k x^2 + 2 c x t + K t^2 is nowhere negative up to c^2 = k K
-    limit = source_of(support_kernels.coupling_limit)(3.0, 5.0)
+    limit = source_of(supports.coupling_limit)(3.0, 5.0)
     for share, definite in ((0.999, True), (1.001, False)):
         matrix = np.array([[3.0, share * limit], [share * limit, 5.0]])
         assert (np.linalg.eigvalsh(matrix)[0] > 0.0) == definite

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.periodic.arclength import Node
+from gearlube_core.periodic.newton import Node
 from gearlube_core.periodic.special_points import crossings, locate
 
 TOLERANCE = 1e-7

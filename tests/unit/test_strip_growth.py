@@ -9,7 +9,7 @@ import pytest
 from gearlube.studies.contact.command import contact
 from gearlube.studies.helical.command import helical
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.tooth_contact.strip_growth import StripGrowth, solve_on_growing_strips
+from gearlube_core.tooth_contact.coupled_strips import StripGrowth, solve_on_growing_strips
 
 GROWTH = StripGrowth(factor=1.5, margin=1.1, attempts=6)
 LENGTH, HALF_WIDTH = 8e-3, 0.3e-3  # m, of a contact that the strips must hold

@@ -1,7 +1,5 @@
 """Every variable of bearings, measured flanks, whine and sound: known answers."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -17,11 +15,7 @@ from gearlube.studies.sound.report import _numbers
 from gearlube.studies.whine import run as whine
 from gearlube_core.bearings.losses.loss import PARTS
 from tests.helpers.contact_cases import shipped_file
-from tests.helpers.known_answers import assert_numbers, assert_variables
-
-
-def named(**values):
-    return SimpleNamespace(**values)
+from tests.helpers.known_answers import assert_numbers, assert_variables, named
 
 
 def test_bearing_variables_and_rows_are_known():

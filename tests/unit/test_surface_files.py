@@ -5,15 +5,15 @@ from __future__ import annotations
 import datetime
 import math
 import struct
+import sys
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.surface import files
 from gearlube_core.surface.files import read_surface, write_surface
-from gearlube_core.surface.gaussian_filter import filtered
+from gearlube_core.surface.gaussian_filter import filtered, levelled, peaks_cut
 from gearlube_core.surface.heights import (
     HeightMap,
     Profile,
@@ -21,9 +21,7 @@ from gearlube_core.surface.heights import (
     check_plausible,
     evenly_spaced,
 )
-from gearlube_core.surface.levelling import levelled
 from gearlube_core.surface.measured_heights import MeasuredProfile, filled
-from gearlube_core.surface.running_in import peaks_cut
 from gearlube_core.surface.statistics import profile_statistics
 
 HEIGHT = 1e-7 * np.random.default_rng(1).standard_normal((9, 6))  # (x, y)
@@ -238,10 +236,7 @@ def test_wrong_files_are_refused(name, content, words, tmp_path):
 
 
 def test_a_missing_package_is_named_with_its_extra(monkeypatch, tmp_path):
-    def missing(name):
-        raise ImportError(name)
-
-    monkeypatch.setattr(files, "import_module", missing)
+    monkeypatch.setitem(sys.modules, "sdfio", None)
     with pytest.raises(ParameterError, match=r"pip install 'gearlube\[surfaces\]'"):
         read_surface(tmp_path / "a.sdf")
 

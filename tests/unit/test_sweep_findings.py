@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
+from gearlube.studies.sweep import datasets
 from gearlube.studies.sweep.crossings import crossings
 from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.findings import findings
@@ -55,6 +56,8 @@ def test_largest_mesh_order_is_the_one_put_in_and_its_place_is_told(sweep):
 
 def test_a_peak_away_from_every_mode_is_no_warning(sweep):
     apart = sweep.assign(mode_frequency=2.5 * sweep["mode_frequency"])
+    above = sweep.assign(mode_frequency=0.75 * sweep["mode_frequency"])
+    assert "% above the nearest natural frequency" in found(above, "largest mesh order").detail
     assert found(apart, "largest mesh order").level == NOTE
     assert found(sweep.drop_vars("mode_frequency"), "largest mesh order").level == NOTE
 
@@ -104,7 +107,7 @@ def test_film_contact_and_rollers_have_the_levels_of_their_numbers(sweep):
     assert "at 1 of 3 points: 60 km/h" in found(free, "Rollers leave").headline
 
 
-def test_ranges_balance_and_failed_points(sweep):
+def test_ranges_balance_and_failed_points(sweep, monkeypatch):
     assert found(sweep, "No finished point left").level == GOOD
     left = sweep.copy(deep=True)
     left["range_exceeded"][0, 1] = 2
@@ -114,6 +117,12 @@ def test_ranges_balance_and_failed_points(sweep):
     opened["energy_closure_error"][0, 1] = -0.02
     assert "up to 20000 ppm" in found(opened, "energy balance has an error").headline
     failed = merge([PRELOAD], [20.0], {(20.0, PRELOAD): failed_point(20.0, PRELOAD, "no")})
+    for indexed in (failed, failed.set_xindex("speed_kmh")):
+        monkeypatch.setattr(datasets, "read_dataset", lambda _, one=indexed: one)
+        loaded = datasets.load_sweep("sweep.nc")
+        assert "speed_kmh" in loaded.xindexes
+        at = loaded.sel(speed_kmh=20.0, preload=PRELOAD)
+        assert float(at["speed"]) == pytest.approx(20.0 / 3.6)
     (only,) = findings(failed)
     assert only.headline == "1 of 1 points failed."
     assert numbers(failed) == []

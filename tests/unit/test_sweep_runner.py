@@ -13,8 +13,8 @@ from gearlube.studies.sweep.datasets import load_sweep, merge
 from gearlube.studies.sweep.run import SweepModel, run_sweep
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
-from gearlube_core.storage.interrupts import deferred_interrupts
 from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.resumable import deferred_interrupts
 from tests.helpers import sweep_stand_in as stand_in
 
 SETTINGS = SweepSettings()

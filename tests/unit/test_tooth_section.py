@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
-from gearlube_core.tooth_compliance.tooth_section import _fillet_curve, half_section
+from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry, _fillet_curve, half_section
 
 TEETH = 20
 PITCH = 2.0 * math.pi / TEETH

@@ -5,9 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_torsional import flank_torques
-from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import EVANS_JOHNSON, THERMAL_EYRING
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import N_ROW, PAIRS_AT
+from gearlube_core.dynamics.hypoid_torsional import rates
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
+    EVANS_JOHNSON,
+    N_ROW,
+    PAIRS_AT,
+    THERMAL_EYRING,
+)
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from tests.helpers.source_of import interpret, source_of
 
@@ -45,15 +49,15 @@ def half_of(load, viscous, boundary):
 @pytest.mark.parametrize("pair", range(3))
 @pytest.mark.parametrize("along_sliding", [0.0, 1.0])
 def test_thermal_law_meets_speeds_and_geometry_of_its_flank(monkeypatch, pair, along_sliding):
-    interpret(monkeypatch, flank_torques)
+    interpret(monkeypatch, rates)
     met = []
 
     def law(*arguments):
         met.append(arguments)
         return half_of(arguments[0], 0.03, 0.02)
 
-    monkeypatch.setattr(flank_torques, "thermal_eyring_flank", law)
-    friction = source_of(flank_torques.pair_friction)(
+    monkeypatch.setattr(rates, "thermal_eyring_flank", law)
+    friction = source_of(rates.pair_friction)(
         rows(), ROW, PLACES[pair], 500.0, -9.0, W_P, W_G,
         parameters(THERMAL_EYRING, along_sliding),
     )  # fmt: skip
@@ -72,15 +76,15 @@ def test_thermal_law_meets_speeds_and_geometry_of_its_flank(monkeypatch, pair, a
 
 @pytest.mark.parametrize("pair", range(3))
 def test_law_of_evans_and_johnson_meets_its_flank(monkeypatch, pair):
-    interpret(monkeypatch, flank_torques)
+    interpret(monkeypatch, rates)
     met = []
 
     def law(*arguments):
         met.append(arguments)
         return half_of(arguments[0], 0.03, 0.02)
 
-    monkeypatch.setattr(flank_torques, "flank_friction", law)
-    friction = source_of(flank_torques.pair_friction)(
+    monkeypatch.setattr(rates, "flank_friction", law)
+    friction = source_of(rates.pair_friction)(
         rows(), ROW, PLACES[pair], 500.0, -9.0, W_P, W_G, parameters(EVANS_JOHNSON)
     )
     assert friction == pytest.approx(25.0, rel=1e-14)
@@ -93,7 +97,7 @@ def test_law_of_evans_and_johnson_meets_its_flank(monkeypatch, pair):
 
 @pytest.mark.parametrize("force", [1000.0, -1000.0, 0.1])
 def test_torques_are_the_sum_over_the_flanks_that_carry(monkeypatch, force):
-    interpret(monkeypatch, flank_torques)
+    interpret(monkeypatch, rates)
     mu = dict(zip(PLACES, (0.04, 0.05, 0.07), strict=True))
 
     def pair_friction(rows, i, at, load, sliding, *_):
@@ -101,10 +105,8 @@ def test_torques_are_the_sum_over_the_flanks_that_carry(monkeypatch, force):
         assert sliding == pytest.approx(W_P * row[5] - W_G * row[6], rel=1e-13)
         return mu[at] * load
 
-    monkeypatch.setattr(flank_torques, "pair_friction", pair_friction)
-    found = source_of(flank_torques.flank_torques)(
-        rows(), ROW, W_P, W_G, force, parameters(EVANS_JOHNSON)
-    )
+    monkeypatch.setattr(rates, "pair_friction", pair_friction)
+    found = source_of(rates.flank_torques)(rows(), ROW, W_P, W_G, force, parameters(EVANS_JOHNSON))
     # flank 1 slides backward: 4.8 < 5.25 m/s; flank 3 forward: 8.8 > 6.15 m/s
     first, last = 0.04 * 0.3 * abs(force), 0.07 * 0.7 * abs(force)
     assert found.torque_p == pytest.approx(0.012 * first - 0.022 * last, rel=1e-12)
@@ -113,7 +115,5 @@ def test_torques_are_the_sum_over_the_flanks_that_carry(monkeypatch, force):
 
 
 def test_no_force_has_no_friction():
-    found = source_of(flank_torques.flank_torques)(
-        rows(), ROW, W_P, W_G, 0.0, parameters(EVANS_JOHNSON)
-    )
+    found = source_of(rates.flank_torques)(rows(), ROW, W_P, W_G, 0.0, parameters(EVANS_JOHNSON))
     assert found == (0.0, 0.0, 0.0)

@@ -10,10 +10,7 @@ from numba.core.dispatcher import Dispatcher
 
 from gearlube_core.dynamics import hypoid_torsional
 from gearlube_core.dynamics.hypoid_torsional import (
-    angle_march,
-    contact_mode,
-    flank_torques,
-    mesh_row,
+    kernel_parameters,
     mode_march,
     period_map,
     rates,
@@ -44,8 +41,8 @@ P = HOT.kernel_parameters
 ROWS = HOT.rows(16)
 MESH = HOT._series, HOT._orders, HOT._window, HOT._nodes, 13.0
 W_P, W_G, LOAD, SPEED = 900.0, 325.0, 138.0, 905.0
-FLANK = mesh_row.PAIRS_AT + int(np.argmax(ROWS[3, mesh_row.PAIRS_AT :: 10])) * 10
-SLOPES = angle_march.AngleSlope(1.0, 2.0, 3.0, 4.0, 5.0), angle_march.AngleSlope(*range(5))
+FLANK = kernel_parameters.PAIRS_AT + int(np.argmax(ROWS[3, kernel_parameters.PAIRS_AT :: 10])) * 10
+SLOPES = mode_march.AngleSlope(1.0, 2.0, 3.0, 4.0, 5.0), mode_march.AngleSlope(*range(5))
 
 
 def zeros(*shape):
@@ -55,9 +52,9 @@ def zeros(*shape):
 PER_SPEED = zeros(2), zeros(2)
 WORK = zeros(mode_march.MARCH_WORK)
 CASES = [
-    (mesh_row.mesh_row, (*MESH, 0.3, zeros(mesh_row.N_ROW))),
-    (mesh_row.mesh_rows, (*MESH, zeros(8, mesh_row.N_ROW))),
-    (mesh_row.rows_between, (ROWS, 30, 0.2, 0.9, zeros(3, mesh_row.N_ROW))),
+    (kernel_parameters.mesh_row, (*MESH, 0.3, zeros(kernel_parameters.N_ROW))),
+    (kernel_parameters.mesh_rows, (*MESH, zeros(8, kernel_parameters.N_ROW))),
+    (kernel_parameters.rows_between, (ROWS, 30, 0.2, 0.9, zeros(3, kernel_parameters.N_ROW))),
     (rates.ripple, (0.3, P)),
     (period_map._add_row, (zeros(4, 5), *SLOPES, 0.1, 2)),
 ]
@@ -66,17 +63,30 @@ for name, model in MODELS.items():
     start = model.initial_state(SPEED)
     for x in (3e-6, 0.2e-6, -20e-6, -153e-6):
         for rate in (-0.4, -0.05):
-            mode = contact_mode.contact_mode(x, rate, 4e8, p)
-            CASES += [(contact_mode.contact_mode, (x, rate, 4e8, p))]
-            CASES += [(contact_mode.force_in_mode, (mode, x, rate, 4e8, p))]
-            CASES += [(contact_mode.mode_margin, (mode, x, rate, 4e8, p))]
+            mode = rates.contact_mode(x, rate, 4e8, p)
+            CASES += [(rates.contact_mode, (x, rate, 4e8, p))]
+            CASES += [(rates.force_in_mode, (mode, x, rate, 4e8, p))]
+            CASES += [(rates.mode_margin, (mode, x, rate, 4e8, p))]
         y = np.array([x * 1e6, *start[1:]])
         at = y[0], y[1], y[2], 0.1, LOAD, SPEED, rows, 3, mode, p
         CASES += [
-            (angle_march.angle_slope, at),
-            (angle_march.angle_step, (y, 0.1, 0.03, LOAD, SPEED, rows, 30, mode, p)),
+            (mode_march.angle_slope, at),
+            (mode_march.angle_step, (y, 0.1, 0.03, LOAD, SPEED, rows, 30, mode, p)),
         ]
-        step = y, 0.1, 0.03, 0.2, 0, LOAD, SPEED, rows, 30, p, zeros(4), zeros(3, mesh_row.N_ROW)
+        step = (
+            y,
+            0.1,
+            0.03,
+            0.2,
+            0,
+            LOAD,
+            SPEED,
+            rows,
+            30,
+            p,
+            zeros(4),
+            zeros(3, kernel_parameters.N_ROW),
+        )
         CASES += [
             (mode_march.part_of_step, step),
             (mode_march.approach, (y, SPEED, rows, 3, p)),
@@ -136,11 +146,10 @@ for name, model in MODELS.items():
     ]
     if name in ("hot", "along", "cold"):
         CASES += [
-            (flank_torques.flank_torques, (rows, 3, W_P, W_G, force, p))
-            for force in (2400.0, 0.0, -300.0)
+            (rates.flank_torques, (rows, 3, W_P, W_G, force, p)) for force in (2400.0, 0.0, -300.0)
         ]
-        CASES += [(flank_torques.pair_friction, (rows, 3, FLANK, 900.0, 4.0, W_P, W_G, p))]
-        CASES += [(flank_torques.thermal_pair, (rows, 3, FLANK, 900.0, W_P, W_G, p))]
+        CASES += [(rates.pair_friction, (rows, 3, FLANK, 900.0, 4.0, W_P, W_G, p))]
+        CASES += [(rates.thermal_pair, (rows, 3, FLANK, 900.0, W_P, W_G, p))]
 BROKEN = np.array([2e5, SPEED, SPEED, 0.0])
 CASES += [
     (time_sweep.settle_load, (BROKEN, 2, LOAD, SPEED, ROWS, P, WORK)),

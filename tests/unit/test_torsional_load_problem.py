@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_torsional.load_problem import LoadProblem
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
+from gearlube_core.dynamics.hypoid_torsional.period_problem import LoadProblem
 from gearlube_core.errors import ParameterError
 from gearlube_core.periodic import follow, solve_periodic
 

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
-from gearlube_core.dynamics.hypoid_torsional import contact_mode, mode_march
-from gearlube_core.dynamics.hypoid_torsional.contact_mode import FULL, GAP, LAYER, OPEN
-from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TWO_DOF
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import N_ROW, R_G, R_P, K
+from gearlube_core.dynamics.hypoid_torsional import mode_march, rates
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import N_ROW, R_G, R_P, TWO_DOF, K
+from gearlube_core.dynamics.hypoid_torsional.rates import FULL, GAP, LAYER, OPEN
 from tests.helpers.source_of import interpret, source_of
 
 PHI, STEP = 0.3, 0.01  # rad
@@ -24,7 +23,7 @@ def part(monkeypatch, x_of, start=0.0, whole=0, p=P):
 
     Stiffness rises along the step, and speeds do; the teeth part at 0.4 m/s.
     """
-    interpret(monkeypatch, mode_march, contact_mode)
+    interpret(monkeypatch, mode_march, rates)
     tries = []
 
     def angle_step(y, phi, h, load_torque, speed, rows, i, mode, p):

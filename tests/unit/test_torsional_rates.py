@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.hypoid_torsional import rates as module
-from gearlube_core.dynamics.hypoid_torsional.flank_torques import FlankTorques
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, DK, N_ROW, R_G, R_P, K
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import DE, DK, N_ROW, R_G, R_P, K
+from gearlube_core.dynamics.hypoid_torsional.rates import FlankTorques
 from tests.helpers.source_of import interpret
 
 ROWS = np.full((3, N_ROW), np.nan)

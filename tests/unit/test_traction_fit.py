@@ -13,10 +13,14 @@ from typer.testing import CliRunner
 import gearlube as gl
 from gearlube.command import app
 from gearlube_core.errors import ParameterError
-from gearlube_core.friction.traction_curve import film_point, traction_coefficient
 from gearlube_core.friction.traction_fit import film_points, fit_traction, steel_on_steel
-from gearlube_core.friction.traction_measurements import TractionMeasurements, read_traction
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.friction.traction_measurements import (
+    TractionMeasurements,
+    film_point,
+    read_traction,
+    traction_coefficient,
+)
+from gearlube_core.oil.lubricant import lubricant_state
 
 OIL = gl.read_oil("fva_3").lubricant
 RADIUS = 0.01  # m

@@ -5,26 +5,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlube_core.contact import (
-    elliptic_integrals,
-    elliptical_hertz,
-    greenwood_tripp_1971,
-    greenwood_tripp_as_printed,
-    line_hertz,
-)
+from gearlube_core.contact import greenwood_tripp_1971, hertz
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.film import chittenden_1985, dowson_1968, dowson_toyoda_1979
+from gearlube_core.film import line_film, point_film
 from gearlube_core.friction import (
     evans_johnson_1986,
     flank,
     flank_data,
-    line_friction,
+    line_points,
     mixed_friction,
 )
 from gearlube_core.oil import eyring_1936, roelands_1966, walther_1931
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 OIL = Lubricant.named("mohammadpour_2015").parameters()
 STATE = lubricant_state(OIL, 363.15)
@@ -52,12 +45,12 @@ CASES: list[tuple[Any, tuple[Any, ...]]] = [
         mixed_friction.friction_with_asperities,
         (0.03, 1e3, 1e3, 7e8, 4e-7, 2.0, 3e-6, 1.7e-6, STATE, SURFACE, SOLID, 0),
     ),
-    (elliptic_integrals.complete_elliptic_k_d, (0.3,)),
-    (elliptical_hertz.log_curvature_ratio, (1.2,)),
-    (elliptical_hertz.ellipticity, (7.0,)),
-    (elliptical_hertz.hertz_coefficients, (0.01, 0.4, 1.15e11)),
-    (elliptical_hertz.hertz_coefficients, (0.4, 0.01, 1.15e11)),
-    (elliptical_hertz.hertz_ellipse, (0.01, 0.4, 1.15e11, 900.0)),
+    (hertz.complete_elliptic_k_d, (0.3,)),
+    (hertz.log_curvature_ratio, (1.2,)),
+    (hertz.ellipticity, (7.0,)),
+    (hertz.hertz_coefficients, (0.01, 0.4, 1.15e11)),
+    (hertz.hertz_coefficients, (0.4, 0.01, 1.15e11)),
+    (hertz.hertz_ellipse, (0.01, 0.4, 1.15e11, 900.0)),
     (greenwood_tripp_1971.asperity_integrals, (1.234,)),
     (greenwood_tripp_1971.asperity_integrals, (-1.0,)),
     (greenwood_tripp_1971.asperity_integrals, (6.0,)),
@@ -67,15 +60,15 @@ CASES: list[tuple[Any, tuple[Any, ...]]] = [
     (greenwood_tripp_1971.asperity_area_factor, (SURFACE,)),
     (greenwood_tripp_1971.asperity_load, (0.7, 1e-6, 1.15e11, SURFACE)),
     (greenwood_tripp_1971.asperity_area, (0.7, 1e-6, SURFACE)),
-    (greenwood_tripp_as_printed.f_5_2_as_printed, (2.5,)),
-    (greenwood_tripp_as_printed.f_2_as_printed, (2.5,)),
-    (chittenden_1985.film_geometry, (0.011, 0.6, 0.4)),
-    (chittenden_1985.minimum_film_geometry, (0.011, 0.6, 0.4)),
-    (chittenden_1985.central_film_thickness, FILM),
-    (chittenden_1985.minimum_film_thickness, FILM),
-    (dowson_toyoda_1979.line_film_thickness, LINE_FILM),
-    (dowson_1968.minimum_line_film_thickness, LINE_FILM),
-    (line_hertz.line_mean_pressure, (1.4e5, 0.011, 1.15e11)),
+    (greenwood_tripp_1971.f_5_2_as_printed, (2.5,)),
+    (greenwood_tripp_1971.f_2_as_printed, (2.5,)),
+    (point_film.film_geometry, (0.011, 0.6, 0.4)),
+    (point_film.minimum_film_geometry, (0.011, 0.6, 0.4)),
+    (point_film.central_film_thickness, FILM),
+    (point_film.minimum_film_thickness, FILM),
+    (line_film.line_film_thickness, LINE_FILM),
+    (line_film.minimum_line_film_thickness, LINE_FILM),
+    (hertz.line_mean_pressure, (1.4e5, 0.011, 1.15e11)),
     (evans_johnson_1986.solid_resistance, (0.011, 7e8, 3.0, 2.3e11, 1.7e8)),
     (evans_johnson_1986.surface_heating_number, (4e-7, 0.14, 4.6e-7)),
     (evans_johnson_1986.plateau_stress_ratio, (4e-7, 7e8, 0.02, 2e-8, 0.03, 2e6, 0.14, 0.1)),
@@ -108,7 +101,7 @@ for _line in (
     (0.0, 0.011, 0.0, 0.0),
     (-1.0, 0.011, 2.0, 1.0),
 ):
-    CASES.append((line_friction.line_friction, (*_line, STATE, SURFACE, SOLID)))
+    CASES.append((line_points.line_friction, (*_line, STATE, SURFACE, SOLID)))
 
 
 @pytest.mark.parametrize(
@@ -131,6 +124,6 @@ def test_a_non_number_in_the_motion_is_not_hidden(position: int) -> None:
     )
     state = flank.flank_friction(load, rolling, sliding, GEOMETRY, STATE, SURFACE, SOLID, 0)
     assert np.isnan(state.viscous_friction)
-    line = line_friction.line_friction(load, 0.011, rolling, sliding, STATE, SURFACE, SOLID)
+    line = line_points.line_friction(load, 0.011, rolling, sliding, STATE, SURFACE, SOLID)
     assert np.isnan(line.viscous_friction)
     assert np.isnan(line.signed_coefficient)

@@ -11,11 +11,10 @@ from scipy.optimize import brentq
 
 from gearlube_core.contact import unilateral_kernels as kernels
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.strip_compliance import StripCompliance
 from gearlube_core.contact.unilateral import _winkler_forces, solve_rotation, solve_torque
-from gearlube_core.contact.unilateral_problem import UnilateralProblem
-from gearlube_core.contact.unilateral_stiffness import tangent_stiffness
+from gearlube_core.contact.unilateral_problem import UnilateralProblem, tangent_stiffness
 from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.tooth_contact.coupled_strips import StripCompliance
 
 E_STAR, DX, DY, NX, NY, ARM = 115.4e9, 3e-5, 5e-4, 24, 30, 0.022
 

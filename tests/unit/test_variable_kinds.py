@@ -1,7 +1,6 @@
 """What the makers of FMU variables say of a variable, and leave to FMI's defaults."""
 
-from fmu_src.variable import Variable
-from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
+from fmu_src.variable import Variable, count, input_, option, options_by_number, output, parameter
 
 
 def test_makers_describe_the_variable_they_are_asked_for():

@@ -8,8 +8,8 @@ import xarray as xr
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.variation.findings import findings, numbers
-from gearlube.variation.report import variation_report
-from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
+from gearlube.variation.report import _varies, variation_report
+from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables, named
 
 
 def a_variation(*, sampled):
@@ -128,3 +128,10 @@ def test_a_variation_on_a_grid_has_a_line_of_all_values_for_each_other_axis():
     assert table.rows == [
         [degc, p, f * p] for degc, f in ((40.0, 10.0), (80.0, 5.0)) for p in preload
     ]
+
+
+def test_only_a_quantity_of_several_different_values_varies():
+    values = {"none": [np.nan], "one": [3.0, np.nan], "same": [3.0, 3.0], "two": [3.0, 4.0]}
+    results = xr.Dataset({name: ("point", [*row, np.nan][:2]) for name, row in values.items()})
+    found = {name: _varies(results, named(name=name)) for name in values}
+    assert found == {"none": False, "one": False, "same": False, "two": True}

@@ -12,7 +12,7 @@ from gearlube.variation.points.mesh_orders import order_values
 from gearlube.variation.studies import point_study
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.hypoid_contact.analysis import analyse_contact
+from gearlube_core.hypoid_contact.contact_dataset import analyse_contact
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

@@ -10,8 +10,9 @@ from gearlube.variation import run
 from gearlube.variation.design import Axis, Design, Sampling, Spread
 from gearlube.variation.run import run_variation
 from gearlube.variation.store import gridded, open_variation
-from gearlube.variation.summary import write_summary
+from gearlube.variation.summary import summarised, write_summary
 from gearlube_core.errors import FileError, InterruptedRunError, ParameterError
+from tests.helpers.known_answers import assert_variables
 from tests.helpers.variation_stand_in import AreaStudy
 
 WIDTHS = tuple(float(w) for w in range(1, 8))
@@ -42,6 +43,59 @@ def test_every_point_has_its_numbers_and_its_inputs(tmp_path):
     assert found["shape"].values.tolist() == ["straight"] * 7 + ["bent"] * 7
     assert found["area"].attrs == {"units": "mm2", "long_name": "area"}
     assert found["status"].values.tolist() == [1] * 14
+
+
+def test_every_variable_of_a_variation_and_its_statistics_is_known(tmp_path):
+    """Widths of 3 and 5 mm, of which the last fails, by nine lengths within 1 to 2 mm."""
+    spread = Spread(key="length_mm", low=1.0, high=2.0)
+    axes = (Axis("shape", ("straight", "bent")), Axis("width_mm", (3.0, 5.0)))
+    design = Design(axes=axes, spreads=(spread,), sampling=Sampling("lhs", 9))
+    varied(tmp_path, AreaStudy(fails_at=5.0), design)
+    found = open_variation(tmp_path)
+    length = found["length_mm"].values.reshape(2, 2, 9)
+    assert sorted(np.floor(9.0 * (length[0, 0] - 1.0))) == list(range(9))  # one in each ninth
+    fails = np.array([[False, True]] * 2)[..., None] & np.ones((2, 2, 9), bool)
+    width = np.broadcast_to(np.array([3.0, 5.0])[:, None], (2, 2, 9))
+    expected = {
+        "area": ("mm2", np.where(fails, np.nan, width * length)),
+        "width": ("mm", np.where(fails, np.nan, width)),
+        "status": ("", np.where(fails, 0, 1)),
+        "message": ("", np.where(fails, b"no tooth is 5 mm wide", b"")),
+        "length_mm": ("mm", length),
+    }
+    given = {"shape": ("", ["straight", "bent"]), "width_mm": ("mm", [3.0, 5.0])}
+    assert_variables(gridded(found), expected | given)
+    flat = {name: (unit, values.ravel()) for name, (unit, values) in expected.items()}
+    points = {"shape": ("", np.repeat(["straight", "bent"], 18)), "width_mm": ("mm", width.ravel())}
+    assert_variables(found, flat | points)
+    area = 3.0 * length[:, 0]
+    statistics = np.full((2, 2, 2, 9), np.nan)
+    for n, values in enumerate(area):
+        middle = np.percentile(values, [2.5, 25.0, 50.0, 75.0, 97.5])
+        deviation = (((values - values.mean()) ** 2).sum() / 8.0) ** 0.5
+        statistics[n, 0] = [
+            [values.mean(), deviation, values.min(), *middle, values.max()],
+            [3.0, 0.0, *7 * [3.0]],
+        ]
+    ranks = np.full((2, 2, 2, 1), np.nan)
+    ranks[:, 0, 0] = 1.0
+    shares = np.full((2, 2, 1), np.nan)
+    shares[:, 0, 0] = (area > 4.5).mean(axis=-1)
+    summary = {
+        "statistics": ("", statistics),
+        "rank_correlation": ("", ranks),
+        "failed": ("", [[0, 9]] * 2),
+        "share_above": ("", shares),
+        "quantity": ("", ["area", "width"]),
+        "statistic": (
+            "", ["mean", "deviation", "low", "p2.5", "p25", "p50", "p75", "p97.5", "high"]
+        ),
+        "input": ("", ["length_mm"]),
+        "unit": ("", ["mm2", "mm"]),
+        "limited": ("", ["area"]),
+        "limit": ("", [4.5]),
+    }  # fmt: skip
+    assert_variables(summarised(tmp_path, {"area": 4.5}), summary | given)
 
 
 def test_results_are_opened_in_chunks_without_reading_them(tmp_path):

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.output.exports.packages import needed
 from gearlube.output.exports.records import Record, record_names, records
 from gearlube.output.exports.tables import write_tables
 from gearlube.output.exports.uff58 import write_uff58
@@ -20,6 +19,7 @@ from gearlube.output.exports.vtk import write_vtk
 from gearlube.output.mat_file import write_mat
 from gearlube.output.units import is_text, unit_of
 from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.extras import extra_package
 from gearlube_core.storage.atomic_file import atomic_write, loaded, open_dataset
 
 _VERSION = "4.10"
@@ -70,12 +70,10 @@ def _write_mdf4(dataset: xr.Dataset, path: Path) -> list[Path]:
 
     Raises
     ------
-    FileError
-        The package asammdf is missing.
     ParameterError
-        There is no time history, or a time axis does not rise.
+        The package asammdf is missing. There is no time history, or a time axis does not rise.
     """
-    asammdf = needed("asammdf", "export", "A measurement file (MDF 4)")
+    asammdf = extra_package("asammdf", "export", "A measurement file (MDF 4) is written")
     found = [record for name in record_names(dataset) for record in records(dataset, name)]
     groups: dict[str, list[Record]] = {}
     for record in found:
@@ -161,7 +159,7 @@ def export_results(
     ParameterError
         The format, a variable or a span is not known, the format cannot hold the dataset, or `out`
         exists.
-    FileError
+    FileError, ParameterError
         There is no dataset, or a package is missing.
 
     Examples

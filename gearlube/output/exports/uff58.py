@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.output.exports.packages import needed
 from gearlube.output.exports.records import Record, record_count, record_names, records
 from gearlube_core.errors import ParameterError
+from gearlube_core.extras import extra_package
 from gearlube_core.storage.atomic_file import atomic_write
 
 logger = logging.getLogger("gearlube")
@@ -31,12 +31,11 @@ def write_uff58(dataset: xr.Dataset, path: Path) -> list[Path]:
 
     Raises
     ------
-    FileError
-        The package pyuff is missing.
     ParameterError
-        No such variable, too many records, or a value that is not there within a record.
+        The package pyuff is missing. No such variable, too many records, or a value that is not
+        there within a record.
     """
-    pyuff = needed("pyuff", "sound", "A universal file")
+    pyuff = extra_package("pyuff", "sound", "A universal file is written")
     names = record_names(dataset)
     others = [str(name) for name in dataset.data_vars if name not in names]
     if not names:

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.output.exports.packages import needed
 from gearlube.output.units import heading, is_text
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
+from gearlube_core.extras import extra_package
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.storage.atomic_file import atomic_write
@@ -31,12 +31,10 @@ def write_vtk(dataset: xr.Dataset, folder: Path) -> list[Path]:
 
     Raises
     ------
-    FileError
-        The package meshio is missing.
     ParameterError
-        The dataset has no such fields, or too many places.
+        The package meshio is missing. The dataset has no such fields, or too many places.
     """
-    meshio = needed("meshio", "export", "A VTK file")
+    meshio = extra_package("meshio", "export", "A VTK file is written")
     groups = _groups(dataset)
     if not groups:
         raise ParameterError(

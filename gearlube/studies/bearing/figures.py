@@ -10,7 +10,7 @@ import xarray as xr
 
 from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
 from gearlube_core.bearings.losses.laws import ROLLING
-from gearlube_core.storage.atomic_file import atomic_write
+from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
 LAW_NAMES = {one.name: one.words for one in ROLLING} | {
@@ -44,7 +44,7 @@ def torque_of_laws(dataset: xr.Dataset) -> Any:
                     ax.fill_between(x, *band, color=GREY, alpha=0.4, lw=0.0, label=words)
                 ax.plot(x, one["torque"], label=LAW_NAMES[str(law)], **_look(i))
             ax.set(title=place_words(place))
-            ax.set_ylim(bottom=0.0)
+        panels[0].set_ylim(bottom=0.0)  # of all panels, once all are drawn
         _label_outer(panels, _AXES[along])
         _legend_below(figure, panels[0])
         figure.suptitle(f"{dataset.attrs['name']}, oil {dataset.attrs['oil']}", fontsize=11.5)
@@ -83,8 +83,7 @@ def save_bearing_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
     files = []
     for name, draw in BEARING_CATALOGUE.items():
         path = folder / f"{name}.png"
-        with atomic_write(path) as partial:
-            draw(dataset).savefig(partial, format="png", dpi=150)
+        write_figure(draw(dataset), path)
         files.append(path)
     return files
 

@@ -81,7 +81,11 @@ def contact(
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_contact"),
     export: Annotated[
         bool,
-        typer.Option("--export", help="Also write flanks (CSV, STEP) and gears (STL, GLB)."),
+        typer.Option(
+            "--export",
+            help="Also write flanks (CSV, STEP) and gears (STL, GLB); "
+            "for these: pip install 'gearlube[export]'.",
+        ),
     ] = False,
     quick: Annotated[
         bool, typer.Option("--quick", help="Few positions and torques, for a first look.")
@@ -147,6 +151,7 @@ def contact(
         edge_warnings,
         gear_file_warnings,
     )
+    from gearlube_core.extras import extra_package
     from gearlube_core.hypoid_contact.contact_table import levels_left_out
     from gearlube_core.hypoid_contact.kept_table import KeptTable
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -156,6 +161,8 @@ def contact(
         file = HypoidGearFile.given(gear)
         usual = QUICK if quick else ContactSettings()
         films = film_request(films_rpm, oil, oil_temperature, axle)
+        if export:  # before the long work
+            extra_package("trimesh", "export", "An STL or GLB file is written")
         cycle = replace(
             usual.cycle,
             positions=positions or usual.cycle.positions,

@@ -18,17 +18,16 @@ from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 from gearlube.studies.contact.run import ContactResults
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_contact.drawn_contact import drawn_axes
+from gearlube_core.hypoid_contact.contact_table import drawn_axes
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.mesh_table.fourier import ZERO_PHASE
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from gearlube_core.mesh_table.table import PAIRS, MeshTable
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
+from gearlube_core.mesh_table.table import PAIRS, ZERO_PHASE, MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.progress import Progress, no_progress

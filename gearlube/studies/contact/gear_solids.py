@@ -5,10 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
-from gearlube_core.hypoid_geometry.flank import export, step_file
+from gearlube_core.hypoid_geometry.flank import step_file
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
-from gearlube_core.hypoid_geometry.flank.tooth_solid import gear_solid, tooth_solid
+from gearlube_core.hypoid_geometry.flank.tooth_solid import (
+    FORMATS,
+    gear_solid,
+    mirror_image,
+    tooth_solid,
+    write_flank_csv,
+    write_solid,
+)
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 ROLES: tuple[Role, Role] = ("pinion", "gear")
@@ -25,12 +32,12 @@ def write_gears(file: HypoidGearFile, folder: Path) -> list[Path]:
         tooth = Tooth.from_file(file, role)
         for side in SIDES:
             flank, path = Flank.from_file(file, role, side), folder / f"{role}_{side}.csv"
-            files.append(export.write_flank_csv(flank, path, mirrored=mirrored))
+            files.append(write_flank_csv(flank, path, mirrored=mirrored))
         surfaces = step_file.tooth_surfaces(tooth)
         if mirrored:
             surfaces = {name: step_file.mirror_image(one) for name, one in surfaces.items()}
         files.append(step_file.write_step(surfaces, folder / f"{role}_flanks.step"))
         for name, solid in ((f"{role}_tooth", tooth_solid(tooth)), (role, gear_solid(tooth))):
-            one = export.mirror_image(solid) if mirrored else solid
-            files += [export.write_solid(one, folder / f"{name}.{kind}") for kind in export.FORMATS]
+            one = mirror_image(solid) if mirrored else solid
+            files += [write_solid(one, folder / f"{name}.{kind}") for kind in FORMATS]
     return files

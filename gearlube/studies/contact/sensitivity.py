@@ -19,7 +19,7 @@ from gearlube_core.hypoid_contact.sensitivity.analysis import (
 )
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.storage.atomic_file import write_dataset, write_figure, write_text
 
 _PANELS = (
     ("unloaded_pp", 1e6, "unloaded transmission error,\npeak to peak [µrad]"),
@@ -152,7 +152,7 @@ def write_sensitivity(dataset: xr.Dataset, folder: Path) -> None:
     write_dataset(dataset, folder / "sensitivity.nc")
     rows = sensitivity_rows(dataset)
     write_text(csv_text(SensitivityRow._fields, rows), folder / "sensitivity.csv")
-    sensitivity_figure(dataset).savefig(folder / "figures" / "sensitivity.png", dpi=150)
+    write_figure(sensitivity_figure(dataset), folder / "figures" / "sensitivity.png")
 
 
 def sensitivity_figure(dataset: xr.Dataset) -> Any:

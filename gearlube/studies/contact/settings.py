@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.hypoid_contact.analysis import ContactSettings
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 from gearlube_core.hypoid_contact.placement import Misalignment

@@ -21,7 +21,7 @@ from gearlube_core.hypoid_design.chosen_relief import LEAST
 from gearlube_core.hypoid_design.design import Design, misses
 from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputNote
 
 _PERIOD = round(1.0 / float(PATH_PHASES[1] - PATH_PHASES[0]))  # positions of the path a pitch
 _FINER = 10  # times as many of the mesh, so that it shows where one pair takes over from another

@@ -10,7 +10,7 @@ import xarray as xr
 from gearlube.plotting.drawn_tooth import DrawnTooth
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 from gearlube.report.pictures import Picture
-from gearlube_core.hypoid_contact.contact_pattern import MARKING_COMPOUND
+from gearlube_core.hypoid_contact.ease_off import MARKING_COMPOUND
 
 _TITLES = {"drive": "drive flanks", "coast": "coast flanks"}
 

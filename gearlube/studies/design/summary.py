@@ -11,7 +11,7 @@ from gearlube_core.hypoid_design.flank_target import MeanContact
 from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
-from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.input_file.input_file import InputNote
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 # what a design may miss before the report says so

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivetrain.axle_file.axle_file import CarAxle
-from drivetrain.vehicle import Vehicle
+from drivetrain.road_load import Vehicle
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits

@@ -10,6 +10,7 @@ import xarray as xr
 
 from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.plotting.style import BLUE, house_style, new_figure
+from gearlube_core.storage.atomic_file import write_figure
 
 LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn
 
@@ -17,7 +18,7 @@ LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn
 def save_cycle_figures(dataset: xr.Dataset, folder: Path) -> None:
     """Write the figure as PNG."""
     folder.mkdir(parents=True, exist_ok=True)
-    cycle_figure(dataset).savefig(folder / "drive_cycle.png", dpi=150)
+    write_figure(cycle_figure(dataset), folder / "drive_cycle.png")
 
 
 def cycle_figure(dataset: xr.Dataset) -> Any:

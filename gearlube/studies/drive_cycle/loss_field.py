@@ -10,6 +10,7 @@ from scipy.interpolate import RegularGridInterpolator
 from gearlube.studies.drive_cycle.demand import Demand
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
 from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
@@ -18,6 +19,7 @@ from gearlube_core.progress import Progress, no_progress
 _ANGLES = 8  # of a mesh period: within 4e-4 of 256
 _RESERVE = 0.1, 15.0  # of the largest torque [-] and [N.m], for what the axle itself loses
 _SLOWEST = 0.01  # of the highest speed, below which the loss torque does not change
+_MOST_POINTS = 500_000  # of the map: half a gigabyte
 _ROUNDS, _SETTLED = 100, 1e-9  # N.m
 
 
@@ -159,7 +161,11 @@ def _temperatures(settings: DriveCycleSettings) -> Array:
     low = min(settings.start_temperature, settings.air_temperature)
     high = settings.car.axle.oil.temperature_high
     low = min(low, high - 1.0)
-    count = max(1, int(np.ceil((high - low) / settings.grid.temperature_step)))
+    grid = settings.grid
+    count = max(1, int(np.ceil((high - low) / grid.temperature_step)))
+    points = grid.torques * grid.speeds * (count + 1)
+    cure = "Take a coarser grid."
+    check_within("torques times speeds times temperatures", points, 1, _MOST_POINTS, "", cure)
     return np.linspace(low, high, count + 1)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.errors import ParameterError
+from gearlube_core.extras import extra_package
 from gearlube_core.input_file.table import TABLES
 
 _KMH = 1.0 / 3.6
@@ -109,15 +109,11 @@ def _read(package: str, held: Callable[[], Any]) -> Any:
 
 
 def _package(module: str, cycle: str) -> Any:
-    package = module.split(".")[0]
-    try:
-        return import_module(module)
-    except ImportError:
-        raise ParameterError(
-            f"The cycle {cycle} is read from the package {package}, which is not installed. "
-            f"Install it: pip install 'gearlube[cycles]'. Or give the trace as a CSV file with "
-            "the columns time_s and speed_kmh, or take nedc, which needs no package."
-        ) from None
+    instead = (
+        "Or give the trace as a CSV file with the columns time_s and speed_kmh, or take nedc, "
+        "which needs no package."
+    )
+    return extra_package(module, "cycles", f"The cycle {cycle} is held", instead)
 
 
 def _wrong(package: str, got: str, limit: str) -> ParameterError:

@@ -11,8 +11,7 @@ from scipy.stats import qmc
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 from gearlube_core.units import celsius_to_kelvin
 

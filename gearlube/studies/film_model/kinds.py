@@ -13,7 +13,7 @@ from gearlube.studies.film_model.draws import Box, Limits
 from gearlube.studies.film_model.solve import Solved, contact_oil, contact_solid, solve_contact
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
-from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.thermal import (
     ThermalLineSolution,
@@ -46,9 +46,8 @@ from gearlube_core.film_model.rolling import (
     rolling_line,
     solved_rolling,
 )
-from gearlube_core.film_model.solved_film import SolvedFilm, solved_film
-from gearlube_core.film_model.solved_line import solved_line
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.film_model.solved_film import SolvedFilm, solved_film, solved_line
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.lubricant import Lubricant
 
 _TOLERANCE = 1e-7

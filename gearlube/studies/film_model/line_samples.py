@@ -19,12 +19,12 @@ from gearlube.studies.film_model.draws import (
     oil_temperatures,
 )
 from gearlube_core.arrays import Array
-from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.line_contact import LEAST_SLIDING, LineContact, line_contact_groups
 from gearlube_core.friction.line_points import line_points
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import rpm_to_rads
 

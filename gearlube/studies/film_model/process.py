@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import GearLubeError
+from gearlube_core.extras import extra_package
 from gearlube_core.film_model.groups import FilmGroups
 
 # E* of steel over the pressure of Roelands' law; other solids are outside the domain
@@ -66,18 +66,14 @@ def fit_process(
 
     Raises
     ------
-    GearLubeError
+    ParameterError
         scikit-learn is not installed.
     """
-    try:
-        from sklearn.exceptions import ConvergenceWarning
-        from sklearn.gaussian_process import GaussianProcessRegressor
-        from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Matern, WhiteKernel
-    except ImportError as error:
-        raise GearLubeError(
-            "Fitting a film model needs scikit-learn, which is not installed. Install it with "
-            "pip install 'gearlube[film-model]'."
-        ) from error
+    extra_package("sklearn", "film-model", "A film model is fitted")
+    from sklearn.exceptions import ConvergenceWarning
+    from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Matern, WhiteKernel
+
     x = _film_features(groups)
     shift, scale = x.mean(axis=0), x.std(axis=0)
     varies = scale > 1e-9 * np.abs(shift)

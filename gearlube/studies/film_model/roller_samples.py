@@ -24,7 +24,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.raceway_drag import line_radii
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
-from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.rolling import RollerContact, rolling_groups, rolling_line
 from gearlube_core.oil.lubricant import Lubricant

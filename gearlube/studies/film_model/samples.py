@@ -18,13 +18,12 @@ from gearlube.studies.film_model.draws import (
     oil_temperatures,
 )
 from gearlube_core.arrays import Array
-from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients
-from gearlube_core.ehl.gears.hypoid_window import pair_contact
+from gearlube_core.contact.hertz import ellipticity, hertz_coefficients
+from gearlube_core.ehl.gears.hypoid_flank import pair_contact
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.groups import FilmContact, contact_groups, film_contact
 from gearlube_core.mesh_table.table import MeshTable
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from gearlube_core.units import rpm_to_rads
 
 _E = STEEL.contact_modulus

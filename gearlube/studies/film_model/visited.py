@@ -11,7 +11,7 @@ import numpy as np
 from gearlube.studies.film_model.samples import flank_contact_of
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
-from gearlube_core.ehl.gears.hypoid_window import pair_contact
+from gearlube_core.ehl.gears.hypoid_flank import pair_contact
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.film_model.groups import FilmContact
 from gearlube_core.input_file.table import TABLES, read_table

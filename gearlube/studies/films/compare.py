@@ -10,6 +10,7 @@ import xarray as xr
 from gearlube.studies.films.figures.helical_cycle import compared_cycles
 from gearlube.studies.films.results import read_march
 from gearlube_core.checks import check_within
+from gearlube_core.storage.atomic_file import write_figure
 
 
 def compare_marches(
@@ -64,16 +65,18 @@ def compare_marches(
     }
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
-        compared_cycles(cycles, film_exponent).savefig(folder / "compare.png", dpi=150)
+        write_figure(compared_cycles(cycles, film_exponent), folder / "compare.png")
     curves = [one[["pressure_max", "minimum_film", "converged"]] for one in cycles.values()]
     names = xr.DataArray(list(cycles), dims="march", name="march")
     failed = [name for name, one in cycles.items() if not one.attrs["converged"]]
     outcome = f"All {len(cycles)} marches converged."
     if failed:
         outcome = f"Steps did not converge in {', '.join(failed)}."
-    return xr.concat(curves, names, join="outer", combine_attrs="drop").assign_attrs(
-        contact="helical_marches",
-        film_exponent=film_exponent,
-        converged=int(not failed),
-        outcome=outcome,
-    )
+    found = xr.concat(curves, names, join="outer", combine_attrs="override")
+    found.attrs = {
+        "contact": "helical_marches",
+        "film_exponent": film_exponent,
+        "converged": int(not failed),
+        "outcome": outcome,
+    }
+    return found

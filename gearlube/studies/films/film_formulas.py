@@ -7,20 +7,17 @@ from typing import NamedTuple
 
 from gearlube_core.ehl.line.problem import LineProblem
 from gearlube_core.ehl.point.problem import PointContactProblem
-from gearlube_core.film.chittenden_1985 import (
+from gearlube_core.film.groups import point_contact_groups
+from gearlube_core.film.line_film import line_film_thickness, minimum_line_film_thickness
+from gearlube_core.film.point_film import (
+    brewe_hamrock_ellipticity,
+    central_film_group,
     central_film_thickness,
     film_geometry,
+    hamrock_dowson_films,
     minimum_film_geometry,
     minimum_film_thickness,
 )
-from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
-from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
-from gearlube_core.film.groups import point_contact_groups
-from gearlube_core.film.hamrock_dowson_1977 import (
-    brewe_hamrock_ellipticity,
-    hamrock_dowson_films,
-)
-from gearlube_core.film.nijenbanning_1994 import central_film_group
 from gearlube_core.oil.film_oil import pressure_viscosity
 
 _ALONG_AXIS = math.radians(1.0)

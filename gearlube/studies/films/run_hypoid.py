@@ -12,8 +12,7 @@ from gearlube.studies.films.datasets.hypoid import hypoid_dataset, hypoid_key
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
 from gearlube.studies.films.results import begin, finished
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
-from gearlube_core.ehl.gears.hypoid_cycle import march_flank, steady_films
-from gearlube_core.ehl.gears.hypoid_thermal import thermal_films
+from gearlube_core.ehl.gears.hypoid_cycle import march_flank, steady_films, thermal_films
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.houpert_1985 import houpert_parameters
 from gearlube_core.progress import Progress, no_progress

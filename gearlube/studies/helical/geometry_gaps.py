@@ -15,13 +15,17 @@ from gearlube.studies.helical.geometry_lines import (
     relieved_lines_always_touch,
 )
 from gearlube_core.arrays import Array
-from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.hertz import line_mean_pressure
+from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.involute import involute_flank
 from gearlube_core.helical_geometry.lay_angle import equal_radius_line
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.load_sharing import shared_load
-from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
-from gearlube_core.helical_geometry.tip_relief import TipRelief
+from gearlube_core.helical_geometry.modification import (
+    Crown,
+    FlankModification,
+    ModifiedPair,
+    TipRelief,
+)
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap, contact_line_gap
 
 RELIEF_FORMS = (0.0, 0.5, 1.0)  # k of [jamali_2015 fig. 5.2] to 5.4

@@ -8,9 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.helical_geometry.contact_line import clip_line
+from gearlube_core.helical_geometry.contact_line import clip_line, line_kinematics
 from gearlube_core.helical_geometry.lay_angle import lay_angle_limits, lay_angles
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.load_sharing import CONVENTIONS, positions_at, shared_load
 from gearlube_core.helical_geometry.meshing_steps import line_at_position, position_of_line
 from gearlube_core.helical_geometry.modification import ModifiedPair

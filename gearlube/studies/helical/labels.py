@@ -10,7 +10,7 @@ from gearlube_core import __version__
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE, mean_mesh_stiffness
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import COMPOSITES
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
+from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]

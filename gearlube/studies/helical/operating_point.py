@@ -28,7 +28,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     with_friction,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
+from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 
 
 def operating_point(

@@ -13,7 +13,7 @@ from gearlube.output.csv_text import csv_text
 from gearlube.report.solved_films import film_model_attributes
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
-from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
@@ -21,12 +21,10 @@ from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.friction.line_integrals import LineFrictionCycle
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
-from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius
 
 PARTS_OF_LOSS = ("sliding", "rolling")

@@ -22,7 +22,11 @@ from gearlube.studies.helical.stability import stability_dataset
 from gearlube.studies.helical.sweep_grid import sweep_dataset
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import with_friction
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.helical_contact.analysis import ContactSettings, HelicalContact, analyse_contact
+from gearlube_core.helical_contact.contact_dataset import (
+    ContactSettings,
+    HelicalContact,
+    analyse_contact,
+)
 from gearlube_core.helical_geometry.contact_line import (
     ContactPlane,
     clip_line,

@@ -28,10 +28,10 @@ _SHOWN = 4  # orders of a member in a row
 
 def _write_example(folder: Path | None) -> None:
     """Write the example and stop; needs no other argument."""
-    from gearlube_core.hypoid_geometry.measured.example import write_example
-
     if folder is None:
         return
+    from gearlube_core.hypoid_geometry.measured.measured_flanks import write_example
+
     with exit_on_error():
         written = write_example(folder)
     logger.info("Written: %s", ", ".join(str(path) for path in written))

@@ -10,7 +10,7 @@ from gearlube_core.hypoid_geometry.measured.measured_flanks import (
     MeasuredFlanks,
     read_measured_flanks,
 )
-from gearlube_core.storage.atomic_file import write_text
+from gearlube_core.storage.atomic_file import write_figure, write_text
 from gearlube_core.storage.file_names import pair_stem
 
 
@@ -40,5 +40,5 @@ def run_measured(path: str | Path, *, folder: Path | None = None) -> MeasuredFla
         folder.mkdir(parents=True, exist_ok=True)
         text = toml_text(file.model_dump(exclude_defaults=True))
         write_text(text, folder / f"{pair_stem(file.name)}.toml")
-        measured_flanks(flanks).savefig(folder / "flanks.png")
+        write_figure(measured_flanks(flanks), folder / "flanks.png")
     return flanks

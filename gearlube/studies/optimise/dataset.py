@@ -10,7 +10,7 @@ import xarray as xr
 
 from gearlube.report.inputs import remark_attributes
 from gearlube.studies.optimise.summary import MeasureRow, measure_rows
-from gearlube_core.flank_optimisation.evaluation import Evaluation
+from gearlube_core.flank_optimisation.held_position import Evaluation
 from gearlube_core.flank_optimisation.optimise import Optimised
 from gearlube_core.flank_optimisation.problem import values_of
 from gearlube_core.input_file.field_notes import field_unit

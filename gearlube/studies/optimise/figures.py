@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
+from gearlube_core.storage.atomic_file import write_figure
 
 _COLOURS = {"before": GREY, "better": BLUE, "nominal": GREEN}
 NAMES = {"before": "before", "better": "after", "nominal": "best without errors"}
@@ -147,6 +148,6 @@ def save_optimise_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
         if name == "errors" and dataset.sizes["error"] < 2:
             continue
         path = directory / f"{name}.png"
-        draw(dataset).savefig(path, dpi=150)
+        write_figure(draw(dataset), path)
         files.append(path)
     return files

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.flank_optimisation.evaluation import Evaluation
+from gearlube_core.flank_optimisation.held_position import Evaluation
 from gearlube_core.flank_optimisation.optimise import Optimised
 from gearlube_core.flank_optimisation.search import KEPT
 

@@ -140,8 +140,7 @@ def resonance(
 
 def _mesh(name: str, mismatch: float, radii: str, torque: float) -> MeshTable:
     from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
-    from gearlube_core.mesh_table.netcdf import read_mesh_table
-    from gearlube_core.mesh_table.shipped import shipped_mesh_table
+    from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table
 
     check_within("--mismatch", mismatch, -5.0, 5.0, "percent", "0.3 is usual.")
     if mismatch != 0.0 and (name != "synthetic" or radii != "paper"):

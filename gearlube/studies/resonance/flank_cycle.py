@@ -9,9 +9,9 @@ import numpy as np
 
 from gearlube.studies.resonance.motions import Motion
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_torsional.flank_torques import thermal_pair
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import PAIRS_AT
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import PAIRS_AT
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
+from gearlube_core.dynamics.hypoid_torsional.rates import thermal_pair
 from gearlube_core.dynamics.packed_mesh import ARM_G, ARM_P, N_CHANNELS, SHARE
 from gearlube_core.friction.friction_torques import flank_speeds, friction_torques
 from gearlube_core.friction.traction_regime import flank_regime

@@ -18,11 +18,11 @@ from gearlube.studies.resonance.response import Response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube.studies.resonance.study import study_resonance
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_torsional.load_problem import LoadProblem
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
+from gearlube_core.dynamics.hypoid_torsional.period_problem import LoadProblem
 from gearlube_core.periodic import Branch, follow, solve_periodic
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import write_dataset
+from gearlube_core.storage.atomic_file import write_dataset, write_figure
 
 FORMS = ("two_dof", "one_dof")
 
@@ -166,7 +166,7 @@ def write_resonance(results: ResonanceResults, folder: Path) -> None:
 def _write_load(results: ResonanceResults, folder: Path) -> None:
     if results.load is not None:
         write_dataset(results.load, folder / "load.nc")
-        load_curves(results.load).savefig(folder / "figures" / "load_response.png", dpi=150)
+        write_figure(load_curves(results.load), folder / "figures" / "load_response.png")
 
 
 def load_response(

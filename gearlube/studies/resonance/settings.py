@@ -68,7 +68,7 @@ class ResonanceSettings:
 
     Examples
     --------
-    >>> from gearlube_core.mesh_table.shipped import shipped_mesh_table
+    >>> from gearlube_core.mesh_table.netcdf import shipped_mesh_table
     >>> ResonanceSettings(mesh=shipped_mesh_table("mohammadpour_2015"), friction="off").friction
     'off'
     """

@@ -93,9 +93,8 @@ def read(
 
     def surfaces() -> dict[str, Surface]:
         from gearlube_core.surface.files import read_surface
-        from gearlube_core.surface.gaussian_filter import filtered
+        from gearlube_core.surface.gaussian_filter import filtered, levelled
         from gearlube_core.surface.heights import check_plausible
-        from gearlube_core.surface.levelling import levelled
 
         read_in: Any = read_surface(file)
         surface = filtered(
@@ -297,7 +296,7 @@ def _height(name: str, value_um: float | None) -> float | None:
 def _run_in(surface: Any, height_um: float | None) -> Any:
     if height_um is None:
         return surface
-    from gearlube_core.surface.running_in import peaks_cut
+    from gearlube_core.surface.gaussian_filter import peaks_cut
 
     height = check_within("--cut-peaks-um", height_um, -_HIGHEST_UM, _HIGHEST_UM, "um") * _MICRO
     cut = peaks_cut(surface, height)
@@ -311,8 +310,8 @@ def _period(file: str, part_um: str | None) -> Profile:
 
     from gearlube_core.surface.extrusion import periodic_section
     from gearlube_core.surface.files import read_surface
+    from gearlube_core.surface.gaussian_filter import levelled
     from gearlube_core.surface.heights import Profile
-    from gearlube_core.surface.levelling import levelled
 
     profile = read_surface(file)
     if not isinstance(profile, Profile):
@@ -343,9 +342,9 @@ def _run(
     name: str, surfaces: Callable[[], dict[str, Surface]], out: Path, *, overwrite: bool
 ) -> None:
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        found = surfaces()
         from gearlube.studies.roughness.results import statistics_rows, write_results
 
-        found = surfaces()
         with results_folder(out, f"roughness {name}", overwrite=overwrite):
             written = write_results(found, out)
         for what, surface in found.items():

@@ -12,12 +12,12 @@ from gearlube.output.csv_text import csv_text
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 from gearlube_core.contact.greenwood_tripp_1971 import asperity_load, gear_flanks
 from gearlube_core.errors import ParameterError
-from gearlube_core.rough_patch.patir_cheng_1978 import (
+from gearlube_core.rough_patch.flow import (
     PEKLENIK,
     pressure_flow_factor,
     shear_flow_factor,
 )
-from gearlube_core.storage.atomic_file import atomic_write, write_dataset, write_text
+from gearlube_core.storage.atomic_file import write_dataset, write_figure, write_text
 
 _RATIO = "film h over roughness σ"
 _SHOWN = {
@@ -50,8 +50,7 @@ def flow_results(table: xr.Dataset, out: Path, peklenik: float | None) -> list[P
         for k, ratio in enumerate(table.film_ratio)
     )
     write_text(csv_text(("film_ratio", *names), rows), sheet)
-    with atomic_write(picture) as partial:
-        flow_figure([(peklenik, table)]).savefig(partial, format="png")
+    write_figure(flow_figure([(peklenik, table)]), picture)
     return [netcdf, sheet, picture]
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
-from gearlube_core.storage.atomic_file import atomic_write, write_text
+from gearlube_core.storage.atomic_file import write_figure, write_text
 from gearlube_core.surface.files import write_surface
 from gearlube_core.surface.generator import Generated
 from gearlube_core.surface.heights import HeightMap, Profile, Surface
@@ -79,8 +79,7 @@ def write_results(surfaces: dict[str, Surface], out: Path) -> list[Path]:
             table,
         )
         picture = out / f"{name}.png"
-        with atomic_write(picture) as partial:
-            _surface_figure(surface).savefig(partial, format="png")
+        write_figure(_surface_figure(surface), picture)
         written += [heights, table, picture]
     return written
 

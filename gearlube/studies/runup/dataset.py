@@ -18,7 +18,7 @@ from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
-from gearlube_core.input_file.input_note import notes_as_text
+from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.spectra import OrderBlocks, order_blocks, samples_for, waterfall
 
 # channels of the record in the order of modes.COORDINATES; the shafts' speeds give their turning

@@ -161,7 +161,7 @@ def heard_orders(runs: Sequence[HeardRun]) -> Any:
                     label=order_name(float(order), int(data.attrs["pinion_teeth"])),
                 )
             ax.set(ylabel="loudness lost without\nthe order [sone]", title=str(data.attrs["name"]))
-            ax.set_ylim(bottom=0.0)
+        panels[0].set_ylim(bottom=0.0)  # of all panels, once all are drawn
         panels[0].legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
         panels[-1].set_xlabel(_axis_label(runs[0].dataset))
     return figure

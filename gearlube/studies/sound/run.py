@@ -34,6 +34,7 @@ from gearlube.studies.sound.wav import full_scale_for, played, wav_names
 from gearlube.studies.sound.words import limit_sentences, sound_sentences
 from gearlube_core.arrays import Array
 from gearlube_core.errors import FileError, ParameterError, unread
+from gearlube_core.extras import extra_package
 from gearlube_core.input_file.table import TABLES
 from gearlube_core.progress import Progress, no_progress, part_of
 
@@ -273,13 +274,7 @@ def _read_uff_path(file: Path, bearings: Sequence[str], directions: Sequence[str
 
 
 def _records(file: Path) -> list[dict[str, Any]]:
-    try:
-        import pyuff
-    except ImportError:
-        raise FileError(
-            f"{file} is read by the package pyuff, which is not installed. Install it: "
-            "pip install 'gearlube[sound]'. Or give the responses as CSV."
-        ) from None
+    pyuff = extra_package("pyuff", "sound", f"{file} is read", "Or give the responses as CSV.")
     try:
         with file.open("rb"):
             pass

@@ -7,13 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
-from distributed import Worker, get_worker
 
 from gearlube.studies.sweep.point import Place, PointFunction
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube.studies.sweep.unpack import unpack
 from gearlube_core.errors import ParameterError
-from gearlube_core.storage.dask_pool import NamedPlugin
+from gearlube_core.storage.dask_pool import NamedPlugin, Worker, get_worker
 
 
 class FmuOnWorker(NamedPlugin):

@@ -9,8 +9,7 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
-from drivetrain.driveline.model import Driveline
-from drivetrain.driveline.modes import driveline_modes
+from drivetrain.driveline.model import Driveline, driveline_modes
 from gearlube.studies.sweep.axle_in_fmu import car_axle_at
 from gearlube.studies.sweep.oil_at_rest import oil_at_rest
 from gearlube.studies.sweep.settings import SweepSettings

@@ -27,13 +27,13 @@ from gearlube.studies.sweep.scalars import scalars
 from gearlube.studies.sweep.settings import STEADY, SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.loss_draws import drawn_losses
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     OUTPUT_NAMES,
 )
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.uncertain import drawn_losses
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.spectra import angle_window
 from gearlube_core.units import kmh_to_ms

@@ -19,6 +19,7 @@ from gearlube.studies.sweep.peaks import numbers
 from gearlube.studies.sweep.point import FINISHED
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, STEADY
 from gearlube.studies.sweep.tables import tables
+from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.units import kelvin_to_celsius
 
 _DPI = 130
@@ -120,7 +121,8 @@ def _figures(dataset: xr.Dataset, directory: Path | None, entries: Sequence[Entr
         png = _png(dataset, entry) if directory is not None or entry.chart is None else None
         if directory is not None and png is not None:
             directory.mkdir(parents=True, exist_ok=True)
-            (directory / f"{entry.name}.png").write_bytes(png)
+            with atomic_write(directory / f"{entry.name}.png") as partial:
+                partial.write_bytes(png)
         found.append(
             Figure(
                 name=entry.name,

@@ -40,7 +40,7 @@ from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import InterruptedRunError, ParameterError
-from gearlube_core.input_file.input_note import notes_as_text
+from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.folder_lock import locked_folder
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
@@ -53,6 +53,7 @@ _SPEED_KMH = 50.0
 logger = logging.getLogger(__name__)
 
 MOST_JOBS = 1024
+_MOST_POINTS = 100_000  # some seconds each
 _PRELOAD_CURE = "A preload must press; the paper uses 2500 and 6000 N."
 
 
@@ -162,7 +163,7 @@ def run_sweep(
     ...     settings, speeds_kmh=[60.0], preloads=[2500.0, 6000.0], out="gearlube_sweep"
     ... )
     """
-    from fmu_src.fmu_cache import cached_hypoid_axle
+    from fmu_src.build import cached_hypoid_axle
 
     speeds = sorted({check_within("speed", v, *SPEED_RANGE, "km/h") for v in speeds_kmh})
     loads = sorted(
@@ -170,6 +171,8 @@ def run_sweep(
     )
     if not speeds or not loads:
         raise ParameterError("A sweep needs at least one speed and one preload, got none.")
+    wanted = len(speeds) * len(loads)
+    check_within("speeds times preloads", wanted, 1, _MOST_POINTS, "", "Take fewer of them.")
     if jobs is not None:
         check_within("jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all processors.")
     if fmu is not None and model.compile_first is not None:

@@ -25,6 +25,19 @@ def unpack(fmu: Path, directory: Path) -> Path:
             f"The FMU must be a file or an unzipped folder, but {fmu} is neither. Build it with "
             "`gearlube build-fmu`."
         )
+    with _checked(fmu) as archive:
+        archive.extractall(directory)
+    return directory
+
+
+def check_fmu(fmu: Path) -> None:
+    """Raise ParameterError unless the file is an archive that unpacks to a size of an FMU's."""
+    with _checked(fmu):
+        pass
+
+
+@contextmanager
+def _checked(fmu: Path) -> Iterator[zipfile.ZipFile]:
     try:
         with zipfile.ZipFile(fmu) as archive:
             entries = archive.infolist()
@@ -34,12 +47,11 @@ def unpack(fmu: Path, directory: Path) -> Path:
                     f"{fmu} must unpack to at most {_LARGEST / 1e6:g} MB in {_MOST} files, got "
                     f"{size / 1e6:.0f} MB in {len(entries)}. {_CURE}"
                 )
-            archive.extractall(directory)
+            yield archive
     except (zipfile.BadZipFile, zlib.error, RuntimeError, ValueError, OSError, EOFError) as error:
         if isinstance(error, ParameterError):
             raise
         raise ParameterError(f"{fmu} is no FMU: {why(error)}. {_CURE}") from error
-    return directory
 
 
 @contextmanager

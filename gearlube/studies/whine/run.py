@@ -30,7 +30,7 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings, series_rates
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.storage.atomic_file import write_dataset, write_figure, write_text
 from gearlube_core.tooth_contact.series_rates import SeriesRates
 
 GearFile = HypoidGearFile | HelicalGearFile
@@ -171,7 +171,7 @@ def write_whine(dataset: xr.Dataset, folder: Path) -> None:
     (folder / "figures").mkdir(parents=True, exist_ok=True)
     write_dataset(dataset, folder / "whine.nc")
     write_text(csv_text(WhineRow._fields, whine_rows(dataset)), folder / "whine.csv")
-    whine_figure(dataset).savefig(folder / "figures" / "whine.png", dpi=150)
+    write_figure(whine_figure(dataset), folder / "figures" / "whine.png")
 
 
 def whine_rows(dataset: xr.Dataset) -> list[WhineRow]:

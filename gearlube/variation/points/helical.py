@@ -19,11 +19,10 @@ from gearlube.variation.points.mesh_orders import order_quantities, order_values
 from gearlube.variation.points.of_file import FilePoint
 from gearlube.variation.points.operands import operand, value
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
-from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
+from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import LINE
-from gearlube_core.helical_contact.contact_dataset import contact_dataset
-from gearlube_core.helical_contact.line_mesh import line_mesh
+from gearlube_core.helical_contact.contact_dataset import contact_dataset, line_mesh
 from gearlube_core.helical_contact.mesh_cycle import run_cycle
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile

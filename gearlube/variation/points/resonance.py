@@ -22,8 +22,7 @@ from gearlube.variation.points.mesh_orders import ORDERS
 from gearlube.variation.points.operands import operand, value
 from gearlube.variation.scatter import scatter_of
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.mesh_table.netcdf import read_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 
 _MODEL = "two_dof"

@@ -8,6 +8,14 @@ from typing import Annotated
 
 from scipy.optimize import brentq
 
+from gearlube_core.bearings.losses.catalogue import (
+    F0_TAPERED_OIL_BATH,
+    F1_TAPERED,
+    OTHER_SERIES,
+    SERIES,
+    SERIES_NAMES,
+    SkfBearing,
+)
 from gearlube_core.bearings.losses.physical_loss import LossParameters
 from gearlube_core.bearings.losses.rib import (
     RIB_BOUNDARY_FRICTION,
@@ -17,13 +25,6 @@ from gearlube_core.bearings.losses.rib import (
     RIB_SHARE_C,
     RibParameters,
 )
-from gearlube_core.bearings.losses.skf_2013 import (
-    OTHER_SERIES,
-    SERIES,
-    SERIES_NAMES,
-    SkfBearing,
-)
-from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.roller_contact import N_LINE
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
@@ -37,7 +38,7 @@ from gearlube_core.contact.solid import (
     solid_parameters,
 )
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.chittenden_1985 import film_geometry
+from gearlube_core.film.point_film import film_geometry
 from gearlube_core.number import Number, Positive, check_fields
 
 APEX_TOLERANCE = 0.05  # of the roller radius: angles and diameters are printed to about 1 %
@@ -97,9 +98,9 @@ class BearingGeometry:
     roughness : float
         Composite rms roughness of roller and race [m].
     f0, f1 : float
-        Viscous and load factor of `palmgren_1959` [-].
+        Viscous and load factor of `drag_torque` [-].
     timken_g1 : float
-        Geometry factor of `timken`; 0: not known [-].
+        Geometry factor of `timken_torque`; 0: not known [-].
     rolling_scale : float, optional
         Measured rolling torque divided by the computed one; None: not calibrated [-].
     solid : Solid

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.bearings.losses.catalogue import drag_torque, skf_torque, timken_torque
 from gearlube_core.bearings.losses.geometry import BearingGeometry
 from gearlube_core.bearings.losses.laws import (
     CATALOGUE_LAWS,
@@ -26,16 +27,12 @@ from gearlube_core.bearings.losses.rib import (
     RibParameters,
     rib_friction,
 )
-from gearlube_core.bearings.losses.ring_loads import LARGEST_RATIO, ring_loads
-from gearlube_core.bearings.losses.skf_2013 import skf_torque
-from gearlube_core.bearings.losses.timken import timken_torque
-from gearlube_core.bearings.palmgren_1959 import drag_torque
+from gearlube_core.bearings.roller_loads import LARGEST_RATIO, ring_loads
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import ROLLER, FilmModel
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
 
 # Factors of the error bar, k = 2. A priori 2: the state of lubrication is not known. More where
 # the misfits of measured bearings ask for it, see docs/bearing.md; timken was not compared.

@@ -8,18 +8,22 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.losses.aihara_1987 import aihara_heating
-from gearlube_core.bearings.losses.laws import SOLVED_FILMS, heating_factor, rolling_force
+from gearlube_core.bearings.losses.laws import (
+    SOLVED_FILMS,
+    aihara_heating,
+    heating_factor,
+    rolling_force,
+)
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
-from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.film.groups import inlet_heating_number
+from gearlube_core.film.line_film import minimum_line_film_thickness
 from gearlube_core.film_model.groups import FilmInlet, film_inlet
 from gearlube_core.film_model.line_contact import line_place, line_reference_film
 from gearlube_core.film_model.model import ROLLER, SHIPPED, FilmModel, shipped_model
 from gearlube_core.film_model.rolling import solved_rolling_at
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 ROLLER_MODEL = SHIPPED[ROLLER]  # name of the film model in the package
 NO_ROLLER_MODEL = np.empty(0)  # in place of its numbers, for laws without one

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube_core.contact.asperity_share import asperity_share
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.film.chittenden_1985 import central_film_thickness
+from gearlube_core.contact.greenwood_tripp_1971 import asperity_share
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.film.groups import inlet_heating_number
+from gearlube_core.film.point_film import central_film_thickness
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 from gearlube_core.oil.roelands_1966 import (
     ROELANDS_LOG_VISCOSITY,
     ROELANDS_PRESSURE,

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
+from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import LINE, FilmModel

@@ -17,17 +17,18 @@ from gearlube_core.dynamics.helical_pair.kernel_parameters import (
 )
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
-from gearlube_core.dynamics.helical_pair.mesh_match import check_line_mesh, effective_mass
-from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupport
-from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
+from gearlube_core.dynamics.helical_pair.supports import (
+    ShaftSupport,
     printed_support_stiffness,
     support_damping,
     support_stiffness,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
+_SAME = 1e-6  # of the base pitch
 Form = Literal["twelve_dof", "six_dof"]
 Contact = Literal["linear", "one_sided"]
 Friction = Literal["off", "constant", "film"]
@@ -35,6 +36,34 @@ BearingMoments = Literal["consistent", "as_printed"]
 SupportDamping = Literal["total", "as_printed"]
 MeshSign = Literal["compression", "as_printed"]
 _MOST_LINES = 100
+
+
+def check_line_mesh(mesh: LineMesh, pair: HelicalPair, most_lines: int) -> None:
+    """Raise ParameterError unless the mesh is one of the pair with enough lines, not too many."""
+    if (mesh.pinion_teeth, mesh.gear_teeth) != (pair.pinion_teeth, pair.gear_teeth):
+        raise ParameterError(
+            f"mesh must belong to the pair of {pair.pinion_teeth} and {pair.gear_teeth} "
+            f"teeth, got {mesh.pinion_teeth} and {mesh.gear_teeth}. Compute it for this pair."
+        )
+    close = pair.base_pitch * (1.0 - _SAME), pair.base_pitch * (1.0 + _SAME)
+    check_within("mesh.base_pitch", mesh.base_pitch, *close, "m", "Compute it for this pair.")
+    check_within("mesh.lines", mesh.lines, line_count(pair.plane), most_lines, "", "Add lines.")
+
+
+def effective_mass(pair: HelicalPair, pinion_inertia: float, gear_inertia: float) -> float:
+    """Return m_e of the relative rotation along the line of action [kg].
+
+    1/m_e = r_bp^2/J_zp + r_bg^2/J_zg
+
+    Parameters
+    ----------
+    pair
+        Base radii.
+    pinion_inertia, gear_inertia
+        Polar [kg m2].
+    """
+    r_bp, r_bg = pair.pinion_base_radius, pair.gear_base_radius
+    return 1.0 / (r_bp**2 / pinion_inertia + r_bg**2 / gear_inertia)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,7 +101,7 @@ class HelicalPairParameters:
         Parts of a line, each with two quadrature points; one is exact for linear contact.
     bearing_moments, support_damping, mesh_sign
         The paper's equations where they run as printed: `printed_support_stiffness`,
-        `support_matrices.support_damping` per bearing, and the sign of [he_2007 (4)], which is
+        `supports.support_damping` per bearing, and the sign of [he_2007 (4)], which is
         unstable.
 
     References

@@ -13,11 +13,12 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings
-from gearlube_core.dynamics.hypoid_axle.bearing_outputs import write_raceways
 from gearlube_core.dynamics.hypoid_axle.continuous import change_side
-from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.flanks import FILMS
-from gearlube_core.dynamics.hypoid_axle.force_derivatives import force_derivatives
+from gearlube_core.dynamics.hypoid_axle.force_derivatives import (
+    force_derivatives,
+    write_step_control,
+)
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     DIVERGED_UM,
     NOT_FINITE,
@@ -38,6 +39,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     BEARING_SHARE_OUTSIDE,
     FIRST_BEARING_FILM,
+    write_raceways,
 )
 from gearlube_core.dynamics.hypoid_axle.outputs import (
     raceways_of,
@@ -57,6 +59,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     FRICTION_BOUND,
     LOAD_TORQUE,
     N_ENERGIES,
+    N_FILMS,
     N_ODE,
     N_STATE,
     PHI_G,
@@ -69,13 +72,12 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WORK_MARK,
     X,
 )
-from gearlube_core.dynamics.hypoid_axle.step_control import write_step_control
 from gearlube_core.dynamics.mean_power import LEAST_WINDOW, keep_means
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 OF_FLANKS, OF_BEARINGS, OF_RACEWAYS = range(3)  # groups of outputs
 
@@ -152,7 +154,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
     ) -> int:
         """Write the flattened StepControl about the equilibrium `s`; return a status.
 
-        Arguments as in `static_state` and `step_control.write_step_control`.
+        Arguments as in `static_state` and `force_derivatives.write_step_control`.
         """
         p: AxleParameters = tuple_from_array(lossless, AxleParameters, bearing, law)
         return write_step_control(

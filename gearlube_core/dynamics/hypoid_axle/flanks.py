@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.film_nodes import (
-    N_FILMS,
-)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_axle.state import (
+    N_FILMS,
+    PHI_P,
+    W_G,
+    W_P,
+)
 from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
     flank_coefficients,
     sliding_speed,
@@ -30,13 +32,13 @@ from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 _PAIRS = PAIRS
 # places of what `flank_sum` keeps
 BOUND = 3 * PAIRS  # of the friction coefficient of each pair
 BOUND_POWER = 4 * PAIRS  # of the power lost in friction
-FILMS = BOUND_POWER + 1  # `film_nodes`
+FILMS = BOUND_POWER + 1  # films at the nodes of the mesh table
 N_FRICTION = FILMS + N_FILMS
 
 
@@ -104,7 +106,7 @@ def flank_sum(
     friction : ndarray of shape (N_FRICTION,)
         Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
         of the friction over load [-], that of the power lost in friction, always anew [W], and
-        the films at the nodes, see `film_nodes`.
+        the films at the nodes, see `state.keep_flank`.
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
     film_model : ndarray

@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import RollerFilms
-from gearlube_core.drag.churning import churning_torque
-from gearlube_core.drag.seals import seal_drag
+from gearlube_core.drag import churning_torque, seal_drag
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
     NO_AXLE_RACEWAYS,
@@ -16,13 +15,14 @@ from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
     AxleRaceways,
     BearingDrag,
     bearing_drag,
+    drag_holds,
+    drag_near,
+    renew_drag,
 )
-from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.flanks import (
     BOUND_POWER,
     FILMS,
 )
-from gearlube_core.dynamics.hypoid_axle.kept_drag import drag_holds, drag_near, renew_drag
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -50,6 +50,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     MICRO,
     N_CONTINUOUS,
     N_ENERGIES,
+    N_FILMS,
     N_ODE,
     N_STATE,
     PINION_WORK,
@@ -72,7 +73,7 @@ from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
 OK = 0
 NOT_FINITE = 1

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftBearings
-from gearlube_core.drag.churning import ChurningConstants
+from gearlube_core.drag import ChurningConstants
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.friction.flank_law import FlankLaw

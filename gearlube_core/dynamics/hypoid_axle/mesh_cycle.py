@@ -66,7 +66,7 @@ from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import N_SERIES, mesh_series
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
 NO_BALANCE = 6  # beside the statuses of `start.rest`
 FIRST_LOSS = 2  # of the energies; before it the work at pinion and wheel

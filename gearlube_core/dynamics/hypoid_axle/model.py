@@ -10,6 +10,7 @@ from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import axle_raceways
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
+from gearlube_core.dynamics.hypoid_axle.force_derivatives import CONTROL_WORK, NO_MODES_WORDS
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     MAX_STEPS,
     NOT_FINITE,
@@ -36,7 +37,6 @@ from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM_CURE, OK, REST_WORK
 from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, SIDE
-from gearlube_core.dynamics.hypoid_axle.step_control import CONTROL_WORK, NO_MODES_WORDS
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.dynamics.ranges import TOO_FAR
 from gearlube_core.dynamics.stepped_model import (
@@ -50,7 +50,7 @@ from gearlube_core.dynamics.stepped_model import (
 )
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 MAX_TORQUE = 1e4  # N.m at the pinion: far beyond any car axle
 MAX_WHEEL_TORQUE = 3e4  # N.m

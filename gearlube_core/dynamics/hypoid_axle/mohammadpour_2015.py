@@ -10,7 +10,7 @@ from gearlube_core.contact.solid import (
     STEEL_MOHAMMADPOUR_2015,
 )
 from gearlube_core.dynamics.hypoid_axle.parameters import Approach, HypoidAxleParameters
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 

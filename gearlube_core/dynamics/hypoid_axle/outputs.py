@@ -14,16 +14,12 @@ from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
     axle_raceways,
     bearing_drag,
     drag_bound_of,
-)
-from gearlube_core.dynamics.hypoid_axle.bearing_outputs import (
-    write_raceways,
-    write_shaft,
+    drag_near,
 )
 from gearlube_core.dynamics.hypoid_axle.continuous import (
     write_event_indicators,
     write_rates,
 )
-from gearlube_core.dynamics.hypoid_axle.film_nodes import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
     write_flanks,
 )
@@ -33,9 +29,7 @@ from gearlube_core.dynamics.hypoid_axle.flanks import (
     N_FRICTION,
 )
 from gearlube_core.dynamics.hypoid_axle.integrate import inputs_with_drag
-from gearlube_core.dynamics.hypoid_axle.kept_drag import drag_near
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.loss_outputs import write_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
@@ -81,6 +75,9 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     WHEEL_DISPLACEMENT,
     WHEEL_SPEED,
     WHEEL_VELOCITY,
+    write_losses,
+    write_raceways,
+    write_shaft,
 )
 from gearlube_core.dynamics.hypoid_axle.rhs import (
     AT_EXPANSION,
@@ -97,6 +94,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     KEPT_DRAG,
     LOAD_TORQUE,
     N_ENERGIES,
+    N_FILMS,
     N_ODE,
     N_ROLLERS,
     N_STATE,
@@ -122,7 +120,7 @@ from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
 from gearlube_core.dynamics.ranges import write_ranges
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import R_P, blend_levels, load_bracket
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
 
 @kernel

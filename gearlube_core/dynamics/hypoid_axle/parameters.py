@@ -20,7 +20,7 @@ from gearlube_core.contact.solid import (
     contact_modulus,
     solid_parameters,
 )
-from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
+from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, ChurningLaw
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
     BEARING_LAWS,
     TORQUE_LOSSES,
@@ -32,9 +32,8 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     equivalent_mass,
     modal_damping,
 )
-from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
-from gearlube_core.dynamics.ranges import Range, range_limits
+from gearlube_core.dynamics.ranges import Range, model_ranges, range_limits
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import check_oil, of_kind
 from gearlube_core.film_model.model import FLANK, ROLLER, FilmModel, shipped_model

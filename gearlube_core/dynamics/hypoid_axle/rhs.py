@@ -11,7 +11,7 @@ from gearlube_core.bearings.bearing_type import (
     expand_forces,
     expanded_forces,
 )
-from gearlube_core.bearings.cage_frame import cage_torque
+from gearlube_core.bearings.parameters import cage_torque
 from gearlube_core.dynamics.hypoid_axle.flanks import N_FRICTION, flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad
@@ -44,7 +44,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 AT_EXPANSION = N_FRICTION + N_CHANNELS
 AT_ROLLERS = AT_EXPANSION + 2 * N_EXPANSION  # `roller_nodes` of outputs

@@ -26,7 +26,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_P, load_bracket
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
 OK = 0
 NO_EQUILIBRIUM = 4  # beside the statuses of `integrate.advance`

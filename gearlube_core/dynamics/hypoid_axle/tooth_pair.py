@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.film_nodes import (
+from gearlube_core.dynamics.hypoid_axle.state import (
     NUDGE,
+    PHI_P,
+    V_G,
+    V_P,
+    W_G,
+    W_P,
     NodeFlank,
     film_of,
     flank_between,
@@ -13,7 +18,6 @@ from gearlube_core.dynamics.hypoid_axle.film_nodes import (
     still_holds,
     tells_slopes,
 )
-from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import (
     ARM_G,
     ARM_P,
@@ -32,13 +36,13 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Y,
     XI_Z,
 )
-from gearlube_core.friction.flank_bound import (
+from gearlube_core.friction.flank_data import ContactGeometry
+from gearlube_core.friction.flank_film import (
     NO_MODEL_FILM,
     BoundedFlank,
     FlankEllipse,
     ModelFilm,
 )
-from gearlube_core.friction.flank_data import ContactGeometry
 from gearlube_core.friction.flank_law import (
     FlankLaw,
     bounded_flank,
@@ -47,7 +51,7 @@ from gearlube_core.friction.flank_law import (
 )
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_node
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
 # how film and traction of the flanks are evaluated: a film model at the contact itself, or
 # interpolated between the nodes of the mesh table

@@ -10,14 +10,13 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import contact_modulus, solid_parameters
-from gearlube_core.dynamics.hypoid_torsional.contact_mode import contact_mode
-from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import (
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     DE,
     N_ROW,
     R_G,
     R_P,
     K,
+    TorsionalParameters,
     mesh_row,
     mesh_rows,
 )
@@ -30,6 +29,7 @@ from gearlube_core.dynamics.hypoid_torsional.rates import (
     MICRO,
     PairRates,
     ReducedRates,
+    contact_mode,
     pair_approach,
     pair_rates,
     reduced_approach,
@@ -52,7 +52,7 @@ from gearlube_core.friction.thermal_eyring_data import (
 from gearlube_core.mesh_table import kernels as series
 from gearlube_core.mesh_table.kernels import blend_levels, load_bracket
 from gearlube_core.oil.houpert_1985 import houpert_parameters
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 MAX_SPEED = 5e3  # rad/s
 

@@ -15,7 +15,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     TWO_DOF,
 )
 from gearlube_core.errors import ParameterError
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.number import Number, Positive, check_fields
 from gearlube_core.oil.lubricant import Lubricant

@@ -22,15 +22,16 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_Y, AngleSlope, angle_slope
-from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import N_ROW
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import N_ROW, TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.mode_march import (
     DIVERGED_UM,
     MARCH_WORK,
     MOST_PARTS,
+    N_Y,
     NOT_FINITE,
     OK,
+    AngleSlope,
+    angle_slope,
     part_of_step,
 )
 from gearlube_core.kernels.jit import kernel

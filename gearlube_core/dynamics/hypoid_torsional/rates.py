@@ -1,4 +1,11 @@
-"""Rates of the torsional hypoid pair: two degrees of freedom, and their reduction to one."""
+"""Rates of the torsional hypoid pair: two degrees of freedom, and their reduction to one.
+
+Modes of the mesh: ranges of deflection and rate in which the mesh force is smooth.
+
+The mesh force is continuous, its slopes are not: they jump at first contact, where the damping is
+built up, and where the damping alone would pull the flanks together. An integrator that keeps one
+mode throughout a step, and ends the step where the mode ends, meets no jump.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +13,192 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_torsional.contact_mode import force_in_mode
-from gearlube_core.dynamics.hypoid_torsional.flank_torques import FlankTorques, flank_torques
-from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, DK, R_G, R_P, K
+from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP, backlash_deflection
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
+    DE,
+    DK,
+    PAIRS_AT,
+    R_G,
+    R_P,
+    THERMAL_EYRING,
+    K,
+    TorsionalParameters,
+)
+from gearlube_core.dynamics.packed_mesh import (
+    ARM_G,
+    ARM_P,
+    ENTRAIN,
+    N_CHANNELS,
+    PRESSURE,
+    R_E,
+    SHARE,
+    SIDE_FLOW,
+)
+from gearlube_core.friction.flank import flank_friction
+from gearlube_core.friction.flank_data import CONSISTENT, ContactGeometry
+from gearlube_core.friction.friction_torques import flank_speeds, friction_torques
+from gearlube_core.friction.thermal_eyring_data import ThermalFlankState
+from gearlube_core.friction.thermal_eyring_flank import thermal_eyring_flank
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.mesh_table.table import PAIRS
 
+# no contact; damping builds up; damping complete; flanks overlap without force. Below 0: coast
+GAP, LAYER, FULL, OPEN = 0, 1, 2, 3
+_PAIRS = PAIRS
 MICRO = 1.0e6  # um per m; states hold x in um beside speeds of like size
 UM = 1.0e-6
+
+
+class MeshForce(NamedTuple):
+    """Deflection and force of the mesh."""
+
+    f: float  # m
+    force: float  # N
+
+
+@kernel
+def contact_mode(x: float, x_rate: float, k: float, p: TorsionalParameters) -> int:
+    """Return the mode at transmission error `x` [m], its rate [m/s] and stiffness `k` [N/m]."""
+    f = backlash_deflection(x, p.backlash)
+    if f == 0.0:
+        return GAP
+    side = 1 if f > 0.0 else -1
+    if p.gated == 0.0:
+        return side * FULL
+    depth = abs(f)
+    if k * depth + min(1.0, depth / DAMPING_BUILD_UP) * p.c * side * x_rate <= 0.0:
+        return side * OPEN
+    return side * (LAYER if depth < DAMPING_BUILD_UP else FULL)
+
+
+@kernel
+def force_in_mode(
+    mode: int, x: float, x_rate: float, k: float, p: TorsionalParameters
+) -> MeshForce:
+    """Return deflection and force by the law of one mode, continued smoothly outside it.
+
+    Inside the mode this is `gated_force`, or k f + c x' if damping acts in the backlash too.
+    """
+    if mode == GAP:
+        return MeshForce(0.0, p.c * x_rate if p.gated == 0.0 else 0.0)
+    f = x if mode > 0 else x + p.backlash
+    kind = abs(mode)
+    if kind == OPEN:
+        return MeshForce(f, 0.0)
+    if kind == LAYER:
+        depth = f if mode > 0 else -f
+        return MeshForce(f, k * f + depth / DAMPING_BUILD_UP * p.c * x_rate)
+    return MeshForce(f, k * f + p.c * x_rate)
+
+
+@kernel
+def mode_margin(mode: int, x: float, x_rate: float, k: float, p: TorsionalParameters) -> float:
+    """Return how far a state lies within its mode [m]; below 0 outside."""
+    if mode == GAP:
+        return min(-x, x + p.backlash)
+    depth = x if mode > 0 else -(x + p.backlash)
+    if p.gated == 0.0:
+        return depth
+    rate = x_rate if mode > 0 else -x_rate
+    kind = abs(mode)
+    if kind == OPEN:
+        push = depth + min(1.0, depth / DAMPING_BUILD_UP) * p.c * rate / k
+        return min(depth, -push)
+    if kind == LAYER:
+        return min(min(depth, DAMPING_BUILD_UP - depth), DAMPING_BUILD_UP + p.c * rate / k)
+    return min(depth - DAMPING_BUILD_UP, depth + p.c * rate / k)
+
+
+class FlankTorques(NamedTuple):
+    """Friction of all pairs."""
+
+    torque_p: float  # Q_p [N.m]
+    torque_g: float  # Q_g [N.m]
+    power: float  # lost, >= 0 [W]
+
+
+@kernel
+def thermal_pair(
+    rows: Array,
+    i: int,
+    at: int,
+    load: float,
+    w_p: float,
+    w_g: float,
+    p: TorsionalParameters,
+) -> ThermalFlankState:
+    """Return film and friction of the pair whose channels begin at rows[i, at], load in N."""
+    speed, sliding = flank_speeds(w_p, w_g, rows[i, at + ARM_P], rows[i, at + ARM_G])
+    if p.along_sliding == 0.0:
+        speed = rows[i, at + ENTRAIN] * w_p
+    return thermal_eyring_flank(
+        load,
+        speed,
+        sliding,
+        ContactGeometry(rows[i, at + R_E], rows[i, at + SIDE_FLOW], rows[i, at + PRESSURE]),
+        p.thermal_oil,
+        p.surface,
+        p.solid,
+        p.thermal,
+    )
+
+
+@kernel
+def pair_friction(
+    rows: Array,
+    i: int,
+    at: int,
+    load: float,
+    sliding: float,
+    w_p: float,
+    w_g: float,
+    p: TorsionalParameters,
+) -> float:
+    """Return the friction [N] of the pair whose channels begin at rows[i, at], under `load` [N]."""
+    if p.friction_form == THERMAL_EYRING:
+        hot = thermal_pair(rows, i, at, load, w_p, w_g, p)
+        return hot.viscous_friction + hot.boundary_friction
+    flank = flank_friction(
+        load,
+        rows[i, at + ENTRAIN] * w_p,
+        sliding,
+        ContactGeometry(rows[i, at + R_E], rows[i, at + SIDE_FLOW], rows[i, at + PRESSURE]),
+        p.oil,
+        p.surface,
+        p.solid,
+        CONSISTENT,
+    )
+    return flank.viscous_friction + flank.boundary_friction
+
+
+@kernel
+def flank_torques(
+    rows: Array, i: int, w_p: float, w_g: float, force: float, p: TorsionalParameters
+) -> FlankTorques:
+    """Return the friction torques of all pairs that share the mesh force `force` [N].
+
+    See `friction_torques`.
+
+    References
+    ----------
+    [karagiannis_2012 (13)]
+    """
+    torque_p = 0.0
+    torque_g = 0.0
+    power = 0.0
+    if force != 0.0:
+        for pair in range(_PAIRS):
+            at = PAIRS_AT + pair * N_CHANNELS
+            load = abs(force) * rows[i, at + SHARE]
+            if load > 0.0:
+                arm_p, arm_g = rows[i, at + ARM_P], rows[i, at + ARM_G]
+                sliding = flank_speeds(w_p, w_g, arm_p, arm_g)[1]
+                f = pair_friction(rows, i, at, load, sliding, w_p, w_g, p)
+                on_pinion, on_gear, lost = friction_torques(f, sliding, arm_p, arm_g)
+                torque_p += on_pinion
+                torque_g += on_gear
+                power += lost
+    return FlankTorques(torque_p, torque_g, power)
 
 
 class PairRates(NamedTuple):

@@ -9,8 +9,15 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from gearlube_core.contact.solid import Solid, reduced_modulus
-from gearlube_core.ehl.case.film_case import FilmCase, Heat, refused
-from gearlube_core.ehl.case.grids import LineDomain, LineSolver, PointDomain, PointSolver
+from gearlube_core.ehl.case.grids import (
+    FilmCase,
+    Heat,
+    LineDomain,
+    LineSolver,
+    PointDomain,
+    PointSolver,
+    refused,
+)
 from gearlube_core.ehl.case.sections import Body, Modulus, Oil
 from gearlube_core.ehl.case.surfaces import (
     DentShape,
@@ -19,14 +26,18 @@ from gearlube_core.ehl.case.surfaces import (
     RidgeShape,
     WavinessShape,
 )
-from gearlube_core.ehl.gap.micro_geometry import RoughGap
+from gearlube_core.ehl.gap import RoughGap
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
-from gearlube_core.ehl.point.cavitation import check_cavitation
-from gearlube_core.ehl.point.elliptical_contact import ContactDomain, elliptical_contact
-from gearlube_core.ehl.point.line_section import DOMAIN, check_repeats, line_section
+from gearlube_core.ehl.point.contact_domain import (
+    DOMAIN,
+    ContactDomain,
+    check_repeats,
+    elliptical_contact,
+    line_section,
+)
 from gearlube_core.ehl.point.problem import PointContactProblem
-from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.ehl.point.settings import PointSolverSettings, Sides
+from gearlube_core.ehl.point.solver import check_cavitation
 from gearlube_core.ehl.point.thermal.solver import check_thermal
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Usual

@@ -2,20 +2,47 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from gearlube_core.ehl.case.film_case import Wedge
+from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Usual
-from gearlube_core.input_file.input_file import Section
+from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.storage.file_names import Name
 
+Text = Annotated[str, Field(min_length=1)]
+Heat = Literal["isothermal", "thermal"]
+Wedge = Literal["upwind-1", "upwind-2", "central", "quick"]
 Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.0, 50.0)]
 Reach = Annotated[float, Field(ge=1.05, le=1000.0, allow_inf_nan=False)]
 Tolerance = Annotated[float, Field(gt=0.0, le=1e-2, allow_inf_nan=False)]
 LineNodes = Annotated[int, Field(ge=17, le=20001)]
 PointNodes = Annotated[int, Field(ge=17, le=2049)]
 Steps = Annotated[int, Field(ge=1, le=1000)]
+
+
+class FilmCase(InputFile):
+    """A lubricated contact with its name; shipped cases lie in gearlube_core/ehl/case/data."""
+
+    package: ClassVar[str] = "gearlube_core.ehl.case"
+
+    name: Name = Field(description="Name of the case in reports and figures")
+    source: Text = Field(description="Where the numbers come from")
+
+
+@contextmanager
+def refused(head: str = "") -> Iterator[None]:
+    """Turn a ParameterError into the ValueError that pydantic expects of a validator.
+
+    `head` begins the message.
+    """
+    try:
+        yield
+    except ParameterError as reason:
+        raise ValueError(f"{head}{str(reason).removesuffix('.')}") from None
 
 
 class LineDomain(Section):

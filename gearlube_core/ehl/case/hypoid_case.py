@@ -7,12 +7,11 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from gearlube_core.ehl.case.film_case import FilmCase, Heat, Text, Wedge
+from gearlube_core.ehl.case.grids import FilmCase, Heat, Text, Wedge
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
-from gearlube_core.mesh_table.netcdf import read_mesh_table
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 

@@ -9,17 +9,14 @@ import numpy as np
 from pydantic import Field, field_validator, model_validator
 
 from gearlube_core.ehl.case.contact_case import ContactCase, LineLoad, PartLength, Radius
-from gearlube_core.ehl.case.film_case import Wedge, refused
-from gearlube_core.ehl.case.grids import Steps, Tolerance
+from gearlube_core.ehl.case.grids import Steps, Tolerance, Wedge, refused
 from gearlube_core.ehl.case.rough_surfaces import RoughSurface
-from gearlube_core.ehl.point.line_section import line_section
+from gearlube_core.ehl.point.contact_domain import line_section
 from gearlube_core.ehl.point.problem import PointContactProblem
-from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.sides import FEWEST_ROWS, MOST_ROWS
+from gearlube_core.ehl.point.settings import FEWEST_ROWS, MOST_ROWS, PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.history import check_scheme
-from gearlube_core.ehl.transient.problem import MovingFilm
-from gearlube_core.ehl.transient.section import moving_section
+from gearlube_core.ehl.transient.problem import MovingFilm, moving_section
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.surface.moving import (

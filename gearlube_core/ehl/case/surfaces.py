@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gearlube_core.ehl.gap.micro_geometry import Dent, Ridge, Waviness
+from gearlube_core.ehl.gap import Dent, Ridge, Waviness
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.surface.measured_heights import (

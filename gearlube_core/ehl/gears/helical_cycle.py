@@ -5,10 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from gearlube_core.checks import check_within
-from gearlube_core.ehl.gears.film_columns import film_row
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.curves import FilmCurves, NumberedSteps, Progress, march_curves
+from gearlube_core.ehl.transient.curves import (
+    FilmCurves,
+    NumberedSteps,
+    Progress,
+    film_row,
+    march_curves,
+)
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
 

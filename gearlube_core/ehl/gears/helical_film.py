@@ -8,11 +8,11 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.contact.hertz import hertz_ellipse
+from gearlube_core.ehl.point.equations.stencil import Grading
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.solid_contact import SolidContact
-from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.helical_geometry.load_sharing import CONVENTIONS, shared_load
 from gearlube_core.helical_geometry.meshing_steps import MeshingSteps, jamali_2015_steps

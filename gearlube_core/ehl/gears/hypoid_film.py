@@ -9,9 +9,9 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.ehl.gears.hypoid_flank import FlankCycle, FlankInstant
-from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
-from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.oil.film_oil import FilmOil
 

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.film_laws import cooling_at
 from gearlube_core.oil.film_oil import FilmOil, limiting_stress, thermal_viscosity
 from gearlube_core.oil.sheared_film import layered_stress, shear_rate
-from gearlube_core.oil.viscosity_law import cooling_at
 
 
 class FilmFields(NamedTuple):

@@ -14,7 +14,7 @@ from gearlube_core.ehl.grid_error import twice_as_wide
 from gearlube_core.ehl.line.rows import STENCILS
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.groups import LineGroups, line_groups
-from gearlube_core.film.moes_1992 import central_film_group
+from gearlube_core.film.line_film import central_film_group
 from gearlube_core.oil.film_oil import FilmOil, pressure_viscosity
 
 CAVITATION = ("reynolds", "mass_conserving")

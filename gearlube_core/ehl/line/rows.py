@@ -12,10 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.density_law import density_ratio
+from gearlube_core.oil.film_laws import density_ratio, log_viscosity
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.sheared_film import flow_factor
-from gearlube_core.oil.viscosity_law import log_viscosity
 
 # codes of the wedge term's stencil
 CENTRAL, UPWIND_1, UPWIND_2, GALERKIN = 0, 1, 2, 3

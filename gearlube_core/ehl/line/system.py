@@ -2,18 +2,140 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
 from scipy.linalg.lapack import dgetrf, dgetrs
 
-from gearlube_core.ehl.line.deflection import LineDeflection
 from gearlube_core.ehl.line.oil_beyond import NOTHING, oil_beyond
 from gearlube_core.ehl.line.problem import LineProblem
-from gearlube_core.ehl.line.rows import fill_jacobian, fill_rows, local_rows
-from gearlube_core.ehl.line.scaling import line_scales, row_coefficients
+from gearlube_core.ehl.line.rows import (
+    STENCILS,
+    RowCoefficients,
+    fill_jacobian,
+    fill_rows,
+    local_rows,
+)
 
+# from here on the series of the hat's moments is exact to 1e-13
+_FAR = 10
+# Hertz pressures; the film's order is lost only where the pressure is of this size
+_BLEND = 1e-3
 LOAD = 0.5 * np.pi  # integral of the Hertz pressure over p_H b
+
+
+def hat_coefficients(step: float, count: int) -> np.ndarray:
+    """Return the integral of ln abs(x) over a unit hat, at multiples of the spacing.
+
+    G_d = integral of (1 - abs(s)/D) ln abs(d D - s) ds over abs(s) < D
+
+    Parameters
+    ----------
+    step : float
+        Half width of the hat and node spacing D [any length].
+    count : int
+        How many d = 0, 1, ... [-].
+
+    Returns
+    -------
+    numpy.ndarray
+        (count,), of the unit of `step`, with lengths inside the logarithm in that unit.
+
+    Notes
+    -----
+    Closed form by the second antiderivative x^2/2 ln x - 3 x^2/4 nearby, moments of the hat far
+    away, where the closed form would lose digits.
+    """
+    d = np.arange(count, dtype=float)
+    far = np.maximum(d, 1.0) ** -2
+    G = np.log(np.maximum(d, 1.0)) - far * (
+        1.0 / 12.0 + far * (1.0 / 60.0 + far * (1.0 / 168.0 + far * (1.0 / 360.0 + far / 660.0)))
+    )
+    near = np.arange(-1.0, min(count, _FAR) + 1.0)
+    square = near * near
+    second = square * (0.5 * np.log(np.where(near == 0.0, 1.0, abs(near))) - 0.75)
+    G[:_FAR] = (second[2:] - 2.0 * second[1:-1] + second[:-2])[: min(count, _FAR)]
+    return step * (G + math.log(step))
+
+
+class LineDeflection:
+    """Deflection on a uniform grid, H = -(1/pi) sum G P; dimensionless as in `line_scaling`.
+
+    Parameters
+    ----------
+    step : float
+        Node spacing over the Hertz half width [-].
+    count : int
+        Nodes.
+
+    Notes
+    -----
+    Pressure is linear between nodes and zero outside the grid. Exact linear convolution: the
+    transform is padded to 2 count - 1 at least.
+    """
+
+    def __init__(self, step: float, count: int) -> None:
+        self.influence = -hat_coefficients(step, count) / math.pi
+        self._length = next_fast_len(2 * count - 1, real=True)
+        kernel = np.zeros(self._length)
+        kernel[:count] = self.influence
+        kernel[-count + 1 :] = self.influence[:0:-1]
+        self._transform = rfft(kernel)
+        self._count = count
+
+    def __call__(self, P: np.ndarray) -> np.ndarray:
+        """Return the deflection [-] under nodal pressures (count,) [-]."""
+        spectrum = rfft(P, self._length) * self._transform
+        return irfft(spectrum, self._length)[: self._count]
+
+
+class LineScales(NamedTuple):
+    """Units of the dimensionless form."""
+
+    length: float  # b [m]
+    pressure: float  # p_H [Pa]
+    film: float  # b^2/R [m]
+    speed: float  # reference speed [m/s]
+
+    @property
+    def time(self) -> float:
+        """Unit of time, length over speed [s]."""
+        return self.length / self.speed
+
+
+def line_scales(problem: LineProblem) -> LineScales:
+    """Return the units of a problem; the speed is the largest of mean and surface speeds."""
+    b = problem.half_width
+    speed = max(abs(problem.entrainment_speed), abs(problem.speed_1), abs(problem.speed_2))
+    return LineScales(b, problem.hertz_pressure, b * b / problem.radius, speed or 1.0)
+
+
+def row_coefficients(
+    problem: LineProblem, scales: LineScales, step: float, stencil: str, mass_conserving: bool
+) -> RowCoefficients:
+    """Return the numbers of a steady balance on a grid of spacing `step` [Hertz half widths].
+
+    1/lambda = H-scale^3 p_H/(12 eta0 b) over the flow scale u_ref b^2/R
+    """
+    oil = problem.lubricant
+    tau0 = oil.shear.tau0
+    flow = scales.film**2 * scales.pressure / (12.0 * oil.eta0 * scales.length)
+    sliding = problem.speed_2 - problem.speed_1
+    return RowCoefficients(
+        step=step,
+        speed=problem.entrainment_speed / scales.speed,
+        mobility=flow / scales.speed,
+        pressure=scales.pressure,
+        sigma=scales.film * scales.pressure / (2.0 * tau0 * scales.length) if tau0 else 0.0,
+        shear=oil.eta0 * sliding / (scales.film * tau0) if tau0 else 0.0,
+        weight=1.0,
+        storage=0.0,
+        stencil=STENCILS[stencil],
+        blend=_BLEND if mass_conserving else 0.0,
+    )
 
 
 @dataclass(slots=True)

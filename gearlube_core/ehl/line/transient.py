@@ -10,9 +10,8 @@ import numpy as np
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.line.newton import newton
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
-from gearlube_core.ehl.line.scaling import row_coefficients
 from gearlube_core.ehl.line.solution import LineSolution, build_solution
-from gearlube_core.ehl.line.system import LOAD, LineState, LineSystem
+from gearlube_core.ehl.line.system import LOAD, LineState, LineSystem, row_coefficients
 from gearlube_core.ehl.time_error import TimeError, time_error_sentence
 from gearlube_core.errors import ConvergenceError, ParameterError
 

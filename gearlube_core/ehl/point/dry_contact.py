@@ -14,7 +14,7 @@ from gearlube_core.contact.half_space_periodic import PeriodicDeflection, period
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import Outcome, UnilateralProblem
 from gearlube_core.ehl.point.problem import PointContactProblem
-from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.ehl.point.settings import Sides
 from gearlube_core.errors import ParameterError
 
 
@@ -154,7 +154,7 @@ def dry_contact(
     Examples
     --------
     >>> from gearlube_core.oil.film_oil_data import film_oil
-    >>> from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+    >>> from gearlube_core.ehl.point.contact_domain import elliptical_contact
     >>> film = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(1.0, 0.0), load=20.0,
     ...     contact_modulus=1.15e11, lubricant=film_oil(eta0=0.04, alpha=2e-8), nodes=(65, 65))
     >>> dry = dry_contact(film)

@@ -10,8 +10,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.equations.grid import PointGrid
-from gearlube_core.ehl.point.equations.mesh import Grading
-from gearlube_core.ehl.point.equations.stencil import StencilParameters
+from gearlube_core.ehl.point.equations.stencil import Grading, StencilParameters
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import WEDGE_WEIGHTS

@@ -11,16 +11,15 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.ehl.grid_error import twice_as_wide
 from gearlube_core.ehl.point.far_field import FarField
-from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.ehl.point.settings import Sides
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
 from gearlube_core.film.groups import line_groups
-from gearlube_core.film.moes_1992 import central_film_group
-from gearlube_core.film.nijenbanning_1994 import regime_films
+from gearlube_core.film.line_film import central_film_group
+from gearlube_core.film.point_film import central_film_thickness, film_geometry, regime_films
 from gearlube_core.oil.film_oil import FilmOil, pressure_viscosity
 
 Gap = Callable[[Array, Array], Array]
@@ -109,7 +108,7 @@ class PointContactProblem:
     --------
     `elliptical_contact` builds that of two smooth solids, `line_section` a part of a line's.
 
-    >>> from gearlube_core.ehl.point.elliptical_contact import elliptical_contact
+    >>> from gearlube_core.ehl.point.contact_domain import elliptical_contact
     >>> from gearlube_core.oil.film_oil_data import film_oil
     >>> oil = film_oil(eta0=0.04, alpha=2e-8)
     >>> ball = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0,

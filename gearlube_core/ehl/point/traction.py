@@ -9,8 +9,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.line.traction import fill_mean_stress
-from gearlube_core.oil.film_oil import FilmOil
-from gearlube_core.oil.film_properties import fill_properties
+from gearlube_core.oil.film_oil import FilmOil, fill_properties
 
 
 class PointTraction(NamedTuple):

@@ -13,8 +13,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.point.traction import point_traction
-from gearlube_core.ehl.statistics.distribution import Distribution, weighted_percentiles
-from gearlube_core.ehl.statistics.zone import FilmZone
+from gearlube_core.ehl.statistics.zone import Distribution, FilmZone, weighted_percentiles
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import FilmOil
 

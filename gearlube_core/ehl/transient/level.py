@@ -3,27 +3,62 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.ehl.point.equations.grid import PointGrid
-from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.equations.stencil import Grading
 from gearlube_core.ehl.point.level import PointLevel, Scheme
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.point.sides import FEWEST_ROWS
+from gearlube_core.ehl.point.settings import FEWEST_ROWS
 from gearlube_core.ehl.point.terms.boundary import AmbientOutside
-from gearlube_core.ehl.point.terms.differences import Differences
-from gearlube_core.ehl.point.terms.entrainment import RowEntrainment
-from gearlube_core.ehl.point.terms.film_terms import film_shear
-from gearlube_core.ehl.point.terms.storage import Storage
-from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.point.terms.differences import Differences, Storage
+from gearlube_core.ehl.point.terms.film_terms import RowEntrainment, film_shear
+from gearlube_core.ehl.point.terms.solids import NoContact, TouchingSolids
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ParameterError
 
 _STEEPEST = 20.0  # of entrainment against x
+_MOST_NODES = 0.05  # share of the nodes with pressure; more are no peaks of roughness
+_CALLS = 12
+_SHARE = 0.7  # of what is missing, in one call: neighbours lift each other
+_BEYOND = 1.5  # the least film, which is aimed at
+
+
+@dataclass(frozen=True, slots=True)
+class FilmConditions:
+    """What acts on a film at one time, on the nodes of one grid.
+
+    Parameters
+    ----------
+    gap : ndarray, shape (nx, ny)
+        Of the undeformed solids [m], finite, up to a constant.
+    load : float
+        W [N].
+    speed_1, speed_2 : ndarray, shape (ny,)
+        Surface speeds along x [m/s]; their mean is above zero. They may vary across the motion,
+        not along it.
+    slope : float
+        Entrainment along y over that along x [-], not below zero.
+    side_sliding : float
+        Speed along y of surface 2 less that of surface 1 [m/s], on all rows; where it is not
+        zero the sliding along x must not vary either. It acts in an Eyring film alone.
+    """
+
+    gap: Array
+    load: float
+    speed_1: Array
+    speed_2: Array
+    slope: float = 0.0
+    side_sliding: float = 0.0
+
+
+# (x, y, time) to what acts then: nodes [m], shapes (nx,) and (ny,); time [s]
+Conditions = Callable[[Array, Array, float], FilmConditions]
 
 
 class MovingLevel(PointLevel):
@@ -92,3 +127,71 @@ class MovingLevel(PointLevel):
     def set_storage(self, rate: Array | float, source: Array) -> None:
         """Set the rate at which rho h is stored and what is stored already, (ny, nx) [-]."""
         self.terms = replace(self.terms, storage=Storage.of(rate, source, self.shape))
+
+
+def lifted(level: MovingLevel, state: FilmState, least: Array | float) -> FilmState | None:
+    """Return the state with pressure added where its film is too thin.
+
+    Parameters
+    ----------
+    level
+        Grid.
+    state
+        A trial; its film may be below zero.
+    least : ndarray, shape (ny, nx), or float
+        Film that every node should have [-].
+
+    Returns
+    -------
+    FilmState or None
+        None: more than a few nodes are too thin, or they are still after twelve calls.
+
+    Notes
+    -----
+    A linearised film overshoots at peaks. To shorten the step everywhere for their sake, or to part
+    the solids, costs far more steps than to press these peaks down by themselves.
+    """
+    pressure, film = state.pressure.copy(), state.film
+    own, limit = level.grid.own_deflection, np.broadcast_to(least, film.shape)
+    few = _MOST_NODES * np.count_nonzero(pressure > 0.0)
+    for _ in range(_CALLS):
+        low = film < limit
+        count = np.count_nonzero(low)
+        if count == 0:
+            return level.state(pressure, state.approach)
+        if count > few:
+            return None
+        pressure[low] += _SHARE * (_BEYOND * limit - film)[low] / own[low]
+        film = level.film(pressure, state.approach)
+    return None
+
+
+def lifted_off_solids(level: MovingLevel, state: FilmState) -> FilmState:
+    """Return the state lifted where solids press on each other far more than the pressure says.
+
+    Parameters
+    ----------
+    level
+        Grid.
+    state
+        A trial; its film is above zero.
+
+    Returns
+    -------
+    FilmState
+        As given where no node, or more than a few, are pressed too far.
+
+    Notes
+    -----
+    The pressure of a layer rises with the second power of 1/h: a Newton step that left a node with
+    too thin a film is followed by steps that each make it thicker by a third or so. Such nodes get
+    the film at which their layer carries the pressure, at once.
+    """
+    contact, solids = state.contact, level.terms.solids
+    if isinstance(contact, NoContact) or not isinstance(solids, TouchingSolids):
+        return state
+    carrying = solids.layer.film(np.maximum(state.pressure, 0.0))
+    least = np.where(contact.left < 0.0, carrying / _BEYOND, 0.0)
+    if not (state.film < least).any():
+        return state
+    return lifted(level, state, least) or state

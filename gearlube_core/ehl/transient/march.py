@@ -11,21 +11,19 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
-from gearlube_core.ehl.point.cavitation import refuse_rupture
 from gearlube_core.ehl.point.newton.column_multigrid import ColumnCycles
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
+from gearlube_core.ehl.point.newton.transfer import Hierarchy
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import refuse_rupture
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.time_error import TimeError
-from gearlube_core.ehl.transient.history import FilmHistory, check_scheme
-from gearlube_core.ehl.transient.level import MovingLevel
-from gearlube_core.ehl.transient.lift import lifted
+from gearlube_core.ehl.transient.history import FilmHistory, MarchRecord, check_scheme
+from gearlube_core.ehl.transient.level import MovingLevel, lifted
 from gearlube_core.ehl.transient.newton import LaggedPreconditioner, step_newton
 from gearlube_core.ehl.transient.problem import MovingFilm, set_conditions
-from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.rows import RowCycle
 from gearlube_core.ehl.transient.solution import FilmSolution, film_solution, pack_solutions
 from gearlube_core.ehl.transient.steady import steady_state

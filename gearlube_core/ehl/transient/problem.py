@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.grid_error import twice_as_wide
-from gearlube_core.ehl.point.equations.mesh import Grading, x_nodes
+from gearlube_core.ehl.point.equations.stencil import Grading, x_nodes
 from gearlube_core.ehl.point.level import DISCRETE, PointLevel
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
-from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.newton.transfer import Hierarchy, Transfer, grid_shapes
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.ehl.point.settings import PointSolverSettings, Sides
 from gearlube_core.ehl.point.solid_contact import SolidContact
-from gearlube_core.ehl.transient.conditions import Conditions
-from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.level import Conditions, FilmConditions, MovingLevel
 from gearlube_core.ehl.transient.rows import row_shapes
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import FilmOil
 
 _LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
+# (x, y, time) to heights of both solids above their smooth shape together [m], shape (nx, ny)
+Heights = Callable[[Array, Array, float], Array]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -197,3 +199,47 @@ def set_conditions(
             level.set_conditions(film.conditions(level.grid.x, level.grid.y, time))
     for level in grids.levels:
         level.set_load(finest.load)
+
+
+def moving_section(
+    section: PointContactProblem, heights: Heights, solids: SolidContact | None = None
+) -> MovingFilm:
+    """Return the film of a part of a line contact whose heights change in time.
+
+    Parameters
+    ----------
+    section
+        The smooth contact with its sliding, of `line_section`.
+    heights
+        Of nodes x (nx,) and y (ny,) [m] and a time [s]: what both solids together stand above
+        their smooth shape [m], shape (nx, ny). It narrows the gap.
+    solids
+        What carries load where the film vanishes; None: the oil alone.
+
+    Raises
+    ------
+    ParameterError
+        The section does not say how it slides.
+    """
+    if section.sliding is None:
+        raise ParameterError("section must have sliding, got none. Give (u_2 - u_1, 0) m/s.")
+    mean, half = section.entrainment[0], 0.5 * section.sliding[0]
+
+    def conditions(x: Array, y: Array, time: float) -> FilmConditions:
+        gap = section.gap(x[:, None], y[None, :]) - heights(x, y, time)
+        rows = np.ones(y.size)
+        return FilmConditions(gap, section.load, (mean - half) * rows, (mean + half) * rows)
+
+    return MovingFilm(
+        conditions=conditions,
+        lubricant=section.lubricant,
+        contact_modulus=section.contact_modulus,
+        x_limits=section.x_limits,
+        y_limits=section.y_limits,
+        nodes=section.nodes,
+        hertz=section.hertz,
+        load=section.load,
+        speed=mean,
+        solids=solids,
+        sides=section.sides,
+    )

@@ -10,11 +10,10 @@ from scipy.interpolate import interpn
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.grid_error import SECOND_ORDER, FilmError, FilmNumbers, formal_order
-from gearlube_core.ehl.point.border_pressure import border_pressure
-from gearlube_core.ehl.point.equations.mesh import cell_faces
+from gearlube_core.ehl.point.equations.stencil import cell_faces
+from gearlube_core.ehl.point.far_field import border_pressure
 from gearlube_core.ehl.point.newton.newton import flow_residual
-from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.ehl.point.settings import PointSolverSettings, Sides
 from gearlube_core.ehl.point.solid_contact import NO_TOUCH, Touch
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.thin_film import thin_film_sentence

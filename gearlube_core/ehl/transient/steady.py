@@ -8,16 +8,19 @@ from dataclasses import replace
 import numpy as np
 
 from gearlube_core.ehl.grid_error import FIRST_ORDER, check_search, coarser_films, refined_film
-from gearlube_core.ehl.point.cavitation import refuse_rupture
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
+from gearlube_core.ehl.point.newton.transfer import Hierarchy
 from gearlube_core.ehl.point.problem import MOST_NODES, expected_film
-from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.sides import Sides
-from gearlube_core.ehl.point.start.continuation import solve_level
-from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, interpolated_state, zero_border
+from gearlube_core.ehl.point.settings import PointSolverSettings, Sides
+from gearlube_core.ehl.point.solver import refuse_rupture
+from gearlube_core.ehl.point.start import (
+    COARSE_TOLERANCE,
+    interpolated_state,
+    solve_level,
+    zero_border,
+)
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.problem import MovingFilm, set_conditions

@@ -21,16 +21,19 @@ from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE, SIDES
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_contact.refusal import check_pair
-from gearlube_core.hypoid_contact.sensitivity.ease_off_rates import ease_off_rates
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import (
     QUANTITIES,
     LoadedQuantities,
     loaded_rates,
 )
-from gearlube_core.hypoid_contact.sensitivity.parameter import usual_parameters
-from gearlube_core.hypoid_contact.sensitivity.path_rates import PathRates, angle_rates, path_rates
+from gearlube_core.hypoid_contact.sensitivity.parameter import Variations, usual_parameters
 from gearlube_core.hypoid_contact.sensitivity.sensitivity_dataset import sensitivity_dataset
-from gearlube_core.hypoid_contact.sensitivity.variations import Variations
+from gearlube_core.hypoid_contact.sensitivity.unloaded_rates import (
+    PathRates,
+    angle_rates,
+    ease_off_rates,
+    path_rates,
+)
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
 from gearlube_core.hypoid_contact.unloaded_error import UnloadedError, unloaded_error
 from gearlube_core.hypoid_geometry.flank.flank import Side

@@ -11,8 +11,7 @@ from gearlube_core.arrays import Array, Indices
 from gearlube_core.hypoid_contact.gap_map import along_normals
 from gearlube_core.hypoid_contact.loaded_contact import LoadedPair
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placed_flank import placed_axis, tooth_position
-from gearlube_core.hypoid_contact.placement import Placement
+from gearlube_core.hypoid_contact.placement import Placement, placed_axis, tooth_position
 from gearlube_core.hypoid_contact.strips import Strip, StripFrame, facing_cells
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.tooth_compliance.flank_compliance import FlankCompliance

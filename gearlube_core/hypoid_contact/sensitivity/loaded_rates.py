@@ -12,9 +12,9 @@ from scipy.linalg import block_diag
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.loaded_contact import LoadedState
 from gearlube_core.hypoid_contact.sensitivity.frozen_cells import CellGeometry, FrozenCells
-from gearlube_core.hypoid_contact.sensitivity.variations import Variations
+from gearlube_core.hypoid_contact.sensitivity.parameter import Variations
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
-from gearlube_core.tooth_contact.frozen_equilibrium import FrozenEquilibrium, frozen_compliance
+from gearlube_core.tooth_contact.held_contact import FrozenEquilibrium, frozen_compliance
 
 QUANTITIES = (
     "rotation",

@@ -16,8 +16,11 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_contact.refusal import check_pair
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import loaded_rates
-from gearlube_core.hypoid_contact.sensitivity.parameter import Parameter, usual_parameters
-from gearlube_core.hypoid_contact.sensitivity.variations import Variations
+from gearlube_core.hypoid_contact.sensitivity.parameter import (
+    Parameter,
+    Variations,
+    usual_parameters,
+)
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

@@ -15,13 +15,15 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE, SIDES, CycleSettings
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.tooth_errors.hunting_turn import TurnProblem
-from gearlube_core.hypoid_contact.tooth_errors.pair_curves import SAMPLES, position_curves
+from gearlube_core.hypoid_contact.tooth_errors.pair_curves import (
+    SAMPLES,
+    TurnProblem,
+    position_curves,
+)
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, ToothErrors
-from gearlube_core.mesh_table.fourier import ZERO_PHASE
-from gearlube_core.mesh_table.table import MEMBERS, MeshTable
+from gearlube_core.mesh_table.table import MEMBERS, ZERO_PHASE, MeshTable
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.result_store import Record
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness

@@ -16,8 +16,7 @@ from scipy.optimize import brentq
 
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead, ToothTrace
-from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
+from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones, ToothTrace
 from gearlube_core.number import Number, check_fields
 
 _METRES = "Give metres, not millimetres."

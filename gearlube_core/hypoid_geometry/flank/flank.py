@@ -16,9 +16,8 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.flank.correction import NO_CORRECTION, Bends, FlankCorrection
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion, cut_state
-from gearlube_core.hypoid_geometry.flank.grid import march, sample_surface
 from gearlube_core.hypoid_geometry.flank.machine_frames import Curve, gear_cut, pinion_cut
-from gearlube_core.hypoid_geometry.flank.surface_point import regularity
+from gearlube_core.hypoid_geometry.flank.surface_point import march, regularity, sample_surface
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 Role = Literal["pinion", "gear"]

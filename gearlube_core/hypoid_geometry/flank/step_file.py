@@ -10,9 +10,9 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from gearlube_core.arrays import Array
-from gearlube_core.hypoid_geometry.flank.export import MIRROR
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
+from gearlube_core.hypoid_geometry.flank.tooth_solid import MIRROR
 from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.units import MILLIMETRE
 

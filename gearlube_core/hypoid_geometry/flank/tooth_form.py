@@ -9,8 +9,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side
-from gearlube_core.hypoid_geometry.flank.flank_root_limit import FlankRootLimit
-from gearlube_core.hypoid_geometry.flank.tooth import Tooth
+from gearlube_core.hypoid_geometry.flank.tooth import FlankRootLimit, Tooth
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import MILLIMETRE
 

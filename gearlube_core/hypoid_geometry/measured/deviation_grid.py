@@ -10,16 +10,41 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_geometry.flank.flank import Role, Side
-from gearlube_core.hypoid_geometry.measured.member_rows import role_of, side_of
-from gearlube_core.input_file.table import read_table
+from gearlube_core.hypoid_geometry.flank.flank import CURVES, Role, Side
+from gearlube_core.input_file.table import Row, read_table
 
+_ROLES: tuple[Role, Role] = ("pinion", "gear")
 COLUMNS = ("member", "flank", "tooth", "row", "column", "deviation_um")
 MOST_POINTS = 99  # rows or columns of a grid
 _MOST = 500.0  # um
 _LEAST = 0.1  # um, largest deviation of a grid that can be meant
 _ZERO = 0.05  # um, of a middle point
 _NAMED = 5  # missing points in an error
+
+
+def role_of(row: Row) -> Role:
+    """Return the member of a row: "pinion" or "gear"."""
+    given = row.text("member").lower()
+    for role in _ROLES:
+        if given == role:
+            return role
+    raise ParameterError(
+        f"{row.where}: member must be pinion or gear, got {given!r}. The gear is the larger "
+        "one, also called wheel or ring gear."
+    )
+
+
+def side_of(row: Row, role: Role) -> Side:
+    """Return the flank of a row: "drive" or "coast", for which it may say convex or concave."""
+    given = row.text("flank").lower()
+    for (member, side), curve in CURVES.items():
+        if member == role and given in (side, curve):
+            return side
+    raise ParameterError(
+        f"{row.where}: flank must be drive, coast, convex or concave, got {given!r}. Left and "
+        "right depend on who looks; the drive flank of the gear is convex, that of the pinion "
+        "concave."
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,8 +14,12 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side, tooth_region
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.measured.deviation_grid import MOST_POINTS, GridPlaces
-from gearlube_core.hypoid_geometry.measured.member_rows import role_of, side_of
+from gearlube_core.hypoid_geometry.measured.deviation_grid import (
+    MOST_POINTS,
+    GridPlaces,
+    role_of,
+    side_of,
+)
 from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, ToothErrors, Wave
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import InputFile, Section

@@ -15,27 +15,52 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.correction import surface_powers
-from gearlube_core.hypoid_geometry.flank.export import MIRROR
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role, Side
+from gearlube_core.hypoid_geometry.flank.tooth_solid import MIRROR
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.deviation_grid import (
     MOST_POINTS,
     DeviationGrid,
     GridPlaces,
     read_deviation_grids,
+    role_of,
+    side_of,
 )
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
-from gearlube_core.hypoid_geometry.measured.member_rows import role_of, side_of
 from gearlube_core.hypoid_geometry.measured.tooth_errors import ToothErrors
 from gearlube_core.input_file.table import read_table
+from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.units import MILLIMETRE
 
+EXAMPLE = Path(__file__).parents[1] / "data" / "measured"
 COLUMNS = ("member", "flank", "row", "column", "x_mm", "y_mm", "z_mm")
 
 _FURTHEST = 2e-6  # m, of a nominal point from the flank
 _ROUGH = 20e-6  # m, rms with which another hand or flank is recognised
 _SPREAD = 0.03  # of s or t along a row or column
 _FARTHEST = 1e4  # mm
+
+
+def write_example(folder: Path) -> tuple[Path, ...]:
+    """Write the example into a folder; return the files, the measured-gear file first.
+
+    Raises
+    ------
+    ParameterError
+        One of the files is there already. Nothing is written then.
+    """
+    shipped = sorted(EXAMPLE.iterdir(), key=lambda file: (file.suffix != ".toml", file.name))
+    written = tuple(folder / file.name for file in shipped)
+    there = [str(path) for path in written if path.exists()]
+    if there:
+        raise ParameterError(
+            f"--example must be a folder without these files, got {', '.join(there)}. Choose "
+            "another folder."
+        )
+    folder.mkdir(parents=True, exist_ok=True)
+    for source, path in zip(shipped, written, strict=True):
+        write_text(source.read_text(encoding="utf-8"), path)
+    return written
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

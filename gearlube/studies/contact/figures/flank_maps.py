@@ -10,7 +10,7 @@ import xarray as xr
 from gearlube.plotting.drawn_tooth import DrawnTooth
 from gearlube.plotting.style import SKY, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
-from gearlube_core.hypoid_contact.contact_pattern import MARKING_COMPOUND
+from gearlube_core.hypoid_contact.ease_off import MARKING_COMPOUND
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
 _SIDES = {"drive": "drive side", "coast": "coast side"}

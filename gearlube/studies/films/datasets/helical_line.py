@@ -16,7 +16,7 @@ from gearlube_core.ehl.grid_error import estimated_error
 from gearlube_core.ehl.line.problem import LineProblem
 from gearlube_core.ehl.line.traction import fill_mean_stress
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.oil.film_properties import fill_properties
+from gearlube_core.oil.film_oil import fill_properties
 
 
 def helical_dataset(

@@ -40,6 +40,7 @@ from gearlube.studies.films.figures.point_contact import (
     point_shear,
     point_temperature,
 )
+from gearlube_core.storage.atomic_file import write_figure
 
 _THICK = 2.0  # films over the central one that have contours
 _SHARES = (0.05, 0.15, 0.35, 0.65, 0.85, 0.95)  # of the loaded length
@@ -279,7 +280,7 @@ def save_film_figures(dataset: xr.Dataset, directory: Path, prefix: str = "") ->
     files = []
     for name in drawn_figures(dataset):
         path = directory / f"{prefix}{name}.png"
-        catalogue[name].draw(dataset).savefig(path, dpi=150)
+        write_figure(catalogue[name].draw(dataset), path)
         files.append(path)
     return files
 

@@ -20,8 +20,7 @@ from gearlube_core.dynamics.hypoid_axle import (
 from gearlube_core.dynamics.ranges import TORQUE_MARGIN
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
-from gearlube_core.ehl.gears.hypoid_flank import FlankCycle
-from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
+from gearlube_core.ehl.gears.hypoid_flank import FlankCycle, pair_contact, phase_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_migration, contact_path
@@ -29,7 +28,7 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.film_oil_data import film_oil_of
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 from gearlube_core.units import kelvin_to_celsius
 
 LOADS = ("dynamic", "static")

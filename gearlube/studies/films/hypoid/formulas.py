@@ -9,16 +9,16 @@ from gearlube.studies.films.hypoid.flank import HypoidFlank
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import solid_parameters
 from gearlube_core.ehl.gears.hypoid_flank import FlankInstant
-from gearlube_core.film.chittenden_1985 import (
-    central_film_thickness,
-    film_geometry,
-    minimum_film_geometry,
-    minimum_film_thickness,
-)
 from gearlube_core.film.grubin_1949 import (
     grubin_convention,
     grubin_film_thickness,
     grubin_geometry,
+)
+from gearlube_core.film.point_film import (
+    central_film_thickness,
+    film_geometry,
+    minimum_film_geometry,
+    minimum_film_thickness,
 )
 from gearlube_core.friction.evans_johnson_1986 import (
     solid_resistance,

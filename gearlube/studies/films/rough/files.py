@@ -18,7 +18,7 @@ from gearlube.studies.films.figures.rough import (
 )
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import FileError, ParameterError
-from gearlube_core.storage.atomic_file import atomic_write, read_dataset, write_dataset, write_text
+from gearlube_core.storage.atomic_file import read_dataset, write_dataset, write_figure, write_text
 
 DATASET, FRAMES = "rough.nc", "frames"
 
@@ -138,7 +138,6 @@ def write_rough_results(dataset: xr.Dataset, folder: Path) -> list[Path]:
             drawn[path.stem] = rough_frame(frame.isel(time=0))
     written = [folder / DATASET, folder / "summary.csv"]
     for name, figure in drawn.items():
-        with atomic_write(figures / f"{name}.png") as partial:
-            figure.savefig(partial, format="png", dpi=150)
+        write_figure(figure, figures / f"{name}.png")
         written.append(figures / f"{name}.png")
     return written

@@ -19,8 +19,8 @@ from gearlube.studies.films.rough.gather import Gathered, new_statistics
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.statistics.rough_film import statistics_of_run
+from gearlube_core.ehl.transient.history import MarchRecord
 from gearlube_core.ehl.transient.march import FilmMarch
-from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ConvergenceError, FileError, InterruptedRunError, ParameterError
 from gearlube_core.progress import Progress, no_progress

@@ -46,6 +46,7 @@ from gearlube.studies.helical.figures.speed_sweep import campbell, friction_spee
 from gearlube.studies.helical.figures.stability import instability, separation
 from gearlube.studies.helical.figures.tooth_stiffness import constant_stiffness, loaded_stiffness
 from gearlube_core.film_model.model import MOST_OUTSIDE
+from gearlube_core.storage.atomic_file import write_figure
 
 # each takes the datasets of `geometry_dataset` that are drawn side by side
 GEOMETRY_CATALOGUE: dict[str, Callable[[Sequence[xr.Dataset]], Any]] = {
@@ -105,7 +106,7 @@ def pair_losses(dataset: xr.Dataset) -> Any:
                         lw=0.0,
                     )
             ax.set(xlabel="pinion speed [rpm]", title=f"oil {temperature:g} °C")
-            ax.set_ylim(bottom=0.0)
+        panels[0].set_ylim(bottom=0.0)  # of all panels, once all are drawn
         panels[0].set_ylabel("loss torque at the pinion [N·m]")
         handles, names = panels[0].get_legend_handles_labels()
         figure.legend(
@@ -322,7 +323,7 @@ def save_helical_figures(datasets: Mapping[str, xr.Dataset], directory: Path) ->
     for name, one in HELICAL_CATALOGUE.items():
         if one.needs in datasets:
             path = directory / f"{name}.png"
-            one.draw(datasets[one.needs]).savefig(path, dpi=150)
+            write_figure(one.draw(datasets[one.needs]), path)
             files.append(path)
     if "geometry" in datasets:
         files += save_geometry_figures([datasets["geometry"]], directory / "geometry")
@@ -351,6 +352,6 @@ def save_geometry_figures(datasets: Sequence[xr.Dataset], directory: Path) -> li
         drawn = drawn_datasets(name, datasets)
         if drawn:
             path = directory / f"{name}.png"
-            draw(drawn).savefig(path, dpi=150)
+            write_figure(draw(drawn), path)
             files.append(path)
     return files

@@ -16,7 +16,7 @@ from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_QUANTITIES
 from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, PHI_P, SIDE

@@ -14,13 +14,12 @@ from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.raceway_drag import steady_load, steady_rollers
 from gearlube_core.bearings.roller_loads import roller_films, roller_loads
-from gearlube_core.bearings.roller_nodes import roller_film
-from gearlube_core.bearings.solved_raceways import races_of
+from gearlube_core.bearings.roller_nodes import races_of, roller_film
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import SOLVED_FILMS
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
 from gearlube_core.dynamics.hypoid_axle.state import W_P
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
 FORMULA = "Mostofi and Gohar 1983"
 SOLVED = "solved films"

@@ -20,6 +20,7 @@ from gearlube.studies.sweep.figures.operation import operating_points
 from gearlube.studies.sweep.figures.order_cuts import BEARING_CUTS, order_cuts
 from gearlube.studies.sweep.figures.spectrum_map import MapChannel, default_top
 from gearlube.studies.sweep.figures.waveforms import roller_zone, waveforms
+from gearlube_core.storage.atomic_file import write_figure
 
 _SPEED = Axis("vehicle speed", "km/h")
 _LARGEST = 15.0  # pixels
@@ -251,6 +252,6 @@ def save_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
     files = []
     for entry in CATALOGUE:
         path = directory / f"{entry.name}.png"
-        entry.draw(dataset).savefig(path, dpi=150)
+        write_figure(entry.draw(dataset), path)
         files.append(path)
     return files

@@ -6,7 +6,7 @@ psi = r_bp th_zp + r_bg th_zg. With psi in place of th_zp and th_zg a steady sta
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,12 +15,12 @@ from gearlube_core.dynamics.helical_pair.kernel_parameters import COORDINATES, M
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import N_COLUMNS, point_capacity
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmField, film_moments
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
-from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import (
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
+    N_SUMS,
     phase_moments,
     strain_rows,
     wrench_columns,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import N_SUMS
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.kernels.jit import kernel
@@ -28,6 +28,32 @@ from gearlube_core.kernels.jit import kernel
 RELATIVE = (*(name for name in COORDINATES if not name.startswith("th_z")), "psi")
 _KEPT = tuple(i for i, name in enumerate(COORDINATES) if not name.startswith("th_z"))
 _PHASES = 16  # at which the fastest motion is looked for
+
+
+class MatrixEntries(NamedTuple):
+    """Entries that are not zero, all of shape (entries,)."""
+
+    row: np.ndarray[Any, np.dtype[np.int64]]
+    column: np.ndarray[Any, np.dtype[np.int64]]
+    value: Array
+
+
+def matrix_entries(matrix: Array) -> MatrixEntries:
+    """Return the entries of a matrix."""
+    row, column = np.nonzero(matrix)
+    return MatrixEntries(
+        row.astype(np.int64), column.astype(np.int64), np.ascontiguousarray(matrix[row, column])
+    )
+
+
+@kernel
+def add_product(factor: float, matrix: MatrixEntries, x: Array, out: Array) -> None:
+    """Add factor times matrix times x to `out`; x and `out` have any number of columns."""
+    columns = x.shape[1]
+    for entry in range(matrix.value.size):
+        row, column, value = matrix.row[entry], matrix.column[entry], factor * matrix.value[entry]
+        for j in range(columns):
+            out[row, j] += value * x[column, j]
 
 
 class LinearSystem(NamedTuple):

@@ -10,14 +10,12 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     LinearSystem,
-    event_phases,
-    fastest_frequency,
-    system_moments,
-)
-from gearlube_core.dynamics.helical_pair.linear.matrix_entries import (
     MatrixEntries,
     add_product,
+    event_phases,
+    fastest_frequency,
     matrix_entries,
+    system_moments,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_constant
 from gearlube_core.kernels.jit import kernel

@@ -17,9 +17,9 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
 )
 from gearlube_core.dynamics.helical_pair.linear.period_march import PeriodMarch, march_period
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmConstants, FilmField
-from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import wrench_columns
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import wrench_columns
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.supports.bearing_forces import bearing_forces
+from gearlube_core.dynamics.helical_pair.supports import bearing_forces
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.periodic.floquet import floquet_multipliers
 

@@ -10,23 +10,23 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
-from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
-from gearlube_core.dynamics.helical_pair.march.flank_views import (
-    coast_deepest,
-    deepest,
-    drive_view,
-)
-from gearlube_core.dynamics.helical_pair.march.integrate import LOAD_FILTER_TIME
+from gearlube_core.dynamics.helical_pair.march.integrate import LOAD_FILTER_TIME, refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
     mesh_at_torque,
 )
-from gearlube_core.dynamics.helical_pair.march.state import LOAD_TORQUE, N_ODE
+from gearlube_core.dynamics.helical_pair.march.state import (
+    LOAD_TORQUE,
+    N_ODE,
+    MarchConstants,
+    coast_deepest,
+    deepest,
+    drive_view,
+)
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 # outputs that hold the continuous states, in the order of the state vector
 STATE_NAMES: tuple[str, ...] = (

@@ -6,8 +6,7 @@ import math
 from typing import TypeAlias
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, MotionConstants
-from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.integrate import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
@@ -27,12 +26,14 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     V_P,
     W_G,
     W_P,
+    MarchConstants,
+    MotionConstants,
 )
 from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
-from gearlube_core.kernels.eigenvalues import eigenvalues
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.kernels.spectral_radius import spectral_radius
+from gearlube_core.oil.lubricant import lubricant_state
 
 OK = 0
 NO_EQUILIBRIUM = 1
@@ -104,7 +105,7 @@ _UNKNOWNS = _FORCES + MAX_UNKNOWNS
 _SCALES = _UNKNOWNS + MAX_UNKNOWNS
 _OUT = _SCALES + MAX_UNKNOWNS
 _NEWTON = _OUT + MAX_UNKNOWNS
-EQUILIBRIUM_WORK = _NEWTON + max(NEWTON_WORK, MAX_UNKNOWNS**2)
+EQUILIBRIUM_WORK = _NEWTON + max(NEWTON_WORK, 2 * MAX_UNKNOWNS**2)
 
 
 @kernel
@@ -226,10 +227,10 @@ def largest_offset(mesh: MeshFields) -> float:
 
 
 @kernel
-def squared_frequencies(
-    s: Array, mesh: MeshFields, data: Array, work: Array, real: Array, imaginary: Array
-) -> tuple[int, int]:
-    """Write the squared natural frequencies about a state [rad2/s2]; return a status and how many.
+def stiffness_over_mass(s: Array, mesh: MeshFields, data: Array, work: Array, matrix: Array) -> int:
+    """Write M^-1 K about a state, row by row [rad2/s2]; return its number of rows.
+
+    Its eigenvalues are the squares of the natural frequencies.
 
     Parameters
     ----------
@@ -238,20 +239,13 @@ def squared_frequencies(
     mesh, data
         As in `integrate.advance`.
     work : ndarray of shape (EQUILIBRIUM_WORK,)
-    real, imaginary : ndarray of shape (MAX_UNKNOWNS,)
-        Parts of the squares, in no order. Those of stable motions without friction are real.
-
-    Returns
-    -------
-    tuple of (int, int)
-        OK or NO_FREQUENCIES.
+    matrix : ndarray of shape (MAX_UNKNOWNS**2,)
     """
     motion: MotionConstants = tuple_from_array(data, MotionConstants)
     plane = motion.flanks.plane
     slope = work[_SLOPE:_PLACES]
     places = work[_PLACES:_FORCES]
     n = free_places(motion, places, work[_FORCES:_UNKNOWNS])
-    matrix = work[_NEWTON : _NEWTON + n * n]
     mesh_at_torque(s[LOAD_TORQUE], mesh, data)
     for i in range(N_LATERAL):
         s[V_P + i] = 0.0
@@ -270,8 +264,7 @@ def squared_frequencies(
             for i in range(1, n):
                 matrix[i * n + j] += factor * slope[row_of(int(places[i]))]
         s[place] = here
-    status = eigenvalues(matrix, n, real[:n], imaginary[:n])
-    return OK if status == 0 else NO_FREQUENCIES, n
+    return n
 
 
 @kernel
@@ -308,10 +301,7 @@ def highest_frequency(
         status, worst = settle(s, least, s[W_P], oil_temperature, mesh, data, work)
         if status != OK:
             return status, worst
-    real = work[_UNKNOWNS:_SCALES]
-    imaginary = work[_SCALES:_OUT]
-    status, n = squared_frequencies(s, mesh, data, work, real, imaginary)
-    highest = 0.0
-    for i in range(n):
-        highest = max(highest, real[i])
-    return status, math.sqrt(highest) / (2.0 * math.pi)
+    matrix = work[_NEWTON : _NEWTON + MAX_UNKNOWNS**2]
+    n = stiffness_over_mass(s, mesh, data, work, matrix)
+    square = spectral_radius(matrix, n, work[_NEWTON + MAX_UNKNOWNS**2 : EQUILIBRIUM_WORK])
+    return OK if square < math.inf else NO_FREQUENCIES, math.sqrt(square) / (2.0 * math.pi)

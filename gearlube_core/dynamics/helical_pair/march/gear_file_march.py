@@ -16,8 +16,7 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
     Body,
     HelicalMarchParameters,
 )
-from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
-from gearlube_core.dynamics.helical_pair.supports.support_kernels import replaced_bearing
+from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport, replaced_bearing
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.helical_geometry.gear_body import SupportStiffness

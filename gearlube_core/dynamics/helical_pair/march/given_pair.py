@@ -10,14 +10,14 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.dynamics.helical_pair.march.constants import (
+from gearlube_core.dynamics.helical_pair.march.state import (
+    FlankConstants,
     MarchConstants,
     MotionConstants,
     SupportConstants,
 )
-from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
-from gearlube_core.dynamics.helical_pair.supports.support_kernels import (
+from gearlube_core.dynamics.helical_pair.supports import (
     bearing_at_gear,
     coupling_limit,
     damping_constant,

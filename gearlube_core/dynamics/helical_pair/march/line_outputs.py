@@ -6,27 +6,29 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.contact.line_hertz import LARGEST_OVER_MEAN
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
-from gearlube_core.dynamics.helical_pair.march.film_bounds import (
-    N_BOUNDS,
-    BoundSums,
-    with_line,
-    with_point,
-    write_bounds,
-)
-from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView
+from gearlube_core.contact.hertz import LARGEST_OVER_MEAN
 from gearlube_core.dynamics.helical_pair.march.line_points import line_point
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
-from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, MU, POINTS_PER_LINE, W_P
+from gearlube_core.dynamics.helical_pair.march.state import (
+    LINES_MAX,
+    MU,
+    POINTS_PER_LINE,
+    W_P,
+    FlankView,
+    MarchConstants,
+)
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import line_moes_groups
 from gearlube_core.friction.evans_johnson_1986 import traction_map_number
 from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
+from gearlube_core.friction.solved_line import BoundedLine
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant import LubricantState
 
+BOUND_QUANTITIES = ("film_bound", "friction_bound")
+LINE_BOUNDS = tuple(f"line[{i}].{q}" for i in range(1, LINES_MAX + 1) for q in BOUND_QUANTITIES)
+N_BOUNDS = len(BOUND_QUANTITIES)
 LINE_QUANTITIES = (
     "load",
     "length",
@@ -49,6 +51,69 @@ FRICTION_COEFFICIENT = LINE_QUANTITIES.index("friction_coefficient")
 SLIDING_SPEED = LINE_QUANTITIES.index("sliding_speed")
 TEMPERATURE = LINE_QUANTITIES.index("temperature")
 N_LINE_QUANTITIES = len(LINE_QUANTITIES)
+
+
+class BoundSums(NamedTuple):
+    """Sums over points of contact lines; all floats."""
+
+    load: float  # [N]
+    outside: float  # load outside the domain of the film model [N]
+    film: float  # load times bound of the film [N]
+    force: float  # friction [N]
+    doubt: float  # its bound [N]
+    power: float  # lost in friction [W]
+    power_doubt: float  # its bound [W]
+
+
+@kernel
+def with_point(sums: BoundSums, load: float, sliding: float, film: BoundedLine) -> BoundSums:
+    """Return the sums with one more point.
+
+    Parameters
+    ----------
+    sums
+        Of the points before.
+    load, sliding
+        Load of the point [N] and sliding speed there [m/s].
+    film
+        Film and friction there.
+    """
+    force = film.state.friction_coefficient * load
+    doubt, speed = film.coefficient_bound * load, abs(sliding)
+    return BoundSums(
+        sums.load + load,
+        sums.outside + film.outside * load,
+        sums.film + film.film_bound * load,
+        sums.force + force,
+        sums.doubt + doubt,
+        sums.power + force * speed,
+        sums.power_doubt + doubt * speed,
+    )
+
+
+@kernel
+def with_line(total: BoundSums, line: BoundSums) -> BoundSums:
+    """Return the sums of both."""
+    return BoundSums(
+        total.load + line.load,
+        total.outside + line.outside,
+        total.film + line.film,
+        total.force + line.force,
+        total.doubt + line.doubt,
+        total.power + line.power,
+        total.power_doubt + line.power_doubt,
+    )
+
+
+@kernel
+def write_bounds(line: BoundSums, first: int, out: Array) -> None:
+    """Write the bounds of a line, which begin at `first`.
+
+    That of the film is a mean weighted with the load, that of friction one with the friction
+    force. A line without load has none. Errors of all points count as if they had one sign.
+    """
+    out[first] = line.film / line.load if line.load > 0.0 else 0.0
+    out[first + 1] = line.doubt / line.force if line.force > 0.0 else 0.0
 
 
 class LinesFound(NamedTuple):

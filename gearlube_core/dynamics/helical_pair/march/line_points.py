@@ -8,8 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
-from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants, FlankView
 from gearlube_core.dynamics.helical_pair.march.kept_films import (
     LEAST_SPEED,
     N_FILMS,
@@ -34,18 +32,28 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     STATIONS_AT,
     density_at,
 )
-from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from gearlube_core.dynamics.helical_pair.march.state import (
+    FlankConstants,
+    FlankView,
+    MarchConstants,
+)
+from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.film_model import net
 from gearlube_core.film_model.solved_film import SolvedFilm
 from gearlube_core.friction.flank_laws import SOLVED
-from gearlube_core.friction.line_friction import LINE_LOAD_FLOOR, LineState, line_friction
+from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LineState, line_friction
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.friction.solved_line import BoundedLine, line_film, line_inlet, line_with_film
-from gearlube_core.helical_geometry.contact_line import ContactPlane, clip_line, pitch_crossing
-from gearlube_core.helical_geometry.line_kinematics import LineKinematics, line_kinematics
+from gearlube_core.helical_geometry.contact_line import (
+    ContactPlane,
+    LineKinematics,
+    clip_line,
+    line_kinematics,
+    pitch_crossing,
+)
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.places import place_below
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
 _TINY = 1e-300  # coefficient of friction in pure rolling
 

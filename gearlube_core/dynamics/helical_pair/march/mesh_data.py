@@ -18,8 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.kept_films import N_KEPT_FILMS
+from gearlube_core.dynamics.helical_pair.march.state import MarchConstants
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.kernels.jit import kernel

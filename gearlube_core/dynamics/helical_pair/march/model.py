@@ -6,7 +6,6 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.communication import communication_step
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     EQUILIBRIUM_WORK,
     MAX_UNKNOWNS,
@@ -14,7 +13,7 @@ from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     OK,
     highest_frequency,
     rest,
-    squared_frequencies,
+    stiffness_over_mass,
 )
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     MAX_STEPS,
@@ -33,7 +32,12 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES, write_outputs
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
-from gearlube_core.dynamics.helical_pair.march.state import LOAD_TORQUE, N_ODE, N_STATE
+from gearlube_core.dynamics.helical_pair.march.state import (
+    LOAD_TORQUE,
+    N_ODE,
+    N_STATE,
+    MarchConstants,
+)
 from gearlube_core.dynamics.ranges import TOO_FAR
 from gearlube_core.dynamics.stepped_model import (
     TOO_FAR_WORDS,
@@ -162,12 +166,14 @@ class HelicalPairModel(SteppedModel[StepControl]):
         ConvergenceError
             When they are not finite.
         """
-        real, imaginary = np.zeros(MAX_UNKNOWNS), np.zeros(MAX_UNKNOWNS)
+        matrix = np.zeros(MAX_UNKNOWNS**2)
         data = self._fields, self._data, self._scratch
-        status, n = squared_frequencies(self._state.copy(), *data, real, imaginary)
-        if status != OK:
-            raise ConvergenceError(f"{NO_FREQUENCIES_WORDS}.")
-        return np.sort(np.sqrt(np.maximum(real[:n], 0.0))) / (2.0 * np.pi)
+        n = stiffness_over_mass(self._state.copy(), *data, matrix)
+        try:
+            squares = np.linalg.eigvals(matrix[: n * n].reshape(n, n)).real
+        except np.linalg.LinAlgError:
+            raise ConvergenceError(f"{NO_FREQUENCIES_WORDS}.") from None
+        return np.sort(np.sqrt(np.maximum(squares, 0.0))) / (2.0 * np.pi)
 
     def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
         """Write the equilibrium at mesh phase zero; the gear turns in the ratio of the teeth."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, SupportConstants
 from gearlube_core.dynamics.helical_pair.march.continuous import (
     EVENT_INDICATORS,
     RATE_NAMES,
@@ -13,18 +12,15 @@ from gearlube_core.dynamics.helical_pair.march.continuous import (
     write_event_indicators,
     write_rates,
 )
-from gearlube_core.dynamics.helical_pair.march.film_bounds import LINE_BOUNDS
-from gearlube_core.dynamics.helical_pair.march.flank_views import (
-    coast_view,
-    drive_view,
-    friction_direction,
-)
-from gearlube_core.dynamics.helical_pair.march.flank_wrench import flank_wrench, turned_wrench
 from gearlube_core.dynamics.helical_pair.march.given_pair import BEARING_FIELDS, N_BEARINGS
-from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_OUTPUTS, write_lines
+from gearlube_core.dynamics.helical_pair.march.line_outputs import (
+    LINE_BOUNDS,
+    LINE_OUTPUTS,
+    write_lines,
+)
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
-from gearlube_core.dynamics.helical_pair.march.rates import march_rates
+from gearlube_core.dynamics.helical_pair.march.rates import flank_wrench, march_rates, turned_wrench
 from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,
     LOAD_TORQUE,
@@ -44,12 +40,17 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_G,
     W_P,
     WORK_MARK,
+    MarchConstants,
+    SupportConstants,
+    coast_view,
+    drive_view,
+    friction_direction,
 )
 from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS, write_ranges
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
 BEARING_QUANTITIES = ("force.x", "force.y", "force.z")
 

@@ -11,7 +11,6 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
-from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, MarchScalars
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
     BEARING_FIELDS,
     N_BEARINGS,
@@ -23,13 +22,15 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import (
     write_constants,
 )
 from gearlube_core.dynamics.helical_pair.march.mesh_data import all_stations
-from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX
-from gearlube_core.dynamics.helical_pair.mesh_match import check_line_mesh, effective_mass
-from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupport
-from gearlube_core.dynamics.helical_pair.supports.support_matrices import shaft_springs
-from gearlube_core.dynamics.model_ranges import model_ranges
-from gearlube_core.dynamics.ranges import Range, range_limits
-from gearlube_core.film import dowson_toyoda_1979
+from gearlube_core.dynamics.helical_pair.march.state import (
+    LINES_MAX,
+    MarchConstants,
+    MarchScalars,
+)
+from gearlube_core.dynamics.helical_pair.parameters import check_line_mesh, effective_mass
+from gearlube_core.dynamics.helical_pair.supports import ShaftSupport, shaft_springs
+from gearlube_core.dynamics.ranges import Range, model_ranges, range_limits
+from gearlube_core.film import line_film
 from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
@@ -92,7 +93,7 @@ class Body:
 class HelicalMarchParameters(MarchScalars):
     """Everything that defines one pair in motion.
 
-    Its other fields are those of `constants.MarchScalars` and of `flank_views.FlankScalars`, such
+    Its other fields are those of `state.MarchScalars` and of `state.FlankScalars`, such
     as the backlash.
 
     Parameters
@@ -178,8 +179,8 @@ class HelicalMarchParameters(MarchScalars):
             self.torque_range,
             "Run `gearlube helical --torques` with higher torques.",
             self.oil,
-            dowson_toyoda_1979.LOAD_RANGE,
-            dowson_toyoda_1979.MATERIAL_RANGE,
+            line_film.LOAD_RANGE,
+            line_film.MATERIAL_RANGE,
         )
 
     @property

@@ -20,18 +20,16 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     Z,
     contact_points,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import point_moments
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import point_moments
 from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
 from gearlube_core.friction.flank_laws import FILM_MODELS
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import LinePoints
 from gearlube_core.friction.solved_line import bounded_line_friction
-from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
 
 
 class FilmConstants(NamedTuple):

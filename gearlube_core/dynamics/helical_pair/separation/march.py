@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.linear.matrix_entries import add_product
+from gearlube_core.dynamics.helical_pair.linear.linear_system import add_product
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_constant, flank_damping
-from gearlube_core.dynamics.helical_pair.separation.forces import (
+from gearlube_core.dynamics.helical_pair.separation.system import (
     BY_TORQUE,
     BY_Y0,
     BY_Y1,
@@ -15,10 +15,11 @@ from gearlube_core.dynamics.helical_pair.separation.forces import (
     FLANK_LOAD,
     N_ROWS,
     VALUE,
+    SeparationPoints,
+    SeparationSystem,
+    StagePoints,
     separating_sums,
 )
-from gearlube_core.dynamics.helical_pair.separation.points import SeparationPoints, StagePoints
-from gearlube_core.dynamics.helical_pair.separation.system import SeparationSystem
 from gearlube_core.kernels.jit import kernel
 
 # columns of a record after the 2n states

@@ -25,7 +25,6 @@ from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE, linear_system
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.separation.forces import N_BY, N_ROWS
 from gearlube_core.dynamics.helical_pair.separation.march import (
     CONTACT_SHARE,
     DAMPING_FORCE,
@@ -35,16 +34,16 @@ from gearlube_core.dynamics.helical_pair.separation.march import (
     march_separating,
     march_work,
 )
-from gearlube_core.dynamics.helical_pair.separation.points import (
-    SeparationPoints,
-    separation_points,
-)
 from gearlube_core.dynamics.helical_pair.separation.system import (
+    N_BY,
+    N_ROWS,
+    SeparationPoints,
     mesh_mode_frequency,
+    separation_points,
     separation_system,
     static_state,
 )
-from gearlube_core.dynamics.helical_pair.supports.bearing_forces import bearing_forces
+from gearlube_core.dynamics.helical_pair.supports import bearing_forces
 from gearlube_core.errors import ParameterError
 from gearlube_core.periodic.problem import PeriodicProblem
 

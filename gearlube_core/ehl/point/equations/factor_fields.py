@@ -9,6 +9,7 @@ import numpy as np
 
 from gearlube_core.kernels.jit import kernel, row_kernel
 from gearlube_core.oil.factor_slopes import SMALL_SIGMA, factor_slopes
+from gearlube_core.oil.film_laws import rate_ratio
 from gearlube_core.oil.shear_block import BLOCK, ShearBlock, balance_block, block_slopes
 from gearlube_core.oil.shear_flow import (
     LARGEST_COUETTE,
@@ -17,7 +18,6 @@ from gearlube_core.oil.shear_flow import (
     STARTS,
     shear_factors,
 )
-from gearlube_core.oil.shear_law import rate_ratio
 
 # below, series to the second order are right to 1e-8
 _SMALL_STRESS = 1.0e-2

@@ -22,7 +22,7 @@ from gearlube_core.ehl.point.equations.shear_factors import (
     ObliqueFactors,
 )
 from gearlube_core.ehl.point.equations.stencil import NodeSlopes, TensorSlopes
-from gearlube_core.ehl.point.sides import AMBIENT, Sides
+from gearlube_core.ehl.point.settings import AMBIENT, Sides
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 from gearlube_core.oil.film_oil import FilmOil

@@ -8,26 +8,168 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
-from gearlube_core.contact.half_space_periodic import periodic_coefficients, periodic_modes
-from gearlube_core.ehl.point.equations.closed_deflection import ClosedDeflection
-from gearlube_core.ehl.point.equations.mesh import (
+from gearlube_core.contact.half_space import (
+    GradedConvolution,
+    HalfSpaceConvolution,
+    graded_coefficients,
+    love_coefficients,
+)
+from gearlube_core.contact.half_space_periodic import (
+    PeriodicDeflection,
+    periodic_coefficients,
+    periodic_modes,
+)
+from gearlube_core.ehl.point.equations.stencil import (
     Grading,
+    MeshMetric,
     cell_faces,
     central_metric,
     mesh_metric,
     x_nodes,
 )
-from gearlube_core.ehl.point.equations.short_deflection import ShortDeflection
-from gearlube_core.ehl.point.equations.stencil import MeshMetric
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
-from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.ehl.point.settings import Sides
 from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.jit import row_kernel
 from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 
+_SHARPNESS = 16  # power of the cosine
+_LEAST = 1.0e-2  # of a node's own deflection, below which a neighbour is left out
 _REFERENCE = 2.0  # lengths of the domain, where a repeated load leaves the solids as they were
+
+
+@row_kernel
+def sum_neighbours(
+    offsets: np.ndarray,
+    weights: np.ndarray,
+    period: int,
+    values: np.ndarray,
+    rows: tuple[int, int],
+    result: np.ndarray,
+) -> None:
+    """Write weighted sums of the values of neighbours.
+
+    Parameters
+    ----------
+    offsets : ndarray of int, shape (n, 2)
+        Steps to the neighbours along y and x.
+    weights : ndarray, shape (n,)
+        Of each.
+    period
+        Rows after which values repeat; 0: never. Row 0 is then a copy.
+    values, result : ndarray, shape (ny, nx)
+        Values and their sums; nothing is beyond the columns.
+    rows
+        First row that is written and the one behind the last.
+    """
+    ny, nx = values.shape
+    for j in range(rows[0], rows[1]):
+        row = result[j]
+        row[:] = 0.0
+        for k in range(offsets.shape[0]):
+            jj = j + offsets[k, 0]
+            if period > 0:
+                jj = 1 + (jj - 1) % period
+            if not 0 <= jj < ny:
+                continue
+            di, weight = offsets[k, 1], weights[k]
+            low, high = max(0, -di), min(nx, nx - di)
+            total, value = row[low:high], values[jj, low + di : high + di]
+            for i in range(total.size):
+                total[i] += weight * value[i]
+
+
+class ShortDeflection:
+    """Deflection under pressure without the waves that the next coarser grid holds.
+
+    Long waves reach far; without them deflection falls off within a few nodes.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape (rows, nx)
+        Deflection under unit pressure on a cell so far away; of all rows where they repeat.
+    sides
+        Of the rows.
+    halved
+        Whether the next coarser grid has fewer rows, and fewer columns.
+
+    Attributes
+    ----------
+    offsets, weights : ndarray, shapes (n, 2) and (n,)
+        Steps to neighbours along y and x, and the deflection under their pressure.
+
+    Notes
+    -----
+    The share 1 - (cos(k_x dx/2) cos(k_y dy/2))^16 of the transform of the coefficients is kept,
+    with a cosine for each side that is halved. The rest is what means of neighbours have as well.
+    """
+
+    def __init__(self, coefficients: Array, sides: Sides, halved: tuple[bool, bool]) -> None:
+        self._sides = sides
+        self._period = coefficients.shape[0] if sides.closed else 0
+        whole = coefficients
+        if not sides.closed:
+            whole = np.concatenate((whole, whole[-2:0:-1]), axis=0)
+        whole = np.concatenate((whole, whole[:, -2:0:-1]), axis=1)
+        long = [
+            np.cos(np.pi * np.fft.fftfreq(count)) ** _SHARPNESS if half else np.ones(count)
+            for count, half in zip(whole.shape, halved, strict=True)
+        ]
+        short = np.fft.ifft2(np.fft.fft2(whole) * (1.0 - np.outer(*long))).real
+        places = np.argwhere(np.abs(short) > _LEAST * short[0, 0])
+        self.weights = short[tuple(places.T)].astype(np.float32)
+        size = np.array(short.shape)
+        self.offsets = np.where(places > size // 2, places - size, places)
+
+    def __call__(self, pressure: Any, workers: RowWorkers) -> Any:
+        """Return the deflection, shape (ny, nx), as a new array."""
+        result = np.empty(pressure.shape, dtype=np.float32)
+        given = self.offsets, self.weights, self._period, np.ascontiguousarray(pressure)
+        workers.share(lambda rows: sum_neighbours(*given, rows, result), *result.shape)
+        self._sides.fill(result)
+        return result
+
+
+class ClosedDeflection:
+    """Deflection of solids that repeat along y; those beside closed sides without flow as well.
+
+    Parameters
+    ----------
+    modes : ndarray, shape (nx, rows//2 + 1)
+        From `periodic_modes`.
+    sides
+        Of the rows.
+    rows
+        Without copied ones.
+    single
+        In float32, for preconditioners.
+    workers
+        Threads that share it; results do not depend on it.
+    """
+
+    def __init__(
+        self,
+        modes: Array,
+        sides: Sides,
+        rows: int,
+        *,
+        single: bool = False,
+        workers: RowWorkers = ALONE,
+    ) -> None:
+        self._sides = sides
+        self._convolution = PeriodicDeflection(modes, rows, "first", single=single, workers=workers)
+        kind: Any = np.float32 if single else np.float64
+        self._result: Any = np.zeros((rows + 2, modes.shape[0]), dtype=kind)
+
+    def __call__(self, pressure: Array) -> Array:
+        """Return the deflection, (rows + 2, nx), under a pressure whose copied rows do not count.
+
+        The result is overwritten by the next call.
+        """
+        self._result[1:-1] = self._convolution(pressure[1:-1])
+        self._sides.fill(self._result)
+        return np.asarray(self._result)
 
 
 class PointGrid:

@@ -13,13 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.ehl.point.newton.column_factors import solve_rows
-from gearlube_core.ehl.point.newton.column_transfer import (
+from gearlube_core.ehl.point.newton.column_factors import (
     REACH,
     Links,
     columns_around,
     interpolate_across,
     mean_across,
+    solve_rows,
 )
 from gearlube_core.kernels.line_kernel import line_kernel
 

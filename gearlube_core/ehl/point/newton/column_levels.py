@@ -10,7 +10,7 @@ from scipy.sparse import csr_matrix
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.column_cycle import HALO, ColumnGrid
-from gearlube_core.ehl.point.newton.column_factors import BELOW, factor_rows
+from gearlube_core.ehl.point.newton.column_factors import BELOW, REACH, Links, factor_rows
 from gearlube_core.ehl.point.newton.column_stencils import (
     CENTRE,
     PLACES,
@@ -20,11 +20,10 @@ from gearlube_core.ehl.point.newton.column_stencils import (
     reached_places,
     weigh_places,
 )
-from gearlube_core.ehl.point.newton.column_transfer import REACH, Links
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection, unresolved_wave
-from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.ehl.point.settings import Sides
 
 # of an equation that is taken off another without exchange: two of seven digits are left for it,
 # in a row of which there are few

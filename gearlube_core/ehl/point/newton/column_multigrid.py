@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.newton.coarse import CoarseSolution
 from gearlube_core.ehl.point.newton.column_cycle import (
     HALO,
     SPARE,
@@ -20,7 +19,13 @@ from gearlube_core.ehl.point.newton.column_cycle import (
     finish,
     subtract_changes,
 )
-from gearlube_core.ehl.point.newton.column_factors import solve_rows
+from gearlube_core.ehl.point.newton.column_factors import (
+    REACH,
+    restrict,
+    solve_rows,
+    turn_back,
+    turn_field,
+)
 from gearlube_core.ehl.point.newton.column_levels import (
     TOGETHER,
     ColumnLevel,
@@ -29,10 +34,9 @@ from gearlube_core.ehl.point.newton.column_levels import (
     held_rows,
 )
 from gearlube_core.ehl.point.newton.column_stencils import WIDTH, coarsen_across, turn_derivatives
-from gearlube_core.ehl.point.newton.column_transfer import REACH, restrict, turn_back, turn_field
 from gearlube_core.ehl.point.newton.galerkin import LEAST_FREE
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
-from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import CoarseSolution, MultigridCycle
+from gearlube_core.ehl.point.newton.transfer import Hierarchy
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 
 _DAMPING = 0.6  # of line solutions; with 0.5 and 0.7 some more iterations, with 0.8 many more

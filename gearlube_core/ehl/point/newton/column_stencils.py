@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.ehl.point.newton.column_transfer import REACH, TILE, Links
+from gearlube_core.ehl.point.newton.column_factors import REACH, TILE, Links
 from gearlube_core.kernels.line_kernel import line_kernel
 
 WIDTH = 2 * REACH + 1

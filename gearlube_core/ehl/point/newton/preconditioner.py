@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.linalg import lu_factor, lu_solve
 
 from gearlube_core.arrays import Array, Flags
-from gearlube_core.ehl.point.newton.coarse import CoarseSolution
-from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_operator
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
-from gearlube_core.ehl.point.newton.single_operator import SingleOperator
-from gearlube_core.ehl.point.newton.single_stencil import Single
+from gearlube_core.ehl.point.equations.grid import PointGrid
+from gearlube_core.ehl.point.newton.galerkin import SparseOperator, coarse_operator, sparse_operator
+from gearlube_core.ehl.point.newton.single_stencil import Single, SingleStencil
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
+from gearlube_core.ehl.point.newton.transfer import Hierarchy
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 
 Lines = RowSmoother | ColumnSmoother
@@ -21,6 +21,80 @@ _DAMPING = 0.5  # 0.8 and more amplify waves across narrow contacts at high L
 # of the entrainment through cells along columns over that along rows, above which lines go both
 # ways; where rows carry more, columns on top do harm
 _OBLIQUE = 1.0
+
+
+class SingleOperator:
+    """Change of the residual under a change of pressure and approach, float32.
+
+    Stencils are kept neighbour by neighbour, so that rows are read in order. Where oil passes
+    ruptured film, beyond a stencil, the compressed rows are taken.
+
+    Parameters
+    ----------
+    grid, operator
+        Grid and its derivatives.
+
+    Attributes
+    ----------
+    stencil : SingleStencil or None
+        None where one would reach too far.
+    """
+
+    def __init__(self, grid: PointGrid, operator: SparseOperator) -> None:
+        self._grid, self._operator = grid, operator
+        ny, nx = grid.shape
+        self.stencil = SingleStencil.of(
+            operator.matrix, (ny, nx), grid.sides.period(ny), grid.own_deflection[0]
+        )
+        self._by_approach: Any = operator.by_approach.astype(Single)
+
+    def rest(self, right: Any, pressure: Any, film: Any, approach: float) -> Any:
+        """Return what is left of a right-hand side, shape (ny, nx)."""
+        if self.stencil is None:
+            return (right - self._operator.apply(pressure, film, approach)).astype(Single)
+        rest = self.stencil.rest(right, pressure, film, self._grid.workers)
+        if approach != 0.0:
+            rest -= Single(approach) * self._by_approach
+        return rest
+
+
+class CoarseSolution:
+    """Factored matrix of pressure and approach at the free nodes of a Galerkin operator, float32.
+
+    Parameters
+    ----------
+    grid, operator
+        Coarse grid and its derivatives.
+    load
+        Integral of the pressure that balances the load [-].
+    """
+
+    def __init__(self, grid: PointGrid, operator: SparseOperator, load: float) -> None:
+        free = operator.free.ravel()
+        self._nodes = np.flatnonzero(free)
+        n = self._nodes.size
+        matrix = np.empty((n + 1, n + 1), dtype=Single, order="F")
+        rows = operator.matrix[self._nodes].astype(np.complex64)
+        matrix[:n, :n] = rows.imag @ grid.dense_deflection().astype(Single)[:, self._nodes]
+        matrix[:n, :n] += rows.real[:, self._nodes].toarray()
+        matrix[:n, n] = operator.by_approach.ravel()[self._nodes]
+        matrix[n, :n] = grid.cells[self._nodes % grid.shape[1]] / load
+        matrix[n, n] = 0.0
+        # fluidity falls by many orders of magnitude: every equation over its largest coefficient
+        size = np.abs(matrix).max(axis=1)
+        self._scale = 1.0 / np.where(size > 0.0, size, 1.0)
+        matrix *= self._scale[:, None]
+        self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
+        self._shape = grid.shape
+
+    def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
+        """Return pressure, shape (ny, nx), and approach with the residual and the load given."""
+        right = np.append(residual.ravel()[self._nodes], load_residual)
+        right = (right * self._scale).astype(Single)
+        solution = lu_solve(self._factors, right, overwrite_b=True, check_finite=False)
+        pressure = np.zeros(self._shape, dtype=Single)
+        pressure.ravel()[self._nodes] = solution[:-1]
+        return pressure, float(solution[-1])
 
 
 class MultigridCycle:

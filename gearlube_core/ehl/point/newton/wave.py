@@ -11,8 +11,8 @@ from scipy.special import iti0k0
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.grid import PointGrid
-from gearlube_core.ehl.point.equations.mesh import cell_faces
-from gearlube_core.ehl.point.sides import AMBIENT, Sides
+from gearlube_core.ehl.point.equations.stencil import cell_faces
+from gearlube_core.ehl.point.settings import AMBIENT, Sides
 from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 
 _SPECTRUM = 512

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 
 from gearlube_core.arrays import Array, Flags
-from gearlube_core.ehl.point.border_pressure import BorderPressure, border_pressure
 from gearlube_core.ehl.point.equations.grid import PointGrid
-from gearlube_core.ehl.point.sides import AMBIENT, Sides
+from gearlube_core.ehl.point.far_field import BorderPressure, border_pressure
+from gearlube_core.ehl.point.settings import AMBIENT, Sides
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 
 

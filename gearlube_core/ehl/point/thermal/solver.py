@@ -18,13 +18,17 @@ from gearlube_core.ehl.grid_error import (
     coarser_films,
     refined_film,
 )
-from gearlube_core.ehl.point.cavitation import check_cavitation, refuse_rupture
-from gearlube_core.ehl.point.grid_film import nested_film, point_solution
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual, newton
+from gearlube_core.ehl.point.newton.transfer import Hierarchy
 from gearlube_core.ehl.point.problem import MOST_NODES, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
+from gearlube_core.ehl.point.solver import (
+    check_cavitation,
+    nested_film,
+    point_solution,
+    refuse_rupture,
+)
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError

@@ -1,0 +1,129 @@
+"""Base class of the sections of an axle file, and the units of their fields."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from decimal import Decimal
+from typing import Any, ClassVar
+
+from gearlube_core.input_file.field_notes import field_unit
+from gearlube_core.input_file.input_file import InputNote, Origin, Section
+from gearlube_core.units import ZERO_CELSIUS
+
+# power of ten from a unit to SI; what is absent is SI
+_POWERS = {
+    "mm": -3,
+    "um": -6,
+    "l": -3,
+    "kN": 3,
+    "MPa": 6,
+    "GPa": 9,
+    "1/GPa": -9,
+}
+_SI_WORDS = {"stiffness_constant": "N/m^n"}  # units that no ending writes
+
+
+def unit_of(key: str) -> str:
+    """Return the unit of a field, "" for a pure number or a text."""
+    return _SI_WORDS.get(key) or field_unit(key)[0]
+
+
+def attribute_of(key: str) -> str:
+    """Return the name of a field without its unit, as the models have it.
+
+    >>> attribute_of("contact_angle_deg")
+    'contact_angle'
+    """
+    unit, ending = field_unit(key)
+    return key if unit == "rpm" else key.removesuffix(ending)  # models have crank speeds in rpm
+
+
+def _scaled(value: float, power: int) -> float:
+    """Return value times a power of ten, rounded once: 83.7 mm is 0.0837 m to the last bit."""
+    return float(Decimal(repr(float(value))).scaleb(power))
+
+
+def si_value(key: str, value: Any) -> Any:
+    """Return the value of a field in SI units; texts and whole numbers as they are."""
+    if isinstance(value, tuple | list):
+        return tuple(si_value(key, one) for one in value)
+    unit = unit_of(key)
+    if unit == "deg":
+        return math.radians(value)
+    if unit == "degC":
+        return value + ZERO_CELSIUS
+    return _scaled(value, _POWERS[unit]) if unit in _POWERS else value
+
+
+def field_value(key: str, value: Any) -> Any:
+    """Return a number of a model in the unit of a field; the inverse of `si_value`."""
+    if isinstance(value, tuple | list):
+        return tuple(field_value(key, one) for one in value)
+    unit = unit_of(key)
+    if unit == "deg":
+        return float(f"{math.degrees(value):.12g}")
+    if unit == "degC":
+        return float(f"{value - ZERO_CELSIUS:.12g}")
+    return _scaled(value, -_POWERS[unit]) if unit in _POWERS else value
+
+
+class ModelSection(Section):
+    """A section whose fields fall back to those of a model.
+
+    A field is named as the model's attribute with its unit, e.g. `rolling_radius_mm`; `renamed`
+    holds those that are not. Fields that the file leaves out are None.
+    """
+
+    renamed: ClassVar[Mapping[str, str]] = {}  # field: attribute
+    sources: ClassVar[Mapping[str, str]] = {}  # field: where its default is from
+
+    @classmethod
+    def attribute(cls, key: str) -> str:
+        """Return the name of the model's attribute of a field."""
+        return cls.renamed.get(key) or attribute_of(key)
+
+    def has(self, key: str) -> bool:
+        """Whether the file gives a field."""
+        return getattr(self, key) is not None
+
+    def si(self, key: str) -> Any:
+        """Return the value of a given field in SI units."""
+        return si_value(key, getattr(self, key))
+
+    def changes(self, model: object) -> dict[str, Any]:
+        """Return the given fields that are attributes of `model`, in SI units."""
+        named = {key: self.attribute(key) for key in type(self).model_fields if self.has(key)}
+        return {name: self.si(key) for key, name in named.items() if hasattr(model, name)}
+
+    def notes(
+        self, prefix: str, model: object, why: str, inferred: Mapping[str, str] | None = None
+    ) -> list[InputNote]:
+        """Return a note on every field that is given or an attribute of `model`.
+
+        Parameters
+        ----------
+        prefix : str
+            Of the dotted names, with its dot.
+        model : object
+            Built with this section.
+        why : str
+            Where the values are from that the file leaves out, if `sources` says nothing else.
+        inferred : mapping of str to str
+            Fields that follow from given ones, and how.
+        """
+        notes = []
+        for key in type(self).model_fields:
+            name = self.attribute(key)
+            if isinstance(getattr(self, key), Section):
+                continue
+            if self.has(key):
+                value = getattr(self, key)
+                notes.append(InputNote(prefix + key, value, unit_of(key), "given", ""))
+            elif hasattr(model, name) and getattr(model, name) is not None:
+                value = field_value(key, getattr(model, name))
+                how = (inferred or {}).get(key)
+                origin: Origin = "inferred" if how else "assumed"
+                reason = how or self.sources.get(key, why)
+                notes.append(InputNote(prefix + key, value, unit_of(key), origin, reason))
+        return notes

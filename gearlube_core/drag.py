@@ -1,0 +1,174 @@
+"""Drag without load: churning of a gear in its oil, and shaft seals."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal, NamedTuple, get_args
+
+from gearlube_core.checks import check_option, check_within
+from gearlube_core.kernels.jit import kernel
+
+ChurningLaw = Literal["none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"]
+CHURNING_LAWS: tuple[str, ...] = get_args(ChurningLaw)
+_NONE, _CHANGENET_VELEX, _BONESS, _ISO = (float(i) for i in range(4))
+
+STANDARD_GRAVITY = 9.80665  # m/s2
+SMOOTHING_SPEED = 1.0  # rad/s, below which the torque falls to zero; choice of this library
+# of Changenet and Velex' Reynolds number w R b/nu, between two regimes; second hand
+_LOW, _HIGH = 6000.0, 9000.0
+SealMaterial = Literal["fkm", "nbr"]
+# N.m per mm of shaft diameter, [iso_tr_14179_1]; not compared with the printed source
+_PER_MILLIMETRE = {"fkm": 3.737e-3, "nbr": 2.429e-3}
+
+
+class ChurningConstants(NamedTuple):
+    """A gear in its oil, for the kernels; all floats."""
+
+    law: float  # place in CHURNING_LAWS
+    ring_diameter: float  # outside [m]
+    ring_width: float  # of the teeth [m]
+    immersion: float  # depth of the lowest tooth below the surface of the oil at rest [m]
+    oil_volume: float  # m3
+
+
+@kernel
+def fast_regime(speed: float, nu: float, p: ChurningConstants) -> float:
+    """Return how far Changenet and Velex' law is in its fast regime at a speed [rad/s] above 0 [-].
+
+    3 s^2 - 2 s^3,  s = ln(Re_c/6000)/ln(9000/6000) within 0 to 1,  Re_c = w R b/nu
+    """
+    critical = speed * 0.5 * p.ring_diameter * p.ring_width / nu
+    s = math.log(max(critical, 1e-12) / _LOW) / math.log(_HIGH / _LOW)
+    s = min(1.0, max(0.0, s))
+    return s * s * (3.0 - 2.0 * s)
+
+
+@kernel
+def changenet_velex_factor(speed: float, nu: float, p: ChurningConstants) -> float:
+    """Return the dimensionless torque C_m of Changenet and Velex at a speed [rad/s] above 0."""
+    radius = 0.5 * p.ring_diameter
+    depth = min(1.0, p.immersion / p.ring_diameter)
+    volume = p.oil_volume / p.ring_diameter**3
+    froude = speed * speed * radius / STANDARD_GRAVITY
+    reynolds = speed * radius * radius / nu
+    slow = (
+        1.366
+        * math.pow(depth, 0.45)
+        * math.pow(volume, 0.1)
+        * math.pow(froude, -0.6)
+        * math.pow(reynolds, -0.21)
+    )
+    fast = (
+        3.644
+        * math.pow(depth, 0.1)
+        * math.pow(volume, -0.35)
+        * math.pow(froude, -0.88)
+        * math.pow(p.ring_width / p.ring_diameter, 0.85)
+    )
+    return slow * math.pow(fast / slow, fast_regime(speed, nu, p))
+
+
+@kernel
+def boness_factor(speed: float, nu: float, p: ChurningConstants) -> float:
+    """Return the dimensionless torque C_m of Boness at a speed [rad/s] above 0."""
+    radius = 0.5 * p.ring_diameter
+    chord = 2.0 * math.sqrt(max(0.0, p.immersion * (p.ring_diameter - p.immersion)))
+    reynolds = speed * radius * chord / nu
+    if reynolds < 2000.0:
+        return 20.0 / max(reynolds, 1e-12)
+    if reynolds < 1e5:
+        return 8.6e-4 * math.pow(reynolds, 1.0 / 3.0)
+    return 5e8 / (reynolds * reynolds)
+
+
+@kernel
+def wetted_surface(p: ChurningConstants) -> float:
+    """Return the surface of the gear in the oil [m2]: both faces and the rim."""
+    radius = 0.5 * p.ring_diameter
+    angle = math.acos(min(1.0, max(-1.0, 1.0 - p.immersion / radius)))
+    faces = radius * radius * (2.0 * angle - math.sin(2.0 * angle))
+    return faces + 2.0 * radius * p.ring_width * angle
+
+
+@kernel
+def churning_torque(speed: float, nu: float, density: float, p: ChurningConstants) -> float:
+    """Return the churning torque of a gear [N.m], with the sign of its speed.
+
+    T = 1/2 rho w^2 S R^3 C_m with S the wetted surface, for Changenet and Velex and for Boness;
+    T = C1 exp(C2 v/10), C1 = 0.063 h/10 + 0.0128 (b/10)^3, C2 = h/800 + 0.2 [N.m, mm, m/s] for
+    ISO/TR 14179-2, free of viscosity.
+
+    Parameters
+    ----------
+    speed : float
+        Of the gear [rad/s].
+    nu : float
+        Kinematic viscosity [m2/s].
+    density : float
+        [kg/m3]
+    p : ChurningConstants
+
+    Notes
+    -----
+    Made for spur and helical gears, speeds to about 25 m/s at the rim; laws differ by a factor of
+    three among each other, and oil that is thrown off lowers the immersion. The constants are
+    those that reviews quote; they were not compared with the printed sources. The law of Changenet
+    and Velex has two regimes below 6000 and above 9000 of its Reynolds number. Reviews quote a
+    straight line between them; here C_m goes over as slow (fast/slow)^`fast_regime`, without a
+    kink. In axles the fast regime is several times the slow one, so that the torque rises steeply
+    there. The factor w/sqrt(w^2 + w0^2), w0 = 1 rad/s, makes all smooth through rest.
+
+    References
+    ----------
+    [changenet_velex_2007]; [boness_1989]; [iso_tr_14179_2]
+    """
+    size = abs(speed)
+    if p.law == _NONE or p.immersion <= 0.0 or size == 0.0:
+        return 0.0
+    radius = 0.5 * p.ring_diameter
+    if p.law == _ISO:
+        depth = 1e3 * min(p.immersion, p.ring_diameter)
+        width = 1e3 * p.ring_width
+        first = 0.063 * depth / 10.0 + 0.0128 * (width / 10.0) ** 3
+        magnitude = first * math.exp((depth / 800.0 + 0.2) * size * radius / 10.0)
+    else:
+        if p.law == _BONESS:
+            factor = boness_factor(size, nu, p)
+        else:
+            factor = changenet_velex_factor(size, nu, p)
+        magnitude = 0.5 * density * size * size * wetted_surface(p) * radius**3 * factor
+    return magnitude * speed / math.sqrt(speed * speed + SMOOTHING_SPEED * SMOOTHING_SPEED)
+
+
+def seal_torque(diameter: float, material: SealMaterial = "fkm") -> float:
+    """Return the friction torque of a radial shaft seal [N.m], free of speed.
+
+    Parameters
+    ----------
+    diameter
+        Of the shaft under the lip [m], 0.005 to 0.5.
+    material
+        Fluorocarbon or nitrile rubber.
+
+    Notes
+    -----
+    Seals of one size differ by a factor of two, with their spring, wear and the oil.
+
+    References
+    ----------
+    [iso_tr_14179_1]
+
+    Examples
+    --------
+    >>> round(seal_torque(0.040), 3)
+    0.149
+    """
+    check_within("diameter", diameter, 5e-3, 0.5, "m", "40 mm is 0.04 m.")
+    check_option("material", material, get_args(SealMaterial))
+    return 1e3 * diameter * _PER_MILLIMETRE[material]
+
+
+@kernel
+def seal_drag(speed: float, torque: float) -> float:
+    """Return the torque of a seal with the sign of the speed [rad/s], smooth through rest."""
+    return torque * speed / math.sqrt(speed * speed + SMOOTHING_SPEED * SMOOTHING_SPEED)

@@ -1,1 +1,0 @@
-"""Drag without load: churning of a gear in its oil, and shaft seals."""

@@ -1,1 +1,0 @@
-"""Bearings and shafts that carry a member."""

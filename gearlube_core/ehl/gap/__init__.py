@@ -1,1 +1,0 @@
-"""Shapes of the gap: ridges, dents, waviness, measured heights."""

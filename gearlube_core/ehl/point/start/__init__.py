@@ -1,1 +1,0 @@
-"""Starting values and continuation for point contacts where Newton's method fails directly."""
