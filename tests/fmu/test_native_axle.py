@@ -29,11 +29,11 @@ from gearlube_core.dynamics.hypoid_axle.integrate import MAX_STEPS, TOO_MANY_STE
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.dynamics.hypoid_axle.output_names import PINION_ACCELERATION, RATES
-from gearlube_core.dynamics.hypoid_axle.parameters import FRICTION_WITH_SOLVED_FILM
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, W_P
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.errors import ParameterError
+from gearlube_core.friction.flank_friction import friction_law
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.mesh_table.netcdf import write_mesh_table
@@ -89,7 +89,7 @@ def drivable(rng):
         values[f"{role}_contact_angle"] = rng.uniform(0.2, 0.5)
         values[f"{role}_f0"], values[f"{role}_f1"] = rng.uniform(0.0, 12.0), rng.uniform(0.0, 1e-3)
     values["steps_per_mesh_period"], values["steps_per_highest_period"] = 64, 22
-    if values["friction"] not in FRICTION_WITH_SOLVED_FILM:
+    if not friction_law(values["friction"]).solved_film:
         values["film"] = "formula"
     torque = rng.uniform(-400.0, 400.0)
     return values, [torque, torque * 36 / 13, rng.uniform(300.0, 380.0)]
@@ -120,7 +120,7 @@ def test_parameters_are_packed_bit_for_bit_as_in_python(native, count):
             assert REFUSALS[status] == str(refusal.value)
             continue
         axle = in_python(values)
-        if values["film"] == "solved" and values["friction"] not in FRICTION_WITH_SOLVED_FILM:
+        if values["film"] == "solved" and not friction_law(values["friction"]).solved_film:
             assert status == PRINTED_FILM
             with pytest.raises(ParameterError, match=re.escape(REFUSALS[status])):
                 axle.film_model()
