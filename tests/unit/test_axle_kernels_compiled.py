@@ -21,7 +21,6 @@ from tests.helpers.axle_compiled_arguments import COMPILED
 from tests.helpers.axle_kernel_arguments import all_cases
 from tests.helpers.kernel_results import everything, own_arrays
 
-
 # test_bearing_kernels.py
 ENERGIES = {
     shaft_expansion.roller_energy,
