@@ -7,9 +7,8 @@ from typing import Any
 
 from distributed import get_worker
 
-from gearlube.variation.block import Block, computed_block
 from gearlube.variation.design import Design
-from gearlube.variation.point_study import PointStudy
+from gearlube.variation.point_study import Block, PointStudy, computed_block
 from gearlube_core.storage.dask_pool import NamedPlugin
 
 

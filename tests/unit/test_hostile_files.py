@@ -13,8 +13,8 @@ from typer.testing import CliRunner
 
 from gearlube.cli.ranges import numbers_from
 from gearlube.command import app
+from gearlube.studies.sweep.fmu_axle import fmu_guid, unpacked
 from gearlube.studies.sweep.run import run_sweep
-from gearlube.studies.sweep.unpack import fmu_guid, unpacked
 from gearlube_core.errors import FileError, GearLubeError, ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -261,7 +261,7 @@ MEASURED = """
 import resource, sys, time
 from pathlib import Path
 from gearlube.studies.sweep.run import run_sweep
-from gearlube.studies.sweep.unpack import unpacked
+from gearlube.studies.sweep.fmu_axle import unpacked
 from gearlube_core.errors import GearLubeError
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.surface.files import read_surface

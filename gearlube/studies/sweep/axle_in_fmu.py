@@ -19,8 +19,8 @@ from fmu_src.hypoid_axle import (
     car_axle_in,
     check_one_table,
 )
+from gearlube.studies.sweep.fmu_axle import unpacked
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
-from gearlube.studies.sweep.unpack import unpacked
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError

@@ -9,9 +9,9 @@ from typing import Any
 import xarray as xr
 from distributed import Worker, get_worker
 
+from gearlube.studies.sweep.fmu_axle import unpack
 from gearlube.studies.sweep.point import Place, PointFunction
 from gearlube.studies.sweep.settings import SweepSettings
-from gearlube.studies.sweep.unpack import unpack
 from gearlube_core.errors import ParameterError
 from gearlube_core.storage.dask_pool import NamedPlugin
 

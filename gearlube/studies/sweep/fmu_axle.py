@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping, Sequence
+import shutil
+import tempfile
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -11,13 +16,88 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError, StepError
+from gearlube_core.checks import read_content
+from gearlube_core.errors import ParameterError, StepError, why
 
+_LARGEST, _MOST = 500_000_000, 10_000  # bytes and files of an unpacked FMU; ours has 30 MB
+_CURE = "Build it again with `gearlube build-fmu`."
 INPUTS = ("pinion.torque", "wheel.torque", "oil.temperature")
 
 _INSTANCE = "axle"
 _WARNING = 1  # fmi2Warning
 _LOADER_NOTE = "Fatal py exception"  # added by pythonfmu's loader, without information
+
+
+def unpack(fmu: Path, directory: Path) -> Path:
+    """Unzip `fmu` into `directory` and return it."""
+    if not fmu.is_file():
+        raise ParameterError(
+            f"The FMU must be a file or an unzipped folder, but {fmu} is neither. Build it with "
+            "`gearlube build-fmu`."
+        )
+    try:
+        with zipfile.ZipFile(fmu) as archive:
+            entries = archive.infolist()
+            size = sum(entry.file_size for entry in entries)
+            if size > _LARGEST or len(entries) > _MOST:
+                raise ParameterError(
+                    f"{fmu} must unpack to at most {_LARGEST / 1e6:g} MB in {_MOST} files, got "
+                    f"{size / 1e6:.0f} MB in {len(entries)}. {_CURE}"
+                )
+            archive.extractall(directory)
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, ValueError, OSError, EOFError) as error:
+        if isinstance(error, ParameterError):
+            raise
+        raise ParameterError(f"{fmu} is no FMU: {why(error)}. {_CURE}") from error
+    return directory
+
+
+@contextmanager
+def unpacked(fmu: Path) -> Iterator[Path]:
+    """Give the folder of an FMU: `fmu` itself if it is one, else a temporary one."""
+    if fmu.is_dir():
+        yield fmu
+        return
+    directory = Path(tempfile.mkdtemp(prefix="gearlube-fmu-"))
+    try:
+        yield unpack(fmu, directory)
+    finally:
+        shutil.rmtree(directory, ignore_errors=True)
+
+
+def _description(directory: Path) -> Any:
+    from lxml import etree
+
+    description = directory / "modelDescription.xml"
+    if not description.is_file():
+        raise ParameterError(
+            f"{directory} is no unzipped FMU: modelDescription.xml is missing. "
+            "Give the .fmu file, or unzip it again."
+        )
+    content = read_content(description, "model description")
+    parser = etree.XMLParser(resolve_entities=False, no_network=True)
+    try:
+        root = etree.fromstring(content, parser)
+    except (etree.XMLSyntaxError, ValueError) as error:
+        raise ParameterError(f"{directory} is no unzipped FMU: {error}. {_CURE}") from None
+    if root.tag != "fmiModelDescription" or not root.get("guid"):
+        raise ParameterError(
+            f"{directory} must hold an FMU of FMI 2 with a GUID, got <{str(root.tag)[:80]}> of "
+            f"version {root.get('fmiVersion', 'unknown')[:80]}. {_CURE}"
+        )
+    return root
+
+
+def fmu_guid(directory: Path) -> str:
+    """Return the GUID in the model description of an unzipped FMU."""
+    return str(_description(directory).get("guid"))
+
+
+def fmu_kind(directory: Path) -> str:
+    """Return "native" for an FMU that computes by itself, else "in Python"."""
+    slave = _description(directory).find("CoSimulation")
+    needs_tool = slave is not None and slave.get("needsExecutionTool") == "true"
+    return "in Python" if needs_tool else "native"
 
 
 def axle_description(directory: Path, channels: Sequence[str]) -> Any:
