@@ -22,7 +22,7 @@ from gearlube.studies.films.figures.rough import (
     rough_history,
     rough_thin_films,
 )
-from gearlube.studies.films.figures.rough_animation import save_rough_animation
+from gearlube.studies.films.rough.animation import save_rough_animation
 from gearlube.studies.films.rough.files import frame_file, read_frames, summary_rows
 from gearlube.studies.films.rough.run import run_rough
 from gearlube_core.ehl.case.rough_case import RoughCase

@@ -6,10 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 
 from drivetrain.sump_heat import Warming
-from gearlube.report import churning
-from gearlube.studies.drive_cycle.datasets import cycle_dataset
-from gearlube.studies.drive_cycle.demand import Demand
-from gearlube.studies.drive_cycle.loss_field import LossesAlong
+from gearlube.report import film_ratio
+from gearlube.studies.drive_cycle.loss_field import Demand, LossesAlong
+from gearlube.studies.drive_cycle.run import cycle_dataset
 from gearlube.studies.drive_cycle.spread import CycleSpread
 from gearlube.studies.loss_map import datasets
 from gearlube.studies.loss_map.sampling import Spread
@@ -174,9 +173,9 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
         draws=60,
         seed=1,
     )
-    monkeypatch.setattr("gearlube.studies.drive_cycle.datasets.uncertain_inputs", lambda _: ())
+    monkeypatch.setattr("gearlube.studies.drive_cycle.run.uncertain_inputs", lambda _: ())
     regime = np.array([0.0, 1.0, 0.0, 0.0])
-    monkeypatch.setattr("gearlube.studies.drive_cycle.datasets.churning_regime", lambda *_: regime)
+    monkeypatch.setattr("gearlube.studies.drive_cycle.run.churning_regime", lambda *_: regime)
     made = cycle_dataset(settings, demand, losses, warming, others, spread)
     power = 0.875 * cold  # a quarter of the way from 1 to 0.5
     total = power.sum(axis=1)
@@ -263,11 +262,11 @@ def test_the_axle_of_these_datasets_has_what_they_read():
 
 
 def test_the_regime_of_churning_is_that_of_the_oils_kinematic_viscosity(monkeypatch):
-    monkeypatch.setattr(churning, "fast_regime", lambda speed, nu, p: p * speed * nu)
+    monkeypatch.setattr(film_ratio, "fast_regime", lambda speed, nu, p: p * speed * nu)
     oil = SimpleNamespace(dynamic_viscosity=lambda kelvin: 1e-3 * kelvin, density=800.0)
-    axle = an_axle(oil=oil, kernel_parameters=lambda: SimpleNamespace(churning=2.0))
+    axle = an_axle(oil=oil, kernel_parameters=lambda: SimpleNamespace(film_ratio=2.0))
     kelvin = np.array([[300.0], [400.0]])
-    found = churning.churning_regime(axle, kelvin, np.array([10.0, 30.0]))
+    found = film_ratio.churning_regime(axle, kelvin, np.array([10.0, 30.0]))
     nu = np.array([[0.3 / 800.0], [0.4 / 800.0]])
     np.testing.assert_allclose(found, 2.0 * nu * [10.0, 30.0], rtol=1e-12)
 
