@@ -283,12 +283,6 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
     return entry
 
 
-def _lossless_row() -> Array:
-    """Return the packed floats without losses, NaN where they stay."""
-    unknown = tuple_from_array(np.full(_N_PARAMETERS, np.nan), AxleParameters, *_KINDS)
-    return flatten(without_losses(unknown))
-
-
 def _mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list[Array]]:
     """Return the mesh as packed by default, and the series and windows of all options."""
     modulus = contact_modulus(axle.solid, axle.solid)
@@ -363,10 +357,11 @@ def native_model(definition: Definition) -> NativeModel:
     found = parameter_map(definition.variables, pack, frozenset(_DERIVED.values()))
     packed_mesh, series, windows = _mesh_data(by_default)
     at = _places(found, packed_mesh)
+    unknown = tuple_from_array(np.full(_N_PARAMETERS, np.nan), AxleParameters, *_KINDS)
     data = np.concatenate(
         [
             *found.arrays,
-            _lossless_row(),
+            flatten(without_losses(unknown)),  # NaN where they stay
             packed_mesh.levels,
             *series,
             *windows,

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from drivetrain.sump_heat import Warming
-from gearlube.report import film_ratio
+from gearlube.report import churning
 from gearlube.studies.drive_cycle.loss_field import Demand, LossesAlong
 from gearlube.studies.drive_cycle.run import cycle_dataset
 from gearlube.studies.drive_cycle.spread import CycleSpread
@@ -262,11 +262,11 @@ def test_the_axle_of_these_datasets_has_what_they_read():
 
 
 def test_the_regime_of_churning_is_that_of_the_oils_kinematic_viscosity(monkeypatch):
-    monkeypatch.setattr(film_ratio, "fast_regime", lambda speed, nu, p: p * speed * nu)
+    monkeypatch.setattr(churning, "fast_regime", lambda speed, nu, p: p * speed * nu)
     oil = SimpleNamespace(dynamic_viscosity=lambda kelvin: 1e-3 * kelvin, density=800.0)
-    axle = an_axle(oil=oil, kernel_parameters=lambda: SimpleNamespace(film_ratio=2.0))
+    axle = an_axle(oil=oil, kernel_parameters=lambda: SimpleNamespace(churning=2.0))
     kelvin = np.array([[300.0], [400.0]])
-    found = film_ratio.churning_regime(axle, kelvin, np.array([10.0, 30.0]))
+    found = churning.churning_regime(axle, kelvin, np.array([10.0, 30.0]))
     nu = np.array([[0.3 / 800.0], [0.4 / 800.0]])
     np.testing.assert_allclose(found, 2.0 * nu * [10.0, 30.0], rtol=1e-12)
 
