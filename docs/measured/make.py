@@ -43,6 +43,7 @@ STEP = 5e-5  # s
 SETTLING = 1.0  # s
 TURNS = 36  # of the pinion: the hunting turn
 SAMPLES = 512  # a turn
+COLUMNS = ("alike_n", "differing_n")
 _LEAST = 1e-3  # N, foot of the lines
 # order of the pinion: what it is
 LINES = {
@@ -126,15 +127,13 @@ def picture(alike: tuple[Array, Array], differing: tuple[Array, Array]) -> Any:
     return figure
 
 
-def lines_table() -> str:
-    """Return the table of the stored spectrum."""
+def lines_rows() -> list[list[str]]:
+    """Return the rows of the stored spectrum."""
     with NUMBERS.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    text = "| Order of the pinion | | Teeth alike [N] | With errors [N] |\n|---|---|---|---|\n"
-    for row in rows:
-        forces = [f"{float(row[name]):.2f}" for name in ("alike_n", "differing_n")]
-        text += f"| {row['order']} | {row['what']} | {' | '.join(forces)} |\n"
-    return text
+        return [
+            [row["order"], row["what"], *(f"{float(row[name]):.2f}" for name in COLUMNS)]
+            for row in csv.DictReader(file)
+        ]
 
 
 def main() -> None:
@@ -147,7 +146,7 @@ def main() -> None:
     shutil.copyfile(work / "teeth" / "tooth_errors.png", images / TEETH_PICTURE)
     with NUMBERS.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["order", "what", "alike_n", "differing_n"])
+        writer.writerow(["order", "what", *COLUMNS])
         for name, (order, what) in LINES.items():
             pair = (float(np.interp(order, *one)) for one in (alike, differing))
             writer.writerow([name, what, *(f"{value:.3f}" for value in pair)])

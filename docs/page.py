@@ -1,0 +1,150 @@
+"""Numbers of scripts in the pages of the documentation.
+
+All words stand in the page and are edited there: text, heads of tables, captions, the statements
+of a source. A script puts its results in their places: rows of a table, value and verdict of a
+statement, numbers in a sentence. A place must be there exactly once.
+"""
+
+from __future__ import annotations
+
+import logging
+import re
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from gearlube_core.storage.atomic_file import write_text
+
+DOCS = Path(__file__).resolve().parent
+IMAGES = DOCS / "images"
+ROOT = DOCS.parent
+HOLDS, PARTLY, FAILS = "holds", "holds in part", "does not hold"
+_OF_SEVERAL = {HOLDS: "hold", PARTLY: "hold in part", FAILS: "do not hold"}
+_NUMBER = r"((?:.|\n(?!\n))+?)"  # within a paragraph
+
+
+class Verdict(NamedTuple):
+    """What was found for a statement; without a reason that of the page stays."""
+
+    value: str
+    verdict: str
+    reason: str | None = None
+
+
+def judge(ok: bool, partly: bool = False) -> str:
+    """Return the word for a statement that holds, or holds in part."""
+    return HOLDS if ok else PARTLY if partly else FAILS
+
+
+def tally(verdicts: Iterable[str]) -> str:
+    """Return verdicts with their numbers, the most frequent first.
+
+    Examples
+    --------
+    >>> tally(["holds", "does not hold", "holds"])
+    '2 statements hold, 1 does not hold'
+    """
+    parts = []
+    for word, count in Counter(verdicts).most_common():
+        said = word if count == 1 else _OF_SEVERAL.get(word, word)
+        said = said if word in _OF_SEVERAL else f"{'is' if count == 1 else 'are'} {said}"
+        noun = "" if parts else " statement" if count == 1 else " statements"
+        parts.append(f"{count}{noun} {said}")
+    return ", ".join(parts)
+
+
+class Page:
+    """A page `docs/NAME.md`; `write` stores what was put into it."""
+
+    def __init__(self, name: str) -> None:
+        self.path = DOCS / f"{name}.md"
+        self.text = self.path.read_text(encoding="utf-8")
+
+    def rows(self, head: str, rows: Iterable[Iterable[str]], after: str = "") -> None:
+        """Put rows into the table whose head begins with `head`.
+
+        With `after` it is the first one after these words.
+        """
+        start, end = self._body(head, after)
+        columns = self.text[:start].splitlines()[-1].count("|") - 1
+        body = ""
+        for row in rows:
+            cells = list(row)
+            if len(cells) != columns:
+                raise ValueError(f"{self.path.name}, {head}: {columns} columns, got {cells}")
+            body += "| " + " | ".join(cells) + " |\n"
+        self.text = self.text[:start] + body + self.text[end:]
+
+    def claims(self, found: Mapping[str, Sequence[str | None]], first: int = 4) -> None:
+        """Put what was found into the rows of statements, from column `first` on; None: as it is.
+
+        A row is known by its first cell.
+        """
+        for name, cells in found.items():
+            line = self._only(rf"^\| {re.escape(name)} \|.*$", name).group()
+            old = line[2:-2].split(" | ")
+            for column, cell in enumerate(cells, first):
+                old[column] = old[column] if cell is None else cell
+            self.text = self.text.replace(line, f"| {' | '.join(old)} |")
+
+    def judged(
+        self, claims: Mapping[str, Callable[[Any], Verdict]], evidence: Any, after: str
+    ) -> None:
+        """Judge statements; put what was found and, in the line after `after`, how many hold."""
+        found = {name: claim(evidence) for name, claim in claims.items()}
+        self.claims({k: (v.value, f"**{v.verdict}**", v.reason) for k, v in found.items()})
+        self.paragraph(after, f"{tally(one.verdict for one in found.values())}.")
+
+    def paragraph(self, after: str, text: str) -> None:
+        """Put a paragraph or a list in the place of the one that follows the words `after`."""
+        found = self._only(rf"{_words(after)}\n+((?:.+\n)+)", after)
+        self.text = (
+            self.text[: found.start(1)] + text.strip("\n") + "\n" + self.text[found.end(1) :]
+        )
+
+    def fill(self, words: str, *values: object) -> None:
+        """Put values in the places {} of a sentence; line breaks of the page stay."""
+        pattern = re.compile(_NUMBER.join(map(_words, words.split("{}"))))
+        found = self._only(pattern.pattern, words)
+        while shorter := pattern.search(self.text, found.start() + 1):
+            found = shorter
+        for k in range(len(values), 0, -1):
+            start, end = found.span(k)
+            self.text = self.text[:start] + str(values[k - 1]) + self.text[end:]
+
+    def write(self) -> None:
+        """Write the page."""
+        write_text(self.text, self.path)
+
+    def _body(self, head: str, after: str) -> tuple[int, int]:
+        pattern = rf"^\| {re.escape(head)}.*\n\|[-| :]+\|\n((?:\|.*\n)*)"
+        if after:
+            begin = self._only(_words(after), after).end()
+            found = re.compile(pattern, re.MULTILINE).search(self.text, begin)
+            if found is None:
+                raise ValueError(f"{self.path.name}: no table {head!r} after {after!r}")
+            return found.span(1)
+        return self._only(pattern, head).span(1)
+
+    def _only(self, pattern: str, what: str) -> re.Match[str]:
+        found = list(re.finditer(pattern, self.text, re.MULTILINE))
+        if len(found) != 1:
+            raise ValueError(f"{self.path.name} must have once, has {len(found)} times: {what!r}")
+        return found[0]
+
+
+def _words(text: str) -> str:
+    """Return a pattern for words, wherever lines break."""
+    return r"\s+".join(map(re.escape, re.split(r"\s+", text)))
+
+
+def begin(name: str) -> Path:
+    """Start the log of a script; return its work folder, an argument or build/NAME."""
+    logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")
+    logging.getLogger("docs").setLevel(logging.INFO)
+    given = [word for word in sys.argv[1:] if not word.startswith("--")]
+    work = Path(given[0]) if given else ROOT / "build" / name
+    work.mkdir(parents=True, exist_ok=True)
+    return work
