@@ -22,6 +22,7 @@ IMAGES = DOCS / "images"
 ROOT = DOCS.parent
 HOLDS, PARTLY, FAILS = "holds", "holds in part", "does not hold"
 _OF_SEVERAL = {HOLDS: "hold", PARTLY: "hold in part", FAILS: "do not hold"}
+_STATEMENTS = "# | What"  # head of a table of statements
 _NUMBER = r"((?:.|\n(?!\n))+?)"  # within a paragraph
 
 
@@ -33,9 +34,18 @@ class Verdict(NamedTuple):
     reason: str | None = None
 
 
+# statements by the name that they have on the page, each with what judges it
+Claims = Mapping[str, Callable[[Any], Verdict]]
+
+
 def judge(ok: bool, partly: bool = False) -> str:
     """Return the word for a statement that holds, or holds in part."""
     return HOLDS if ok else PARTLY if partly else FAILS
+
+
+def judge_parts(*parts: bool) -> str:
+    """Return the word for a statement of several parts: all hold, none does, or some."""
+    return judge(all(parts), any(parts))
 
 
 def tally(verdicts: Iterable[str]) -> str:
@@ -77,24 +87,28 @@ class Page:
             body += "| " + " | ".join(cells) + " |\n"
         self.text = self.text[:start] + body + self.text[end:]
 
-    def claims(self, found: Mapping[str, Sequence[str | None]], first: int = 4) -> None:
-        """Put what was found into the rows of statements, from column `first` on; None: as it is.
-
-        A row is known by its first cell.
-        """
-        for name, cells in found.items():
-            line = self._only(rf"^\| {re.escape(name)} \|.*$", name).group()
-            old = line[2:-2].split(" | ")
-            for column, cell in enumerate(cells, first):
-                old[column] = old[column] if cell is None else cell
-            self.text = self.text.replace(line, f"| {' | '.join(old)} |")
-
-    def judged(
-        self, claims: Mapping[str, Callable[[Any], Verdict]], evidence: Any, after: str
+    def cells(
+        self, head: str, rows: Sequence[Sequence[str | None]], after: str = "", first: int = 2
     ) -> None:
+        """Put cells into the rows of a table from column `first` on; None: as the page has it."""
+        start, end = self._body(head, after)
+        lines = [line[2:-2].split(" | ") for line in self.text[start:end].splitlines()]
+        for line, row in zip(lines, rows, strict=True):
+            for column, cell in enumerate(row, first):
+                line[column] = line[column] if cell is None else cell
+        self.rows(head, lines, after)
+
+    def claims(self, found: Mapping[str, Sequence[str | None]], after: str) -> None:
+        """Put what was found into the table of statements that follows `after`, in its order."""
+        names = self._names(after)
+        if set(names) != set(found):
+            raise ValueError(f"{self.path.name} has statements {names}, got {list(found)}")
+        self.cells(_STATEMENTS, [found[name] for name in names], after, first=4)
+
+    def judged(self, claims: Claims, evidence: Any, after: str) -> None:
         """Judge statements; put what was found and, in the line after `after`, how many hold."""
-        found = {name: claim(evidence) for name, claim in claims.items()}
-        self.claims({k: (v.value, f"**{v.verdict}**", v.reason) for k, v in found.items()})
+        found = {name: claims[name](evidence) for name in self._names(after)}
+        self.claims({k: (v.value, f"**{v.verdict}**", v.reason) for k, v in found.items()}, after)
         self.paragraph(after, f"{tally(one.verdict for one in found.values())}.")
 
     def paragraph(self, after: str, text: str) -> None:
@@ -117,6 +131,11 @@ class Page:
     def write(self) -> None:
         """Write the page."""
         write_text(self.text, self.path)
+
+    def _names(self, after: str) -> list[str]:
+        """Return the names of the statements in the table that follows `after`."""
+        start, end = self._body(_STATEMENTS, after)
+        return [line[2:].partition(" | ")[0] for line in self.text[start:end].splitlines()]
 
     def _body(self, head: str, after: str) -> tuple[int, int]:
         pattern = rf"^\| {re.escape(head)}.*\n\|[-| :]+\|\n((?:\|.*\n)*)"
