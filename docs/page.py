@@ -119,8 +119,12 @@ class Page:
         )
 
     def fill(self, words: str, *values: object) -> None:
-        """Put values in the places {} of a sentence; line breaks of the page stay."""
-        pattern = re.compile(_NUMBER.join(map(_words, words.split("{}"))))
+        """Put values in the places {} of a sentence; line breaks of the page stay.
+
+        One at the beginning of `words` is a single word.
+        """
+        start = r"(?<!\S)" if words.startswith("{}") else ""
+        pattern = re.compile(start + _NUMBER.join(map(_words, words.split("{}"))))
         found = self._only(pattern.pattern, words)
         while shorter := pattern.search(self.text, found.start() + 1):
             found = shorter

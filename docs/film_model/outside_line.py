@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from docs.film_model.outside_solves import outside_solves
+from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import HELICAL_LINE
 from gearlube.studies.film_model.plan import FilmPlan
@@ -101,8 +102,8 @@ def compared(rows: list[SolveRow]) -> Outside:
     return Outside(*np.array(cells).T)
 
 
-def sentences() -> str:
-    """Return what the table says, with how many contacts exceed the bounds, as Markdown."""
+def put_outside(page: Page) -> None:
+    """Put in what the table says, with how many contacts exceed the bounds."""
     rows = list(SolveTable(TABLE, HELICAL_LINE).rows.values())
     found = compared(rows)
     thick, top = np.abs(found.film - 1.0), found.friction / found.isothermal
@@ -110,29 +111,35 @@ def sentences() -> str:
     held = found.pressure >= PRESSURE
     little = 100.0 * float(found.loss[~held].sum() / found.loss.sum())
 
-    def over(values: Array, bound: float) -> str:
-        above, below = values[held] > bound, values[~held] > bound
-        return f"{above.sum()} of {above.size} | {below.sum()} of {below.size}"
+    def over(values: Array, bound: float) -> list[str]:
+        above = values > bound
+        return [f"{above[some].sum()} of {above[some].size}" for some in (held, ~held)]
 
     gpa, ratio = 1e-9 * found.pressure, found.film
     off = np.abs(found.friction - found.formula) / np.maximum(found.formula, 1e-30)
-    return (
-        f"{len(rows)} contacts of the pairs where the formulas stand in alone were solved, "
-        f"{len(rows) - gpa.size} of them not found ({gpa.min():.2f} to {gpa.max():.2f} GPa mean "
-        f"pressure). Solved films are {ratio.min():.2f} to {ratio.max():.2f} times as thick as the "
-        f"formula's. The formula's friction is zero at {none} of them, so that no bound relative "
-        "to it can hold; the bound of friction is between 0 and "
-        f"{LINE_FORMULA_FRICTION_TOP:g} times that of an isothermal Eyring film as thick "
-        "as the formula's. The bounds hold 95 % of the "
-        f"contacts above {1e-9 * PRESSURE:.1f} GPa; those below hold {little:.0f} % of the loss of "
-        "all solved ones.\n\n"
-        f"| bound | exceeded above {1e-9 * PRESSURE:.1f} GPa | below |\n|---|---|---|\n"
-        f"| film, before: 50 % of the formula's | {over(thick, 0.5)} |\n"
-        f"| film, now: {100.0 * LINE_FORMULA_FILM_BOUND:.0f} % of the formula's | "
-        f"{over(thick, LINE_FORMULA_FILM_BOUND)} |\n"
-        f"| friction, before: 100 % of the formula's | {over(off, 1.0)} |\n"
-        f"| friction, now: between 0 and {LINE_FORMULA_FRICTION_TOP:g} times the isothermal Eyring "
-        f"value | {over(top, LINE_FORMULA_FRICTION_TOP)} |\n"
+    page.fill(
+        "{} contacts of the pairs where the formulas stand in alone were solved, {} of them not "
+        "found ({} to {} GPa mean pressure). Solved films are {} to {} times as thick as the "
+        "formula's. The formula's friction is zero at {} of them, so that no bound relative",
+        len(rows),
+        len(rows) - gpa.size,
+        *(f"{one:.2f}" for one in (gpa.min(), gpa.max(), ratio.min(), ratio.max())),
+        none,
+    )
+    page.fill(
+        "The bounds hold 95 % of the contacts above 0.1 GPa; those below hold {} % of the loss of "
+        "all solved ones.",
+        f"{little:.0f}",
+    )
+    page.cells(
+        "bound | exceeded",
+        [
+            over(thick, 0.5),
+            over(thick, LINE_FORMULA_FILM_BOUND),
+            over(off, 1.0),
+            over(top, LINE_FORMULA_FRICTION_TOP),
+        ],
+        first=1,
     )
 
 
