@@ -121,10 +121,11 @@ class Page:
     def fill(self, words: str, *values: object) -> None:
         """Put values in the places {} of a sentence; line breaks of the page stay.
 
-        One at the beginning of `words` is a single word.
+        One at the beginning of `words` is a single word. A full stop at their end is not a point.
         """
         start = r"(?<!\S)" if words.startswith("{}") else ""
-        pattern = re.compile(start + _NUMBER.join(map(_words, words.split("{}"))))
+        end = r"(?!\S)" if words.endswith(".") else ""
+        pattern = re.compile(start + _NUMBER.join(map(_words, words.split("{}"))) + end)
         found = self._only(pattern.pattern, words)
         while shorter := pattern.search(self.text, found.start() + 1):
             found = shorter
