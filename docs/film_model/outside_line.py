@@ -8,17 +8,15 @@ resumable: docs/film_model/outside_line.csv) and compared with what the pair tak
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
-from docs.film_model.outside_solves import outside_solves
+from docs.film_model.outside_solves import Outside, outside_solves
 from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import HELICAL_LINE
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solves import SolveRow, SolveTable
-from gearlube_core.arrays import Array
 from gearlube_core.contact.line_hertz import line_mean_pressure
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
 from gearlube_core.film_model.line_contact import LineContact
@@ -37,17 +35,6 @@ TABLE = Path(__file__).with_name("outside_line.csv")
 SOLVES, SEED, DRAWS = 120, 220, 1500
 MODEL = "helical_line"
 PRESSURE = 0.1e9  # Pa, mean pressure down to which the bounds are set
-
-
-class Outside(NamedTuple):
-    """Contacts that the formulas take alone, solved; arrays (n,)."""
-
-    pressure: Array  # mean of Hertz [Pa]
-    film: Array  # solved over Dowson and Toyoda's [-]
-    friction: Array  # solved [-]
-    formula: Array  # Evans and Johnson's [-]
-    isothermal: Array  # of an isothermal Eyring film as thick as Dowson and Toyoda's [-]
-    loss: Array  # load times sliding times solved friction [W/m]
 
 
 def formula_friction(contact: LineContact, film: float) -> float:
@@ -106,17 +93,7 @@ def put_outside(page: Page) -> None:
     """Put in what the table says, with how many contacts exceed the bounds."""
     rows = list(SolveTable(TABLE, HELICAL_LINE).rows.values())
     found = compared(rows)
-    thick, top = np.abs(found.film - 1.0), found.friction / found.isothermal
-    none = int((found.formula == 0.0).sum())
-    held = found.pressure >= PRESSURE
-    little = 100.0 * float(found.loss[~held].sum() / found.loss.sum())
-
-    def over(values: Array, bound: float) -> list[str]:
-        above = values > bound
-        return [f"{above[some].sum()} of {above[some].size}" for some in (held, ~held)]
-
     gpa, ratio = 1e-9 * found.pressure, found.film
-    off = np.abs(found.friction - found.formula) / np.maximum(found.formula, 1e-30)
     page.fill(
         "{} contacts of the pairs where the formulas stand in alone were solved, {} of them not "
         "found ({} to {} GPa mean pressure). Solved films are {} to {} times as thick as the "
@@ -124,23 +101,15 @@ def put_outside(page: Page) -> None:
         len(rows),
         len(rows) - gpa.size,
         *(f"{one:.2f}" for one in (gpa.min(), gpa.max(), ratio.min(), ratio.max())),
-        none,
+        found.without_friction(),
     )
     page.fill(
         "The bounds hold 95 % of the contacts above 0.1 GPa; those below hold {} % of the loss of "
         "all solved ones.",
-        f"{little:.0f}",
+        f"{found.loss_below(PRESSURE):.0f}",
     )
-    page.cells(
-        "bound | exceeded",
-        [
-            over(thick, 0.5),
-            over(thick, LINE_FORMULA_FILM_BOUND),
-            over(off, 1.0),
-            over(top, LINE_FORMULA_FRICTION_TOP),
-        ],
-        first=1,
-    )
+    bounds = ((0.5, LINE_FORMULA_FILM_BOUND), 1.0, LINE_FORMULA_FRICTION_TOP)
+    page.cells("bound | exceeded", found.exceeded(PRESSURE, *bounds), first=1)
 
 
 if __name__ == "__main__":
