@@ -80,14 +80,14 @@ def _state(page: Page, films: Films) -> None:
     told = [f"{one:.1f}" for some in errors for one in (statistics.median(some), max(some))]
     page.fill(
         f"Of {{}} contacts on {FINE} by {FINE} nodes {{}} did not converge{{}} have a film with "
-        "the first-order stencil alone{} have more than 1 % of first-order faces{}. They took {} "
+        "the first-order stencil alone{} have more than 1 % of first-order {}. They took {} "
         "s of one processor, a median of {} s each. By both grids the error of the finer one is "
         "{} % (at most {} %) of the central film and {} % (at most {} %) of the minimum film.",
         len(found),
         len(failed),
         f"{_named(failed)}; {len(first)}",
         f"{_named(first)}; {len(limited)}",
-        _named(limited),
+        f"faces{_named(limited)}",
         f"{sum(film.seconds for film in found):.0f}",
         f"{statistics.median(f.seconds for f in found):.1f}",
         *told,
