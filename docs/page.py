@@ -93,6 +93,8 @@ class Page:
         """Put cells into the rows of a table from column `first` on; None: as the page has it."""
         start, end = self._body(head, after)
         lines = [line[2:-2].split(" | ") for line in self.text[start:end].splitlines()]
+        if len(lines) != len(rows):
+            raise ValueError(f"{self.path.name}, {head}: {len(lines)} rows, got {len(rows)}")
         for line, row in zip(lines, rows, strict=True):
             for column, cell in enumerate(row, first):
                 line[column] = line[column] if cell is None else cell
@@ -123,9 +125,11 @@ class Page:
 
         One at the beginning of `words` is a single word. A full stop at their end is not a point.
         """
-        start = r"(?<!\S)" if words.startswith("{}") else ""
-        end = r"(?!\S)" if words.endswith(".") else ""
-        pattern = re.compile(start + _NUMBER.join(map(_words, words.split("{}"))) + end)
+        if words.count("{}") != len(values):
+            raise ValueError(f"{self.path.name}: {len(values)} values for {words!r}")
+        before = r"(?<!\S)" if words.startswith("{}") else ""
+        behind = r"(?!\S)" if words.endswith(".") else ""
+        pattern = re.compile(before + _NUMBER.join(map(_words, words.split("{}"))) + behind)
         found = self._only(pattern.pattern, words)
         while shorter := pattern.search(self.text, found.start() + 1):
             found = shorter

@@ -54,6 +54,8 @@ def test_statements_are_judged_in_the_order_of_the_page(page):
         (lambda page: page.fill("a film of {} mm", 1), "has 0 times"),
         (lambda page: page.rows("Grid | Film", [["9"]]), "2 columns"),
         (lambda page: page.rows("Mesh", []), "has 0 times"),
+        (lambda page: page.fill("film is {} um thick, and {} of", 1), "1 values for"),
+        (lambda page: page.cells("Grid | Film", [["2"], ["3"]], first=1), "1 rows, got 2"),
         (lambda page: page.claims({"A1": ()}, "contacts hold."), "has statements"),
     ],
 )
