@@ -1,26 +1,24 @@
-"""Tables and figure that compare marches: python -m docs.rough_line_contact.compare.
+"""Tables and figure that compare marches: python -m docs.rough_line_contact.tables.
 
-Prints the tables of docs/rough_line_contact.md from variants.csv, which `variants` writes, and
-draws docs/images/rough_lambda.png; seconds.
+Prints the tables of docs/rough_line_contact.md from variants.csv and cases.csv, which `marches`
+writes, and draws docs/images/rough_lambda.png; seconds.
 """
 
 from __future__ import annotations
 
-import csv
 import math
 import sys
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from docs.rough_line_contact.make import IMAGES
-from docs.rough_line_contact.variants import NUMBERS
+from docs.page import IMAGES
+from docs.rough_line_contact.marches import ANGLES, GRIDS, LAYS, SEEDS, THIN_SHARE, written
 from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube_core.contact.greenwood_tripp_1971 import asperity_load, gear_flanks
 from gearlube_core.ehl.case.rough_case import RoughCase
 
 Found = dict[str, dict[str, float]]
-SEEDS = (1, 2, 4, 5, 6)
 SHOWN = {
     "largest pressure [GPa]": ("largest pressure, rough", 1e-9),
     "its mean over time [GPa]": ("mean of the largest pressure, rough", 1e-9),
@@ -34,9 +32,11 @@ SHOWN = {
     "zone below 25 nm [%]": ("share of the zone below 25 nm, rough", 100.0),
     "load on solids [%]": ("share of the load on solids, rough", 100.0),
     "friction coefficient": ("friction coefficient, rough", 1.0),
+    "zone below 100 nm [%]": (THIN_SHARE, 100.0),
     "smooth film/Rq": ("smooth film over roughness", 1.0),
     "mean film/Rq": ("mean film over roughness", 1.0),
 }
+_EACH = [shown for shown in SHOWN if shown != "zone below 100 nm [%]"]  # of variants
 CHANGED = (
     "crossed",
     "crossed, tolerances a tenth",
@@ -47,15 +47,19 @@ CHANGED = (
     "crossed, finer grid",
     "crossed, finer grid, waves from 28 um",
 )
+TABLE = (
+    "its mean over time [GPa]",
+    "pressure that 99.9 % are below [GPa]",
+    "film that 1 % are below [nm]",
+    "film that 50 % are below [nm]",
+    "zone below 10 nm [%]",
+    "zone below 100 nm [%]",
+)
 
 
-def numbers() -> Found:
-    """Return what `variants` has written: variant, quantity, value."""
-    found: Found = {}
-    with NUMBERS.open(newline="") as file:
-        for row in csv.DictReader(file):
-            found.setdefault(row["variant"], {})[row["quantity"]] = float(row["value"])
-    return found
+def numbers(table: str) -> Found:
+    """Return what was written: march, quantity, value."""
+    return {name: {row[1]: row[2] for row in rows} for name, rows in written(table).items()}
 
 
 def of(found: Found, variant: str, shown: str) -> float:
@@ -73,7 +77,7 @@ def seeds(found: Found, lay: str, shown: str) -> np.ndarray:
 def seed_rows(found: Found) -> Iterable[Sequence[str]]:
     """Mean, and least to largest, of five seeds; crossed over straight."""
     yield ("", "crossed", "straight", "crossed over straight, each seed")
-    for shown in SHOWN:
+    for shown in _EACH:
         crossed, straight = (seeds(found, lay, shown) for lay in ("crossed", "straight"))
         cells = (f"{v.mean():.3g} ({v.min():.3g} to {v.max():.3g})" for v in (crossed, straight))
         ratio = ", ".join(f"{one:.2f}" for one in crossed / straight)
@@ -83,7 +87,7 @@ def seed_rows(found: Found) -> Iterable[Sequence[str]]:
 def case_rows(found: Found, cases: Sequence[str]) -> Iterable[Sequence[str]]:
     """One column for each of some variants."""
     yield ("", *cases)
-    for shown in SHOWN:
+    for shown in _EACH:
         yield (shown, *(f"{of(found, case, shown):.3g}" for case in cases))
 
 
@@ -136,9 +140,39 @@ def draw(found: Found) -> None:
         figure.savefig(IMAGES / "rough_lambda.png", dpi=110)
 
 
+def of_seeds(found: Found, case: str, lay: str, grid: str, shown: str) -> np.ndarray:
+    """Return a number of the seeds that were marched with both lays."""
+    names = ([f"case {case}, {one}, seed {seed}{grid}" for one in (lay, *LAYS)] for seed in SEEDS)
+    kept = [own for own, *both in names if set(both) <= set(found)]
+    return np.array([of(found, name, shown) for name in kept])
+
+
+def ratio(crossed: np.ndarray, straight: np.ndarray) -> str:
+    """Return mean, spread, least and largest of the ratios of the seeds."""
+    some = straight > 0.0
+    each = crossed[some] / straight[some]
+    if each.size < 2:
+        return "-"
+    return f"{each.mean():.2f} +- {each.std(ddof=1):.2f} ({each.min():.2f} to {each.max():.2f})"
+
+
+def lay_rows(found: Found, grid: str) -> Iterable[Sequence[str]]:
+    """Crossed and straight, and one over the other: mean, and least to largest, of the seeds."""
+    yield ("", *(f"case {case}, {angle} deg" for case, angle in ANGLES.items()))
+    for shown in TABLE:
+        both = [[of_seeds(found, case, lay, grid, shown) for lay in LAYS] for case in ANGLES]
+        for k, lay in enumerate(LAYS):
+            values = (pair[k] for pair in both)
+            yield (
+                f"{shown}, {lay}",
+                *(f"{v.mean():.3g} ({v.min():.3g} to {v.max():.3g})" for v in values),
+            )
+        yield (f"{shown}, crossed over straight", *(ratio(*pair) for pair in both))
+
+
 def main() -> None:
     """Print all tables and draw."""
-    found = numbers()
+    found, coarse = numbers("variants"), numbers("cases")
     cases = ("case B, crossed", "case B, straight", "case C, crossed", "case C, straight")
     speeds = ("crossed, 2 u", "straight, 2 u", "crossed, 5 u", "straight, 5 u")
     changed = tuple(name for name in CHANGED if name in found)
@@ -148,6 +182,7 @@ def main() -> None:
         ("Speeds", case_rows(found, speeds)),
         ("What the choices change", case_rows(found, changed)),
         ("Film over roughness", film_ratio_rows(found)),
+        *((f"Five seeds, three cases{grid}", lay_rows(coarse, grid)) for grid in GRIDS),
     ):
         lines = ["| " + " | ".join(row) + " |" for row in rows]
         lines.insert(1, "|" + "---|" * lines[0].count(" | ") + "---|")

@@ -1,29 +1,73 @@
-"""March what docs/rough_line_contact.md compares: other seeds, cases, speeds, grids and tolerances.
+"""March what docs/rough_line_contact.md compares: seeds, cases, speeds, grids and tolerances.
 
-python -m docs.rough_line_contact.variants [FOLDER [NAME ...]]: hours of one processor. Each march
-is kept in a folder of its own, by default below build/rough_line_contact; a stopped one goes on, a
-finished one is only read. Writes variants.csv from all that are finished.
+python -m docs.rough_line_contact.marches variants|cases [FOLDER [NAME ...]]: hours of one processor
+for `variants`, ten minutes for `cases`, which are cases A, B and C with five seeds each on a coarse
+grid. Those on its finer grid, whose names end in ", fine", take one to eight minutes each and are
+marched only if named. Each march is kept in a folder of its own, by default below
+build/rough_line_contact; a stopped one goes on, a finished one is only read. Writes variants.csv or
+cases.csv; numbers of marches that are not in the folder stay. `tables` prints and draws them.
 """
 
 from __future__ import annotations
 
+import csv
 import logging
 import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
-from docs.rough_line_contact.make import GRID, ROOT
+from docs.page import ROOT
+from docs.rough_line_contact.make import GRID, distribution_rows
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.films.rough.files import summary_rows
 from gearlube.studies.films.rough.run import run_rough
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.storage.atomic_file import write_text
 
-NUMBERS = Path(__file__).parent / "variants.csv"
+HERE = Path(__file__).parent
+SEEDS = (1, 2, 4, 5, 6)
+Rows = list[tuple[str, str, float, str]]  # march, quantity, value, unit
 STRAIGHT: dict[str, Any] = {"surface_1.turns": 0, "surface_2.turns": 0, "solver.rows": 16}
 SPEEDS = (7.9285, 5.4915)  # of case A [m/s]
+# the waves of every seed of every case fit this grid; roughness grows in place
+COARSE: dict[str, Any] = GRID | {
+    "solver.nodes_x": 209,
+    "solver.rows": 32,
+    "surface_1.cutoff_um": 72.0,
+    "surface_2.cutoff_um": 72.0,
+    "times.steps_per_half_width": 56,
+    "times.feed": "in_place",
+    "times.until_rough": 0.8,
+    "times.rough": 1.2,
+    "solver.tolerance": 1e-4,
+    "frames.every": 0,
+}
+LAYS: dict[str, dict[str, Any]] = {
+    "crossed": {},
+    "straight": {"surface_1.turns": 0, "surface_2.turns": 0, "solver.rows": 16},
+}
+ANGLES = {"A": 2.8, "B": 2.8, "C": 1.0}  # between both lays [deg]
+# waves from 42 um on, so that solids touch; the same schedule
+FINE: dict[str, Any] = COARSE | {
+    "solver.nodes_x": 309,
+    "solver.rows": 48,
+    "surface_1.cutoff_um": 42.0,
+    "surface_2.cutoff_um": 42.0,
+    "times.steps_per_half_width": 80,
+}
+GRIDS = {"": COARSE, ", fine": FINE}
+MARCHES = {
+    f"case {case}, {lay}, seed {seed}{grid}": (case, lay, seed, grid)
+    for grid in GRIDS
+    for seed in SEEDS
+    for case in ANGLES
+    for lay in LAYS
+}
+THIN = 100e-9  # m
+THIN_SHARE = "share of the zone below 100 nm, rough"
 logger = logging.getLogger("docs.rough_line_contact")
 
 
@@ -91,16 +135,24 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
 
 
 def case_of(name: str) -> RoughCase:
-    """Return the case of a variant; its tolerances are shares of those of `GRID`."""
+    """Return the case of a march; tolerances of variants are shares of those of `GRID`."""
+    if name in MARCHES:
+        case, lay, seed, grid = MARCHES[name]
+        named = RoughCase.named(f"jamali_2015_{case.lower()}")
+        return named.varied(GRIDS[grid] | LAYS[lay] | seeded(seed))
     shipped, more = VARIANTS[name]
-    case = RoughCase.named(shipped)
     shares = ("solver.tolerance", "solver.load_tolerance")
     scaled = {key: value * GRID[key] if key in shares else value for key, value in more.items()}
-    return case.varied(GRID | {"frames.every": 1000} | scaled)
+    return RoughCase.named(shipped).varied(GRID | {"frames.every": 1000} | scaled)
 
 
-def rows_of(name: str, run: xr.Dataset) -> list[tuple[str, str, float, str]]:
-    """Return the numbers of one march: name, quantity, value, unit."""
+def folder_of(work: Path, name: str) -> Path:
+    """Return the folder of a march."""
+    return work / name.replace(", ", "_").replace(" ", "_")
+
+
+def rows_of(name: str, run: xr.Dataset) -> Rows:
+    """Return the numbers of one march."""
     rows = [(name, *row) for row in summary_rows(run)]
     rough = run.isel(time=run["time"].values >= run.attrs["rough_time"] * (1.0 - 1e-12))
     for k, limit in enumerate(rough["threshold"].values):
@@ -108,34 +160,43 @@ def rows_of(name: str, run: xr.Dataset) -> list[tuple[str, str, float, str]]:
         below = f"below {1e9 * limit:.0f} nm"
         rows.append((name, f"share of steps with a film {below}", float((nodes > 0).mean()), "1"))
         rows.append((name, f"share of the zone {below}, rough", float(share.mean()), "1"))
-    for percent in (1.0, 5.0, 50.0):
-        film = float(run["film_percentile_all"].sel(percent=percent))
-        rows.append((name, f"film that {percent:g} % of the zone is below", film, "m"))
-    for percent in (50.0, 99.0, 99.9):
-        pressure = float(run["pressure_percentile_all"].sel(percent=percent))
-        rows.append((name, f"pressure that {percent:g} % is below", pressure, "Pa"))
+    rows += distribution_rows(name, run)
+    if name in MARCHES:
+        below = np.interp(THIN, run["film_edge"].values, run["film_function"].values)
+        rows.append((name, THIN_SHARE, float(below), "1"))
     return rows
 
 
-def main(work: Path, names: list[str]) -> None:
+def written(table: str) -> dict[str, Rows]:
+    """Return what a table holds: march, and its rows."""
+    rows: dict[str, Rows] = {}
+    with (HERE / f"{table}.csv").open(newline="") as file:
+        for name, quantity, value, unit in list(csv.reader(file))[1:]:
+            rows.setdefault(name, []).append((name, quantity, float(value), unit))
+    return rows
+
+
+def main(table: str, work: Path, names: list[str]) -> None:
     """March what is asked for, and write the numbers of all that is finished."""
-    for name in names:
-        done = work / name.replace(", ", "_").replace(" ", "_") / "rough.nc"
-        if not done.exists():
+    rows, before = [], written(table)
+    for name in VARIANTS if table == "variants" else MARCHES:
+        done = folder_of(work, name) / "rough.nc"
+        if name in names and not done.exists():
             logger.info("%s", name)
             run_rough(case_of(name), folder=done.parent)
-    rows = []
-    for name in VARIANTS:
-        done = work / name.replace(", ", "_").replace(" ", "_") / "rough.nc"
         if done.exists():
             rows += rows_of(name, xr.load_dataset(done, engine="scipy"))
+        else:
+            rows += before.get(name, [])
     lines = ((n, q, f"{v:.4g}", u) for n, q, v, u in rows)
-    write_text(csv_text(("variant", "quantity", "value", "unit"), lines), NUMBERS)
+    text = csv_text(("variant", "quantity", "value", "unit"), lines)
+    write_text(text, HERE / f"{table}.csv")
 
 
 if __name__ == "__main__":
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s")
-    main(
-        Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "rough_line_contact",
-        sys.argv[2:] or list(VARIANTS),
-    )
+    chosen, *rest = sys.argv[1:]
+    usual = ROOT / "build" / "rough_line_contact"
+    usual /= "cases" if chosen == "cases" else ""
+    every = list(VARIANTS) if chosen == "variants" else [n for n, m in MARCHES.items() if not m[-1]]
+    main(chosen, Path(rest[0]) if rest else usual, rest[1:] or every)
