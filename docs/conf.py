@@ -20,8 +20,7 @@ author = copyright = "The gearlube developers"
 version = release = version_of("gearlube")
 
 extensions = ["myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
-# text.md, text_*.md and text/: parts that scripts put into their pages
-exclude_patterns = ["**/text.md", "**/text_*.md", "**/text/*", "_build"]
+exclude_patterns = ["_build"]
 
 myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 4

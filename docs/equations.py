@@ -2,41 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
+from docs.page import Page
 from docs.source_tags import Equation, Tag, equations, package_tags
 
-FOLDER = Path(__file__).parent
-PAPERS = {
-    "he_2007": "He, Gunda and Singh 2007: helical gears with sliding friction",
-    "karagiannis_2012": "Karagiannis, Theodossiades and Rahnejat 2012: lubricated hypoid gears",
-    "mohammadpour_2015": "Mohammadpour et al. 2015: hypoid gears on tapered roller bearings",
-    "jamali_2015": "Jamali 2015: thesis on films of helical gears",
-}
-
-HEAD = """# Where the papers' equations are
-
-Written by `python -m docs.equations` from `docs/equations.csv` and the tags in the code; not edited
-by hand. Every numbered equation of the four papers stands here.
-
-The code names the source of an equation by a tag, one equation a tag, so a search finds it:
-
-```
-grep -rn "he_2007 (10b)" gearlube_core drivetrain
-```
-
-The keys are those of [bibliography.bib](bibliography.bib).
-
-- **printed**: as in the paper.
-- **corrected**: a misprint is put right; the note says which.
-- **other form**: the same content, written differently.
-- **not implemented**: the note says what stands in its place.
-"""
-
-TAIL = """
-Chapter 7 of the thesis numbers only the angle of the grinding marks. Its films of rough surfaces
-with different lays are on the page [rough_line_contact.md](rough_line_contact.md).
-"""
+PAPERS = ("he_2007", "karagiannis_2012", "mohammadpour_2015", "jamali_2015")
 
 
 def places(equation: Equation, tags: list[Tag]) -> list[str]:
@@ -52,21 +21,18 @@ def _path(tag: Tag) -> str:
     return f"{module}:{tag.scope}" if tag.scope else module
 
 
-def page() -> str:
-    """Return the text of docs/equations.md."""
-    tags, rows = package_tags(), equations()
-    text = [HEAD]
-    for paper, title in PAPERS.items():
-        text.append(f"\n## {title}\n\nTags: `[{paper} (number)]`.\n")
-        text.append("| Equation | What | Form | Where | Note |\n|---|---|---|---|---|")
-        for row in rows:
+def refreshed() -> Page:
+    """Return the page with the equations and places of now."""
+    tags, page = package_tags(), Page("equations")
+    for paper in PAPERS:
+        rows = []
+        for row in equations():
             if row.paper == paper:
                 where = ", ".join(f"`{place}`" for place in places(row, tags)) or "-"
-                text.append(
-                    f"| ({row.number}) | {row.what} | {row.form} | {where} | {row.note or '-'} |"
-                )
-    return "\n".join(text) + "\n" + TAIL
+                rows.append([f"({row.number})", row.what, row.form, where, row.note or "-"])
+        page.rows("Equation | What", rows, f"Tags: `[{paper} (number)]`.")
+    return page
 
 
 if __name__ == "__main__":
-    (FOLDER / "equations.md").write_text(page(), encoding="utf-8")
+    refreshed().write()

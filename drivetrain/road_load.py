@@ -1,4 +1,4 @@
-"""Road load at the axle, and the speeds that belong to a vehicle speed."""
+"""Vehicle, tyre and road load at the axle, and the speeds that belong to a vehicle speed."""
 
 from __future__ import annotations
 

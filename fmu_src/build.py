@@ -1,4 +1,4 @@
-"""Build FMUs: native ones, or with pythonfmu those that compute in the installed package."""
+"""Build FMUs, native or with pythonfmu, and keep built ones."""
 
 from __future__ import annotations
 

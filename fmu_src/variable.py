@@ -1,4 +1,4 @@
-"""One FMI variable, described without reference to an FMI version."""
+"""One FMI variable without reference to an FMI version, its kinds, outputs of all models."""
 
 from __future__ import annotations
 

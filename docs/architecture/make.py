@@ -1,4 +1,4 @@
-"""Write docs/architecture.md and docs/images/house.svg: `python -m docs.architecture.make`.
+"""Tables of docs/architecture.md and docs/images/house.svg: `python -m docs.architecture.make`.
 
 Rooms and their floors are read from the import contracts in pyproject.toml, which CI enforces.
 What a room holds is the first sentence of its package's docstring.
@@ -8,14 +8,11 @@ from __future__ import annotations
 
 import tomllib
 from importlib import import_module
-from pathlib import Path
 
 from docs.architecture.picture import Floor, house
+from docs.page import IMAGES, ROOT, Page
 
-ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "architecture.md"
-PICTURE = ROOT / "docs" / "images" / "house.svg"
-_TEXT = Path(__file__).with_name("text.md")
+PICTURE = IMAGES / "house.svg"
 
 
 def layers(name: str) -> tuple[list[list[str]], str]:
@@ -34,15 +31,15 @@ def summary(module: str) -> str:
     return text.splitlines()[0].removesuffix(".")
 
 
-def table(name: str) -> str:
-    """Return the table of a contract's floors."""
+def table(name: str) -> list[list[str]]:
+    """Return the rows of a contract's floors."""
     floors, container = layers(name)
-    lines = ["| Layer | Module | Content |", "|---|---|---|"]
+    rows = []
     for height, rooms in zip(range(len(floors), 0, -1), floors, strict=True):
         for room in rooms:
             module = f"{container}.{room}" if container else room
-            lines.append(f"| {height} | `{module}` | {summary(module)} |")
-    return "\n".join(lines)
+            rows.append([f"{height}", f"`{module}`", summary(module)])
+    return rows
 
 
 def picture() -> str:
@@ -54,19 +51,17 @@ def picture() -> str:
     return house([*top, *middle, *core], {"studies": ", ".join(studies)})
 
 
-def page() -> str:
-    """Return the text of the page."""
-    text = _TEXT.read_text(encoding="utf-8")
-    for name in ("Inside gearlube", "Inside the core", "Inside ehl"):
-        mark = f"{{{name}}}"
-        if mark in text:
-            text = text.replace(mark, table(name))
-    return text
+def refreshed() -> Page:
+    """Return the page with the floors of now."""
+    page = Page("architecture")
+    page.rows("Layer | Module", table("Inside gearlube"), "\n## gearlube\n")
+    page.rows("Layer | Module", table("Inside the core"), "\n## gearlube_core\n")
+    return page
 
 
 def main() -> None:
-    """Write both files."""
-    PAGE.write_text(page(), encoding="utf-8")
+    """Write page and picture."""
+    refreshed().write()
     PICTURE.write_text(picture(), encoding="utf-8")
 
 

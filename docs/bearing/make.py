@@ -1,19 +1,17 @@
-"""Rewrite docs/bearing.md and its figure: python -m docs.bearing.make. About a minute."""
+"""Put numbers into docs/bearing.md and draw its figure: python -m docs.bearing.make. A minute."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 from scipy.stats import chi2, norm
 
-from docs.field_tables import field_tables
-from docs.helical.pages import table
+from docs.page import IMAGES, Page
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.bearing.figures import LAW_NAMES
 from gearlube_core.bearings.bearing_file import BearingFile
@@ -26,13 +24,9 @@ from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.oil.film_oil_data import film_oil_of
-from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
-ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "bearing.md"
-PICTURE = ROOT / "docs" / "images" / "bearing_32216.png"
-TEXT = Path(__file__).with_name("text.md")
 FILE = BearingFile.named("wingertszahn_2023")
 OIL = Lubricant.named("fva_3")
 AXIAL = 6000.0  # N
@@ -143,29 +137,28 @@ def wanted_factor(law: str) -> float:
     return math.exp(norm.ppf(0.975) * spread)
 
 
-def factors() -> str:
-    """Return the table of the error bars and what they follow from."""
+def factors() -> list[list[str]]:
+    """Return the rows of the error bars and what they follow from."""
     rows = []
     for law in sorted(LAWS, key=wanted_factor):
         spans = [f"{r.min():.2f} to {r.max():.2f}" for r in (ratios(law), ratios_32008(law))]
         rows.append([
             LAW_NAMES[law], *spans, f"{wanted_factor(law):.2f}", f"{UNCALIBRATED[law]:g}",
         ])  # fmt: skip
-    return table(["law", "32216", "32008", "factor wanted", "factor taken"], rows)
+    return rows
 
 
-def torques() -> str:
-    """Return the table of measured and computed torques."""
+def torques() -> list[list[str]]:
+    """Return the rows of measured and computed torques."""
     rows = []
     for point in POINTS:
         row = [f"{point.degc:g}", f"{point.radial:g}", str(point.rpm), f"**{point.torque:.2f}**"]
         rows.append([*row, *(f"{loss(point, law=law).torque:.2f}" for law in LAWS)])
-    head = ["oil [°C]", "radial [N]", "speed [rpm]", "measured", *(LAW_NAMES[one] for one in LAWS)]
-    return table(head, rows)
+    return rows
 
 
-def misfits() -> str:
-    """Return the table of misfits, best law first."""
+def misfits() -> list[list[str]]:
+    """Return the rows of misfits, best law first."""
     rows = []
     for law in sorted(LAWS, key=lambda one: _rms(ratios(one))):
         found = ratios(law)
@@ -177,16 +170,15 @@ def misfits() -> str:
             f"{math.exp(logs.mean()):.2f}", f"{100 * _rms(found):.0f} %",
             f"{100 * scatter:.0f} %", f"{factor:g}",
         ])  # fmt: skip
-    head = ["law", "computed/measured", "mean", "rms misfit", "rms about its mean", "error bar"]
-    return table(head, rows)
+    return rows
 
 
 def _rms(found: np.ndarray) -> float:
     return float(np.sqrt(np.mean(np.log(found) ** 2)))
 
 
-def parts() -> str:
-    """Return the table of parts of the default law, and of the rib with other heights."""
+def parts() -> list[list[str]]:
+    """Return the rows of parts of the default law, and of the rib with other heights."""
     rows = []
     for point in (POINTS[0], POINTS[2], POINTS[6], POINTS[10]):
         found = loss(point)
@@ -201,15 +193,11 @@ def parts() -> str:
             f"{found.film_ratio:.1f}", f"{found.rib_film_ratio:.1f}", f"{found.rib_friction:.4f}",
             " / ".join(ribs),
         ])  # fmt: skip
-    head = [
-        "point", "rolling", "rib", "drag", "hysteresis", "film ratio, races", "film ratio, rib",
-        "friction, rib", "rib, height 2 / 2.5 / 3 mm",
-    ]  # fmt: skip
-    return table(head, rows)
+    return rows
 
 
-def needed() -> tuple[str, str, str]:
-    """Return the table of what flooded films would need, and the ranges of layer and warmth."""
+def needed(page: Page) -> None:
+    """Put in what flooded films would need: rows, and the ranges of layer and warmth."""
     rows, layers, rises = [], [], []
     for point in POINTS:
         layer = _root(point, "inlet_layer", 1e-8, 1e-3)
@@ -221,13 +209,13 @@ def needed() -> tuple[str, str, str]:
             f"{point.degc:g}", f"{point.radial:g}", str(point.rpm), f"{flooded:.2f}",
             f"{1e6 * layer:.1f}", f"{rise:.0f}",
         ])  # fmt: skip
-    head = [
-        "oil [°C]", "radial [N]", "speed [rpm]", "flooded/measured", "layer that closes it [µm]",
-        "or oil hotter by [K]",
-    ]  # fmt: skip
-    return (
-        table(head, rows),
+    page.rows("oil [°C] | radial [N] | speed [rpm] | flooded", rows)
+    page.fill(
+        "their factor for a thin inlet layer): {} of oil on both",
         f"{min(layers):.0f} to {max(layers):.0f} µm",
+    )
+    page.fill(
+        "oil hotter than the outer ring by {} would explain it",
         f"{min(rises):.0f} to {max(rises):.0f} K",
     )
 
@@ -240,11 +228,12 @@ def _root(point: Point, name: str, low: float, high: float) -> float:
     return float(brentq(excess, low, high, xtol=1e-9 if high < 1.0 else 1e-3))
 
 
-def solved() -> str:
-    """Return the table of solved films against the laws, at the outer race."""
+def solved() -> list[list[str]]:
+    """Return the rows of solved films against the laws, at the outer race."""
     p = FILE.geometry().parameters()
     oil = film_oil_of(OIL, celsius_to_kelvin(50.0), newtonian=True)
     load = AXIAL / (p.n_rollers * math.sin(FILE.geometry().outer_angle)) / p.length
+    alpha = lubricant_state(OIL.parameters(), celsius_to_kelvin(50.0)).alpha
     rows = []
     for rpm in (500, 2000, 4000):
         u = p.mean_ratio * rpm_to_rads(rpm)
@@ -260,26 +249,12 @@ def solved() -> str:
         slope = np.gradient(film.pressure, film.x)
         force = 0.5 * float(np.trapezoid(film.film * slope, film.x))
         lost = float(np.trapezoid(film.film**3 * slope**2 / (12.0 * film.viscosity), film.x))
-        alpha = OIL.parameters()
-        at = (p.R_outer, load, p.reduced_modulus, oil.eta0, _alpha(alpha), u)
+        at = (p.R_outer, load, p.reduced_modulus, oil.eta0, alpha, u)
         rows.append([
             str(rpm), f"{force:.0f}", f"{lost / (force * u):.2f}",
             *(_law(law, at, force) for law in (biboulet_houpert_force, zhou_hoeprich_force)),
         ])  # fmt: skip
-    head = [
-        "speed [rpm]",
-        "solved F [N/m]",
-        "lost power/(F u)",
-        "Biboulet and Houpert",
-        "Zhou and Hoeprich",
-    ]
-    return table(head, rows)
-
-
-def _alpha(_parameters: Any) -> float:
-    from gearlube_core.oil.lubricant import lubricant_state
-
-    return lubricant_state(_parameters, celsius_to_kelvin(50.0)).alpha
+    return rows
 
 
 def _law(law: Callable[..., tuple[float, int]], at: tuple[float, ...], force: float) -> str:
@@ -287,8 +262,8 @@ def _law(law: Callable[..., tuple[float, int]], at: tuple[float, ...], force: fl
     return f"{found:.0f} ({100 * (found / force - 1):+.0f} %)"
 
 
-def film_model() -> str:
-    """Return errors and domain of the film model of rollers."""
+def film_model(page: Page) -> None:
+    """Put in errors, domain and making of the film model of rollers."""
     model = FilmModel.named(ROLLER_MODEL)
     p = model.provenance
     rows = []
@@ -305,25 +280,27 @@ def film_model() -> str:
                 words, str(found["contacts"]), name, f"{found[f'{short}_rms_percent']:.2f}",
                 f"{found[f'{short}_max_percent']:.2f}", f"{bound:.2f}",
             ])  # fmt: skip
-    head = ["contacts", "number", "quantity", "rms, %", "largest, %", "bound, %"]
+    page.rows("contacts | number | quantity", rows)
     domain = [[name, f"{low:g}", f"{high:g}"] for name, (low, high, _) in p["box"].items()]
-    return table(head, rows) + "\n" + table(["quantity", "least", "most"], domain)
-
-
-def model_numbers() -> dict[str, str]:
-    """Return the numbers of the film model in the text."""
-    p = FilmModel.named(ROLLER_MODEL).provenance
-    solves, over = p["solves"], p["bounds"]["fresh_violations"]
-    rest = p["grid_error_left_percent"]
-    return {
-        "TRAINED": str(solves["box"] + solves["edge"] + solves["bearing"]),
-        "KEPT": str(solves["calibration"]),
-        "FRESH": str(solves["fresh"]),
-        "OVER": f"{over[0]} and {over[1]}",
-        "FAILED": str(p["failed"]),
-        "FINE": str(p["fine_solves"]),
-        "GRID": f"{rest[0]:.2f} % rms of the film and {rest[1]:.2f} % of the force",
-    }
+    page.rows("quantity | least | most", domain)
+    solves, over, rest = p["solves"], p["bounds"]["fresh_violations"], p["grid_error_left_percent"]
+    page.fill(
+        "- {} contacts for training and {} of the domain for the bounds; {} that the shipped "
+        "bearings visit for the test, of which {} exceed the bounds of film and force. "
+        "{} solutions failed.",
+        solves["box"] + solves["edge"] + solves["bearing"],
+        solves["calibration"],
+        solves["fresh"],
+        f"{over[0]} and {over[1]}",
+        p["failed"],
+    )
+    page.fill(
+        "513 nodes. {} contacts on 1025 nodes lead to the limit of fine grids; what that misses is "
+        "{} % rms of the film and {} % of the force.",
+        p["fine_solves"],
+        f"{rest[0]:.2f}",
+        f"{rest[1]:.2f}",
+    )
 
 
 def picture() -> Any:
@@ -358,42 +335,32 @@ def picture() -> Any:
     return figure
 
 
-def page() -> str:
-    """Return docs/bearing.md."""
-    text = TEXT.read_text(encoding="utf-8")
-    starved, layers, rises = needed()
+def measured(page: Page) -> None:
+    """Put in what the laws give at the measured points."""
+    page.rows("oil [°C] | radial [N] | speed [rpm] | measured", torques())
+    page.rows("law | computed/measured", misfits())
+    page.rows("point | rolling", parts())
     best, second = sorted(LAWS, key=lambda one: _rms(ratios(one)))[:2]
-    names = {
-        "TORQUES": torques(),
-        "MISFITS": misfits(),
-        "PARTS": parts(),
-        "FACTORS": factors(),
-        "SOLVED": solved(),
-        "FILM_MODEL": film_model(),
-        **model_numbers(),
-        "NEEDED": starved,
-        "LAYERS": layers,
-        "RISES": rises,
-        "BEST_RMS": f"{100 * _rms(ratios(best)):.0f} %",
-        "BEST": LAW_NAMES[best],
-        "SECOND_RMS": f"{100 * _rms(ratios(second)):.0f} %",
-        "SECOND": LAW_NAMES[second],
-        "FIELDS": field_tables(
-            BearingFile,
-            {
-                "": "The file",
-                "bearing": "[bearing]",
-                "rib": "[rib]: of the inner ring",
-                "operation": "[operation]: what is computed without options",
-            },
-        ),
-    }
-    for name, value in names.items():
-        text = text.replace(f"<{name}>", value.strip("\n"))
-    return text
+    page.fill(
+        "On the bearing 32216 {} predicts best (rms misfit {}), {} second ({}).",
+        LAW_NAMES[best],
+        f"{100 * _rms(ratios(best)):.0f} %",
+        LAW_NAMES[second],
+        f"{100 * _rms(ratios(second)):.0f} %",
+    )
+
+
+def main() -> None:
+    """Write the page and the figure."""
+    page = Page("bearing")
+    page.rows("law | 32216", factors())
+    measured(page)
+    page.rows("speed [rpm] | solved F", solved())
+    film_model(page)
+    needed(page)
+    page.write()
+    picture().savefig(IMAGES / "bearing_32216.png", dpi=110)
 
 
 if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")
-    PICTURE.parent.mkdir(exist_ok=True)
-    picture().savefig(PICTURE, dpi=110)
+    main()

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from docs.page import IMAGES, ROOT
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.output.csv_text import csv_text
@@ -21,8 +22,6 @@ from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.storage.atomic_file import write_text
 
-ROOT = Path(__file__).resolve().parents[2]
-IMAGES = ROOT / "docs" / "images"
 NUMBERS = Path(__file__).parent / "numbers.csv"
 _DRAWN = (
     ("lost in all", "energy_lost", 1.0, "kJ"),

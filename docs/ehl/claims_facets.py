@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from docs.ehl.cases import LINE, FilmCase, facet_case
-from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed, span
+from docs.ehl.claims import GPA, MM, UM, listed, span
 from docs.ehl.measures import exponent, peaks
 from docs.ehl.runs import FACET_MARCH, FACET_STEPS, FACETS
 from docs.ehl.store import Steady, Store
+from docs.page import Verdict, judge_parts
 from gearlube_core.arrays import Array
 
 _PRESSURE, _FILM = 0.1, 0.2
@@ -49,9 +50,7 @@ def _twenty(store: Store) -> Verdict:
     p, h, count, failed = _found(store, 20)
     return Verdict(
         _values(p, h, count, failed),
-        judge(_within(p, 2.44, 3.16, _PRESSURE), failed > 0 or h.min() < 0.02),
-        "These are films at rest. The pressure at a corner depends on the grid. A film fails if "
-        "none is found or if it is below 0.02 um.",
+        judge_parts(_within(p, 2.44, 3.16, _PRESSURE), failed > 0 or h.min() < 0.02),
     )
 
 
@@ -61,11 +60,10 @@ def _thirty(store: Store) -> Verdict:
     drop = 1.0 - p.max() / _found(store, 20)[0].max()
     return Verdict(
         f"{_values(p, h, count, failed)}; {-100.0 * drop:+.0f} % from 20",
-        judge(
+        judge_parts(
             abs(p.max() / 2.27 - 1.0) < _PRESSURE, abs(drop - 0.28) < 0.05,
             failed > 0 or h.min() < 0.02,
         ),
-        "These are films at rest.",
     )  # fmt: skip
 
 
@@ -74,11 +72,10 @@ def _forty(store: Store) -> Verdict:
     p, h, count, failed = _found(store, 40)
     return Verdict(
         _values(p, h, count, failed),
-        judge(
+        judge_parts(
             _within(p, 1.6, 1.9, _PRESSURE), _within(h, 0.11, 0.16, _FILM),
             failed == 0 and h.min() > 0.02,
         ),
-        "Judged are three steps at rest and steps 281 to 300 in motion.",
     )  # fmt: skip
 
 
@@ -89,11 +86,10 @@ def _hundred(store: Store) -> Verdict:
     rise = p.max() / smooth - 1.0
     return Verdict(
         f"{_values(p, h, count, failed)}; {100.0 * rise:+.1f} % on the smooth pressure",
-        judge(
+        judge_parts(
             _within(p, 1.18, 1.42, _PRESSURE), _within(h, 0.14, 0.20, _FILM),
             abs(rise - 0.136) < 0.05,
         ),
-        "Judged are three steps at rest and steps 281 to 300 in motion.",
     )  # fmt: skip
 
 
@@ -104,7 +100,7 @@ def _monotone(store: Store) -> Verdict:
     h = [UM * f.min_film for f in films]
     return Verdict(
         f"{listed(p)} GPa, {listed(h, '{:.3f}')} um",
-        judge(bool((np.diff(p) < 0.0).all()), bool((np.diff(h) > 0.0).all())),
+        judge_parts(bool((np.diff(p) < 0.0).all()), bool((np.diff(h) > 0.0).all())),
         f"The values are at rest at step 300, for n_f = {listed(FACETS, '{:g}')} / smooth.",
     )
 
@@ -114,9 +110,7 @@ def _spikes(store: Store) -> Verdict:
     found = peaks(faceted(store, 20).along, _SPIKE)
     return Verdict(
         f"{found}",
-        judge(abs(found - 13) <= 1),
-        "A spike is a maximum of the section along the line that rises by a fifth of the largest "
-        "pressure. The face crosses 11.7 facets of either flank.",
+        judge_parts(abs(found - 13) <= 1),
     )
 
 
@@ -132,9 +126,7 @@ def _grids(store: Store) -> Verdict:
     return Verdict(
         "; ".join(f"n_f = {n}: {p:+.1f} %, {h:+.1f} %" for n, (p, h) in off.items())
         + " (pressure, film)",
-        judge(max(map(abs, off[20])) < 10.0, max(map(abs, off[100])) < 2.0),
-        "The numbers are changes with half the nodes across, at step 300. Little is 10 %, very "
-        "little is 2 %.",
+        judge_parts(max(map(abs, off[20])) < 10.0, max(map(abs, off[100])) < 2.0),
     )
 
 
@@ -160,50 +152,17 @@ def _geometry(_: Store) -> Verdict:
     return Verdict(
         f"{length:.2f} mm; gap off by {listed([UM * g for g in gaps], '{:.3f}')} um, power "
         f"{slope:.2f}",
-        judge(abs(length - 1.0) < 0.1, abs(slope + 2.0) < 0.1),
-        "There are 20 facets on the line of action. The power follows from chords of an arc.",
+        judge_parts(abs(length - 1.0) < 0.1, abs(slope + 2.0) < 0.1),
     )
 
 
-FACETED_FLANKS = (
-    Claim(
-        "F1", "With n_f = 20 facets the largest pressure is 2.44 to 3.16 GPa, and the film fails",
-        "sec. 6.2.2, fig. 6.7", "10 %", _twenty,
-    ),
-    Claim(
-        "F2",
-        "With n_f = 30 the largest pressure is at most 2.27 GPa, 28 % less than with 20; the "
-        "film fails in places",
-        "sec. 6.2.2, fig. 6.7", "10 %, 5 points", _thirty,
-    ),
-    Claim(
-        "F3",
-        "With n_f = 40 the largest pressure is 1.6 to 1.9 GPa, the smallest film 0.11 to 0.16"
-        " um; the solids never touch",
-        "sec. 6.2.2, fig. 6.7", "10 %, 20 %", _forty,
-    ),
-    Claim(
-        "F4",
-        "With n_f = 100 the largest pressure is 1.18 to 1.42 GPa, 13.6 % above that of smooth"
-        " flanks; the smallest film is 0.14 to 0.20 um",
-        "sec. 6.2.2, fig. 6.7", "10 %, 20 %, 5 points", _hundred,
-    ),
-    Claim(
-        "F5", "More facets give less pressure and a thicker film",
-        "sec. 6.2.2", "monotone", _monotone,
-    ),
-    Claim(
-        "F6", "With n_f = 20 the pressure has 13 spikes along the line at step 300",
-        "sec. 6.2.2, fig. 6.11", "1", _spikes,
-    ),
-    Claim(
-        "F7", "The grid matters little; for n_f = 100 it matters very little",
-        "sec. 6.2.1, fig. 6.6", "10 %, 2 %", _grids,
-    ),
-    Claim(
-        "F8",
-        "With 20 facets each is about 1 mm long; with more facets the gap approaches the "
-        "smooth one",
-        "sec. 6.1, ch. 8", "0.1 mm; power -2 to 0.1", _geometry,
-    ),
-)  # fmt: skip
+FACETED_FLANKS = {
+    "F1": _twenty,
+    "F2": _thirty,
+    "F3": _forty,
+    "F4": _hundred,
+    "F5": _monotone,
+    "F6": _spikes,
+    "F7": _grids,
+    "F8": _geometry,
+}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import statistics
 from collections.abc import Callable, Sequence
-from pathlib import Path
+from typing import Any
 
 from docs.ehl.film_map import (
     ANGLES,
@@ -29,11 +29,10 @@ from docs.ehl.film_map import (
     spread,
     turned_contacts,
 )
-from docs.ehl.film_map_picture import draw
 from docs.ehl.store import Store
-from docs.helical.pages import table
+from docs.page import IMAGES, Page
+from gearlube.plotting.style import MARKERS, SERIES, house_style, new_figure
 
-IMAGES = Path(__file__).resolve().parents[1] / "images"
 CENTRAL, MINIMUM = "central film", "minimum film"
 PAIRS = (
     (CENTRAL, HAMROCK_DOWSON),
@@ -43,6 +42,9 @@ PAIRS = (
     (MINIMUM, CHITTENDEN),
 )
 LIMITS = (0.1, 0.2, 0.3)
+_BANDS = {0.2: "#E9E9E9", 0.1: "#CFCFCF"}  # shade by half width, the narrow one on top
+_TICKS = (0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0)
+_SPREAD = 0.035  # of markers of one load, in decades
 Group = tuple[str, list[Film]]
 _GROUPS: tuple[tuple[str, Callable[[Contact], bool]], ...] = (
     ("all", lambda _: True),
@@ -52,62 +54,43 @@ _GROUPS: tuple[tuple[str, Callable[[Contact], bool]], ...] = (
 )
 
 
-def film_map_section(store: Store) -> str:
-    """Return the section and draw its picture; what is not computed is said to be missing."""
+def put_film_map(page: Page, store: Store) -> None:
+    """Put in the tables of the map and draw its picture; all stays where films are missing."""
     films = all_films(store)
-    along = [films[c, FINE] for c in map_contacts() if (c, FINE) in films]
-    text = (Path(__file__).parent / "text" / "film_map.md").read_text(encoding="utf-8")
-    if not along:
-        return text + "\nNot computed yet.\n"
+    if not {(contact, FINE) for contact in map_contacts()} <= films.keys():
+        return
     draw(films).savefig(IMAGES / "ehl_film_map.png", dpi=100)
-    return "".join(
-        (
-            text.format(coarse=COARSE, fine=FINE, points=len(map_contacts())),
-            _state(films),
-            "\n![Solved films over formulas](images/ehl_film_map.png)\n",
-            "\nEach marker is a contact; rigid contacts are explained below.\n",
-            "\nSolved film divided by the formula. *Rigid*: in Nijenbanning's chart the film of "
-            "rigid solids and constant viscosity is the thickest; the formulas of Hamrock and "
-            "Dowson and of Chittenden et al. do not cover this case. *Fitted*: W from 1e-7 to "
-            "1e-6 and U from 5e-13 to 1e-10, about the range of their fits. Failed contacts count "
-            "as outside every limit.\n",
-            _spread_table(along),
-            "\nBy ellipticity, load and material where not rigid, film divided by Hamrock and "
-            "Dowson's, mean and standard deviation:\n",
-            _trend_table(along),
-            "\nEvery contact, film over Hamrock and Dowson's: central / smallest.\n",
-            _map_table(films),
-            "\nEntrainment at an angle to the short axis, film over Chittenden's: central / "
-            "smallest.\n",
-            _angle_table(films),
-            "\nEffect of the grid: films in nm on three grids, the order of convergence between "
-            "them, and their limit.\n",
-            _grid_table(films),
-        )
-    )
+    along = [films[c, FINE] for c in map_contacts()]
+    _state(page, films)
+    page.rows("Formula | Film", _spread_rows(along))
+    page.rows(" | central film", _trend_rows(along))
+    page.cells("a_y/a_x | L | M", _map_rows(films))
+    page.cells("a_y/a_x | M | L | 0", _angle_rows(films), first=3)
+    page.rows("a_y/a_x, M, L", _grid_rows(films))
 
 
-def _state(films: Films) -> str:
+def _state(page: Page, films: Films) -> None:
     wanted = [*map_contacts(), *(c for c in turned_contacts() if c.angle)]
     found = [films[c, FINE] for c in wanted if (c, FINE) in films]
     failed = [film for film in found if not film.converged]
     first = [film for film in found if film.converged and film.wedge != "upwind-2"]
     limited = [f for f in found if f.converged and f.wedge == "upwind-2" and not f.sound]
-    lacking = len(wanted) - len(found)
     both = [c for c in map_contacts() if {(c, COARSE), (c, FINE)} <= films.keys()]
-    errors = {q: [100.0 * grid_error(films, c, q) for c in both] for q in (CENTRAL, MINIMUM)}
-    told = " and ".join(
-        f"{statistics.median(some):.1f} % (at most {max(some):.1f} %) of the {quantity}"
-        for quantity, some in errors.items()
-    )
-    missing = f" {lacking} are not computed yet." if lacking else ""
-    return (
-        f"\nOf {len(found)} contacts on {FINE} by {FINE} nodes {len(failed)} did not converge"
-        f"{_named(failed)}; {len(first)} have a film with the first-order stencil alone"
-        f"{_named(first)}; {len(limited)} have more than 1 % of first-order faces"
-        f"{_named(limited)}.{missing} They took {sum(film.seconds for film in found):.0f} s of "
-        f"one processor, a median of {statistics.median(f.seconds for f in found):.1f} s each. "
-        f"By both grids the error of the finer one is {told}.\n"
+    errors = [[100.0 * grid_error(films, c, q) for c in both] for q in (CENTRAL, MINIMUM)]
+    told = [f"{one:.1f}" for some in errors for one in (statistics.median(some), max(some))]
+    page.fill(
+        f"Of {{}} contacts on {FINE} by {FINE} nodes {{}} did not converge{{}} have a film with "
+        "the first-order stencil alone{} have more than 1 % of first-order {}. They took {} "
+        "s of one processor, a median of {} s each. By both grids the error of the finer one is "
+        "{} % (at most {} %) of the central film and {} % (at most {} %) of the minimum film.",
+        len(found),
+        len(failed),
+        f"{_named(failed)}; {len(first)}",
+        f"{_named(first)}; {len(limited)}",
+        f"faces{_named(limited)}",
+        f"{sum(film.seconds for film in found):.0f}",
+        f"{statistics.median(f.seconds for f in found):.1f}",
+        *told,
     )
 
 
@@ -120,7 +103,7 @@ def _named(films: Sequence[Film]) -> str:
     return f" ({'; '.join(names)})" if names else ""
 
 
-def _spread_table(films: Sequence[Film]) -> str:
+def _spread_rows(films: Sequence[Film]) -> list[list[str]]:
     rows = []
     for quantity, source in PAIRS:
         for words, chosen in _GROUPS:
@@ -133,11 +116,10 @@ def _spread_table(films: Sequence[Film]) -> str:
                  f"{found.low:.2f} to {found.high:.2f}",
                  *(f"{100.0 * share:.0f} %" for share in found.within)]
             )  # fmt: skip
-    heads = ["Formula", "Film", "Contacts", "number", "failed", "mean", "deviation", "range"]
-    return table([*heads, *(f"within {100 * limit:.0f} %" for limit in LIMITS)], rows)
+    return rows
 
 
-def _trend_table(films: Sequence[Film]) -> str:
+def _trend_rows(films: Sequence[Film]) -> list[list[str]]:
     groups: list[Group] = []
     elastic = [film for film in films if film.converged and not film.contact.rigid]
     chosen: tuple[tuple[str, tuple[float, ...], Callable[[Contact], float]], ...] = (
@@ -159,7 +141,7 @@ def _trend_table(films: Sequence[Film]) -> str:
             row.append(f"{statistics.mean(ratios):.2f} ± {statistics.stdev(ratios):.2f}")
         over = [film.central / film.minimum for film in some]
         rows.append([*row, f"{min(over):.2f} to {max(over):.2f}"])
-    return table(["", CENTRAL, MINIMUM, "central over smallest film"], rows)
+    return rows
 
 
 def _cell(films: Films, contact: Contact, source: str) -> str:
@@ -172,26 +154,22 @@ def _cell(films: Films, contact: Contact, source: str) -> str:
     return f"{film.ratio(CENTRAL, source):.2f} / {film.ratio(MINIMUM, source):.2f}{mark}"
 
 
-def _map_table(films: Films) -> str:
-    rows = [
-        [f"{k:g}", f"{L:g}", *(_cell(films, Contact(k, M, L), HAMROCK_DOWSON) for M in LOADS)]
+def _map_rows(films: Films) -> list[list[str]]:
+    return [
+        [_cell(films, Contact(k, M, L), HAMROCK_DOWSON) for M in LOADS]
         for k in ELLIPTICITIES
         for L in MATERIALS
     ]
-    heads = ["a_y/a_x", "L", *(f"M = {M:g}" for M in LOADS)]
-    return table(heads, rows) + "\n\\* first-order faces or stencil.\n"
 
 
-def _angle_table(films: Films) -> str:
-    rows = [
-        [f"{k:g}", f"{M:g}", f"{L:g}"]
-        + [_cell(films, Contact(k, M, L, angle), CHITTENDEN) for angle in ANGLES]
+def _angle_rows(films: Films) -> list[list[str]]:
+    return [
+        [_cell(films, Contact(k, M, L, angle), CHITTENDEN) for angle in ANGLES]
         for k, M, L in TURNED
     ]
-    return table(["a_y/a_x", "M", "L", *(f"{angle:g} degrees" for angle in ANGLES)], rows)
 
 
-def _grid_table(films: Films) -> str:
+def _grid_rows(films: Films) -> list[list[str]]:
     rows = []
     for contact in refined_contacts():
         for quantity in (CENTRAL, MINIMUM):
@@ -207,6 +185,79 @@ def _grid_table(films: Films) -> str:
                  *(f"{one:.2f}" for one in h), f"{order:.1f}" if falling else "none",
                  f"{limit:.2f}", f"{100.0 * (h[1] / limit - 1.0):+.1f} %"]
             )  # fmt: skip
-    grids = [f"{n} x {n}" for n in (COARSE, FINE, FINEST)]
-    heads = ["a_y/a_x, M, L", "Film", *grids, "order", "second-order limit"]
-    return table([*heads, f"{FINE} off it"], rows)
+    return rows
+
+
+def draw(films: Films) -> Any:
+    """Return ratios over load, colours for ellipticities and markers for materials."""
+    from matplotlib.patches import Patch
+
+    with house_style():
+        figure = new_figure(11.0, 6.8)
+        axes = figure.subplots(2, 3, sharey=True)
+        for ax, (quantity, source) in zip(axes.flat, PAIRS, strict=False):
+            _ratios(ax, films, quantity, source)
+        _angles(axes[1, 2], films)
+        for ax in axes.flat:
+            for half, shade in _BANDS.items():
+                ax.axhspan(1.0 - half, 1.0 + half, color=shade, lw=0.0, zorder=0)
+            ax.set_yscale("log")
+            ax.set_yticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
+            ax.minorticks_off()
+        for ax in axes[:, 0]:
+            ax.set_ylabel("solved film over formula [-]")
+        handles = [
+            axes[0, 0].plot([], [], "o", color=colour, label=f"$a_y/a_x$ = {k:g}")[0]
+            for k, colour in zip(ELLIPTICITIES, SERIES, strict=False)
+        ] + [
+            axes[0, 0].plot([], [], marker, color="black", label=f"L = {L:g}")[0]
+            for L, marker in zip(MATERIALS, MARKERS, strict=False)
+        ]
+        handles += axes[0, 0].plot(
+            [], [], "o", color="black", markerfacecolor="none", label="open: rigid contact"
+        )
+        handles += [
+            Patch(color=shade, label=f"within {100.0 * half:.0f} % of the formula")
+            for half, shade in _BANDS.items()
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=6)
+        return figure
+
+
+def _ratios(ax: Any, films: Films, quantity: str, source: str) -> None:
+    for contact in map_contacts():
+        film = films.get((contact, FINE))
+        if film is None:
+            continue
+        place = ELLIPTICITIES.index(contact.ellipticity)
+        x = contact.M * 10.0 ** (_SPREAD * (place - 0.5 * (len(ELLIPTICITIES) - 1)))
+        if not film.converged:
+            ax.plot(x, 1.0, "x", color=SERIES[place], markersize=8)
+            continue
+        ax.plot(
+            x,
+            film.ratio(quantity, source),
+            MARKERS[MATERIALS.index(contact.L)],
+            color=SERIES[place],
+            markerfacecolor="none" if contact.rigid else SERIES[place],
+        )
+    ax.set_xscale("log")
+    ax.set_xlabel("load M [-]")
+    ax.set_title(f"{quantity}, {source}")
+
+
+def _angles(ax: Any, films: Films) -> None:
+    for k, M, L in TURNED:
+        found = [films.get((Contact(k, M, L, angle), FINE)) for angle in ANGLES]
+        good = [film for film in found if film is not None and film.converged]
+        for quantity, line in (("central film", "-"), ("minimum film", "--")):
+            ax.plot(
+                [film.contact.angle for film in good],
+                [film.ratio(quantity, CHITTENDEN) for film in good],
+                line,
+                marker=MARKERS[MATERIALS.index(L)],
+                color=SERIES[ELLIPTICITIES.index(k)],
+            )
+    ax.set_xticks(ANGLES)
+    ax.set_xlabel("angle of entrainment to the short axis [°]")
+    ax.set_title("Chittenden et al. 1985; dashed: minimum")

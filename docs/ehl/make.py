@@ -1,9 +1,9 @@
-"""Rewrite docs/ehl.md and its pictures: python -m docs.ehl.make [workdir] [--present].
+"""Put numbers into docs/ehl.md and draw its pictures: python -m docs.ehl.make [DIR] [--present].
 
 A quarter of an hour of one processor the first time. Films and marches are kept in the folder given
 as argument, by default build/ehl, and a rerun takes only what is missing; a march that was
 interrupted goes on from its last record. Delete the folder after a change of the solvers.
-With --present nothing is computed, and what is missing is left out or said to be.
+With --present nothing is computed; what needs a missing film stays as the page has it.
 """
 
 from __future__ import annotations
@@ -11,115 +11,82 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Callable
-from pathlib import Path
+from typing import Any
 
-from docs.ehl.cases import CYCLE, FACETED, LINE
+from docs.ehl import figures_cycle, figures_facets, figures_fields
 from docs.ehl.claims import verdicts
 from docs.ehl.claims_cycle import CYCLES
 from docs.ehl.claims_facets import FACETED_FLANKS
 from docs.ehl.claims_motion import MOTIONS
 from docs.ehl.claims_relief import RELIEFS
-from docs.ehl.film_map_page import film_map_section
-from docs.ehl.micro_cavity_page import micro_cavity_section
-from docs.ehl.minimum_film import minimum_film_section
-from docs.ehl.pages import claims_table, counts, dry_table, grid_table, size
-from docs.ehl.pictures import CYCLE_PICTURES, FACET_PICTURES, SMOOTH_PICTURES, shown
+from docs.ehl.film_map_page import put_film_map
+from docs.ehl.lines import GivenUpError
+from docs.ehl.micro_cavity_page import put_micro_cavity
+from docs.ehl.minimum_film import put_minimum_film
+from docs.ehl.pages import dry_rows, grid_rows, put_counts
 from docs.ehl.runs import all_runs, do_runs
-from docs.ehl.store import Store
-from docs.ehl.touching import touching_section
+from docs.ehl.store import MissingFilmError, Store
+from docs.ehl.touching import put_touching
+from docs.page import IMAGES, Claims, Page, begin, tally
 
-ROOT = Path(__file__).resolve().parents[2]
-TEXTS = Path(__file__).parent / "text"
-IMAGES = ROOT / "docs" / "images"
-Section = Callable[[Store], str]
+SMOOTH: Claims = {**CYCLES, **RELIEFS, **MOTIONS}
+# words of the page before the counts of statements
+SMOOTH_CLAIMS = "*order* only which value is larger, *shape* only how a curve rises and falls."
+FACET_CLAIMS = "with twice the nodes of the smooth cases."
+PICTURES: dict[str, Callable[[Store], Any]] = {
+    "cycle_designs": figures_cycle.designs,
+    "transient_steady": figures_fields.transient_steady,
+    "sections": figures_fields.sections,
+    "crowning": figures_cycle.crowns,
+    "linear_relief": figures_cycle.linear_relief,
+    "parabolas": figures_cycle.parabolas,
+    "speeds": figures_cycle.speeds,
+    "powers": figures_cycle.powers,
+    "power_contours": figures_fields.power_contours,
+    "power_lines": figures_fields.power_lines,
+    "facets": figures_facets.facets,
+}
 logger = logging.getLogger("docs.ehl")
 
 
-def _intro(_: Store) -> str:
-    return _text("intro")
+def put_claims(page: Page, store: Store, claims: Claims, after: str) -> None:
+    """Put in what was found for statements; those whose films are missing stay."""
+    found = verdicts(claims, store)
+    cells = dict.fromkeys(claims, ()) | {
+        name: (one.value, f"**{one.verdict}**", one.reason) for name, one in found.items()
+    }
+    page.claims(cells, after)
+    if len(found) == len(claims):
+        page.paragraph(after, f"{tally(one.verdict for one in found.values())}.")
 
 
-def _smooth(store: Store) -> str:
-    claims = (*CYCLES, *RELIEFS, *MOTIONS)
-    return _text("claims") + claims_table(claims, verdicts(claims, store))
-
-
-def _facets(store: Store) -> str:
-    return _text("facets") + claims_table(FACETED_FLANKS, verdicts(FACETED_FLANKS, store))
-
-
-def _figures(store: Store) -> str:
-    pictures = (*CYCLE_PICTURES, *SMOOTH_PICTURES, *FACET_PICTURES)
-    return _text("figures") + shown(store, pictures, IMAGES)
-
-
-def _method(store: Store) -> str:
-    grids = (
-        f"Nodes across and along the line, {size()} in contact at\n  most: "
-        f"{_nodes(CYCLE)} for cycles, {_nodes(LINE)} for films at rest and short marches,\n  "
-        f"{_nodes(FACETED)} for facets and for comparison. The thesis has 182 by 857."
-    )
-    return _text("method").format(grids=grids)
-
-
-def _dry(store: Store) -> str:
-    return _text("dry") + dry_table(store)
-
-
-def _grids(store: Store) -> str:
-    return _text("grids") + grid_table(store)
-
-
-def _touching(store: Store) -> str:
-    return touching_section(store, all_runs())
-
-
-def _failures(store: Store) -> str:
-    return _text("failures") + counts(store, all_runs())
-
-
-def _open(_: Store) -> str:
-    return _text("open")
-
-
-# in the order of the page; further studies of films add theirs
-SECTIONS: tuple[Section, ...] = (
-    _intro,
-    _smooth,
-    _facets,
-    _figures,
-    _method,
-    _dry,
-    _grids,
-    minimum_film_section,
-    _touching,
-    _failures,
-    film_map_section,
-    micro_cavity_section,
-    _open,
-)
+def draw(store: Store) -> None:
+    """Draw the pictures; those whose films are missing stay."""
+    for name, picture in PICTURES.items():
+        try:
+            picture(store).savefig(IMAGES / f"ehl_{name}.png", dpi=100)
+        except (MissingFilmError, GivenUpError) as error:
+            logger.warning("picture %s stays as it is: %s", name, error)
 
 
 def main() -> None:
     """Run, write the page and the pictures."""
-    logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")
-    logger.setLevel(logging.INFO)
-    given = [word for word in sys.argv[1:] if word != "--present"]
-    folder = Path(given[0]) if given else ROOT / "build" / "ehl"
-    store = Store(folder, compute="--present" not in sys.argv)
+    store = Store(begin("ehl"), compute="--present" not in sys.argv)
     if store.compute:
         do_runs(store, all_runs())
     logger.info("page and pictures")
-    page = "".join(section(store) for section in SECTIONS)
-    (ROOT / "docs" / "ehl.md").write_text(page, encoding="utf-8")
-
-
-def _nodes(nodes: tuple[int, int]) -> str:
-    return f"{nodes[0]} by {nodes[1]}"
-
-
-def _text(name: str) -> str:
-    return (TEXTS / f"{name}.md").read_text(encoding="utf-8")
+    page = Page("ehl")
+    put_claims(page, store, SMOOTH, SMOOTH_CLAIMS)
+    put_claims(page, store, FACETED_FLANKS, FACET_CLAIMS)
+    page.cells("At rest | dry, GPa", dry_rows(store), first=1)
+    page.cells("GPa, um", grid_rows(store), first=1)
+    put_minimum_film(page, store)
+    put_touching(page, store)
+    put_counts(page, store)
+    put_film_map(page, store)
+    put_micro_cavity(page, store)
+    page.write()
+    draw(store)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,10 +19,9 @@ from docs.ehl.micro_cavity import (
     speeds,
 )
 from docs.ehl.store import MissingFilmError, Store
-from docs.helical.pages import table
+from docs.page import IMAGES, Page
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 
-IMAGES = Path(__file__).resolve().parents[1] / "images"
 NODES = (161, 97)
 _NM, _UM, _MPA = 1e9, 1e6, 1e-6
 
@@ -46,27 +44,25 @@ SLIDING_PUBLISHED = (
 )
 
 
-def micro_cavity_section(store: Store) -> str:
-    """Return the section and draw its picture; nothing but its text where films are missing."""
-    text = (Path(__file__).parent / "text" / "micro_cavity.md").read_text(encoding="utf-8")
+def put_micro_cavity(page: Page, store: Store) -> None:
+    """Put in the tables and draw the picture; all stays where films are missing."""
     cases = (ROLLING, SLIDING, FASTER)
     try:
         passages = [kept_passage(store, case, NODES) for case in cases]
     except MissingFilmError:
-        return text + "\nNot computed yet.\n"
-    draw(passages[1]).savefig(IMAGES / "ehl_micro_cavity.png", dpi=100)
-    failures = sum(one.failures for one in passages)
-    steps = sum(one.times.size for one in passages)
-    return "".join(
-        (
-            text.format(nx=NODES[0], ny=NODES[1]),
-            f"\n{failures} of {steps} time steps did not converge. They took "
-            f"{sum(one.seconds for one in passages):.0f} s of one processor.\n",
-            "\n![A cavity passes a sliding contact](images/ehl_micro_cavity.png)\n",
-            _films_table(passages[1]),
-            _speed_table(list(zip(cases, passages, strict=True))),
-        )
+        return
+    sliding = passages[1]
+    draw(sliding).savefig(IMAGES / "ehl_micro_cavity.png", dpi=100)
+    page.fill(
+        "{} of {} time steps did not converge. They took {} s of one processor.",
+        sum(one.failures for one in passages),
+        sum(one.times.size for one in passages),
+        f"{sum(one.seconds for one in passages):.0f}",
     )
+    smooth = _NM * float(np.interp(0.0, sliding.x, sliding.smooth_film))
+    page.fill("Without a cavity the film in the middle is 212 / {} nm.", f"{smooth:.0f}")
+    page.rows("cavity at, um", _film_rows(sliding))
+    page.rows("slide-roll | u of", _speed_rows(list(zip(cases, passages, strict=True))))
 
 
 class Found(NamedTuple):
@@ -106,7 +102,7 @@ def _summit(x: Any, film: Any, k: int) -> tuple[float, float]:
     return float(top - 0.25 * (low - high) * part), float(x[k] + part * (x[1] - x[0]))
 
 
-def _films_table(passage: Passage) -> str:
+def _film_rows(passage: Passage) -> list[list[str]]:
     rows = []
     for one in SLIDING_PUBLISHED:
         found = at_cavity(SLIDING, passage, one.centre)
@@ -115,21 +111,10 @@ def _films_table(passage: Passage) -> str:
              f"{one.oil:.0f} / {found.oil:.0f}", f"{one.oil_place:.0f} / {found.oil_place:.0f}",
              f"{one.pressure:.0f} / {found.pressure:.0f}"]
         )  # fmt: skip
-    heads = [
-        "cavity at, um",
-        "film in it, nm",
-        "film let in, nm",
-        "at, um",
-        "largest pressure, MPa",
-    ]
-    smooth = _NM * float(np.interp(0.0, passage.x, passage.smooth_film))
-    return (
-        "\nSliding, cavity on the slower surface: Mourier's simulation / this. Without a cavity "
-        f"the film in the middle is 212 / {smooth:.0f} nm.\n" + table(heads, rows)
-    )
+    return rows
 
 
-def _speed_table(found: list[tuple[CavityCase, Passage]]) -> str:
+def _speed_rows(found: list[tuple[CavityCase, Passage]]) -> list[list[str]]:
     rows = []
     for case, passage in found:
         hollow, oil = speeds(case, passage)
@@ -139,10 +124,7 @@ def _speed_table(found: list[tuple[CavityCase, Passage]]) -> str:
              *(("", "") if math.isnan(oil)
                else (f"{oil:.4f}", f"{100.0 * (oil / SPEED - 1.0):+.1f} %"))]
         )  # fmt: skip
-    heads = ["slide-roll", "u of the cavity", "u of the hollow", "off it", "u of the oil let in"]
-    return f"\nSpeeds in m/s, by cross-correlation; mean of the surfaces {SPEED:g} m/s.\n" + table(
-        [*heads, "off the mean"], rows
-    )
+    return rows
 
 
 def draw(passage: Passage) -> Any:

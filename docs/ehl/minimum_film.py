@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-from docs.ehl.claims import MISSING, MM, UM
-from docs.ehl.printed_film import printed_film_table
+from docs.ehl.claims import MM, UM
 from docs.ehl.store import MissingFilmError, Store
-from docs.helical.pages import table
+from docs.page import Page
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.storage.atomic_file import write_arrays
 
 FIRST, LAST = 470, 490  # steps of design A; the contact is crossed in 17
@@ -89,40 +89,97 @@ def extrapolated(store: Store) -> tuple[float, float]:
     return last + (last - before) * 2.0 / 3.0, abs(last - before)
 
 
-def _in_words(store: Store) -> str:
-    film, error = extrapolated(store)
-    whole = thinnest(store, VARIANTS[-4]).moving
-    nodes = VARIANTS[-1].nodes
-    return (
-        f"\nOn {nodes[0]} x {nodes[1]} nodes the films of shorter steps approach {UM * film:.3f} "
-        f"um, with an error of {UM * error:.3f} um; the thesis' own steps give a film that is "
-        f"{100.0 * (whole / film - 1.0):.0f} % too thick.\n\n**The printed film is probably too "
-        "thick because of numerical errors.** The thesis names three wedges (sec. 3.7.1),\none of "
-        "first order, and does not say which was used for these films. The one of first order on "
-        "the thesis' own\nspacing gives the same films in motion as the thesis. It also gives its "
-        "result that more time steps change little,\nbecause the wedge smooths out what passes.\n"
-    )
-
-
-def minimum_film_section(store: Store) -> str:
-    """Return the section with its table; a variant that is missing is said to be."""
-    text = (Path(__file__).parent / "text" / "minimum_film.md").read_text(encoding="utf-8")
+def put_minimum_film(page: Page, store: Store) -> None:
+    """Put in the smallest films of all variants, and what they lead to."""
     rows = []
     for variant in VARIANTS:
-        row = [f"{variant.nodes[0]} x {variant.nodes[1]}", variant.wedge, f"{variant.substeps}"]
         try:
             film = thinnest(store, variant)
         except MissingFilmError:
-            rows.append([*row, MISSING, "", "", ""])
-            continue
-        rows.append(
-            [*row, f"{UM * film.steady:.3f}", f"{UM * film.moving:.3f}",
-             f"{MM * film.x:.2f}, {MM * film.y:.1f}", f"{film.failures}"]
-        )  # fmt: skip
-    heads = ["Nodes", "Wedge", "Time steps for one", f"At rest, step {FIRST}, um"]
-    heads += [f"In motion, step {LAST}, um", "There at x, y, mm", "Steps not converged"]
+            return
+        place = f"{MM * film.x:.2f}, {MM * film.y:.1f}"
+        films = (f"{UM * film.steady:.3f}", f"{UM * film.moving:.3f}")
+        rows.append([*films, place, f"{film.failures}"])
+    page.cells("Nodes | Wedge", rows, first=3)
+    film, error = extrapolated(store)
+    whole = thinnest(store, VARIANTS[-4]).moving
+    page.fill(
+        "nodes the films of shorter steps approach {} um, with an error of {} um; the thesis' own "
+        "steps give a film that is {} % too thick",
+        f"{UM * film:.3f}",
+        f"{UM * error:.3f}",
+        f"{100.0 * (whole / film - 1.0):.0f}",
+    )
     try:
-        more = _in_words(store) + printed_film_table(store)
-    except MissingFilmError as error:
-        more = f"\nThe films of the thesis' scheme: {MISSING} (`{error}`).\n"
-    return text + table(heads, rows) + more
+        page.cells("Film in motion", printed_film_rows(store), first=1)
+    except MissingFilmError:
+        return
+
+
+_NODES = (182, 161)  # the thesis' 182 across; along the line its 857 change nothing
+_WEDGE = "upwind-1"
+_SUBSTEPS = (1, 4)
+LOOK = 300  # step whose films are printed for two crowns
+CROWN = 0.45  # F_o over F
+_PRINTED = ("step", "minimum_film", "failures")
+
+
+@dataclass(frozen=True, slots=True)
+class PrintedRun:
+    """A march of a design between two steps; `crown_start` over the face width."""
+
+    design: str
+    first: int
+    last: int
+    crown_start: float = 0.0
+    substeps: int = 1
+
+    @property
+    def name(self) -> str:
+        """Return the run in a file name."""
+        return (
+            f"printed_film_{self.design}_{self.first}to{self.last}_crown{self.crown_start:g}_"
+            f"{self.substeps}"
+        )
+
+
+# where the films of the cycle are thinnest, as `quick` finds them over the whole of it
+THIN = {"a": PrintedRun("a", 460, 515), "b": PrintedRun("b", 0, 60)}
+MIDDLE = {crown: PrintedRun("a", LOOK - 40, LOOK, crown) for crown in (0.0, CROWN)}
+SHORT = {n: PrintedRun("a", 470, 490, 0.0, n) for n in _SUBSTEPS}
+
+
+def printed_films(store: Store, run: PrintedRun) -> dict[str, Array]:
+    """Return steps and their smallest films [m], marched if they are not in the folder."""
+    path = store.folder / f"{run.name}.npz"
+    if not path.exists():
+        if not store.compute:
+            raise MissingFilmError(run.name)
+        width = jamali_2015(run.design).pair.face_width
+        cycle = march_helical_cycle(
+            jamali_2015_film(
+                run.design, crown_start=run.crown_start * width, nodes=_NODES, solids=None
+            ),
+            first=run.first,
+            last=run.last,
+            substeps=run.substeps,
+            settings=PointSolverSettings(tolerance=1e-5, wedge=_WEDGE),
+            throw=False,
+        )
+        values = (cycle["step"], cycle["minimum_film"], np.asarray(cycle.failures))
+        write_arrays(path, dict(zip(_PRINTED, values, strict=True)), compress=True)
+    with np.load(path) as data:
+        return {name: data[name] for name in _PRINTED}
+
+
+def thinnest_printed(store: Store, design: str) -> float:
+    """Return the smallest film of a design as the thesis may have solved it [m]."""
+    return float(printed_films(store, THIN[design])["minimum_film"].min())
+
+
+def printed_film_rows(store: Store) -> list[list[str]]:
+    """Return films of a first-order wedge on the thesis' spacing."""
+    runs = (*MIDDLE.values(), *SHORT.values())
+    films = [thinnest_printed(store, design) for design in THIN]
+    films += [float(printed_films(store, run)["minimum_film"][-1]) for run in runs]
+    return [[f"{UM * film:.3f}"] for film in films]

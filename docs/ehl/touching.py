@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from itertools import product
 
 from docs.ehl.cases import LAYER
-from docs.ehl.claims import GPA, MISSING, UM
+from docs.ehl.claims import GPA, UM
 from docs.ehl.lines import March
-from docs.ehl.runs import LAYERS, TOUCHING, TOUCHING_K, Run, touching_case
+from docs.ehl.runs import LAYERS, TOUCHING, TOUCHING_K, all_runs, touching_case
 from docs.ehl.store import MissingFilmError, Store
-from docs.helical.pages import table
+from docs.page import Page
 
 
 def touched(march: March) -> bool:
@@ -17,23 +17,16 @@ def touched(march: March) -> bool:
     return bool(march["solid_share"].max() > 0.0)
 
 
-def touching_section(store: Store, runs: list[Run]) -> str:
-    """Return the section with its table and what the runs of the page came to."""
-    text = (Path(__file__).parent / "text" / "touching.md").read_text(encoding="utf-8")
-    text = text.format(layer=LAYER, first=TOUCHING[0], last=TOUCHING[1])
+def put_touching(page: Page, store: Store) -> None:
+    """Put in how much depends on the layer, and in which runs of the page solids touch."""
     rows = []
-    for k in TOUCHING_K:
-        for layer in LAYERS:
-            row = [f"{k:g}", f"{layer:g}" if layer else "none"]
-            try:
-                march = store.march(touching_case(k, layer), *TOUCHING)
-            except MissingFilmError:
-                rows.append([*row, MISSING, "", "", "", ""])
-                continue
-            rows.append([*row, *_values(march)])
-    heads = ["k", "layer, nm", "smallest film, nm", "largest pressure, GPa"]
-    heads += ["share of load on solids", "touching area, mm2", "steps not converged"]
-    return text + table(heads, rows) + _all(store, runs)
+    for k, layer in product(TOUCHING_K, LAYERS):
+        try:
+            rows.append(_values(store.march(touching_case(k, layer), *TOUCHING)))
+        except MissingFilmError:
+            rows.append([])
+    page.cells("k | layer, nm", rows)
+    _all(page, store)
 
 
 def _values(march: March) -> list[str]:
@@ -48,28 +41,28 @@ def _values(march: March) -> list[str]:
     ]
 
 
-def _all(store: Store, runs: list[Run]) -> str:
+def _all(page: Page, store: Store) -> None:
     rest, marches, words = 0, 0, []
-    for run in runs:
+    for run in all_runs():
         if run.case.layer != LAYER:
             continue
+        rest, marches = rest + (run.first is None), marches + (run.first is not None)
         name = f"`{run.case.name}`"
         try:
             if run.first is None:
-                rest += 1
-                film = store.steady(run.case, run.step)
-                if film.solid_share > 0.0:
-                    words.append(
-                        f"{name} at step {run.step}, at rest ({100.0 * film.solid_share:.2g} %)"
-                    )
-                continue
-            marches += 1
-            march = store.march(run.case, run.first, run.step, run.keep)
+                share = store.steady(run.case, run.step).solid_share
+                where = f"{name} at step {run.step}, at rest"
+            else:
+                march = store.march(run.case, run.first, run.step, run.keep)
+                share, where = float(march["solid_share"].max()), f"{name} in motion"
         except MissingFilmError:
-            continue
-        if touched(march):
-            words.append(f"{name} in motion ({100.0 * march['solid_share'].max():.2g} %)")
-    return (
-        f"\nOf {rest} films at rest and {marches} marches with that layer solids "
-        f"touch in (largest share of the load): {'; '.join(words) or 'none'}.\n"
+            return
+        if share > 0.0:
+            words.append(f"{where} ({100.0 * share:.2g} %)")
+    page.fill(
+        "Of {} films at rest and {} marches with that layer solids touch in (largest share of the "
+        "load): {}.\n\n",
+        rest,
+        marches,
+        "; ".join(words) or "none",
     )

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
+from docs.page import Page
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.transient.curves import central_film
@@ -47,8 +48,8 @@ def listed(words: list[str]) -> str:
     return f"{', '.join(words[:-1])} and {words[-1]}"
 
 
-def grid_sentence(work: Path, case: HypoidCase) -> str:
-    """Return what the grid decides as a sentence; films are kept in `work`."""
+def put_grids(page: Page, work: Path, case: HypoidCase) -> None:
+    """Put in what the grid decides; films are kept in `work`."""
     across, along = _grids((case.solver.nodes_minor, case.solver.nodes_major))
     path = work / "grids.json"
     if not path.exists():
@@ -63,10 +64,13 @@ def grid_sentence(work: Path, case: HypoidCase) -> str:
         for film in longer
         for there, here in zip(film, coarse_to_fine[-1], strict=True)
     )
-    return (
-        f"In the middle of the engagement {listed([str(n) for n in across])} nodes across leave "
-        f"the central film {_below([film.central for film in coarse_to_fine], across)} and the "
-        f"smallest one {_below([film.minimum for film in coarse_to_fine], across)} below what "
-        f"they go to, to second order; {' or '.join(str(n) for n in along[1:])} nodes along it "
-        f"change neither by more than {100.0 * moved:.1g} %."
+    page.fill(
+        "In the middle of the engagement {} nodes across leave the central film {} and the "
+        "smallest one {} below what they go to, to second order; {} nodes along it change neither "
+        "by more than {} %.",
+        listed([str(n) for n in across]),
+        _below([film.central for film in coarse_to_fine], across),
+        _below([film.minimum for film in coarse_to_fine], across),
+        " or ".join(str(n) for n in along[1:]),
+        f"{100.0 * moved:.1g}",
     )

@@ -1,4 +1,4 @@
-"""Rewrite docs/film_error.md and films.csv: python -m docs.film_error.make [workdir] [--present].
+"""Numbers of docs/film_error.md, films.csv: python -m docs.film_error.make [DIR] [--present].
 
 Half an hour of one processor the first time. Films are kept in the folder given as argument, by
 default build/film_error, and a rerun solves only what is missing. With --present nothing is solved.
@@ -16,17 +16,10 @@ from pathlib import Path
 from statistics import median
 
 from docs.film_error.contacts import (
-    ELLIPTICITIES,
-    EYRING_STRESSES,
-    LOADS,
-    MATERIALS,
-    MOST_PRESSURE,
-    SEED,
-    SLIDE_ROLL,
     RandomContact,
     random_contacts,
 )
-from docs.film_error.marches import march_table, solve_marches
+from docs.film_error.marches import march_rows, solve_marches
 from docs.film_error.solved import (
     Estimates,
     Films,
@@ -36,11 +29,9 @@ from docs.film_error.solved import (
     solve_estimates,
     solve_films,
 )
-from docs.helical.pages import table
+from docs.page import Page, begin
 from gearlube_core.ehl.grid_error import LARGE_ERROR, FilmNumbers, estimated_error
 
-ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "film_error.md"
 KEPT = Path(__file__).parent / "films.csv"
 FIT = 200  # contacts that were seen before the factors of safety were chosen
 FEW = 60  # contacts on the finest grid
@@ -116,50 +107,25 @@ def write_csv(rows: list[Judged]) -> None:
             writer.writerow([c.number, *own, *errors])
 
 
-def page(rows: list[Judged], spent: float, marches: str) -> str:
-    """Return the page."""
-    groups: list[tuple[str, Callable[[Judged], bool]]] = []
+def put(page: Page, rows: list[Judged], spent: float) -> None:
+    """Put in how often true errors are below their estimates, and how large they are."""
+    groups: list[Callable[[Judged], bool]] = []
     for nodes in BASES:
         groups += [
-            (f"{nodes} x {nodes}, all", lambda r, n=nodes: r.nodes == n),
-            (f"{nodes} x {nodes}, after the first {FIT}",
-             lambda r, n=nodes: r.nodes == n and r.contact.number >= FIT),
-            (f"{nodes} x {nodes}, Eyring", lambda r, n=nodes: r.nodes == n
-             and r.contact.eyring_stress > 0.0),
-        ]  # fmt: skip
-    groups.append(
-        (f"129 x 129, against {FINER[1]} and {FINEST}", lambda r: r.nodes == 129
-         and r.references == (FINER[1], FINEST))
-    )  # fmt: skip
-    table_rows = [
-        [name, str(len(chosen)), *(_share(chosen, k) for k in range(4))]
-        for name, is_in in groups
-        if (chosen := [row for row in rows if is_in(row)])
-    ]
-    heads = ["Grid", "Contacts", *NAMES]
-    return _text("head").format(
-        seed=SEED,
-        loads=_span(LOADS),
-        materials=_span(MATERIALS),
-        ellipticities=_span(ELLIPTICITIES),
-        slide_roll=_span(SLIDE_ROLL),
-        stresses=_span((1e-6 * EYRING_STRESSES[0], 1e-6 * EYRING_STRESSES[1])),
-        pressure=1e-9 * MOST_PRESSURE,
-        fit=FIT,
-        minutes=spent / 60.0,
-    ) + (
-        table(heads, table_rows)
-        + "\nThe default grid is 129 x 129. On 65 x 65 the coarsest grid has 17 nodes along a "
-        "side, too\nfew for the order to show, and friction passes its bound more often.\n"
-        "\nTrue errors of the 129 x 129 grid, and how many of the contacts warn:\n"
-        + table(
-            ["", "median", "nineteen in twenty below", "largest", "estimated above 5 %", "truly"],
-            [_sizes(rows, k) for k in range(4)],
-        )
-        + _worst(rows)
-        + _text("motion")
-        + marches
+            lambda r, n=nodes: r.nodes == n,
+            lambda r, n=nodes: r.nodes == n and r.contact.number >= FIT,
+            lambda r, n=nodes: r.nodes == n and r.contact.eyring_stress > 0.0,
+        ]
+    groups.append(lambda r: r.nodes == 129 and r.references == (FINER[1], FINEST))
+    chosen = [[row for row in rows if is_in(row)] for is_in in groups]
+    page.cells(
+        "Grid | Contacts",
+        [[str(len(some)), *(_share(some, k) for k in range(4))] for some in chosen],
+        first=1,
     )
+    page.rows(" | median", (_sizes(rows, k) for k in range(4)))
+    page.rows("Contact | Passes", _worst(rows))
+    page.fill("All of it took {} minutes of one processor", f"{spent / 60.0:.0f}")
 
 
 def _share(rows: list[Judged], k: int) -> str:
@@ -177,7 +143,7 @@ def _sizes(rows: list[Judged], k: int) -> list[str]:
     return [NAMES[k], *(f"{100.0 * one:.2g} %" for one in places), str(warned), str(large)]
 
 
-def _worst(rows: list[Judged]) -> str:
+def _worst(rows: list[Judged]) -> list[list[str]]:
     """Return the contacts whose film passes its bound, on 129 x 129 nodes."""
     passed = []
     for row in rows:
@@ -188,35 +154,23 @@ def _worst(rows: list[Judged]) -> str:
                     [str(c.number), NAMES[k], f"{c.M:.0f}", f"{c.L:.1f}", f"{c.ellipticity:.2f}",
                      f"{100.0 * row.estimate[k]:.2g} %", f"{100.0 * row.true[k]:.2g} %"]
                 )  # fmt: skip
-    if not passed:
-        return "\nNo film passes its bound on 129 x 129 nodes.\n"
-    heads = ["Contact", "Passes its bound", "M", "L", "a_y/a_x", "estimated", "true"]
-    return "\nFilms on 129 x 129 nodes that pass their bound:\n" + table(heads, passed)
-
-
-def _text(name: str) -> str:
-    return (Path(__file__).parent / "text" / f"{name}.md").read_text(encoding="utf-8")
+    return passed
 
 
 def _off(value: float, exact: float) -> float:
     return abs(value - exact) / abs(value) if value else 0.0
 
 
-def _span(limits: tuple[float, float]) -> str:
-    return f"{limits[0]:g} to {limits[1]:g}"
-
-
 def main() -> None:
     """Solve, write the page and the table."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s")
-    given = [word for word in sys.argv[1:] if word != "--present"]
-    folder = Path(given[0]) if given else ROOT / "build" / "film_error"
+    folder = begin("film_error")
     if "--present" not in sys.argv:
         solve(folder)
-    rows = all_judged(folder)
+    rows, page = all_judged(folder), Page("film_error")
     write_csv(rows)
-    spent = sum(seconds(folder / name) for name in ("films.csv", "estimates.csv"))
-    PAGE.write_text(page(rows, spent, march_table(folder / "marches.csv")), encoding="utf-8")
+    put(page, rows, sum(seconds(folder / name) for name in ("films.csv", "estimates.csv")))
+    page.rows("Time steps for one", march_rows(folder / "marches.csv"))
+    page.write()
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from docs.helical.pages import table
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
@@ -30,7 +29,7 @@ def solve_marches(path: Path) -> None:
         csv.writer(file).writerows(rows)
 
 
-def march_table(path: Path) -> str:
+def march_rows(path: Path) -> list[list[str]]:
     """Return films, both estimates and the error against the film that the steps go to."""
     with path.open(encoding="utf-8", newline="") as file:
         rows = [[float(one) for one in row] for row in csv.reader(file)]
@@ -44,5 +43,4 @@ def march_table(path: Path) -> str:
         lines.append(
             [f"{substeps:.0f}", f"{1e6 * film:.4f}", f"{100.0 * embedded:.2g} %", repeat, true]
         )
-    heads = ["Time steps for one", "Smallest film, um", "Embedded", "Repeat", "True"]
-    return table(heads, lines)
+    return lines

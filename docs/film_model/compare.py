@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from docs.film_model.marked_page import IMAGES, put
+from docs.film_model.marked_page import put
+from docs.page import IMAGES
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.plotting.style import BLUE, GREEN, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array

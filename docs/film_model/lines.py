@@ -1,4 +1,4 @@
-"""Rewrite docs/film_model_line.md and its figures: python -m docs.film_model.lines [TESTS.csv].
+"""Numbers of docs/film_model_line.md, figures: python -m docs.film_model.lines [TESTS.csv].
 
 Reads the model in the package and what `gearlube film-model fit` wrote beside it, by default
 docs/film_model/tests_line.csv; a table that is given is kept there. Seconds; nothing is solved.
@@ -11,12 +11,11 @@ import sys
 
 import numpy as np
 
-from docs.film_model.make import HERE, ROOT, Tests, domain_table, error_numbers, errors, read_tests
-from docs.film_model.outside_line import MODEL, formula_film, formula_friction, sentences
-from docs.film_model.pictures import errors_picture, parity_picture
+from docs.film_model.make import HERE, Tests, draw, put_errors, read_tests
+from docs.film_model.outside_line import MODEL, formula_film, formula_friction, put_outside
+from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE, STEEL
 from gearlube.studies.film_model.kinds import HELICAL_LINE
-from gearlube.studies.film_model.limiting import limit_in_words
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.film_model.model import FilmModel
@@ -34,7 +33,6 @@ from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
-PAGE = ROOT / "docs" / "film_model_line.md"
 KEPT = HERE / "tests_line.csv"
 KINDS = {"fresh": "pair", "calibration": "box"}
 _INSTANTS = 3000
@@ -42,8 +40,8 @@ _PAIR, _TORQUE = "he_2007", 226.0  # N.m
 _SPEEDS, _TEMPERATURES = (500.0, 1000.0, 3000.0, 6000.0), (40.0, 60.0, 90.0)  # rpm, degC
 
 
-def of_visits(model: FilmModel) -> dict[str, str]:
-    """Return shares inside the domain, and formulas over the model there."""
+def put_visits(page: Page, model: FilmModel) -> None:
+    """Put in shares inside the domain, and formulas over the model there."""
     oils = [read_oil(name).lubricant for name in model.provenance["oils_of_the_pair"]]
     contacts = HELICAL_LINE.visits(_INSTANTS, 5, model.provenance["pairs"], oils, ANYWHERE)
     numbers = model.copied_numbers()
@@ -51,25 +49,27 @@ def of_visits(model: FilmModel) -> dict[str, str]:
     inside = np.array([film.outside == 0.0 for film in found])
     load = np.array([one.line_load for one in contacts])
     sliding = load * np.array([one.sliding_speed for one in contacts])
-    shares = {"inside": np.ones(load.size), "inside_load": load, "inside_loss": sliding}
-    text = {
-        name: f"{100.0 * weights[inside].sum() / weights.sum():.0f}"
-        for name, weights in shares.items()
-    }
+    page.fill(
+        "Inside the domain lie {} % of the places and times, with {} % of the load and {} % of "
+        "load times sliding.",
+        *(
+            f"{100.0 * weights[inside].sum() / weights.sum():.0f}"
+            for weights in (np.ones(load.size), load, sliding)
+        ),
+    )
     films, frictions = [], []
     for one, film in zip(contacts, found, strict=True):
         if film.outside == 0.0:
             by_formula = formula_film(one)
             films.append(by_formula / film.central_film)
             frictions.append(formula_friction(one, by_formula) / film.friction_coefficient)
-    for short, ratios in (("dt", films), ("ej", frictions)):
-        for word, share in (("low", 0.05), ("mid", 0.5), ("high", 0.95)):
-            text[f"{short}_{word}"] = f"{np.quantile(ratios, share):.2f}"
-    return text
+    ratios = [np.quantile(one, (0.05, 0.5, 0.95)) for one in (films, frictions)]
+    cells = [[f"{value:.2f}" for value in one] for one in ratios]
+    page.cells("Formula over model", cells, first=1)
 
 
-def losses(model: FilmModel) -> str:
-    """Return the table of losses of a pair by formula and model."""
+def losses(model: FilmModel) -> list[list[str]]:
+    """Return the rows of losses of a pair by formula and model."""
     pair = HelicalGearFile.named(_PAIR).helical_pair()
     points = line_points(pair, 16, 6)
     loads = uniform_line_load(points, _TORQUE)
@@ -77,11 +77,7 @@ def losses(model: FilmModel) -> str:
     places = list(zip(points.x[here], points.length[here], loads[here], strict=True))
     oil, surface = Lubricant.named("mohammadpour_2015"), gear_flanks(0.5e-6)
     numbers = model.copied_numbers()
-    rows = [
-        "| rpm | oil, °C | loss by formula, W | by model, W | bound, W | film ratio, formula | "
-        "model | load outside, % |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    rows = []
     for rpm in _SPEEDS:
         for temperature in _TEMPERATURES:
             state = lubricant_state(oil.parameters(), celsius_to_kelvin(temperature))
@@ -102,59 +98,53 @@ def losses(model: FilmModel) -> str:
                     w * length,
                 )
                 least = np.minimum(least, (old.film_ratio, new.state.film_ratio))
-            first, second, bound = sums[:3] / points.phase.size
-            rows.append(
-                f"| {rpm:.0f} | {temperature:.0f} | {first:.1f} | {second:.1f} | {bound:.1f} | "
-                f"{least[0]:.2f} | {least[1]:.2f} | {100.0 * sums[3] / sums[4]:.1f} |"
-            )
-    return "\n".join(rows)
+            cells = [f"{rpm:.0f}", f"{temperature:.0f}"]
+            cells += [f"{one:.1f}" for one in sums[:3] / points.phase.size]
+            cells += [f"{one:.2f}" for one in least]
+            rows.append([*cells, f"{100.0 * sums[3] / sums[4]:.1f}"])
+    return rows
 
 
-def page(model: FilmModel, tests: Tests) -> str:
-    """Return the page."""
-    p = model.provenance
-    solves = p["solves"]
-    text = (HERE / "text_line.md").read_text(encoding="utf-8")
-    kind = FilmPlan(contact=model.kind).kind
-    return text.format(
-        **error_numbers(model, tests, KINDS),
-        **of_visits(model),
-        losses=losses(model),
-        formula_film_bound=f"{100.0 * LINE_FORMULA_FILM_BOUND:.0f}",
-        formula_mu_top=f"{LINE_FORMULA_FRICTION_TOP:g}",
-        outside=sentences(),
-        nodes=kind.nodes[0],
-        second=p["fine_solves"],
-        second_nodes=kind.second[0],
-        box=solves["box"] + solves["edge"],
-        pair=solves["pair"],
-        calibration=solves["calibration"],
-        fresh=solves["fresh"],
-        failed=p["failed"],
-        grid_film=f"{p['grid_error_left_percent'][0]:.2f}",
-        grid_mu=f"{p['grid_error_left_percent'][1]:.2f}",
-        seed=p["seed"],
-        date=p["date"],
-        name=p["name"],
-        checksum=model.checksum,
-        domain=domain_table(p["box"]),
-        limits=limit_in_words(tests["fresh"]["friction_solved"], "films that the pairs visit"),
+def refreshed(model: FilmModel, tests: Tests) -> Page:
+    """Return the page with the model's numbers."""
+    page, p = Page("film_model_line"), model.provenance
+    solves, kind = p["solves"], FilmPlan(contact=model.kind).kind
+    put_errors(page, model, tests, "pairs visit")
+    put_visits(page, model)
+    put_outside(page)
+    page.rows("rpm | oil, °C", losses(model))
+    page.fill(
+        "the bounds are {} % of the film, and friction between zero and {} times that of an "
+        "isothermal Eyring film",
+        f"{100.0 * LINE_FORMULA_FILM_BOUND:.0f}",
+        f"{LINE_FORMULA_FRICTION_TOP:g}",
     )
+    page.fill(
+        "{} nodes, led to the limit of fine grids by {} films on {} nodes",
+        kind.nodes[0],
+        p["fine_solves"],
+        kind.second[0],
+    )
+    page.fill(
+        "Seed {}; {} contacts of the box and {} of the pairs for training, {} of the box for the "
+        "bounds, {} of the pairs for the test; {} solutions failed. What the grid's correction "
+        "misses: {} % rms of the film, {} % of friction.",
+        p["seed"],
+        solves["box"] + solves["edge"],
+        *(solves[key] for key in ("pair", "calibration", "fresh")),
+        p["failed"],
+        *(f"{one:.2f}" for one in p["grid_error_left_percent"]),
+    )
+    return page
 
 
 def main() -> None:
-    """Rewrite page and figures."""
+    """Put the numbers into the page; draw its figures."""
     if len(sys.argv) > 1:
         shutil.copyfile(sys.argv[1], KEPT)
     model, tests = FilmModel.named(MODEL), read_tests(KEPT)
-    images = ROOT / "docs" / "images"
-    bounds = (100.0 * model.film_bound, 100.0 * model.friction_bound)
-    by_kind = {KINDS[kind]: errors(tests[kind]) for kind in KINDS}
-    errors_picture(by_kind, bounds).savefig(images / "film_model_line_errors.png", dpi=150)
-    parity_picture({KINDS[kind]: tests[kind] for kind in KINDS}).savefig(
-        images / "film_model_line_parity.png", dpi=150
-    )
-    PAGE.write_text(page(model, tests), encoding="utf-8")
+    draw(model, tests, KINDS, "film_model_line")
+    refreshed(model, tests).write()
 
 
 if __name__ == "__main__":

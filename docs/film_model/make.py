@@ -1,4 +1,4 @@
-"""Rewrite docs/film_model.md and its figures: python -m docs.film_model.make [TESTS.csv].
+"""Numbers of docs/film_model.md and its figures: python -m docs.film_model.make [TESTS.csv].
 
 Reads the model in the package and what `gearlube film-model fit` wrote beside it, by default
 docs/film_model/tests.csv; a table that is given is kept there. Seconds; nothing is solved.
@@ -10,11 +10,11 @@ import csv
 import shutil
 import sys
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from docs.film_model.pictures import errors_picture, parity_picture
+from docs.page import IMAGES, Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.limiting import limit_in_words
 from gearlube.studies.film_model.samples import axle_contacts
@@ -25,8 +25,6 @@ from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.oil_file import read_oil
 
 HERE = Path(__file__).parent
-ROOT = HERE.parents[1]
-PAGE = ROOT / "docs" / "film_model.md"
 KEPT = HERE / "tests.csv"
 MODEL = "hypoid_flank"
 _INSTANTS = 4000  # of the axle
@@ -55,55 +53,56 @@ def errors(columns: dict[str, Array]) -> tuple[Array, Array]:
     return 100.0 * (film - 1.0), 100.0 * (friction - 1.0)
 
 
-def numbers(model: FilmModel, tests: Tests) -> dict[str, str]:
-    """Return all numbers of the page as text."""
-    limits = limit_in_words(tests["fresh"]["friction_solved"], "films that the axle visits")
-    return {
-        **_of_model(model),
-        **inside_shares(model),
-        **error_numbers(model, tests, KINDS),
-        "limits": limits,
-    }
-
-
-def error_numbers(model: FilmModel, tests: Tests, kinds: dict[str, str]) -> dict[str, str]:
-    """Return bounds [%] and errors [%] of the kinds of contacts, under their short names."""
+def put_errors(page: Page, model: FilmModel, tests: Tests, machine: str) -> None:
+    """Put in errors [%] beside their bounds [%], the domain, and what the grid's part misses."""
     bounds = (100.0 * model.film_bound, 100.0 * model.friction_bound)
-    found = {"film_bound": f"{bounds[0]:.2f}", "mu_bound": f"{bounds[1]:.2f}"}
-    for kind, short in kinds.items():
-        found[f"{short}_count"] = str(tests[kind]["film_model_m"].size)
-        for name, miss, bound in zip(("film", "mu"), errors(tests[kind]), bounds, strict=True):
-            found[f"{short}_{name}_rms"] = f"{np.sqrt((miss**2).mean()):.2f}"
-            found[f"{short}_{name}_p95"] = f"{np.quantile(np.abs(miss), 0.95):.2f}"
-            found[f"{short}_{name}_max"] = f"{np.abs(miss).max():.2f}"
-            over = int((np.abs(miss) > bound).sum())
-            found[f"{short}_{name}_over"] = f"{over} ({100.0 * over / miss.size:.1f} %)"
-    return found
-
-
-def _of_model(model: FilmModel) -> dict[str, Any]:
+    rows: list[list[str | None]] = []
+    for kind in KINDS:
+        count = str(tests[kind]["film_model_m"].size)
+        for miss, bound in zip(map(np.abs, errors(tests[kind])), bounds, strict=True):
+            over = int((miss > bound).sum())
+            found = (np.sqrt((miss**2).mean()), np.quantile(miss, 0.95), miss.max(), bound)
+            share = f"{over} ({100.0 * over / miss.size:.1f} %)"
+            rows.append([count, None, *(f"{one:.2f}" for one in found), share])
+    page.cells("Contacts | Number", rows, first=1)
     p = model.provenance
+    domain = ([name, f"{low:g}", f"{high:g}"] for name, (low, high, _) in p["box"].items())
+    page.rows("Quantity | Least", domain)
+    page.fill("checksum {}, {}.\n\n", model.checksum, p["date"])
+    limits = limit_in_words(tests["fresh"]["friction_solved"], f"films that the {machine}")
+    begins = "A limiting shear stress of "
+    page.fill(f"{begins}{{}}, Eyring stresses of 1 to 10 MPa alike", limits.removeprefix(begins))
+
+
+def refreshed(model: FilmModel, tests: Tests) -> Page:
+    """Return the page with the model's numbers."""
+    page, p = Page("film_model"), model.provenance
+    put_errors(page, model, tests, "axle visits")
+    page.fill(
+        "On the shipped axle {} % of the instants of a pair lie inside, with {} % of the load and "
+        "{} % of load times sliding speed.",
+        *inside_shares(model),
+    )
     solves = p["solves"]
-    return {
-        "box": solves["box"] + solves["edge"],
-        "edge": solves["edge"],
-        "axle": solves["axle"],
-        "calibration": solves["calibration"],
-        "fresh": solves["fresh"],
-        "all_box": solves["box"] + solves["edge"] + solves["calibration"],
-        "fine": p["fine_solves"],
-        "failed": p["failed"],
-        "points": p["fit"]["points"],
-        "grid_film": f"{p['grid_error_left_percent'][0]:.2f}",
-        "grid_mu": f"{p['grid_error_left_percent'][1]:.2f}",
-        "seed": p["seed"],
-        "date": p["date"],
-        "checksum": model.checksum,
-        "domain": domain_table(p["box"]),
-    }
+    page.fill(
+        "**Films**: {} contacts of the domain ({} of them near its thick films) and {} of the "
+        "axle, for training; {} of the domain for the bounds and {} of the axle for the test, "
+        "drawn independently. Seed {}. {} solutions failed",
+        solves["box"] + solves["edge"],
+        *(solves[key] for key in ("edge", "axle", "calibration", "fresh")),
+        p["seed"],
+        p["failed"],
+    )
+    page.fill("**Grid**: {} contacts were also solved", p["fine_solves"])
+    page.fill(
+        "left out is {} % rms of the film and {} % rms of the friction.",
+        *(f"{one:.2f}" for one in p["grid_error_left_percent"]),
+    )
+    page.fill("learns from {} points of them", p["fit"]["points"])
+    return page
 
 
-def inside_shares(model: FilmModel) -> dict[str, str]:
+def inside_shares(model: FilmModel) -> list[str]:
     """Return the shares of instants, load and load times sliding of the axle inside [%]."""
     oils = [read_oil(name).lubricant for name in model.provenance["oils_of_the_axle"]]
     mesh = shipped_mesh_table(model.provenance["mesh_table"])
@@ -112,23 +111,18 @@ def inside_shares(model: FilmModel) -> dict[str, str]:
     inside = np.array([solved_film(numbers, one).outside == 0.0 for one in contacts])
     load = np.array([one.load for one in contacts])
     sliding = load * np.array([one.sliding_speed for one in contacts])
-    shares = {"inside": np.ones(load.size), "inside_load": load, "inside_loss": sliding}
-    return {
-        name: f"{100.0 * weights[inside].sum() / weights.sum():.{int(name != 'inside')}f}"
-        for name, weights in shares.items()
-    }
+    weights = (np.ones(load.size), load, sliding)
+    percent = [100.0 * one[inside].sum() / one.sum() for one in weights]
+    return [f"{percent[0]:.0f}", *(f"{one:.1f}" for one in percent[1:])]
 
 
-def domain_table(box: dict[str, list[Any]]) -> str:
-    """Return the table of a box."""
-    rows = [f"| {name} | {low:g} | {high:g} |" for name, (low, high, _) in box.items()]
-    return "\n".join(["| Quantity | Least | Most |", "|---|---|---|", *rows])
-
-
-def page(model: FilmModel, tests: Tests) -> str:
-    """Return the page."""
-    text = (HERE / "text.md").read_text(encoding="utf-8")
-    return text.format(**numbers(model, tests))
+def draw(model: FilmModel, tests: Tests, kinds: dict[str, str], name: str) -> None:
+    """Draw errors and modelled over solved numbers of kinds of contacts."""
+    bounds = (100.0 * model.film_bound, 100.0 * model.friction_bound)
+    made = errors_picture({kinds[kind]: errors(tests[kind]) for kind in kinds}, bounds)
+    made.savefig(IMAGES / f"{name}_errors.png", dpi=150)
+    made = parity_picture({kinds[kind]: tests[kind] for kind in kinds})
+    made.savefig(IMAGES / f"{name}_parity.png", dpi=150)
 
 
 def main() -> None:
@@ -136,14 +130,8 @@ def main() -> None:
     if len(sys.argv) > 1:
         shutil.copyfile(sys.argv[1], KEPT)
     model, tests = FilmModel.named(MODEL), read_tests(KEPT)
-    images = ROOT / "docs" / "images"
-    bounds = (100.0 * model.film_bound, 100.0 * model.friction_bound)
-    by_kind = {KINDS[kind]: errors(tests[kind]) for kind in KINDS}
-    errors_picture(by_kind, bounds).savefig(images / "film_model_errors.png", dpi=150)
-    parity_picture({KINDS[kind]: tests[kind] for kind in KINDS}).savefig(
-        images / "film_model_parity.png", dpi=150
-    )
-    PAGE.write_text(page(model, tests), encoding="utf-8")
+    draw(model, tests, KINDS, "film_model")
+    refreshed(model, tests).write()
 
 
 if __name__ == "__main__":

@@ -7,18 +7,16 @@ resumable: docs/film_model/outside.csv) and compared with what the axle takes th
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
-from docs.film_model.marked_page import put
-from docs.film_model.outside_solves import outside_solves
+from docs.film_model.outside_solves import Outside, outside_solves
+from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import HYPOID_FLANK
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.samples import axle_contacts
 from gearlube.studies.film_model.solves import SolveRow
-from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.film_model.groups import FilmContact
@@ -37,17 +35,6 @@ MODEL = FilmModel.named("hypoid_flank")
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 FOUND = 0.1e9  # Pa, mean pressure below which most films are not found
 _SMOOTH = 1e-8  # m, of flanks without asperities in touch
-
-
-class Outside(NamedTuple):
-    """Contacts that the formulas take alone, solved; arrays (n,)."""
-
-    pressure: Array  # mean of Hertz [Pa]
-    film: Array  # solved over Chittenden's [-]
-    friction: Array  # solved [-]
-    formula: Array  # Evans and Johnson's [-]
-    isothermal: Array  # of an isothermal Eyring film as thick as Chittenden's [-]
-    loss: Array  # load times sliding times solved friction [W]
 
 
 def contacts() -> list[FilmContact]:
@@ -92,35 +79,26 @@ def formula_of(c: FilmContact) -> FlankState:
     return law.flank_state(c.load, c.entrainment_speed, c.sliding_speed, geometry, state_of(c))
 
 
-def sentences(rows: list[SolveRow]) -> str:
-    """Return what was found, with how many contacts exceed the bounds, as Markdown."""
-    found = compared(rows)
-    failed = [row for row in rows if row.failure]
-    thick, top = np.abs(found.film - 1.0), found.friction / found.isothermal
-    none = int((found.formula == 0.0).sum())
-    off = np.abs(found.friction - found.formula) / np.maximum(found.formula, 1e-30)
-    held = found.pressure >= FOUND
-    little = 100.0 * float(found.loss[~held].sum() / found.loss.sum())
-
-    def over(values: Array, bound: float) -> str:
-        above, below = values[held] > bound, values[~held] > bound
-        return f"{above.sum()} of {above.size} | {below.sum()} of {below.size}"
-
+def put(page: Page, rows: list[SolveRow]) -> None:
+    """Put in what was found, with how many contacts exceed the bounds."""
+    found, failed = compared(rows), [row for row in rows if row.failure]
     gpa = 1e-9 * found.pressure
-    share = f"{100.0 * FORMULA_FILM_BOUND:.0f} %"
-    return (
-        f"Of {len(rows)} contacts drawn outside, {gpa.size} lie where the formulas stand in alone "
-        f"and were solved ({gpa.min():.2f} to {gpa.max():.2f} GPa mean pressure); {len(failed)} "
-        f"were not found, all below {1e-9 * _highest(failed):.2f} GPa. The formula's friction is "
-        f"zero at {none} of them, so that no bound relative to it can hold. Contacts below "
-        f"{1e-9 * FOUND:.1f} GPa hold {little:.1g} % of the loss of those solved.\n\n"
-        f"| bound | exceeded above {1e-9 * FOUND:.1f} GPa | below |\n|---|---|---|\n"
-        f"| film, before: 33 % of the formula's | {over(thick, 0.33)} |\n"
-        f"| film, now: {share} of the formula's | {over(thick, FORMULA_FILM_BOUND)} |\n"
-        f"| friction, before: 57 % of the formula's | {over(off, 0.57)} |\n"
-        f"| friction, now: between 0 and {FORMULA_FRICTION_TOP:g} times the isothermal Eyring "
-        f"value | {over(top, FORMULA_FRICTION_TOP)} |\n"
+    page.fill(
+        "Of {} contacts drawn outside, {} lie where the formulas stand in alone and were solved "
+        "({} to {} GPa mean pressure); {} were not found, all below {} GPa. The formula's friction "
+        "is zero at {} of them, so that no bound relative to it can hold. Contacts below 0.1 GPa "
+        "hold {} % of the loss of those solved.",
+        len(rows),
+        gpa.size,
+        f"{gpa.min():.2f}",
+        f"{gpa.max():.2f}",
+        len(failed),
+        f"{1e-9 * _highest(failed):.2f}",
+        found.without_friction(),
+        f"{found.loss_below(FOUND):.1g}",
     )
+    cells = found.exceeded(FOUND, (0.33, FORMULA_FILM_BOUND), 0.57, FORMULA_FRICTION_TOP)
+    page.cells("bound | exceeded", cells, first=1)
 
 
 def _highest(rows: list[SolveRow]) -> float:
@@ -131,7 +109,9 @@ def _highest(rows: list[SolveRow]) -> float:
 
 def main() -> None:
     """Solve what is missing and write the page."""
-    put("outside", "outside", sentences(outside_solves(TABLE, HYPOID_FLANK, contacts())))
+    page = Page("film_model_axle")
+    put(page, outside_solves(TABLE, HYPOID_FLANK, contacts()))
+    page.write()
 
 
 def state_of(c: FilmContact) -> LubricantState:

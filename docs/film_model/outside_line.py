@@ -8,16 +8,15 @@ resumable: docs/film_model/outside_line.csv) and compared with what the pair tak
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
-from docs.film_model.outside_solves import outside_solves
+from docs.film_model.outside_solves import Outside, outside_solves
+from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import HELICAL_LINE
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solves import SolveRow, SolveTable
-from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.film_model.line_contact import LineContact
@@ -36,17 +35,6 @@ TABLE = Path(__file__).with_name("outside_line.csv")
 SOLVES, SEED, DRAWS = 120, 220, 1500
 MODEL = "helical_line"
 PRESSURE = 0.1e9  # Pa, mean pressure down to which the bounds are set
-
-
-class Outside(NamedTuple):
-    """Contacts that the formulas take alone, solved; arrays (n,)."""
-
-    pressure: Array  # mean of Hertz [Pa]
-    film: Array  # solved over Dowson and Toyoda's [-]
-    friction: Array  # solved [-]
-    formula: Array  # Evans and Johnson's [-]
-    isothermal: Array  # of an isothermal Eyring film as thick as Dowson and Toyoda's [-]
-    loss: Array  # load times sliding times solved friction [W/m]
 
 
 def formula_friction(contact: LineContact, film: float) -> float:
@@ -101,39 +89,27 @@ def compared(rows: list[SolveRow]) -> Outside:
     return Outside(*np.array(cells).T)
 
 
-def sentences() -> str:
-    """Return what the table says, with how many contacts exceed the bounds, as Markdown."""
+def put_outside(page: Page) -> None:
+    """Put in what the table says, with how many contacts exceed the bounds."""
     rows = list(SolveTable(TABLE, HELICAL_LINE).rows.values())
     found = compared(rows)
-    thick, top = np.abs(found.film - 1.0), found.friction / found.isothermal
-    none = int((found.formula == 0.0).sum())
-    held = found.pressure >= PRESSURE
-    little = 100.0 * float(found.loss[~held].sum() / found.loss.sum())
-
-    def over(values: Array, bound: float) -> str:
-        above, below = values[held] > bound, values[~held] > bound
-        return f"{above.sum()} of {above.size} | {below.sum()} of {below.size}"
-
     gpa, ratio = 1e-9 * found.pressure, found.film
-    off = np.abs(found.friction - found.formula) / np.maximum(found.formula, 1e-30)
-    return (
-        f"{len(rows)} contacts of the pairs where the formulas stand in alone were solved, "
-        f"{len(rows) - gpa.size} of them not found ({gpa.min():.2f} to {gpa.max():.2f} GPa mean "
-        f"pressure). Solved films are {ratio.min():.2f} to {ratio.max():.2f} times as thick as the "
-        f"formula's. The formula's friction is zero at {none} of them, so that no bound relative "
-        "to it can hold; the bound of friction is between 0 and "
-        f"{LINE_FORMULA_FRICTION_TOP:g} times that of an isothermal Eyring film as thick "
-        "as the formula's. The bounds hold 95 % of the "
-        f"contacts above {1e-9 * PRESSURE:.1f} GPa; those below hold {little:.0f} % of the loss of "
-        "all solved ones.\n\n"
-        f"| bound | exceeded above {1e-9 * PRESSURE:.1f} GPa | below |\n|---|---|---|\n"
-        f"| film, before: 50 % of the formula's | {over(thick, 0.5)} |\n"
-        f"| film, now: {100.0 * LINE_FORMULA_FILM_BOUND:.0f} % of the formula's | "
-        f"{over(thick, LINE_FORMULA_FILM_BOUND)} |\n"
-        f"| friction, before: 100 % of the formula's | {over(off, 1.0)} |\n"
-        f"| friction, now: between 0 and {LINE_FORMULA_FRICTION_TOP:g} times the isothermal Eyring "
-        f"value | {over(top, LINE_FORMULA_FRICTION_TOP)} |\n"
+    page.fill(
+        "{} contacts of the pairs where the formulas stand in alone were solved, {} of them not "
+        "found ({} to {} GPa mean pressure). Solved films are {} to {} times as thick as the "
+        "formula's. The formula's friction is zero at {} of them, so that no bound relative",
+        len(rows),
+        len(rows) - gpa.size,
+        *(f"{one:.2f}" for one in (gpa.min(), gpa.max(), ratio.min(), ratio.max())),
+        found.without_friction(),
     )
+    page.fill(
+        "The bounds hold 95 % of the contacts above 0.1 GPa; those below hold {} % of the loss of "
+        "all solved ones.",
+        f"{found.loss_below(PRESSURE):.0f}",
+    )
+    bounds = ((0.5, LINE_FORMULA_FILM_BOUND), 1.0, LINE_FORMULA_FRICTION_TOP)
+    page.cells("bound | exceeded", found.exceeded(PRESSURE, *bounds), first=1)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 Contacts of the shipped bearings outside the model's domain are solved (a tenth of a second each,
 resumable: docs/film_model/outside_rollers.csv) and compared with what stands in there:
-python -m docs.film_model.outside_rollers prints the table of docs/film_model_axle.md.
+python -m docs.film_model.outside_rollers writes the table of docs/film_model_axle.md.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from docs.film_model.marked_page import put
 from docs.film_model.outside_solves import outside_solves
+from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import BEARING_ROLLER
 from gearlube.studies.film_model.roller_samples import AXLE_BEARING, roller_contacts
@@ -81,40 +81,34 @@ def compared(rows: list[SolveRow]) -> Outside:
     return Outside(*np.array(cells).T)
 
 
-def sentences(rows: list[SolveRow]) -> str:
-    """Return what was found, as Markdown."""
-    found = compared(rows)
-    failed = len(rows) - found.film.size
-    lines = []
-    for words, ratio, bound in (
-        ("central film", found.film, FORMULA_RACE_FILM_BOUND),
-        ("rolling force", found.force, FORMULA_FORCE_BOUND),
+def put(page: Page, rows: list[SolveRow]) -> None:
+    """Put in what was found."""
+    found, cells = compared(rows), []
+    for ratio, bound in (
+        (found.film, FORMULA_RACE_FILM_BOUND),
+        (found.force, FORMULA_FORCE_BOUND),
     ):
-        least, low, middle, high, most = np.quantile(ratio, (0.0, 0.05, 0.5, 0.95, 1.0))
         above = np.abs(ratio - 1.0) > bound
-        lines.append(
-            f"| {words} | {least:.2f} | {low:.2f} | {middle:.2f} | {high:.2f} | {most:.2f} | "
-            f"{100.0 * bound:.0f} | {above[:SET].sum()} of {above[:SET].size} | "
-            f"{above[SET:].sum()} of {above[SET:].size} |"
-        )
+        shares = (f"{some.sum()} of {some.size}" for some in (above[:SET], above[SET:]))
+        quantiles = np.quantile(ratio, (0.0, 0.05, 0.5, 0.95, 1.0))
+        cells.append([*(f"{one:.2f}" for one in quantiles), f"{100.0 * bound:.0f}", *shares])
+    page.cells("solved over formula", cells, first=1)
     gpa = 1e-9 * found.pressure
-    return (
-        f"{found.film.size} contacts of the axle's rollers outside were solved "
-        f"({gpa.min():.2f} to {gpa.max():.2f} GPa mean pressure); {failed} were not found.\n\n"
-        "| solved over formula | least | 5 % | median | 95 % | most | bound, % | above it | "
-        "of contacts that did not set it |\n|---|---|---|---|---|---|---|---|---|\n"
-        + "\n".join(lines)
-        + "\n"
+    page.fill(
+        "{} contacts of the axle's rollers outside were solved ({} to {} GPa mean pressure); {} "
+        "were not found.",
+        found.film.size,
+        f"{gpa.min():.2f}",
+        f"{gpa.max():.2f}",
+        len(rows) - found.film.size,
     )
 
 
 def main() -> None:
     """Solve what is missing and write the page."""
-    put(
-        "outside_rollers",
-        "outside_rollers",
-        sentences(outside_solves(TABLE, BEARING_ROLLER, contacts())),
-    )
+    page = Page("film_model_axle")
+    put(page, outside_solves(TABLE, BEARING_ROLLER, contacts()))
+    page.write()
 
 
 if __name__ == "__main__":

@@ -1,15 +1,55 @@
-"""Solve the contacts outside a film model's domain that a table does not hold yet."""
+"""Contacts outside a film model's domain: solved once, and how far formulas are off there."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
 
 from gearlube.studies.film_model.kinds import ContactKind
 from gearlube.studies.film_model.plan import FilmTask
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
 from gearlube.studies.film_model.train import failed_row, solve_task
+from gearlube_core.arrays import Array
 from gearlube_core.errors import GearLubeError
+
+
+class Outside(NamedTuple):
+    """Contacts that the formulas take alone, solved; arrays (n,)."""
+
+    pressure: Array  # mean of Hertz [Pa]
+    film: Array  # solved over the formula's [-]
+    friction: Array  # solved [-]
+    formula: Array  # Evans and Johnson's [-]
+    isothermal: Array  # of an isothermal Eyring film as thick as the formula's [-]
+    loss: Array  # load times sliding times solved friction [W] or [W/m]
+
+    def without_friction(self) -> int:
+        """Return for how many the friction formula gives nothing."""
+        return int((self.formula == 0.0).sum())
+
+    def loss_below(self, pressure: float) -> float:
+        """Return the share of the loss of contacts below a mean pressure [%]."""
+        return 100.0 * float(self.loss[self.pressure < pressure].sum() / self.loss.sum())
+
+    def exceeded(
+        self, pressure: float, films: tuple[float, float], friction: float, top: float
+    ) -> list[list[str]]:
+        """Return how many exceed each bound above and below a pressure.
+
+        Two bounds of the film [-], one of the friction [-], and one times the isothermal value.
+        """
+        off = np.abs(self.friction - self.formula) / np.maximum(self.formula, 1e-30)
+        above = self.pressure >= pressure
+        thick = np.abs(self.film - 1.0)
+        values = ((thick, films[0]), (thick, films[1]), (off, friction),
+                  (self.friction / self.isothermal, top))  # fmt: skip
+        return [
+            [f"{(one[some] > bound).sum()} of {one[some].size}" for some in (above, ~above)]
+            for one, bound in values
+        ]
 
 
 def outside_solves(table: Path, kind: ContactKind, contacts: Sequence[tuple]) -> list[SolveRow]:

@@ -15,8 +15,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from docs.film_model.marked_page import IMAGES, put
+from docs.film_model.marked_page import put
 from docs.film_model.published_formulas import FORMULAS, SIGMA, Local
+from docs.page import IMAGES
 from gearlube.plotting.style import BLUE, GREEN, ORANGE, PURPLE, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks

@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from docs.film_model.compare import axle_of, found
-from docs.film_model.marked_page import IMAGES, put
+from docs.film_model.marked_page import put
+from docs.page import IMAGES
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.plotting.style import (
     BLUE,

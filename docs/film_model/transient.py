@@ -15,7 +15,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from docs.film_model.marked_page import IMAGES, ROOT, put
+from docs.film_model.marked_page import put
+from docs.page import IMAGES, ROOT
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 from gearlube.studies.film_model.samples import flank_contact_of
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank

@@ -1,4 +1,4 @@
-"""Rewrite docs/film_table.md and films.csv: python -m docs.film_table.make [workdir] [--present].
+"""Numbers of docs/film_table.md, films.csv: python -m docs.film_table.make [DIR] [--present].
 
 A quarter of an hour of one processor the first time. Films are kept in the folder given as
 argument, by default build/film_table, and a rerun solves only what is missing. With --present
@@ -7,7 +7,6 @@ nothing is solved.
 
 from __future__ import annotations
 
-import logging
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -17,16 +16,6 @@ from typing import NamedTuple
 
 from docs.film_table.contacts import (
     CHECK_NODES,
-    HIGH_LOAD,
-    LOADS,
-    MATERIALS,
-    NODES,
-    NODES_ACROSS,
-    NODES_ACROSS_UNDER_HIGH_LOAD,
-    NODES_AT_AN_ANGLE,
-    NODES_UNDER_HIGH_LOAD,
-    SHAPES,
-    STEEP,
     Table,
     checked_contacts,
     film_group,
@@ -34,13 +23,10 @@ from docs.film_table.contacts import (
     solve_missing,
     table_contacts,
 )
-from docs.film_table.extrapolated import DOMAIN_ERROR, Row, Value, extrapolated, write_table
+from docs.film_table.extrapolated import Row, Value, extrapolated, write_table
 from docs.film_table.picture import draw
-from docs.helical.pages import table
+from docs.page import IMAGES, Page, begin
 
-ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "film_table.md"
-IMAGE = ROOT / "docs" / "images" / "film_table.png"
 KEPT = Path(__file__).parent / "films.csv"
 WIDE = 0.005  # error that the page names
 
@@ -51,43 +37,32 @@ def rows_of(solved: Table) -> list[Row]:
     return [Row.of(one) for one in found if one is not None and one.sound]
 
 
-def page(rows: Sequence[Row], solved: Table) -> str:
-    """Return the page."""
-    text = (Path(__file__).parent / "text.md").read_text(encoding="utf-8")
+def put(page: Page, rows: Sequence[Row], solved: Table) -> None:
+    """Put in the errors of the table, and what the checks found."""
     found = checks(rows, solved)
+    page.fill("(film_table/films.csv): {} smooth elliptical point contacts", len(rows))
+    page.fill("Left out: {}, at 45 degrees under high load", len(table_contacts()) - len(rows))
+    page.rows(
+        " | median",
+        [
+            _sizes("H_c", [row.central for row in rows]),
+            _sizes("H_min", [row.minimum for row in rows]),
+            _sizes("p_max", [row.pressure for row in rows]),
+        ],
+    )
     wide = [row for row in rows if max(row.central.error, row.minimum.error) > WIDE]
-    return text.format(
-        count=len(rows),
-        failed=len(table_contacts()) - len(rows),
-        shapes=_shapes(),
-        loads=", ".join(f"{one:g}" for one in LOADS),
-        materials=", ".join(f"{one:g}" for one in MATERIALS),
-        grids=_grids(NODES),
-        grids_high=_grids(NODES_UNDER_HIGH_LOAD),
-        grids_across=_grids(NODES_ACROSS),
-        grids_across_high=_grids(NODES_ACROSS_UNDER_HIGH_LOAD),
-        grids_angle=_grids(NODES_AT_AN_ANGLE),
-        steep=STEEP,
-        high=HIGH_LOAD,
-        errors=table(
-            ["", "median", "largest", "rows above 0.5 %"],
-            [
-                _sizes("H_c", [row.central for row in rows]),
-                _sizes("H_min", [row.minimum for row in rows]),
-                _sizes("p_max", [row.pressure for row in rows]),
-            ],
-        ),
-        wide=_wide(wide),
-        checked=len(checked_contacts()),
-        checked_sound=found.solved,
-        check_nodes=_grids(CHECK_NODES),
-        largest_film=100.0 * found.stencil[0],
-        largest_minimum=100.0 * found.stencil[1],
-        inside=found.inside,
-        compared=2 * found.solved,
-        wider_film=100.0 * found.domain[0],
-        wider_minimum=100.0 * found.domain[1],
-        domain=100.0 * DOMAIN_ERROR,
+    page.rows("a_y/a_x | degrees", _wide(wide))
+    page.fill(
+        "; {} on all three grids. The extrapolated central films agree within {} %, the smallest "
+        "within {} %; {} of the {} films lie within the sum of both errors.",
+        found.solved,
+        *(f"{100.0 * one:.2g}" for one in found.stencil),
+        found.inside,
+        2 * found.solved,
+    )
+    page.fill(
+        "the central film moves by at most {} %, the smallest, whose node moves too, by {} %.",
+        *(f"{100.0 * one:.2g}" for one in found.domain),
     )
 
 
@@ -140,7 +115,7 @@ def _sizes(name: str, values: Sequence[Value]) -> list[str]:
     ]
 
 
-def _wide(rows: Sequence[Row]) -> str:
+def _wide(rows: Sequence[Row]) -> list[list[str]]:
     cells = []
     for row in rows:
         c = row.solved.contact
@@ -149,28 +124,18 @@ def _wide(rows: Sequence[Row]) -> str:
             [f"{c.ellipticity:g}", f"{c.angle:g}", f"{c.M:g}", f"{c.L:g}"]
             + [f"{100.0 * error:.2g} %" for error in errors]
         )
-    return table(["a_y/a_x", "degrees", "M", "L", "H_c", "H_min"], cells)
-
-
-def _grids(finest: int) -> str:
-    return ", ".join(str((finest - 1) // 2**k + 1) for k in (2, 1, 0))
-
-
-def _shapes() -> str:
-    return ", ".join(f"{k:g} at {angle:g}" for k, angle in SHAPES)
+    return cells
 
 
 def main() -> None:
     """Solve, write the table, the page and its figure."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s")
-    given = [word for word in sys.argv[1:] if word != "--present"]
-    folder = Path(given[0]) if given else ROOT / "build" / "film_table"
-    kept = folder / "solved.csv"
+    kept = begin("film_table") / "solved.csv"
     solved = read(kept) if "--present" in sys.argv else solve_missing(kept)
-    rows = rows_of(solved)
+    rows, page = rows_of(solved), Page("film_table")
     write_table(KEPT, rows, version("gearlube"))
-    PAGE.write_text(page(rows, solved), encoding="utf-8")
-    draw(rows).savefig(IMAGE, dpi=100)
+    put(page, rows, solved)
+    page.write()
+    draw(rows).savefig(IMAGES / "film_table.png", dpi=100)
 
 
 if __name__ == "__main__":

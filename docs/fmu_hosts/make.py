@@ -20,12 +20,11 @@ from typing import NamedTuple
 
 from docs.fmu_hosts import hosts
 from docs.fmu_hosts.hosts import Job
-from docs.helical.pages import table
+from docs.page import Page
 from fmu_src import build, helical_pair, hypoid_axle
 from fmu_src.definition import Definition
 from fmu_src.native.build import NativeOptions
 
-PAGE = Path(__file__).resolve().parents[1] / "fmu_hosts.md"
 STEPS, RATE = 64, 512
 SHOWN = ("pinion.speed", "mesh.dte", "friction.power_loss", "efficiency", "bearing[1].force.x")
 SMALL = 1e-9  # of the largest output of a unit: below, a value is rounding
@@ -117,8 +116,8 @@ def difference(job: Job, units: dict[str, str], values: list[float], others: lis
     )
 
 
-def section(definition: Definition, job: Job, rows: list[Row]) -> str:
-    """Return the table of a model."""
+def cells_of(definition: Definition, job: Job, rows: list[Row]) -> list[list[str]]:
+    """Return the rows of a model's table."""
     units = {v.name: v.unit for v in definition.variables}
     in_python = hosts.in_python(job, definition)
     reference = rows[0].values or []
@@ -134,9 +133,7 @@ def section(definition: Definition, job: Job, rows: list[Row]) -> str:
             for one in (reference, in_python)
         ]
         cells.append([row.host, row.standard, *_shown(its, row.values), *(f"{x:.1e}" for x in far)])
-    heads = [f"`{name}` [{units[name]}]" for name in SHOWN]
-    heads = ["Host", "FMI", *heads, "off FMPy", "off Python"]
-    return f"\n## {definition.name}\n{table(heads, cells)}"
+    return cells
 
 
 def _shown(job: Job, values: list[float]) -> list[str]:
@@ -153,36 +150,21 @@ def named_dlls(fmu: Path) -> str:
     return ", ".join(sorted(families - {f"{fmu.stem}.dll"}, key=str.lower))
 
 
-def page(fmus: Path, fmusim: Path | None, folder: Path) -> str:
-    """Run everything and return the page."""
+def put(page: Page, fmus: Path, fmusim: Path | None, folder: Path) -> None:
+    """Run everything and put it into the page."""
     definitions = hypoid_axle.DEFINITION, helical_pair.DEFINITION
     axle, pair = (job_of(definition, fmus) for definition in definitions)
     logger.info("container")
     packed = hosts.in_container([axle, axle, pair], folder)
     if packed[0] != packed[1]:
         raise RuntimeError("Two axles in one container give different numbers.")
-    head = _text("head").format(
-        steps=STEPS,
-        rate=RATE,
-        count=len(axle.names),
-        count_pair=len(pair.names),
-        system=f"{system()}, {machine()}",
-    )
-    tables = [
-        section(definition, job, rows_of(job, own, fmusim, folder))
-        for definition, job, own in zip(definitions, (axle, pair), packed[1:], strict=True)
-    ]
-    return (
-        head
-        + "".join(tables)
-        + _text("notes").format(
-            dlls=named_dlls(axle.fmu), fmpy=version("fmpy"), steps=_text("steps").strip()
-        )
-    )
-
-
-def _text(name: str) -> str:
-    return (Path(__file__).with_name("text") / f"{name}.md").read_text(encoding="utf-8")
+    page.fill("gives the same {} and {} Real outputs", len(axle.names), len(pair.names))
+    page.fill("their numbers into this page; run on {}.", f"{system()}, {machine()}")
+    for definition, job, own in zip(definitions, (axle, pair), packed[1:], strict=True):
+        rows = rows_of(job, own, fmusim, folder)
+        page.rows("Host | FMI", cells_of(definition, job, rows), f"\n## {definition.name}\n")
+    page.fill("the DLLs that it names are {} |", named_dlls(axle.fmu))
+    page.fill("That is what they do (FMPy {}):", version("fmpy"))
 
 
 def main() -> None:
@@ -197,7 +179,9 @@ def main() -> None:
         if given.fmus is None:
             platforms = ["x86_64-linux", "x86_64-windows"]
             build.build_models(folder, native=NativeOptions(platforms=platforms))
-        PAGE.write_text(page(given.fmus or folder, given.fmusim, folder), encoding="utf-8")
+        page = Page("fmu_hosts")
+        put(page, given.fmus or folder, given.fmusim, folder)
+        page.write()
 
 
 if __name__ == "__main__":

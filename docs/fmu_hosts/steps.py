@@ -1,4 +1,4 @@
-"""Rewrite docs/fmu_hosts/text/steps.md: python -m docs.fmu_hosts.steps FMUS [--fmusim PROGRAM].
+"""Rewrite a table of docs/fmu_hosts.md: python -m docs.fmu_hosts.steps FMUS [--fmusim PROGRAM].
 
 Runs the archives in FMUS by their defaults and in other steps; OMSimulator is looked for on the
 search path. A host that is not there is named in the table.
@@ -17,7 +17,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-from docs.helical.pages import table
+from docs.page import Page
 
 STOPS = {None: None, 1e-5: 0.01, 1e-4: 0.1, 1e-3: 0.5, 1e-2: 1.0, 0.1: 1.0}  # step: stop time [s]
 KINDS = {"cs": "CoSimulation", "me": "ModelExchange"}
@@ -95,9 +95,9 @@ def main() -> None:
                             good = in_program(programs[host], fmu, kind, step, end, Path(name))
                         cells.append("yes" if good else "no")
                     rows.append(cells)
-    heads = ["Archive", "Kind", "Host", *("defaults" if h is None else f"{h:g} s" for h in STOPS)]
-    text = Path(__file__).with_name("text") / "steps.md"
-    text.write_text(table(heads, rows), encoding="utf-8")
+    page = Page("fmu_hosts")
+    page.rows("Archive | Kind", rows)
+    page.write()
 
 
 if __name__ == "__main__":

@@ -17,9 +17,8 @@ from docs.helical.cases import (
     steady,
     steady_with_helix,
 )
-from docs.helical.claims_mesh import AXIAL
 from docs.helical.structure import six_against_twelve
-from docs.helical.verdicts import CALIBRATED, Claim, Verdict, judge
+from docs.page import Verdict, judge
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
@@ -27,6 +26,7 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
 )
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import harmonics
 
+CALIBRATED = "calibrated"
 _UNCHANGED = (4, 5, *range(7, ORDERS + 1))
 _SECOND_ORDER = (4, 8, 12)  # in mu: no first-order term off the line of action
 _LINEAR_FROM = np.array([0.1, 0.15, 0.2, 0.25, 0.3])
@@ -41,7 +41,6 @@ def off_line(_: Evidence) -> Verdict:
         f"{ratios.min():.2f} to {ratios.max():.2f} times for ten times mu; all 15 orders "
         f"{every.min():.1f} to {every.max():.1f}",
         judge(bool(np.abs(ratios - 10.0).max() < 0.1), bool(np.abs(ratios - 10.0).max() < 1.0)),
-        "Orders 4, 8 and 12 have next to no term of first order in mu and are left out.",
     )
 
 
@@ -53,8 +52,6 @@ def along_line(_: Evidence) -> Verdict:
         f"n = 1, 2: {first[0]:.1f}, {first[1]:.1f} times; n = 4, 5, 7 to 15: "
         f"{rest.min():.2f} to {rest.max():.2f}; n = 3, 6: {ratio[2]:.2f}, {ratio[5]:.2f}",
         judge(bool(first.min() > 5.0 and np.abs(rest - 1.0).max() < 0.2), first.min() > 5.0),
-        "Observation 1 adds growth at higher orders near the torsional-transverse mode. Here this "
-        "is n = 6.",
     )
 
 
@@ -70,8 +67,6 @@ def axial(_: Evidence) -> Verdict:
         f"n = 7, 8, 9: {', '.join(f'{r:.3f}' for r in resonance)}; n = 1, 2: {first[0]:.1f}, "
         f"{first[1]:.1f} times; u_zp = -u_xp tan b to {same:.0e}",
         judge(insensitive and least, insensitive),
-        "With K_xx = K_zz the axial motion and the motion along the line of action are one. So "
-        "neither can be the less sensitive. The paper does not print K_zz.",
     )
 
 
@@ -123,8 +118,6 @@ def below_spur(_: Evidence) -> Verdict:
     return Verdict(
         "spur over helical, x / y of the pinion, peak to peak: " + ", ".join(parts),
         judge(least > 10.0, least > 1.0),
-        "The spur pair has the same section, load, bodies and stiffness density, with helix angle "
-        "zero. The paper compares with another spur pair.",
     )
 
 
@@ -139,7 +132,6 @@ def transmission_error(_: Evidence) -> Verdict:
         judge(
             bool(0.9 < ratio[0] < 1.1 and ratio[1] > 3.0 and np.argmax(ratio) == 1 and dominant > 1)
         ),
-        "This is observation 5. Before it, sec. 6 says the opposite of delta_z and delta_x.",
     )
 
 
@@ -166,8 +158,6 @@ def two_orders(_: Evidence) -> Verdict:
         f"n = 1: {ratios[0]:.0f} / {ratios[1]:.0f} times delta_x / delta_y at mu = 0.01, "
         f"{ratios[2]:.0f} / {ratios[3]:.0f} at 0.1",
         judge(min(ratios) > 100.0, max(ratios) > 100.0),
-        "The paper prints this of the rate, but means delta_z. It depends on the tilting "
-        "stiffness, which is completed here.",
     )
 
 
@@ -191,7 +181,6 @@ def crossing(_: Evidence) -> Verdict:
         f"n = 2 of its rate grows {ratio[1]:.2f} times, the others at most "
         f"{np.delete(ratio, 1).max():.2f}",
         judge(bool(ratio[1] > 3.0), bool(np.argmax(ratio) == 1)),
-        "Two lines cross the pitch line, one after the other.",
     )
 
 
@@ -203,88 +192,20 @@ def linear_in_mu(_: Evidence) -> Verdict:
     return Verdict(
         f"off a straight line by {100.0 * off:.2f} %",
         judge(off < 0.02),
-        "The paper describes this sweep, but shows no figures of it.",
     )
 
 
-MOTION = (
-    Claim(
-        "H9",
-        "The motion u_y grows almost in proportion to the coefficient of friction mu",
-        "sec. 6, fig. 6",
-        "10 +- 0.1",
-        off_line,
-    ),
-    Claim(
-        "H10",
-        "With friction the first two orders of u_x grow much; the higher orders stay",
-        "sec. 6, fig. 6",
-        "5 times; 20 %",
-        along_line,
-    ),
-    Claim(
-        "H11",
-        "Friction changes u_z least, except for n = 1 and 2, and does not change its resonance",
-        "sec. 6, obs. 3",
-        "10 % at n = 7 to 9; growth from n = 3 nearer one than of u_x",
-        axial,
-    ),
-    Claim("H12", "Resonances of the bearings lie near n = 8 to 10", "sec. 6", "-", resonances),
-    Claim(
-        "H13",
-        "With 5 % damping the elastic forces dominate in the bearings",
-        "sec. 6, fig. 7",
-        "1.02; 1e-3",
-        elastic_bearings,
-    ),
-    Claim(
-        "H14",
-        "The bearing forces are more than ten times smaller than those of the spur pair",
-        "sec. 6",
-        "10 times",
-        below_spur,
-    ),
-    Claim(
-        "H15",
-        "Friction changes only the second order of delta_z; the first is the largest",
-        "sec. 6, obs. 5",
-        "0.9 to 1.1; 3 times",
-        transmission_error,
-    ),
-    Claim(
-        "H16",
-        "The orders n = 1 and 2 of delta_x and delta_y grow most with friction",
-        "sec. 6, obs. 4",
-        "the two largest; n = 2: 5 times",
-        composites,
-    ),
-    Claim(
-        "H17",
-        "delta_z is a hundred times larger than delta_x and delta_y",
-        "sec. 6, fig. 8",
-        "100 times",
-        two_orders,
-    ),
-    Claim(
-        "H18",
-        "The model with 6 degrees of freedom gives the same motion as the one with 12",
-        "sec. 7",
-        "10 % for n <= 6",
-        six_dof,
-    ),
-    AXIAL,
-    Claim(
-        "H20",
-        "Friction adds an oscillation of delta_z' at the pitch line",
-        "sec. 6, fig. 8",
-        "n = 2: 3 times",
-        crossing,
-    ),
-    Claim(
-        "H21",
-        "The first order of u_x is linear in mu from 0.1 to 0.3",
-        "sec. 6: mu 0 to 0.3",
-        "2 %",
-        linear_in_mu,
-    ),
-)
+MOTION = {
+    "H9": off_line,
+    "H10": along_line,
+    "H11": axial,
+    "H12": resonances,
+    "H13": elastic_bearings,
+    "H14": below_spur,
+    "H15": transmission_error,
+    "H16": composites,
+    "H17": two_orders,
+    "H18": six_dof,
+    "H20": crossing,
+    "H21": linear_in_mu,
+}

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
+import xarray as xr
 
 from docs.helical.cases import HE
 from gearlube_core.arrays import Array
@@ -26,6 +27,7 @@ from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_al
 from gearlube_core.friction.line_points import line_points, table_line_load, uniform_line_load
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.units import ZERO_CELSIUS
 
 OIL, OIL_TEMPERATURE, SIGMA = "mohammadpour_2015", 353.15, 0.5e-6  # -, K, m
 RPM = math.pi / 30.0
@@ -37,22 +39,6 @@ _POINTS = line_points(HE)
 SPEEDS = (100.0, 300.0, 1000.0, 3000.0, 6000.0)  # rpm
 TEMPERATURES = (313.15, 333.15, 353.15, 373.15)  # K
 Local = Callable[[Array, Array, Array, Array, float], Array]
-
-
-@dataclass(frozen=True, slots=True)
-class MeanFriction:
-    """Mean coefficients of friction at one speed and oil temperature [-], film [m], loss [W]."""
-
-    rpm: float
-    temperature: float  # K
-    here: float
-    schlenk: float
-    xu_kahraman: float
-    benedict_kelley: float
-    smallest_film: float
-    least_ratio: float
-    loss: float
-    efficiency: float
 
 
 def cycle(
@@ -76,75 +62,54 @@ def cycle(
     )
 
 
-def mean_friction(rpm: float, temperature: float) -> MeanFriction:
-    """Return our mean coefficient and those of the formulas."""
-    found = cycle(rpm, temperature)
-    pressed = (_POINTS.length > 0.0) & (found.line_load > 0.0)
-    return MeanFriction(
-        rpm,
-        temperature,
-        found.mean_coefficient,
-        _schlenk(rpm, temperature),
-        _mean_of(_xu_kahraman, rpm, temperature),
-        _mean_of(_benedict_kelley, rpm, temperature),
-        found.smallest_film.thickness,
-        float(found.film_ratio[pressed].min()),
-        found.mean_power_loss,
-        found.efficiency,
-    )
+def formula_rows() -> tuple[list[list[str]], tuple[str, ...]]:
+    """Return mean coefficients beside those of gear practice, and the ranges of their ratios."""
+    rows, ratios = [], []
+    points = [(rpm, OIL_TEMPERATURE) for rpm in SPEEDS]
+    points += [(PINION_SPEED / RPM, T) for T in TEMPERATURES if T != OIL_TEMPERATURE]
+    for rpm, T in points:
+        found = cycle(rpm, T)
+        pressed = (_POINTS.length > 0.0) & (found.line_load > 0.0)
+        here, formulas = found.mean_coefficient, (
+            _schlenk(rpm, T), _mean_of(_xu_kahraman, rpm, T), _mean_of(_benedict_kelley, rpm, T),
+        )  # fmt: skip
+        ratios.append((here / formulas[0], here / formulas[1]))
+        rows.append(
+            [
+                f"{rpm:.0f}",
+                f"{T - ZERO_CELSIUS:.0f}",
+                *(f"{mu:.4f}" for mu in (here, *formulas)),
+                f"{1e6 * found.smallest_film.thickness:.2f}",
+                f"{found.film_ratio[pressed].min():.2f}",
+                f"{found.mean_power_loss:.0f}",
+                f"{100.0 * found.efficiency:.2f}",
+            ]
+        )
+    ends = [end for both in zip(*ratios, strict=True) for end in (min(both), max(both))]
+    return rows, tuple(f"{end:.2f}" for end in ends)
 
 
-@dataclass(frozen=True, slots=True)
-class Along:
-    """One mesh period at the operating point with given loads."""
-
-    words: str
-    mean: float
-    lowest: float  # local coefficients, a millimetre and more off the pitch line [-]
-    highest: float
-    loss: float  # W
-    loss_factor: float
-    force: float  # friction off the line of action, peak to peak [N]
-    force_constant: float  # with the mean coefficient [N]
-    rise: float  # highest temperature rise [K]
-
-
-def along_lines(mesh: LineMesh) -> list[Along]:
-    """Return friction with even loads and with those of a line mesh."""
-    return [_along("even", None), _along("of the loaded contact", mesh)]
-
-
-def _along(words: str, mesh: LineMesh | None) -> Along:
+def along_row(mesh: LineMesh | None) -> list[str]:
+    """Return friction over a mesh period at the operating point, loads even or those of a mesh."""
     found = cycle(PINION_SPEED / RPM, OIL_TEMPERATURE, mesh)
     pressed = (_POINTS.length > 0.0) & (found.line_load > 0.0)
     away = pressed & (np.abs(_POINTS.x - _PLANE.P) > 1e-3)
     weight = found.line_load * _POINTS.length
     local = np.abs(found.coefficient)[away]
     side = np.sign(_POINTS.x - _PLANE.P)
-    return Along(
-        words,
-        found.mean_coefficient,
-        float(local.min()),
-        float(local.max()),
-        found.mean_power_loss,
-        found.loss_factor,
-        float(np.ptp((found.coefficient * weight).sum(axis=(1, 2)))),
-        float(np.ptp(found.mean_coefficient * (side * weight).sum(axis=(1, 2)))),
-        float(found.temperature_rise[pressed].max()),
-    )
+    forces = (found.coefficient * weight, found.mean_coefficient * side * weight)
+    return [
+        f"{found.mean_coefficient:.4f}",
+        f"{local.min():.4f} to {local.max():.4f}",
+        f"{found.mean_power_loss:.1f}",
+        f"{found.loss_factor:.4f}",
+        *(f"{np.ptp(force.sum(axis=(1, 2))):.1f}" for force in forces),
+        f"{found.temperature_rise[pressed].max():.0f}",
+    ]
 
 
-@dataclass(frozen=True, slots=True)
-class Moved:
-    """Mesh orders of a signal [m] with a constant coefficient and with the film."""
-
-    signal: str
-    constant: Array
-    film: Array
-
-
-def moved(orders: int = 4) -> tuple[float, list[Moved]]:
-    """Return the constant coefficient of the same loss, and motions with it and with the film."""
+def moved_rows(orders: int = 4) -> list[list[str]]:
+    """Return mesh orders [nm] with the constant coefficient of the same loss, and with the film."""
     film = FilmFriction(
         oil=Lubricant.named(OIL),
         oil_temperature=OIL_TEMPERATURE,
@@ -154,10 +119,55 @@ def moved(orders: int = 4) -> tuple[float, list[Moved]]:
     mu = cycle(PINION_SPEED / RPM, OIL_TEMPERATURE).mean_coefficient
     constant = periodic_response(he_2007_pair(mu), PINION_SPEED)
     own = periodic_response(replace(he_2007_pair(0.0), friction="film", film=film), PINION_SPEED)
-    return mu, [
-        Moved(n, harmonics(constant.signal(n), orders), harmonics(own.signal(n), orders))
-        for n in ("u_xp", "u_yp", "delta_z")
-    ]
+    rows = []
+    for name in ("u_xp", "u_yp", "delta_z"):
+        both = (harmonics(one.signal(name), orders) for one in (constant, own))
+        rows.append([f"{1e9 * c:.2f} / {1e9 * f:.2f}" for c, f in zip(*both, strict=True)])
+    return rows
+
+
+def instability_rows(stability: xr.Dataset) -> list[list[str]]:
+    """Return where the mesh's variation alone makes the pair unstable."""
+    rows = []
+    for name, axis in (
+        ("growth_variation", "variation"),
+        ("growth_variation_light", "variation"),
+        ("growth_damping", "damping_ratio"),
+    ):
+        growth, values = stability[name].values, stability[axis].values
+        unstable = growth > 0.0
+        some = unstable.any(axis=1)
+        if not some.any():
+            rows.append([axis.replace("_", " "), "stable throughout", "-", "-"])
+            continue
+        at = int(np.flatnonzero(some)[0 if axis == "variation" else -1])
+        frequency = float(stability["mesh_frequency"][int(growth[at].argmax())])
+        word = "least factor" if axis == "variation" else "largest ratio"
+        rows.append(
+            [
+                axis.replace("_", " "),
+                f"{word} {values[at]:.3g}; {100.0 * unstable.mean():.1f} % of the map",
+                f"{frequency:.0f}",
+                _nearest(frequency, stability["natural_frequency"].values),
+            ]
+        )
+    return rows
+
+
+def _nearest(frequency: float, modes: np.ndarray) -> str:
+    """Return the nearest (f_i + f_j)/k in words, with its distance."""
+    best = min(
+        (
+            (abs((modes[i] + modes[j]) / k / frequency - 1.0), i, j, k)
+            for k in (1, 2)
+            for i in range(modes.size)
+            for j in range(i, modes.size)
+        ),
+        key=lambda found: found[0],
+    )
+    off, i, j, k = best
+    sum_of = f"2 f_{i + 1}" if i == j else f"f_{i + 1} + f_{j + 1}"
+    return f"{sum_of if k == 1 else f'({sum_of})/{k}'}, {100.0 * off:.1f} % off"
 
 
 def _viscosity(temperature: float) -> float:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +40,7 @@ COARSE = CondensationSettings(
     lengthwise_hats=7,
     density=MeshDensity(profile=6, lengthwise=12, thickness=3, growth=1.8, fillet=3, slot=1, rim=2),
 )
+_LOWER, _UPPER = 0.08, 0.05  # scatter of the fit of ISO 6336-1
 _PHASES = (0.05, 0.45, 0.85)
 
 
@@ -83,52 +85,37 @@ def spur_harris(store: Path) -> dict[str, xr.Dataset]:
     }
 
 
-@dataclass(frozen=True, slots=True)
-class Finer:
-    """Stiffness [N/m] along the line of action and largest share, means of three phases."""
-
-    words: str
-    secant: float
-    tangent: float
-    share: float
+Stiffness = tuple[float, float, float]  # secant, tangent [N/m], largest share [-]
 
 
-def bodies() -> list[Finer]:
-    """Return stiffness with the elastic body ending elsewhere."""
+def bodies() -> list[Stiffness]:
+    """Return stiffness with the elastic body as by default, and ending elsewhere."""
     return [
-        _stiffness(words, body, LoadedSettings())
-        for words, body in (
-            ("default: base 3 modules deep, 1 pitch of rim", HelicalBodySettings()),
-            ("base 2 modules deep", HelicalBodySettings(base_depth_modules=2.0)),
-            ("base 4 modules deep", HelicalBodySettings(base_depth_modules=4.0)),
-            ("1.5 pitches of rim beside the tooth", HelicalBodySettings(neighbour_pitches=1.5)),
+        _stiffness(body, LoadedSettings())
+        for body in (
+            HelicalBodySettings(),
+            HelicalBodySettings(base_depth_modules=2.0),
+            HelicalBodySettings(base_depth_modules=4.0),
+            HelicalBodySettings(neighbour_pitches=1.5),
         )
     ]
 
 
-def refinements() -> list[Finer]:
-    """Return stiffness with finer cells, elements and hats."""
-    default = HelicalBodySettings()
+def refinements() -> list[Stiffness]:
+    """Return stiffness by default, with finer cells, with finer elements and hats, and coarse."""
+    body = HelicalBodySettings()
+    finer = replace(body.condensation, profile_hats=9, density=MeshDensity(profile=16))
     cells = LoadedSettings(strips=StripSettings(cells_across=61, cells_along=96))
-    c = default.condensation
-    finer = {
-        "9 hats from root to tip, 16 elements": replace(
-            c, profile_hats=9, density=MeshDensity(profile=16)
-        ),
-        "coarse: 4 x 7 hats": COARSE,
-    }
-    rows = [
-        _stiffness("default: 31 x 48 cells, 7 x 13 hats", default, LoadedSettings()),
-        _stiffness("61 x 96 cells", default, cells),
+    return [
+        _stiffness(body, LoadedSettings()),
+        _stiffness(body, cells),
+        _stiffness(replace(body, condensation=finer), LoadedSettings()),
+        _stiffness(replace(body, condensation=COARSE), LoadedSettings()),
     ]
-    rows += [
-        _stiffness(words, replace(default, condensation=settings), LoadedSettings())
-        for words, settings in finer.items()
-    ]
-    return rows
 
 
-def _stiffness(words: str, body: HelicalBodySettings, settings: LoadedSettings) -> Finer:
+def _stiffness(body: HelicalBodySettings, settings: LoadedSettings) -> Stiffness:
+    """Return means of three phases, along the line of action."""
     teeth = pair_stiffness(HE, body)
     rows = []
     for phase in _PHASES:
@@ -137,22 +124,30 @@ def _stiffness(words: str, body: HelicalBodySettings, settings: LoadedSettings) 
         rows.append((PINION_TORQUE / state.rotation, state.tangent, largest))
     secant, tangent, share = np.mean(rows, axis=0)
     arm = HE.pinion_base_radius
-    return Finer(words, float(secant / arm**2), float(tangent / arm**2), float(share))
+    return float(secant / arm**2), float(tangent / arm**2), float(share)
 
 
-@dataclass(frozen=True, slots=True)
-class Sharing:
-    """One tooth pair on a stretch of its way: its share of torque and of length [-]."""
+def stiffness_rows(found: Sequence[Stiffness]) -> list[list[str]]:
+    """Return stiffness with other cells and elements, and how far it is from the first."""
 
-    words: str
-    share: float
-    length_share: float
-    extreme: float  # of the difference
-    at: float  # mesh periods since the line enters
+    def cell(k: int, value: float, form: str) -> str:
+        off = value / found[0][k] - 1.0
+        return form.format(value if k == 2 else 1e-6 * value) + (
+            f" ({100.0 * off:+.2f} %)" if off else ""
+        )
+
+    return [
+        [
+            cell(0, secant, "{:.1f}"),
+            cell(1, tangent, "{:.1f}"),
+            cell(2, share, "{:.4f}"),
+        ]
+        for secant, tangent, share in found
+    ]
 
 
-def sharing(contact: xr.Dataset) -> list[Sharing]:
-    """Return where shares of torque and of length differ; means over the stretches."""
+def sharing_rows(contact: xr.Dataset) -> list[list[str]]:
+    """Return where shares of torque and of length differ, on stretches of a pair's way; means."""
     age = contact["line"].values[None, :] + contact["phase"].values[:, None]
     share, length = contact["share"].values, contact["length_share"].values
     carries = (share > 0.0) | (length > 0.0)
@@ -175,12 +170,63 @@ def sharing(contact: xr.Dataset) -> list[Sharing]:
         off = (share - length)[rows]
         worst = int(np.abs(off).argmax())
         found.append(
-            Sharing(
+            [
                 words,
-                float(share[rows].mean()),
-                float(length[rows].mean()),
-                float(off[worst]),
-                float(age[rows][worst]),
-            )
+                f"{100.0 * share[rows].mean():.1f}",
+                f"{100.0 * length[rows].mean():.1f}",
+                f"{100.0 * off[worst]:+.1f}",
+                f"{age[rows][worst]:.2f}",
+            ]
         )
     return found
+
+
+def torque_rows(contact: xr.Dataset) -> list[list[str]]:
+    """Return what load does to the plain pair, and ISO 6336-1 beside it."""
+    standard = iso().mesh * HE.face_width
+    rows = []
+    for torque in contact["torque"].values:
+        at = contact.sel(torque=torque)
+        mean = float(at["K"].mean())
+        off = at["share"] - at["length_share"]
+        rows.append(
+            [
+                f"{torque:.0f}",
+                f"{1e-6 * mean:.0f}",
+                f"{1e-6 * float(at['K_tangent'].mean()):.0f}",
+                f"{mean / standard:.3f}",
+                f"{C_M * mean / standard:.3f}",
+                f"{100.0 * float(np.ptp(at['K'].values) / mean):.1f}",
+                f"{1e6 * float(at['transmission_error_ptp']):.2f}",
+                f"{100.0 * float(at['corner_share'].max()):.1f}",
+                f"{100.0 * float(np.abs(off.values).max()):.1f}",
+            ]
+        )
+    return rows
+
+
+def iso_words(
+    contact: xr.Dataset, torque: float, found: Sequence[Stiffness]
+) -> tuple[str, str, str, str]:
+    """Return how far the mean stiffness at a torque is from the standard's."""
+    spread = max(abs(secant / found[0][0] - 1.0) for secant, _, _ in found)
+    mean = float(contact["K"].sel(torque=torque, method="nearest").mean())
+    ratio = C_M * mean / (iso().mesh * HE.face_width)
+    within = 1.0 - _LOWER - spread <= ratio <= 1.0 + _UPPER + spread
+    where = "within" if within else "outside"
+    return f"{ratio / C_M:.3f}", f"{ratio:.3f}", where, f"{100.0 * spread:.1f}"
+
+
+def error_rows(datasets: Sequence[xr.Dataset]) -> list[list[str]]:
+    """Return the range of the transmission error [um] against torque, unloaded first."""
+    torques = sorted({float(t) for data in datasets for t in data["torque"].values})
+    rows = []
+    for data in datasets:
+        cells = [f"{1e6 * float(np.ptp(data['unloaded_error'].values)):.2f}"]
+        for torque in torques:
+            at = int(np.argmin(np.abs(data["torque"].values - torque)))
+            there = abs(data["torque"].values[at] - torque) < 1e-6 * torque
+            value = 1e6 * float(data["transmission_error_ptp"].values[at])
+            cells.append(f"{value:.2f}" if there else "-")
+        rows.append(cells)
+    return rows

@@ -28,7 +28,6 @@ from gearlube_core.dynamics.helical_pair.parameters import Form, HelicalPairPara
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 
-PLACE = "LOADED_CLAIMS\n"
 ANGLES = (0.0, 5.0, 10.0, 15.0, math.degrees(HE.helix_angle), 25.0, 30.0)  # deg
 _FRICTION = (0.1, 0.15, 0.2, 0.25, 0.3)
 
@@ -37,7 +36,6 @@ _FRICTION = (0.1, 0.15, 0.2, 0.25, 0.3)
 class Stiffness:
     """The pair with one kind of mesh stiffness, for any helix angle [deg]."""
 
-    words: str
     mesh_at: Callable[[float], LineMesh]
 
     def parameters(self, mu: float, angle: float) -> HelicalPairParameters:
@@ -59,7 +57,7 @@ def one_density() -> Stiffness:
         pair = HE if angle == ANGLES[4] else with_helix(math.radians(angle))
         return constant_density_mesh(pair, density(), "He et al. 2007 eq. (2)")
 
-    return Stiffness("one density, ISO 6336-1", mesh)
+    return Stiffness(mesh)
 
 
 def loaded_contact(store: Path) -> Stiffness:
@@ -70,11 +68,11 @@ def loaded_contact(store: Path) -> Stiffness:
         else table_of_torques(with_helix(math.radians(angle)), COARSE, store)
         for angle in ANGLES
     }
-    return Stiffness("loaded contact", meshes.__getitem__)
+    return Stiffness(meshes.__getitem__)
 
 
-def table(stiffness: Stiffness) -> dict[str, str]:
-    """Return the rows of one stiffness: what was found, by claim."""
+def column(stiffness: Stiffness) -> list[str]:
+    """Return what was found with one stiffness, in the order of the table."""
     low, high = stiffness.response(LOW), stiffness.response(HIGH)
 
     def growth(name: str) -> np.ndarray:
@@ -89,30 +87,25 @@ def table(stiffness: Stiffness) -> dict[str, str]:
     size = harmonics(high.signal("delta_z"))
     swing = [1e6 * float(np.ptp(r.signal("delta_z"))) for r in (low, high)]
     k = table_density(stiffness.mesh_at(ANGLES[4]), PINION_TORQUE)
-    return {
-        "mean stiffness density of the lines, N/(mm um)": f"{1e-9 * k:.2f}",
-        "delta_z, peak to peak, um, mu 0.01 / 0.1": f"{swing[0]:.2f} / {swing[1]:.2f}",
-        "H9: u_y grows, all orders": f"{y.min():.1f} to {y.max():.1f} times",
-        "H10: u_x grows, n = 1, 2 / 3 / 7 to 15": f"{x[0]:.1f}, {x[1]:.1f} / {x[2]:.2f} / "
-        f"{off.min():.2f} to {off.max():.2f}",
-        "H11: u_z grows, n = 7, 8, 9": ", ".join(f"{v:.2f}" for v in axial),
-        "H12: natural frequencies within n = 8 to 10": str(inside),
-        "H14: spur over helical bearing force, x / y, mu 0.01": _over_spur(stiffness, LOW),
-        "H14: the same, mu 0.1": _over_spur(stiffness, HIGH),
-        "H15, H20: delta_z grows, n = 1 / 2 / 3 / 6": " / ".join(
-            f"{delta[n - 1]:.2f}" for n in (1, 2, 3, 6)
-        ),
-        "H15: n = 1 of delta_z over the next order": f"{size[0] / size[1:].max():.1f} times",
-        "H17: n = 1 of delta_z over delta_x / delta_y, mu 0.01": _over_tilt(low),
-        "H17: the same, mu 0.1": _over_tilt(high),
-        "H18: 6 against 12 degrees of freedom, n <= 6, mu 0.01 / 0.1": " / ".join(
+    return [
+        f"{1e-9 * k:.2f}",
+        f"{swing[0]:.2f} / {swing[1]:.2f}",
+        f"{y.min():.1f} to {y.max():.1f} times",
+        f"{x[0]:.1f}, {x[1]:.1f} / {x[2]:.2f} / {off.min():.2f} to {off.max():.2f}",
+        ", ".join(f"{v:.2f}" for v in axial),
+        str(inside),
+        _over_spur(stiffness, LOW),
+        _over_spur(stiffness, HIGH),
+        " / ".join(f"{delta[n - 1]:.2f}" for n in (1, 2, 3, 6)),
+        f"{size[0] / size[1:].max():.1f} times",
+        _over_tilt(low),
+        _over_tilt(high),
+        " / ".join(
             f"{100.0 * _six(stiffness, r, mu):.1f} %" for r, mu in ((low, LOW), (high, HIGH))
         ),
-        "H19: F_z of the mesh, peak to peak, N, at 5 / 10 / 15 / 21.5 / 25 / 30 deg, mu 0.01": (
-            " / ".join(f"{_axial_swing(stiffness, angle):.0f}" for angle in ANGLES[1:])
-        ),
-        "H21: n = 1 of u_x off a straight line, mu 0.1 to 0.3": f"{_off_line(stiffness):.2f} %",
-    }
+        " / ".join(f"{_axial_swing(stiffness, angle):.0f}" for angle in ANGLES[1:]),
+        f"{_off_line(stiffness):.2f} %",
+    ]
 
 
 def _over_spur(stiffness: Stiffness, mu: float) -> str:
@@ -147,11 +140,6 @@ def _off_line(stiffness: Stiffness) -> float:
     return 100.0 * float(np.abs(line / size - 1.0).max())
 
 
-def loaded_claims_table(store: Path) -> str:
-    """Return the comparison as a table."""
-    kinds = (one_density(), loaded_contact(store))
-    columns = [table(kind) for kind in kinds]
-    lines = ["| | " + " | ".join(kind.words for kind in kinds) + " |", "| --- | --- | --- |"]
-    for name in columns[0]:
-        lines.append(f"| {name} | " + " | ".join(column[name] for column in columns) + " |")
-    return "\n".join(lines) + "\n"
+def loaded_claims_rows(store: Path) -> list[tuple[str, str]]:
+    """Return both stiffnesses side by side."""
+    return list(zip(*map(column, (one_density(), loaded_contact(store))), strict=True))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from docs.helical.cases import HIGH
+from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response
@@ -16,6 +19,7 @@ from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.periodic import follow
 from gearlube_core.periodic.branch import Branch
 
+UM = 1e6
 DAMPING = (0.05, 0.03, 0.02, 0.01)
 CROWNED_TORQUES = (25.0, 50.0, 100.0, PINION_TORQUE)  # N.m
 CROWNED_DAMPING = 0.02
@@ -135,3 +139,82 @@ def overhang(curve: Curve) -> float:
 
 def _unit(curve: Curve) -> float:
     return float(curve.branch.parameter[0] / curve.relative[0])
+
+
+def branch_rows(curves: Sequence[Curve]) -> list[list[str]]:
+    """Return folds, separation and swings of branches, from the second column on."""
+    rows = []
+    for c in curves:
+        top, two = int(c.swing.argmax()), overhang(c)
+        rows.append(
+            [
+                f"{c.natural_frequency:.0f}",
+                f"{UM * c.swing[top]:.1f} at {c.relative[top]:.3f}",
+                f"{UM * float(c.linear[:, 1].max()):.1f}",
+                _span(c.span(c.lifted)),
+                _span(c.span(c.apart)),
+                f"{100.0 * float(c.apart.max()):.0f}",
+                _places(c.special("fold")),
+                _places(c.special("period doubling")),
+                f"{UM * two:.1f}" if two > 0.0 else "none",
+            ]
+        )
+    return rows
+
+
+def _span(span: tuple[float, float] | None) -> str:
+    return "never" if span is None else f"{span[0]:.2f} to {span[1]:.2f}"
+
+
+def _places(places: Sequence[float]) -> str:
+    return ", ".join(f"{p:.3f}" for p in places) or "none"
+
+
+def parting(curves: Sequence[Curve]) -> tuple[str, str, str]:
+    """Return the damping ratios that keep contact, that lose it, and that have two motions."""
+    keeps = [c.damping for c in curves if c.lifted.max() == 0.0]
+    parts = [c.damping for c in curves if c.apart.max() > 0.0]
+    folds = [c.damping for c in curves if overhang(c) > 0.0]
+    ratios = (", ".join(f"{one:g}" for one in some) for some in (keeps, parts, folds))
+    return (next(ratios) or "none of these", next(ratios) or "none", next(ratios) or "none")
+
+
+def separation_figure(curves: Sequence[tuple[str, Sequence[Curve]]]) -> Any:
+    """Draw branches side by side: swing above, shares of time below."""
+    with house_style():
+        figure = new_figure(5.2 * len(curves), 6.4)
+        axes = figure.subplots(
+            2, len(curves), sharex=True, squeeze=False, gridspec_kw={"height_ratios": (2.2, 1.0)}
+        )
+        for (title, group), (top, bottom) in zip(curves, axes.T, strict=True):
+            for row, curve in enumerate(group):
+                _draw(top, bottom, curve, SERIES[row % len(SERIES)])
+            top.set_title(title)
+            top.set_yscale("log")
+            top.legend(loc="upper left")
+            bottom.set_xlabel("mesh frequency over natural frequency of the mesh")
+            bottom.set_xlim(group[0].relative.min(), group[0].relative.max())
+            bottom.set_ylim(0.0, None)
+        axes[0, 0].set_ylabel(r"mesh deflection $\delta_z$, peak to peak [µm]")
+        axes[1, 0].set_ylabel("share of time [%]")
+        figure.suptitle(
+            "Above: motion with tooth separation, dashed where unstable; dotted: springs that also "
+            "pull.\nBelow: time without any contact (wide), with part of the lines off (thin)",
+            fontsize=10.0,
+        )
+    return figure
+
+
+def _draw(top: Any, bottom: Any, curve: Curve, colour: str) -> None:
+    top.plot([], [], color=colour, label=curve.label)
+    for rows, stable in curve.branch.runs():
+        style = "-" if stable else "--"
+        top.plot(curve.relative[rows], UM * curve.swing[rows], style, color=colour, lw=1.5)
+        for share, width in ((curve.apart, 1.8), (curve.lifted, 0.8)):
+            bottom.plot(curve.relative[rows], 100.0 * share[rows], style, color=colour, lw=width)
+    top.plot(curve.linear[:, 0], UM * curve.linear[:, 1], ":", color=colour, lw=1.0)
+    places = [p.index for p in curve.branch.special]
+    top.plot(
+        curve.relative[places], UM * curve.swing[np.array(places, dtype=int)], "o", color=colour,
+        mfc="white", ms=4.5,
+    )  # fmt: skip

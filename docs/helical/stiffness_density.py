@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -30,50 +29,17 @@ _C_M = 0.8
 _SIGNALS = ("u_xp", "u_yp", "delta_z")
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
-    """One way to the density.
-
-    Parameters
-    ----------
-    words : str
-    teeth : tuple of float
-        z_n1, z_n2 [-].
-    rack_factor : float
-        C_B [-].
-    single, mesh : float
-        c', c_gamma_alpha [N/(mm um)].
-    density : float
-        k [N/m2].
-    """
-
-    words: str
-    teeth: tuple[float, float]
-    rack_factor: float
-    single: float
-    mesh: float
-    density: float
+Choice = tuple[tuple[float, float], float, float, float]  # z_n, C_B [-], c', c_gamma_alpha [N/m2]
 
 
 def choices() -> list[Choice]:
-    """Return the densities: from the pair's own data, with a rack of 1.2, and as estimated."""
-    return [
-        _iso("own roots, z_n = z/(cos2(beta_b) cos(beta))", None),
-        _iso("dedendum of the rack 1.2 modules", 1.2),
-        _estimate(),
-    ]
+    """Return own roots with z_n = z/(cos2(beta_b) cos(beta)), a rack of 1.2, and the estimate."""
+    return [_iso(None), _iso(1.2), _estimate()]
 
 
-def _iso(words: str, dedendum: float | None) -> Choice:
+def _iso(dedendum: float | None) -> Choice:
     found = iso_stiffness(HE, line_load=LINE_LOAD, rack_dedendum=dedendum)
-    return Choice(
-        words,
-        virtual_teeth(HE),
-        found.basic_rack_factor,
-        1e-9 * found.single,
-        1e-9 * found.mesh,
-        stiffness_density(found.mesh, HE),
-    )
+    return virtual_teeth(HE), found.basic_rack_factor, found.single, found.mesh
 
 
 def _estimate() -> Choice:
@@ -81,29 +47,29 @@ def _estimate() -> Choice:
     cos = math.cos(HE.helix_angle)
     teeth = HE.pinion_teeth / cos**3, HE.gear_teeth / cos**3
     factor = 1.0 - 0.02 * (20.0 - math.degrees(HE.normal_pressure_angle))
-    single = _C_M * factor * cos / (_Q[0] + _Q[1] / teeth[0] + _Q[2] / teeth[1])
-    mesh = (0.75 * HE.transverse_contact_ratio + 0.25) * single
-    return Choice(
-        "dedendum 1.2, z_n = z/cos3(beta)",
-        teeth,
-        factor,
-        single,
-        mesh,
-        stiffness_density(1e9 * mesh, HE),
-    )
+    single = 1e9 * _C_M * factor * cos / (_Q[0] + _Q[1] / teeth[0] + _Q[2] / teeth[1])
+    return teeth, factor, single, (0.75 * HE.transverse_contact_ratio + 0.25) * single
 
 
-def used() -> str:
-    """Return which choice `he_2007_pair` has, in words."""
-    k = density()
-    nearest = min(choices(), key=lambda c: abs(c.density - k))
-    close = abs(nearest.density / k - 1.0) < 1e-3
-    where = f"that of: {nearest.words}" if close else "none of these"
-    depth = rack_dedendum_of(HE)
-    return (
-        f"\n`he_2007_pair` has k = {1e-9 * k:.2f} N/(mm um), {where}. The pair's own roots lie "
-        f"{depth[0]:.3f} and {depth[1]:.3f} normal modules below the reference.\n"
-    )
+def choice_rows() -> list[list[str]]:
+    """Return the choices of density and what they do, from the second column on."""
+    rows = []
+    for teeth, rack_factor, single, mesh in choices():
+        k = stiffness_density(mesh, HE)
+        rows.append(
+            [
+                " / ".join(f"{z:.2f}" for z in teeth),
+                f"{rack_factor:.3f}",
+                *(f"{1e-9 * one:.2f}" for one in (single, mesh, k)),
+                *_effect(k),
+            ]
+        )
+    return rows
+
+
+def own_density() -> tuple[str, str, str]:
+    """Return the density of `he_2007_pair`, and how deep the roots of both members are."""
+    return (f"{1e-9 * density():.2f}", *(f"{one:.3f}" for one in rack_dedendum_of(HE)))
 
 
 def table_density(mesh: LineMesh, torque: float) -> float:
@@ -114,37 +80,8 @@ def table_density(mesh: LineMesh, torque: float) -> float:
     return float((mesh.density[level] * part).sum() / lengths.sum())
 
 
-@dataclass(frozen=True, slots=True)
-class Effect:
-    """What a density does to the pair at 1000 rpm.
-
-    Parameters
-    ----------
-    density : float
-        [N/m2]
-    mesh_order : float
-        Frequency of the mesh's own mode over the mesh frequency [-].
-    swing : float
-        delta_z, peak to peak, mu = 0.1 [m].
-    growth : tuple of float
-        Orders 1 and 2 of u_xp, 2 of delta_z, at mu = 0.1 over 0.01 [-].
-    off_line : float
-        Furthest of the orders of u_yp but 4, 8, 12 from ten times [-].
-    """
-
-    density: float
-    mesh_order: float
-    swing: float
-    growth: tuple[float, float, float]
-    off_line: float
-
-
-def effects(densities: Sequence[float]) -> list[Effect]:
-    """Return what densities [N/m2] do."""
-    return [_effect(k) for k in densities]
-
-
-def _effect(k: float) -> Effect:
+def _effect(k: float) -> list[str]:
+    """Return what a density [N/m2] does to the pair at 1000 rpm."""
     mesh = constant_density_mesh(HE, k, "compared")
     responses = [
         periodic_response(replace(he_2007_pair(mu), mesh=mesh), PINION_SPEED) for mu in (LOW, HIGH)
@@ -152,10 +89,11 @@ def _effect(k: float) -> Effect:
     low, high = ({n: harmonics(r.signal(n)) for n in _SIGNALS} for r in responses)
     ratio = {name: high[name] / low[name] for name in _SIGNALS}
     one_sided = replace(responses[0].parameters, contact="one_sided")
-    return Effect(
-        k,
-        SeparationProblem(one_sided).natural_frequency * responses[0].period,
-        float(np.ptp(responses[1].signal("delta_z"))),
-        (float(ratio["u_xp"][0]), float(ratio["u_xp"][1]), float(ratio["delta_z"][1])),
-        float(np.abs(np.delete(ratio["u_yp"], [3, 7, 11]) - 10.0).max()),
-    )
+    natural = SeparationProblem(one_sided).natural_frequency
+    return [
+        f"{natural * responses[0].period:.2f}",
+        f"{1e6 * np.ptp(responses[1].signal('delta_z')):.3f}",
+        f"{ratio['u_xp'][0]:.1f} / {ratio['u_xp'][1]:.1f}",
+        f"{ratio['delta_z'][1]:.2f}",
+        f"{np.abs(np.delete(ratio['u_yp'], [3, 7, 11]) - 10.0).max():.2f}",
+    ]

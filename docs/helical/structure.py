@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -23,7 +22,6 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import SLIDING, X
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_stiffness_matrix
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
-    IsoStiffness,
     iso_stiffness,
     virtual_teeth,
 )
@@ -35,17 +33,11 @@ SMALL_HELIX = (1.0, 0.1, 0.01)  # deg
 TRANSVERSE = ("u_xp", "u_yp", "u_xg", "u_yg")
 
 
-@dataclass(frozen=True, slots=True)
-class Reaction:
-    """Largest sums of forces and of moments over those on the pinion [-], and axial identity."""
+def reaction() -> tuple[float, float, float]:
+    """Return sums of forces and of moments over those on the pinion, |F_z + F_x tan b|/|F_x| [-].
 
-    force: float
-    moment: float
-    axial: float  # |F_z + F_x tan b|/|F_x|
-
-
-def reaction() -> Reaction:
-    """Return the worst over phases, friction and random displacements, helical and spur."""
+    The worst over phases, friction and random displacements, helical and spur.
+    """
     rng = np.random.default_rng(7)
     force = moment = axial = 0.0
     for pair in (HE, SPUR):
@@ -63,21 +55,15 @@ def reaction() -> Reaction:
                 moment = max(moment, float(np.abs(total).max()) / size)  # arms of about 1 m
                 helix = abs(w[2] + w[0] * plane.sin_b / plane.cos_b)
                 axial = max(axial, helix / abs(w[0]))
-    return Reaction(force, moment, axial)
+    return force, moment, axial
 
 
-@dataclass(frozen=True, slots=True)
-class Symmetry:
-    """Of the mesh stiffness without friction, over its largest entry [-]."""
+def symmetry() -> tuple[float, float, tuple[int, ...], float]:
+    """Return of the mesh stiffness without friction, over its largest entry [-].
 
-    asymmetry: float
-    least_eigenvalue: float
-    ranks: tuple[int, ...]
-    off_line: float  # largest entry off the line of action
-
-
-def symmetry() -> Symmetry:
-    """Return the worst over mesh phases, helical and spur."""
+    Asymmetry, least eigenvalue, ranks, largest entry off the line of action; the worst over mesh
+    phases, helical and spur.
+    """
     asymmetry = least = off = 0.0
     ranks = set()
     for pair in (HE, SPUR):
@@ -90,7 +76,7 @@ def symmetry() -> Symmetry:
             least = min(least, float(values[0]))
             ranks.add(int((np.abs(values) > 1e-9).sum()))
             off = max(off, float(np.abs(K[[1, 7]]).max()) / size)
-    return Symmetry(asymmetry, least, tuple(sorted(ranks)), off)
+    return asymmetry, least, tuple(sorted(ranks)), off
 
 
 def sliding_reversal() -> tuple[float, bool]:
@@ -107,15 +93,11 @@ def sliding_reversal() -> tuple[float, bool]:
     return ratio, True
 
 
-def spur_limit() -> list[tuple[float, float]]:
-    """Return helix angles [deg] and how far delta_z is from the spur pair's, mu = 0.1 [-]."""
+def spur_limit() -> list[float]:
+    """Return how far delta_z is from the spur pair's at SMALL_HELIX, mu = 0.1 [-]."""
     spur = steady_with_helix(HIGH, 0.0).signal("delta_z")
-    swing = float(np.ptp(spur))
-    found = []
-    for angle in SMALL_HELIX:
-        near = steady_with_helix(HIGH, math.radians(angle)).signal("delta_z")
-        found.append((angle, float(np.sqrt(np.mean((near - spur) ** 2))) / swing))
-    return found
+    near = (steady_with_helix(HIGH, math.radians(angle)).signal("delta_z") for angle in SMALL_HELIX)
+    return [float(np.sqrt(np.mean((one - spur) ** 2)) / np.ptp(spur)) for one in near]
 
 
 def six_against_twelve(mu: float, orders: int = 6) -> dict[str, float]:
@@ -132,15 +114,13 @@ def six_against_twelve(mu: float, orders: int = 6) -> dict[str, float]:
 
 
 # ISO/TR 6336-30:2017, example 1, as printed: 17:103, 8 mm, 15.8 degrees, x1 = 0.145, rack D
-SAMPLE = {
-    "c'_th": 17.85584, "c'": 12.37047, "c_gamma_alpha": 17.46485, "c_gamma_beta": 14.84512,
-}  # fmt: skip
-SAMPLE_TEETH = (18.905, 114.543)
+# virtual teeth, and stiffnesses [N/(mm um)]
+SAMPLE = ("18.905", "114.543", "17.85584", "12.37047", "17.46485", "14.84512")
 _SAMPLE_LOAD = 127352.0 / 0.1  # N/m
 
 
-def sample_stiffness() -> tuple[tuple[float, float], dict[str, float]]:
-    """Return virtual teeth and stiffnesses [N/(mm um)] of the published example."""
+def sample_stiffness() -> tuple[float, ...]:
+    """Return virtual teeth and stiffnesses [N/(mm um)] of the published example, as SAMPLE."""
     module, helix = 8e-3, math.radians(15.8)
     radius = 0.5 * module / math.cos(helix)
     pair = HelicalPair(
@@ -157,6 +137,6 @@ def sample_stiffness() -> tuple[tuple[float, float], dict[str, float]]:
         gear_root_radius=103 * radius - 1.4 * module,
         face_width=0.1,
     )
-    found: IsoStiffness = iso_stiffness(pair, line_load=_SAMPLE_LOAD)
-    values = (found.theoretical, found.single, found.mesh, found.lead)
-    return virtual_teeth(pair), dict(zip(SAMPLE, (1e-9 * v for v in values), strict=True))
+    found = iso_stiffness(pair, line_load=_SAMPLE_LOAD)
+    stiffness = (found.theoretical, found.single, found.mesh, found.lead)
+    return (*virtual_teeth(pair), *(1e-9 * v for v in stiffness))

@@ -5,8 +5,7 @@ About a minute.
 
 from __future__ import annotations
 
-from pathlib import Path
-
+from docs.page import IMAGES
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.studies.helical.figures.catalogue import pair_losses
 from gearlube.studies.helical.pair_losses import losses_dataset
@@ -16,8 +15,6 @@ from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
-
-IMAGES = Path(__file__).resolve().parents[1] / "images"
 
 
 def main() -> None:

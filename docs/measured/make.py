@@ -8,16 +8,15 @@ finished is kept in the folder given as argument, by default build/measured.
 from __future__ import annotations
 
 import csv
-import logging
 import math
 import shutil
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from docs.page import IMAGES, begin
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 from gearlube.studies.contact.run import run_contact
 from gearlube.studies.measured.run import run_measured
@@ -31,7 +30,6 @@ from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.spectra import AngleWindow, order_spectrum, resample
 
-ROOT = Path(__file__).parents[2]
 FILE = EXAMPLE / "axle_17.toml"
 NUMBERS = Path(__file__).with_name("spectrum.csv")
 PICTURE, TEETH_PICTURE = "measured_spectrum.png", "measured_teeth.png"
@@ -43,6 +41,7 @@ STEP = 5e-5  # s
 SETTLING = 1.0  # s
 TURNS = 36  # of the pinion: the hunting turn
 SAMPLES = 512  # a turn
+COLUMNS = ("alike_n", "differing_n")
 _LEAST = 1e-3  # N, foot of the lines
 # order of the pinion: what it is
 LINES = {
@@ -126,28 +125,24 @@ def picture(alike: tuple[Array, Array], differing: tuple[Array, Array]) -> Any:
     return figure
 
 
-def lines_table() -> str:
-    """Return the table of the stored spectrum."""
+def lines_rows() -> list[list[str]]:
+    """Return the rows of the stored spectrum."""
     with NUMBERS.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    text = "| Order of the pinion | | Teeth alike [N] | With errors [N] |\n|---|---|---|---|\n"
-    for row in rows:
-        forces = [f"{float(row[name]):.2f}" for name in ("alike_n", "differing_n")]
-        text += f"| {row['order']} | {row['what']} | {' | '.join(forces)} |\n"
-    return text
+        return [
+            [row["order"], row["what"], *(f"{float(row[name]):.2f}" for name in COLUMNS)]
+            for row in csv.DictReader(file)
+        ]
 
 
 def main() -> None:
     """Run or resume the study; write the numbers and the pictures."""
-    logging.basicConfig(level=logging.WARNING)
-    work = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "measured"
+    work = begin("measured")
     alike, differing = (spectrum(table) for table in tables(work))
-    images = ROOT / "docs" / "images"
-    picture(alike, differing).savefig(images / PICTURE)
-    shutil.copyfile(work / "teeth" / "tooth_errors.png", images / TEETH_PICTURE)
+    picture(alike, differing).savefig(IMAGES / PICTURE)
+    shutil.copyfile(work / "teeth" / "tooth_errors.png", IMAGES / TEETH_PICTURE)
     with NUMBERS.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["order", "what", "alike_n", "differing_n"])
+        writer.writerow(["order", "what", *COLUMNS])
         for name, (order, what) in LINES.items():
             pair = (float(np.interp(order, *one)) for one in (alike, differing))
             writer.writerow([name, what, *(f"{value:.3f}" for value in pair)])

@@ -10,7 +10,9 @@ import shutil
 import sys
 from pathlib import Path
 
-from docs.optimise.page import HERE, PAGE, page
+from docs.optimise.page import HERE
+from docs.optimise.page import main as write_page
+from docs.page import IMAGES
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.optimise.dataset import unit_of
 from gearlube.studies.optimise.figures import save_optimise_figures
@@ -21,7 +23,6 @@ from gearlube_core.flank_optimisation.problem import values_of
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.storage.atomic_file import write_text
 
-IMAGES = HERE.parent / "images"
 SHOWN = ("transmission_error", "errors", "front")
 
 
@@ -89,4 +90,4 @@ def _values(found: Optimised) -> str:
 if __name__ == "__main__":
     for one in sys.argv[2:] or OptimisationFile.shipped():
         make(one, Path(sys.argv[1]))
-    write_text(page(), PAGE)
+    write_page()

@@ -1,55 +1,38 @@
-"""Write docs/optimise.md from the tables of this folder: python -m docs.optimise.page."""
+"""Put the tables of this folder into docs/optimise.md: python -m docs.optimise.page."""
 
 from __future__ import annotations
 
 import csv
 from pathlib import Path
 
-from gearlube_core.storage.atomic_file import write_text
+from docs.page import Page
 
 HERE = Path(__file__).resolve().parent
-PAGE = HERE.parent / "optimise.md"
-TEXT, IMAGES = HERE / "text", HERE.parent / "images"
+# problems and the headings of their chapters
+CHAPTERS = {
+    "helical": "## A helical pair: relief and crown",
+    "helical_plain": "## A helical pair without modifications",
+    "hypoid": "## A hypoid pair: settings, crowns, twist and tip relief",
+}
 
 
-def page() -> str:
-    """Return docs/optimise.md."""
-    parts = [(TEXT / "head.md").read_text(encoding="utf-8")]
-    for name in ("helical", "helical_plain", "hypoid"):
-        if (HERE / f"{name}.csv").is_file():
-            parts.append((TEXT / f"{name}.md").read_text(encoding="utf-8"))
-            parts.append(_tables(name))
-    parts.append((TEXT / "tail.md").read_text(encoding="utf-8"))
-    return "\n".join(parts)
-
-
-def _tables(name: str) -> str:
-    lines = ["| Field | Before | After | Bounds | Unit |", "|---|---|---|---|---|"]
-    for row in _rows(f"{name}_values"):
-        bounds = f"{row['low']} to {row['high']}"
-        before = row["before"] or "-"
-        lines.append(f"| `{row['field']}` | {before} | {row['after']} | {bounds} | {row['unit']} |")
-    lines += [
-        "",
-        "| Torque [N.m] | | Unit | Before | After | Change | Best without errors | Limit |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
-    for row in _rows(name):
-        lines.append("| " + " | ".join(one or "-" for one in row.values()) + " |")
-    if (HERE / f"{name}_front.csv").is_file() and len(_rows(f"{name}_front")) > 1:
-        lines += ["", "Least loss under limits of the mesh orders, both over those before:", ""]
-        lines += ["| Mesh orders | Loss |", "|---|---|"]
-        lines += [f"| {row['whine']} | {row['loss']} |" for row in _rows(f"{name}_front")]
-    lines += [
-        "",
-        f"![Transmission error](images/optimise_{name}_transmission_error.png)",
-        "",
-        f"![All orders under each error](images/optimise_{name}_errors.png)",
-        "",
-    ]
-    if (IMAGES / f"optimise_{name}_front.png").is_file():
-        lines += [f"![Mesh orders and loss](images/optimise_{name}_front.png)", ""]
-    return "\n".join(lines)
+def main() -> None:
+    """Write the page."""
+    page = Page("optimise")
+    for name, chapter in CHAPTERS.items():
+        values = (
+            [f"`{row['field']}`", row["before"] or "-", row["after"],
+             f"{row['low']} to {row['high']}", row["unit"]]
+            for row in _rows(f"{name}_values")
+        )  # fmt: skip
+        page.rows("Field | Before", values, chapter)
+        measures = ([one or "-" for one in row.values()] for row in _rows(name))
+        page.rows("Torque [N.m] | | Unit", measures, chapter)
+        front = HERE / f"{name}_front.csv"
+        if front.is_file() and len(_rows(front.stem)) > 1:
+            rows = ([row["whine"], row["loss"]] for row in _rows(front.stem))
+            page.rows("Mesh orders | Loss", rows, chapter)
+    page.write()
 
 
 def _rows(name: str) -> list[dict[str, str]]:
@@ -58,4 +41,4 @@ def _rows(name: str) -> list[dict[str, str]]:
 
 
 if __name__ == "__main__":
-    write_text(page(), PAGE)
+    main()

@@ -10,8 +10,9 @@ import subprocess
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-ROOT = Path(__file__).parents[2]
-PICTURE = ROOT / "docs" / "images" / "report.png"
+from docs.page import IMAGES
+
+PICTURE = IMAGES / "report.png"
 SIZE = (1400, 1760)  # px: findings, key numbers and the first figure
 
 

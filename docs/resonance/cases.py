@@ -14,9 +14,9 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import (
     HypoidTorsionalParameters,
     karagiannis_2012_pair,
 )
-from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
+from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
-from gearlube_core.periodic import ContinuationSettings, follow
+from gearlube_core.periodic import ContinuationSettings, follow, solve_periodic
 
 FIRST, LAST, SPACING = 0.2, 1.6, 0.005  # mesh over natural frequency
 MISMATCHES = (0.0, 0.002, 0.003, 0.004)
@@ -33,11 +33,6 @@ def reconstructed(mismatch: float = 0.0, **options: Any) -> HypoidTorsionalParam
     mesh = options.pop("mesh", {})
     pair = karagiannis_2012_pair(synthetic_mesh(radius_mismatch=mismatch, **mesh))
     return replace(pair, **{"radii": "paper", **options})
-
-
-def equivalent_error(mismatch: float) -> dict[str, tuple[tuple[float, float], ...]]:
-    """Return the error harmonics that hold a ratio mismatch as its integral, -R_p0 d/z sin."""
-    return {"error_harmonics": ((E0, -R_P0 * mismatch / TEETH),)}
 
 
 def respond(name: str, parameters: HypoidTorsionalParameters, steps: int = STEPS) -> Response:
@@ -136,3 +131,41 @@ class Curve:
         pick = self.up if direction == "up" else self.down
         apart = [r for r in self.points if pick(r).separation_share > 0.0]
         return (min(apart), max(apart)) if apart else None
+
+
+def settled_orbit(parameters: HypoidTorsionalParameters, relative: float) -> Orbit | None:
+    """Return the stable periodic motion that Newton's method finds from static deflection."""
+    problem = PeriodProblem(parameters, steps_per_mesh_period=256)
+    model = problem.model
+    speed = model.pinion_speed(relative * model.natural_frequency)
+    start = problem.initial_guess(speed)
+    found = solve_periodic(problem.equations(), start, speed, throw=False)
+    if not (found.converged and found.stable):
+        return None
+    return problem.orbit(found.unknowns, speed)
+
+
+def settled(parameters: HypoidTorsionalParameters, relative: float) -> tuple[float, float]:
+    """Return swing [m] and share of time without contact of that motion; nan: none found."""
+    orbit = settled_orbit(parameters, relative)
+    return (float(np.ptp(orbit.x)), orbit.separation_share) if orbit else (np.nan, np.nan)
+
+
+def double_counts() -> list[tuple[float, ...]]:
+    """Return claim 14: a mismatch of the radii told as a transmission error.
+
+    Mismatch [-], mesh over natural frequency, error R_p0 d/z [m]; peak to peak [m] with the radii,
+    and with the error instead in 2-DOF and in 1-DOF.
+    """
+    found = []
+    for d in MISMATCHES[1:]:
+        error = {"error_harmonics": ((E0, -R_P0 * d / TEETH),)}
+        pairs = (
+            reconstructed(d),
+            reconstructed(radii="mean", mesh=error),
+            reconstructed(form="one_dof", mesh=error),
+        )
+        for relative in (0.3, 0.5, 0.65, 1.0):
+            swings = (settled(pair, relative)[0] for pair in pairs)
+            found.append((d, relative, R_P0 * d / TEETH, *swings))
+    return found

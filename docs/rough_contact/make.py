@@ -5,19 +5,18 @@ Five minutes of one processor.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from docs.page import IMAGES
 from docs.rough_contact.stress import stress_figure
 from gearlube.plotting.style import MARKERS, SERIES, house_style, new_figure
 from gearlube.studies.roughness.flow_factors import flow_figure
 from gearlube_core.rough_patch.table import gaussian_patches, patch_table
 from gearlube_core.storage.atomic_file import atomic_write
 
-IMAGES = Path(__file__).resolve().parents[1] / "images"
 _SEEDS = (1, 2, 3, 4, 5)
 _LENGTH = 20e-6  # m, correlation
 _RATIOS = (0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)

@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from docs.rough_line_contact.make import GRID, ROOT
+from docs.page import begin
+from docs.rough_line_contact.make import GRID
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.transient.march import FilmMarch
 
@@ -96,9 +97,4 @@ def main(work: Path) -> None:
 
 
 if __name__ == "__main__":
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(message)s")
-    main(
-        Path(sys.argv[1])
-        if len(sys.argv) > 1
-        else ROOT / "build" / "rough_line_contact" / "elements"
-    )
+    main(begin("rough_line_contact/elements"))

@@ -7,13 +7,13 @@ build/rough_line_contact; a stopped one goes on. Writes docs/images/rough_*.png 
 from __future__ import annotations
 
 import logging
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from docs.page import IMAGES, begin
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube.studies.films.figures.rough import (
@@ -22,14 +22,12 @@ from gearlube.studies.films.figures.rough import (
     rough_history,
     rough_thin_films,
 )
-from gearlube.studies.films.figures.rough_animation import save_rough_animation
+from gearlube.studies.films.rough.animation import save_rough_animation
 from gearlube.studies.films.rough.files import frame_file, read_frames, summary_rows
 from gearlube.studies.films.rough.run import run_rough
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.storage.atomic_file import write_text
 
-ROOT = Path(__file__).resolve().parents[2]
-IMAGES = ROOT / "docs" / "images"
 NUMBERS = Path(__file__).parent / "numbers.csv"
 # an eighth of the nodes and a fifth of the steps of the thesis: waves from 30 um on
 GRID: dict[str, Any] = {
@@ -132,13 +130,20 @@ def numbers(work: Path, found: dict[str, xr.Dataset]) -> list[tuple[str, str, fl
             nodes = float(rough["contact_share"].values[:, k].mean())
             words = f"share of the zone below {1e9 * limit:.0f} nm, rough"
             rows.append((name, words, nodes, "1"))
-        for percent in (1.0, 5.0, 50.0):
-            film = float(run["film_percentile_all"].sel(percent=percent))
-            rows.append((name, f"film that {percent:g} % of the zone is below", film, "m"))
-        for percent in (50.0, 99.0, 99.9):
-            pressure = float(run["pressure_percentile_all"].sel(percent=percent))
-            rows.append((name, f"pressure that {percent:g} % is below", pressure, "Pa"))
+        rows += distribution_rows(name, run)
     rows += _side_numbers(work)
+    return rows
+
+
+def distribution_rows(name: str, run: xr.Dataset) -> list[tuple[str, str, float, str]]:
+    """Return percentiles of film and pressure of a march: name, quantity, value, unit."""
+    rows = []
+    for percent in (1.0, 5.0, 50.0):
+        film = float(run["film_percentile_all"].sel(percent=percent))
+        rows.append((name, f"film that {percent:g} % of the zone is below", film, "m"))
+    for percent in (50.0, 99.0, 99.9):
+        pressure = float(run["pressure_percentile_all"].sel(percent=percent))
+        rows.append((name, f"pressure that {percent:g} % is below", pressure, "Pa"))
     return rows
 
 
@@ -197,5 +202,4 @@ def main(work: Path) -> None:
 
 
 if __name__ == "__main__":
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "rough_line_contact")
+    main(begin("rough_line_contact"))

@@ -1,13 +1,12 @@
 """Draw and tabulate the whole marches on the columns of the thesis, for 32, 64 and 128 rows.
 
-python -m docs.rough_line_contact.whole_marches [FOLDER]: seconds, from the marches that `variants`
+python -m docs.rough_line_contact.whole_marches [FOLDER]: seconds, from the marches that `marches`
 has finished there. Draws docs/images/rough_rows.png and rough_rows_sections.png, and prints what
 the filters leave of the profiles, too.
 """
 
 from __future__ import annotations
 
-import logging
 import sys
 from pathlib import Path
 from typing import Any
@@ -15,8 +14,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from docs.rough_line_contact.make import IMAGES, ROOT
-from docs.rough_line_contact.variants import VARIANTS, case_of, filtered
+from docs.page import IMAGES, begin
+from docs.rough_line_contact.marches import VARIANTS, case_of, filtered, folder_of
 from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube.studies.films.rough.files import frame_file
 
@@ -24,11 +23,6 @@ ROWS = (32, 64, 128)
 ROUGH = 2888  # steps until the whole contact is rough
 SECTIONS = ((4000, 0.0), (4480, 75e-6))  # step, x [m]: figures 7.19 and 7.20 of the thesis
 GIGAPASCAL, NANOMETRE, MILLIMETRE = 1e9, 1e-9, 1e-3
-
-
-def folder_of(work: Path, rows: int) -> Path:
-    """Return the folder of a march."""
-    return work / f"his_columns_{rows}_rows"
 
 
 def label_of(rows: int) -> str:
@@ -60,7 +54,7 @@ def sections(work: Path, found: dict[int, xr.Dataset]) -> Any:
         axes = figure.subplots(2, len(SECTIONS), sharex=True, sharey="row")
         for k, rows in enumerate(found):
             for column, (step, x) in enumerate(SECTIONS):
-                file = frame_file(folder_of(work, rows), step)
+                file = frame_file(folder_of(work, f"his columns, {rows} rows"), step)
                 if not file.exists():
                     continue
                 frame = xr.load_dataset(file, engine="scipy").isel(time=0)
@@ -140,7 +134,7 @@ def left_by_filters() -> list[str]:
 
 def main(work: Path) -> None:
     """Draw and print."""
-    files = {rows: folder_of(work, rows) / "rough.nc" for rows in ROWS}
+    files = {rows: folder_of(work, f"his columns, {rows} rows") / "rough.nc" for rows in ROWS}
     found = {
         rows: xr.load_dataset(file, engine="scipy") for rows, file in files.items() if file.exists()
     }
@@ -150,5 +144,4 @@ def main(work: Path) -> None:
 
 
 if __name__ == "__main__":
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "rough_line_contact")
+    main(begin("rough_line_contact"))

@@ -8,25 +8,22 @@ script, the figures in docs/images; what one hears is written into the page betw
 
 from __future__ import annotations
 
-import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import gearlube as gl
+from docs.page import IMAGES, Page
 from fmu_src.axle_arguments import axle_parameters
-from gearlube.studies.sound.heard import Sound
+from gearlube.studies.sound.audible import Sound
 from gearlube_core.units import kmh_to_ms
 
 HERE = Path(__file__).parent
-PAGE = HERE.with_suffix(".md")
-IMAGES = HERE.parent / "images"
 PRELOADS = (2500.0, 6000.0)  # N
 FROM, TO, DURATION = 30.0, 110.0, 7.0  # km/h, km/h, s
 WAV_RATE = 24000  # Hz, what a browser plays and 340 kB hold
 FIGURES = ("spectrogram", "levels", "heard_orders")
-BEGIN, END = "<!-- begin: written by docs.sound.make -->", "<!-- end -->"
 
 
 def run_up(preload: float, folder: Path) -> Path:
@@ -52,11 +49,10 @@ def write(sound: Sound, folder: Path) -> None:
         lines.append(f"- [{run.dataset.attrs['name']}](sound/{run.wav})")
     for name in FIGURES:
         shutil.copy(folder / "figures" / f"{name}.png", IMAGES / f"sound_{name}.png")
-    found = [f"- {text}" for text in sound.findings]
-    text = "\n".join([BEGIN, *lines, "", "What the command says of them:", "", *found, END])
-    page = PAGE.read_text(encoding="utf-8")
-    pattern = re.compile(f"{re.escape(BEGIN)}.*{re.escape(END)}", re.DOTALL)
-    PAGE.write_text(pattern.sub(lambda _: text, page), encoding="utf-8")
+    page = Page("sound")
+    page.paragraph("<!-- begin: written by docs.sound.make -->", "\n".join(lines))
+    page.paragraph("What the command says of them:", "\n".join(f"- {x}" for x in sound.findings))
+    page.write()
 
 
 def main() -> None:

@@ -6,9 +6,7 @@ as argument, by default build/tooth_contact/flank_films.
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
+from docs.page import IMAGES, begin
 from gearlube.studies.contact.film_option import film_request, write_films
 from gearlube.studies.contact.run import ContactResults
 from gearlube.studies.contact.settings import QUICK
@@ -16,19 +14,16 @@ from gearlube_core.hypoid_contact.contact_dataset import analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
-ROOT = Path(__file__).resolve().parents[2]
-
 
 def main() -> None:
     """Analyse the pair and write the animation."""
-    work = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build/tooth_contact/flank_films"
-    work.mkdir(parents=True, exist_ok=True)
+    work = begin("tooth_contact/flank_films")
     file = HypoidGearFile.named("mohammadpour_2015")
     contact = analyse_contact(file, QUICK, store=work)
     results = ContactResults(contact=contact, mesh_table=contact_table(file, contact))
     request = film_request(2000.0, "mohammadpour_2015", 90.0)
     assert request is not None
-    write_films(results, request, ROOT / "docs" / "images")
+    write_films(results, request, IMAGES)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
@@ -19,15 +17,6 @@ _HALF_AGAIN = MeshDensity(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Refinement:
-    """An analysis of the shipped pair with other numerical settings, and why."""
-
-    name: str
-    label: str
-    settings: ContactSettings
-
-
 def _settings(
     body: ToothBodySettings | None = None, loaded: LoadedSettings | None = None
 ) -> ContactSettings:
@@ -35,44 +24,18 @@ def _settings(
     return ContactSettings(cycle=cycle, body=body or ToothBodySettings())
 
 
-def refinements() -> list[Refinement]:
-    """Return the default first, then numerical refinements, then other sizes of the body."""
+def refinements() -> dict[str, ContactSettings]:
+    """Return numerical settings in the order of the table: the default, finer, other bodies."""
     fine_hats = CondensationSettings(profile_hats=10, lengthwise_hats=19, density=_HALF_AGAIN)
-    return [
-        Refinement(
-            "default",
-            "default: 32 x 48 cells, 7 x 13 hats, base 3 modules, 1 pitch of rim",
-            _settings(),
-        ),
-        Refinement(
-            "cells",
-            "64 x 96 cells",
-            _settings(loaded=LoadedSettings(strips=StripSettings(cells_across=64, cells_along=96))),
-        ),
-        Refinement(
-            "elements",
-            "elements finer by half in each direction",
-            _settings(ToothBodySettings(condensation=CondensationSettings(density=_HALF_AGAIN))),
-        ),
-        Refinement(
-            "hats",
-            "the same elements with 10 x 19 hats",
-            _settings(ToothBodySettings(condensation=fine_hats)),
-        ),
-        *(
-            Refinement(
-                f"base_{depth:g}",
-                f"base {depth:g} modules deep",
-                _settings(ToothBodySettings(base_depth_modules=depth)),
-            )
-            for depth in (2.0, 4.0)
-        ),
-        *(
-            Refinement(
-                f"rim_{rim:g}",
-                f"{rim:g} pitches of rim beside the tooth",
-                _settings(ToothBodySettings(neighbour_pitches=rim)),
-            )
-            for rim in (0.5, 1.5)
-        ),
-    ]
+    fine_cells = LoadedSettings(strips=StripSettings(cells_across=64, cells_along=96))
+    fine_elements = CondensationSettings(density=_HALF_AGAIN)
+    return {
+        "default": _settings(),
+        "cells": _settings(loaded=fine_cells),
+        "elements": _settings(ToothBodySettings(condensation=fine_elements)),
+        "hats": _settings(ToothBodySettings(condensation=fine_hats)),
+        "base_2": _settings(ToothBodySettings(base_depth_modules=2.0)),
+        "base_4": _settings(ToothBodySettings(base_depth_modules=4.0)),
+        "rim_0.5": _settings(ToothBodySettings(neighbour_pitches=0.5)),
+        "rim_1.5": _settings(ToothBodySettings(neighbour_pitches=1.5)),
+    }

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from docs.tooth_contact.pages import table
+from docs.page import IMAGES, Page, begin
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.style import MARKERS, SERIES, house_style, new_figure
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
@@ -27,7 +27,7 @@ from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 HERE = Path(__file__).resolve().parent
 NUMBERS = HERE / "relief.csv"
-PICTURE = HERE.parent / "images" / "contact_relief.png"
+PICTURE = IMAGES / "contact_relief.png"
 CELLS = (24, 32, 48, 64, 96)  # across; half as many again along
 TORQUE, PHASES = 250.0, 8
 _NAMES = ("case", "cells_across", "cells_along", "pressure_gpa", "error_urad")
@@ -86,22 +86,16 @@ def rows() -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
-def relief_table() -> str:
-    """Return highest pressures by case and cells."""
+def put_relief(page: Page) -> None:
+    """Put in highest pressures by case and cells."""
     found = {(row["case"], int(row["cells_across"])): row for row in rows()}
-    heads = [
-        "Both members, 250 N.m, highest pressure [GPa]",
-        *(f"{n} x {3 * n // 2} cells" for n in CELLS),
-        "last two apart [%]",
-        "loaded TE, p-p [urad]",
-    ]
     body = []
     for case in CASES:
         pressure = [float(found[case.label, n]["pressure_gpa"]) for n in CELLS]
         apart = 100.0 * abs(pressure[-1] / pressure[-2] - 1.0)
         error = float(found[case.label, CELLS[-1]]["error_urad"])
-        body.append([case.label, *(f"{p:.2f}" for p in pressure), f"{apart:.1f}", f"{error:.0f}"])
-    return table(heads, body)
+        body.append([*(f"{p:.2f}" for p in pressure), f"{apart:.1f}", f"{error:.0f}"])
+    page.cells("Both members, 250 N.m", body, first=1)
 
 
 def picture() -> Any:
@@ -139,8 +133,7 @@ def picture() -> Any:
 
 def main() -> None:
     """Compute all cases, write numbers and picture."""
-    logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")
-    logger.setLevel(logging.INFO)
+    begin("tooth_contact")
     file = HypoidGearFile.named("mohammadpour_2015")
     stiffness = pair_stiffness(file, ToothBodySettings())["drive"]
     found = []

@@ -6,14 +6,11 @@ differences of the plain analysis: two minutes.
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
-from docs.tooth_contact.pages import table
+from docs.page import IMAGES, Page
 from gearlube.studies.contact.sensitivity import (
     SensitivityRow,
     parameter_words,
@@ -35,10 +32,6 @@ from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.storage.process_pool import single_threaded
 
-ROOT = Path(__file__).resolve().parents[2]
-TEXT = Path(__file__).parent / "text" / "sensitivity.md"
-PAGE = ROOT / "docs" / "tooth_contact.md"
-HEADING = "## Which tolerance matters"
 FILE = HypoidGearFile.named("mohammadpour_2015")
 SETTINGS = SensitivitySettings(torque=50.0)
 COMPARED = (
@@ -86,8 +79,8 @@ def changed_pair(parameter: Parameter, change: float) -> FlankPair:
     return FlankPair.from_file(FILE.varied({parameter.name: parameter.value + change}), "drive")
 
 
-def comparison(rows: list[SensitivityRow]) -> str:
-    """Return the table of rates beside differences of the plain analysis."""
+def comparison(rows: list[SensitivityRow]) -> list[list[str]]:
+    """Return the rows of rates beside differences of the plain analysis."""
     here = measured(FlankPair.from_file(FILE, "drive"))
     found = {row.parameter: row for row in rows if row.side == "drive"}
     lines = []
@@ -109,26 +102,14 @@ def comparison(rows: list[SensitivityRow]) -> str:
             rate = getattr(row, key) * (1e6 if scale == 1e6 else 1e2)
             cells.append(f"{rate:+.3f} / {plain:+.3f}")
         lines.append(cells)
-    return table(
-        [
-            "Drive side (each cell: derivative / plain analysis)",
-            "grows by",
-            "unloaded TE, p-p [urad]",
-            "loaded TE, order 1 [urad]",
-            "force, height [%]",
-            "force, face [%]",
-            "secant k [%]",
-            "sliding loss [%]",
-        ],
-        lines,
-    )
+    return lines
 
 
-def largest(rows: list[SensitivityRow]) -> str:
-    """Return the table of the parameters with the largest change of the loaded error."""
+def largest(rows: list[SensitivityRow]) -> list[list[str]]:
+    """Return the rows of the parameters with the largest change of the loaded error."""
     pairs = list(zip(rows[::2], rows[1::2], strict=True))
     pairs.sort(key=lambda pair: -max(abs(one.te_1) for one in pair))
-    lines = [
+    return [
         [
             parameter_words(pair[0].parameter),
             tolerance_words(pair[0].tolerance, pair[0].unit),
@@ -145,47 +126,17 @@ def largest(rows: list[SensitivityRow]) -> str:
         ]
         for pair in pairs[:SHOWN]
     ]
-    return table(
-        [
-            "What grows (each cell: drive / coast)",
-            "by",
-            "unloaded TE, p-p [urad]",
-            "loaded TE, order 1 [urad]",
-            "force, height [%]",
-            "force, face [%]",
-            "highest pressure [%]",
-        ],
-        lines,
-    )
-
-
-def section(dataset: xr.Dataset) -> str:
-    """Return the section."""
-    rows = sensitivity_rows(dataset)
-    text = TEXT.read_text(encoding="utf-8")
-    for mark, lines in (("LARGEST", largest(rows)), ("COMPARISON", comparison(rows))):
-        text = text.replace(f"<{mark}>\n", lines)
-    return text
 
 
 def main() -> None:
-    """Differentiate, draw, compare, and put the section into the page."""
+    """Differentiate, draw, compare, and put the numbers into the page."""
     with single_threaded():
         dataset = contact_sensitivity(FILE, SETTINGS, jobs=1)
-        picture = ROOT / "docs" / "images" / "contact_sensitivity.png"
-        sensitivity_figure(dataset).savefig(picture, dpi=110)
-        put(section(dataset))
-
-
-def put(text: str) -> None:
-    """Replace the section in the page, which ends where the next one begins."""
-    page = PAGE.read_text(encoding="utf-8")
-    found = re.search(rf"^{HEADING}\n.*?(?=^## )", page, re.DOTALL | re.MULTILINE)
-    if found is None:
-        page = page.replace("## Held by tests", f"{text}\n## Held by tests")
-    else:
-        page = page[: found.start()] + text + "\n" + page[found.end() :]
-    PAGE.write_text(page, encoding="utf-8")
+        sensitivity_figure(dataset).savefig(IMAGES / "contact_sensitivity.png", dpi=110)
+        rows, page = sensitivity_rows(dataset), Page("tooth_contact")
+        page.rows("What grows", largest(rows))
+        page.rows("Drive side (each cell: derivative", comparison(rows))
+        page.write()
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from docs.validation.decision import Decision
 from docs.validation.measures import OIL_TEMPERATURE, PINION_TEETH
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
@@ -97,49 +96,34 @@ def preload_needed(speed_kmh: float) -> float:
     return 0.5 * (low + high)
 
 
-def decisions() -> list[Decision]:
-    """Return the rows of claims 37, 38 and 42."""
-    from_start = [other_share(v, PRELOADS[0]) for v in SPEEDS]
-    more = [other_share(v, PRELOADS[1]) for v in SPEEDS]
+def decisions() -> list[tuple[str | None, str]]:
+    """Return what is here and what is needed, of claims 37, 38 and 42."""
+    start_shares = [other_share(v, PRELOADS[0]) for v in SPEEDS]
+    more_shares = [other_share(v, PRELOADS[1]) for v in SPEEDS]
     words = "/".join(f"{v:.0f}" for v in SPEEDS)
     weaker = {f: other_share(SPEEDS[-1], PRELOADS[0], f) for f in (0.5, 0.25, 0.1)}
     damped = [smallest_roller_load(f, SPEEDS[-1], PRELOADS[0]) > 0.0 for f in _DAMPINGS]
     damping = next((f"{f:g}" for f, good in zip(_DAMPINGS, damped, strict=True) if good), "none")
     speeds = [v for v in _SPEEDS_AS_PRINTED if smallest_roller_load(1.0, v, PRELOADS[0]) > 0.0]
+    from_start, more, lower = (
+        " / ".join(f"{100.0 * r:.0f}" for r in shares)
+        for shares in (start_shares, more_shares, weaker.values())
+    )
+    factors = " / ".join(f"{f:g}" for f in weaker)
     return [
-        Decision(
-            "37",
-            "The time that is recorded",
-            "Steady motion. The shares of the other lines are those of claim 38 above",
+        (
+            None,
             f"The first {RECORD:g} s, from shafts that the load has not yet displaced: "
-            + " / ".join(f"{100.0 * r:.0f}" for r in from_start)
-            + f" % at {words} km/h (asked: 10)",
-            "Yes. No settling time is printed. The lines are then those of a start that dies "
-            "down, and they shrink with a longer record.",
+            f"{from_start} % at {words} km/h (asked: 10)",
         ),
-        Decision(
-            "38",
-            "The time that is recorded, and the damping of the bearings",
-            " / ".join(f"{100.0 * r:.0f}" for r in from_start)
-            + " % at 2500 N and "
-            + " / ".join(f"{100.0 * r:.0f}" for r in more)
-            + f" % at 6000 N, {words} km/h, with the start",
+        (
+            f"{from_start} % at 2500 N and {more} % at 6000 N, {words} km/h, with the start",
             "Above 100 %. At 100 km/h, with the damping of the bearings times "
-            + " / ".join(f"{f:g}" for f in weaker)
-            + ": "
-            + " / ".join(f"{100.0 * r:.0f}" for r in weaker.values())
-            + " %",
-            "In part. With the start, the order of the two preloads holds. For the lines of the "
-            "bearings to dominate, the damping must be lower than the paper's own, or the mesh "
-            "force must have the sign of the paper.",
+            f"{factors}: {lower} %",
         ),
-        Decision(
-            "42, as printed",
-            "The preload, or the damping of the bearings",
+        (
             f"2500 N: all rollers stay loaded up to {max(speeds):g} km/h, but not above",
             f"{round(preload_needed(SPEEDS[-1]), -2):.0f} N at {SPEEDS[-1]:g} km/h. Of the "
             "damping times " + " / ".join(f"{f:g}" for f in _DAMPINGS) + f": {damping}",
-            "No. The preloads are printed. It is the printed sign that feeds the lateral motion. "
-            "With the consistent sign the claim holds as it is.",
         ),
     ]

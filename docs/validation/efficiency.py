@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from docs.validation.decision import Decision, table
+from docs.page import Page
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters, contact_modulus
@@ -113,29 +113,15 @@ def _walther_a(oil: Lubricant, factor: float) -> float:
     return math.log10(math.log10(factor * nu + 0.7)) + oil.walther_b * math.log10(OIL_TEMPERATURE)
 
 
-# what is multiplied: words, unit, and the number at factor one
-INPUTS: Mapping[str, tuple[str, float, str]] = {
-    "alpha": ("pressure-viscosity coefficient", 23.83, "1/GPa"),
-    "viscosity": ("viscosity", 17.1, "mPa s"),
-    "eyring_stress": ("Eyring stress", 2.0, "MPa"),
-    "roughness": ("composite roughness", 0.5, "um"),
-    "entrainment": ("ratio of entrainment to the mean of both surface speeds", 1.0, ""),
-    "sliding": ("ratio of sliding to that of the surfaces", 1.0, ""),
-    "R_x": ("ratio of R_x to that of the contact analysis", 1.0, ""),
-}
-
-# whether the number that claim 43 needs is plausible
-_JUDGED = {
-    "alpha": "Yes. Karagiannis et al. 2012 print 14.4 1/GPa for this pair. With their viscosity "
-    "law this is {alpha_hot:.1f} 1/GPa at 95 degC.",
-    "viscosity": "No. No viscosity in this range gives the printed efficiency.",
-    "eyring_stress": "Hardly. 2 MPa is printed, and fig. 19a of Karagiannis et al. 2012 asks for "
-    "more.",
-    "roughness": "No. No roughness in this range gives the printed efficiency.",
-    "entrainment": "No. Even the sum of both speeds in place of their mean is only 2.",
-    "sliding": "No. The offset and the spiral angles fix it. With eq. (20) as printed, the motion "
-    "of the shafts along the line of action, there would be next to no loss.",
-    "R_x": "No. The machine settings fix it.",
+# what is multiplied: the number at factor one, and its unit, in the order of the tables
+INPUTS: Mapping[str, tuple[float, str]] = {
+    "alpha": (23.83, "1/GPa"),
+    "viscosity": (17.1, "mPa s"),
+    "eyring_stress": (2.0, "MPa"),
+    "roughness": (0.5, "um"),
+    "entrainment": (1.0, ""),  # over the mean of both surface speeds
+    "sliding": (1.0, ""),  # over that of the surfaces
+    "R_x": (1.0, ""),  # over that of the contact analysis
 }
 
 
@@ -164,12 +150,6 @@ def spread(reading: Reading, speeds: tuple[float, ...] = _SWEPT) -> float:
     return max(values) - min(values)
 
 
-def _alpha_of_karagiannis() -> float:
-    """Return alpha [1/GPa] of the oil of Karagiannis et al. 2012 at this axle's temperature."""
-    oil = Lubricant.named("karagiannis_2012").parameters()
-    return 1e9 * float(lubricant_state(oil, OIL_TEMPERATURE).alpha)
-
-
 def flat_roughness(reading: Reading) -> float:
     """Return the roughness [um] with which the efficiency is flat to claim 44, to a hundredth."""
     good, bad = 0.1, 1.0
@@ -177,35 +157,30 @@ def flat_roughness(reading: Reading) -> float:
         middle = math.sqrt(good * bad)
         flat = spread(reading.times("roughness", middle)) < _FLAT
         good, bad = (middle, bad) if flat else (good, middle)
-    return INPUTS["roughness"][1] * math.sqrt(good * bad)
+    return INPUTS["roughness"][0] * math.sqrt(good * bad)
 
 
 CIRCULAR = Reading(friction="printed_traction_circular")
-_READINGS: tuple[tuple[str, Reading], ...] = (
-    ("corrected formula (default)", Reading()),
-    ("the same, mean pressure of a circle", Reading(circular=True)),
-    ("printed traction, beta = 1 1/K", Reading(friction=_printed_traction)),
-    ("the same, mean pressure of a circle: `printed_traction_circular`", CIRCULAR),
-    ("all friction formulas as printed: `as_printed`", Reading(friction="as_printed")),
-    (
-        "the same, mean pressure of a circle",
-        Reading(friction="as_printed", circular=True),
-    ),
+# of the first rows of the table
+_READINGS = (
+    Reading(),
+    Reading(circular=True),
+    Reading(friction=_printed_traction),
+    CIRCULAR,
+    Reading(friction="as_printed"),
+    Reading(friction="as_printed", circular=True),
+    Reading().times("alpha", 14.4 / INPUTS["alpha"][0]),
+    Reading().times("alpha", 10.3 / INPUTS["alpha"][0]),
 )
 
 
-def sensitivity_table() -> str:
-    """Return the mesh efficiency by reading and by input."""
-    rows = [_row(words, reading) for words, reading in _READINGS]
-    for alpha in (14.4, 10.3):
-        words = f"corrected formula, alpha {alpha:g} 1/GPa"
-        rows.append(_row(words, Reading().times("alpha", alpha / INPUTS["alpha"][1])))
-    for name, (words, _, _) in INPUTS.items():
-        for factor in (0.5, 2.0):
-            rows.append(
-                _row(f"corrected formula, {words}: {factor:g} times", Reading().times(name, factor))
-            )
-    return table(["Reading or input", *(f"{v:.0f} km/h" for v in SPEEDS)], rows)
+def sensitivity_rows() -> list[list[str]]:
+    """Return the mesh efficiency by reading, and with each input halved and doubled."""
+    changed = (Reading().times(name, factor) for name in INPUTS for factor in (0.5, 2.0))
+    return [
+        [f"{100.0 * reading.efficiency(v):.2f} %" for v in SPEEDS]
+        for reading in (*_READINGS, *changed)
+    ]
 
 
 def circle_share() -> float:
@@ -218,57 +193,44 @@ def circle_share() -> float:
     return float(np.average(ratio, weights=ellipse[:, SHARE]))
 
 
-def _row(words: str, reading: Reading) -> list[str]:
-    return [words, *(f"{100.0 * reading.efficiency(v):.2f} %" for v in SPEEDS)]
-
-
-def decisions() -> list[Decision]:
-    """Return the rows of claims 43 to 45."""
+def decisions() -> list[tuple[str | None, str | None]]:
+    """Return what is here and what is needed, of claims 43 to 45."""
     here = f"{100.0 * Reading().efficiency(JUDGED_AT):.2f} %"
-    rows = [
-        Decision(
-            "43",
-            "The friction formula and the mean pressure",
+    rows: list[tuple[str | None, str | None]] = [
+        (
             f"Corrected formula, ellipse: {here}",
             "Eq. (13) as printed and the pressure of a circle: "
             f"{100.0 * CIRCULAR.efficiency(JUDGED_AT):.2f} %",
-            "Yes, as what the paper computed. Eq. (13) is printed so, and Karagiannis et al. 2012 "
-            "print the pressure of the circle for this pair. No, as what the axle loses.",
         )
     ]
-    for name, (words, value, unit) in INPUTS.items():
+    for name, (value, unit) in INPUTS.items():
         factor = needed_factor(name)
         needed = f"None from 1/{_WIDEST:g} to {_WIDEST:g} times"
         if factor is not None:
             needed = (
                 f"{factor * value:.3g} {unit} ({factor:.2f} times)" if unit else f"{factor:.2f}"
             )
-        judged = _JUDGED[name].format(alpha_hot=_alpha_of_karagiannis())
-        rows.append(Decision("43", f"The {words}", f"{value:g} {unit}".strip(), needed, judged))
-    rows += [
-        Decision(
-            "44, as printed",
-            "The modulus in the asperity load, eq. (16)",
+        rows.append((f"{value:g} {unit}".strip(), needed))
+    return [
+        *rows,
+        (
             f"E': spread {100.0 * spread(Reading(friction='as_printed')):.2f} %",
             f"E*: {100.0 * spread(Reading(friction=_printed_traction)):.2f} % (asked: 0.3)",
-            "Yes. The source of eq. (16) has E*. The spread comes from boundary friction at low "
-            "speed.",
         ),
-        Decision(
-            "44, printed traction",
-            "The composite roughness",
+        (
             f"0.5 um: spread {100.0 * spread(CIRCULAR):.2f} %",
             f"{flat_roughness(CIRCULAR):.2f} um: 0.30 %",
-            "No. 0.5 um is Ra of each flank, and two such flanks make more. From 25 km/h on the "
-            f"spread is {100.0 * spread(CIRCULAR, (25.0, *_SWEPT[1:])):.2f} % as it is.",
         ),
-        Decision(
-            "45",
-            "The drag of the bearings",
-            "None, so preload changes nothing",
-            "Any drag that rises with preload",
-            "Not as the paper computed it. The paper leaves drag out and blames the motion. The "
-            "motion changes the mesh by less than 0.04 %.",
-        ),
+        (None, None),
     ]
-    return rows
+
+
+def fill(page: Page) -> None:
+    """Put what decides the efficiency into the page."""
+    karagiannis = Lubricant.named("karagiannis_2012").parameters()
+    alpha = 1e9 * float(lubricant_state(karagiannis, OIL_TEMPERATURE).alpha)
+    late = 100.0 * spread(CIRCULAR, (25.0, *_SWEPT[1:]))
+    page.cells("Reading or input", sensitivity_rows(), first=1)
+    page.fill("at the mean pressure of a circle, which is {} % of", f"{100.0 * circle_share():.0f}")
+    page.fill("With their viscosity law this is {} 1/GPa at 95 degC", f"{alpha:.1f}")
+    page.fill("From 25 km/h on the spread is {} % as it is", f"{late:.2f}")

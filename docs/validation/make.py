@@ -1,4 +1,4 @@
-"""Rewrite docs/validation.md and the pictures of the README: python -m docs.validation.make.
+"""Put numbers into docs/validation.md, draw the README's pictures: python -m docs.validation.make.
 
 Runs four sweeps with the FMU (about three minutes on two cores; finished points are kept in the
 folder given as argument, by default build/validation) and reads the claims off them.
@@ -7,36 +7,23 @@ folder given as argument, by default build/validation) and reads the claims off 
 from __future__ import annotations
 
 import shutil
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from docs.validation.claims import CLAIMS, Claim
-from docs.validation.rejudge import axle_section
+from docs.page import IMAGES, Page, begin
+from docs.validation import decide_axle, efficiency
+from docs.validation.claims import CLAIMS
 from fmu_src.build import build_hypoid_axle
 from gearlube.studies.sweep.report import write_sweep_report
 from gearlube.studies.sweep.run import run_sweep
 from gearlube.studies.sweep.settings import SweepSettings
 
-ROOT = Path(__file__).resolve().parents[2]
-TEXTS = Path(__file__).parent / "text"
 PRELOADS = [2500.0, 6000.0]
-OF_EFFICIENCY = (43, 44, 45)  # claims
+OF_EFFICIENCY = ("43", "44", "45")  # statements
 PICTURES = ("dte_map", "efficiency", "dte_extremes", "film")
-
-FIGURES = """
-Spectra of the transmission error with the printed equations: at the higher speeds a line near the
-radial modes of the pinion takes over, with sidebands at the mesh frequency.
-
-![As printed](images/dte_map_printed.png)
-
-The default (consistent equations, coupled to the driveline) shows mesh orders alone:
-
-![Consistent](images/dte_map.png)
-"""
 
 
 def sweep(fmu: Path, folder: Path, speeds: list[float], settings: SweepSettings) -> xr.Dataset:
@@ -48,19 +35,17 @@ def sweep(fmu: Path, folder: Path, speeds: list[float], settings: SweepSettings)
     return results
 
 
-def row(claim: Claim, consistent: xr.Dataset, printed: xr.Dataset, traction: xr.Dataset) -> str:
-    """Return a claim's line of the table."""
-    cells = [str(claim.number), claim.statement, claim.source, claim.tolerance]
-    for data in (consistent, printed, traction):
-        if data is traction and claim.number not in OF_EFFICIENCY:
-            cells += ["-", "-"]
-            continue
-        verdict = claim.evaluate(data)
-        cells += [f"{verdict.value}. {verdict.reason}".strip(), f"**{verdict.verdict}**"]
-    return "| " + " | ".join(cells) + " |\n"
+def judged(data: tuple[xr.Dataset, xr.Dataset, xr.Dataset]) -> dict[str, list[str]]:
+    """Return what consistent, printed and printed-traction sweeps give, by statement."""
+    rows = {}
+    for name, claim in CLAIMS.items():
+        found = [claim(one) for one in data[: 3 if name in OF_EFFICIENCY else 2]]
+        cells = [(f"{one.value}. {one.reason}".strip(), f"**{one.verdict}**") for one in found]
+        rows[name] = [cell for both in cells for cell in both]
+    return rows
 
 
-def default_sweep_text(data: xr.Dataset) -> str:
+def balances(data: xr.Dataset) -> list[list[str]]:
     """Return what the default sweep, coupled to the driveline, shows of itself."""
     asked = data["speed"].values[None, :]
     deviation = np.max(np.abs(data["vehicle_speed"].values / asked - 1.0))
@@ -70,60 +55,33 @@ def default_sweep_text(data: xr.Dataset) -> str:
         - data["wheel_torque"] * data["wheel_frequency"]
     ) * 2.0 * np.pi - data["loss"].sum("source")
     relative = float(np.max(np.abs(torque_balance / data["power_in"])))
-    return f"""
-## The default sweep
-
-`gearlube sweep`: 34 points coupled to the casadi driveline.
-
-| Quantity | Value | Limit |
-|---|---|---|
-| largest deviation of the mean vehicle speed from the request | {100 * deviation:.3f} % | 0.1 % |
-| input work not accounted for by output, losses and stored energy | {closure:.1e} | 1e-6 |
-| mean power in minus out minus losses, over power in | {relative:.1e} | 1e-2 |
-
-The last line differs from the one above it by the change of stored energy: an axle that settles by
-0.01 % of its speed over half a second stores or returns that much.
-"""
+    return [[f"{100 * deviation:.3f} %"], [f"{closure:.1e}"], [f"{relative:.1e}"]]
 
 
-def main() -> None:
+def main(work: Path) -> None:
     """Run the sweeps, write the page and the pictures."""
-    work = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "validation"
-    work.mkdir(parents=True, exist_ok=True)
     fmu = build_hypoid_axle(work)
     hold = SweepSettings(driver="hold")
+    as_printed = replace(hold, equations="as_printed", friction="as_printed")
+    of_circle = replace(hold, friction="printed_traction_circular", bearing_torque_loss="none")
     speeds = [float(v) for v in range(20, 101, 5)]
     consistent = sweep(fmu, work / "consistent", speeds, hold)
-    printed = sweep(
-        fmu,
-        work / "as_printed",
-        speeds,
-        replace(hold, equations="as_printed", friction="as_printed"),
-    )
-    traction = sweep(
-        fmu,
-        work / "traction",
-        speeds,
-        replace(hold, friction="printed_traction_circular", bearing_torque_loss="none"),
-    )
+    printed = sweep(fmu, work / "as_printed", speeds, as_printed)
+    traction = sweep(fmu, work / "traction", speeds, of_circle)
     coupled = sweep(fmu, work / "default", speeds, SweepSettings())
-    text = _text("head") + "".join(row(claim, consistent, printed, traction) for claim in CLAIMS)
-    text += FIGURES + "\n" + axle_section()
-    text += default_sweep_text(coupled)
-    text += _text("structural_tests")
-    (ROOT / "docs" / "validation.md").write_text(text, encoding="utf-8")
+    page = Page("validation")
+    page.claims(judged((consistent, printed, traction)), "how a curve rises and falls.")
+    needed = [*decide_axle.decisions(), *efficiency.decisions()]
+    page.cells("# | What would have to be other", needed)
+    efficiency.fill(page)
+    page.cells("Quantity | Value | Limit", balances(coupled), first=1)
+    page.write()
     write_sweep_report(coupled, work / "default")
-    images = ROOT / "docs" / "images"
-    images.mkdir(exist_ok=True)
     for name in PICTURES:
-        shutil.copyfile(work / "default" / "figures" / f"{name}.png", images / f"{name}.png")
+        shutil.copyfile(work / "default" / "figures" / f"{name}.png", IMAGES / f"{name}.png")
     write_sweep_report(printed, work / "as_printed")
-    shutil.copyfile(work / "as_printed" / "figures" / "dte_map.png", images / "dte_map_printed.png")
-
-
-def _text(name: str) -> str:
-    return (TEXTS / f"{name}.md").read_text(encoding="utf-8")
+    shutil.copyfile(work / "as_printed" / "figures" / "dte_map.png", IMAGES / "dte_map_printed.png")
 
 
 if __name__ == "__main__":
-    main()
+    main(begin("validation"))

@@ -10,6 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from docs.page import IMAGES
 from gearlube.output.csv_text import csv_text
 from gearlube.variation.design import Design, Sampling
 from gearlube.variation.figures import histogram_figure, rank_figure
@@ -19,7 +20,6 @@ from gearlube.variation.summary import write_summary
 from gearlube_core.storage.atomic_file import write_text
 
 HERE = Path(__file__).resolve().parent
-IMAGES = HERE.parent / "images"
 
 
 def main(folder: Path) -> None:

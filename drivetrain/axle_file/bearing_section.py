@@ -1,4 +1,4 @@
-"""The section of the axle file on the bearings of one shaft."""
+"""The sections of the axle file on the pinion, the gear and their bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The sections of the axle file on the car: vehicle, tyre, driveline."""
+"""The sections of the axle file on the car: vehicle, tyre, driveline, engine."""
 
 from __future__ import annotations
 

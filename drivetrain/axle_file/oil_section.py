@@ -1,4 +1,4 @@
-"""The section of the axle file on its oil."""
+"""The sections of the axle file on its oil, on churning and on seals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Engine, gearbox, shafts, wheels and vehicle around the axle, as a co-simulation partner."""
+"""Engine, gearbox, shafts, wheels and vehicle around the axle: co-simulation partner and modes."""
 
 from __future__ import annotations
 

@@ -293,13 +293,6 @@ def _entry(
     return entry
 
 
-def _lossless_row(law: type[FlankLaw]) -> Array:
-    """Return the packed floats without losses, NaN where they stay."""
-    kinds = TaperedRollerParameters, law
-    unknown = np.full(count_floats(AxleParameters, *kinds), np.nan)
-    return flatten(without_losses(tuple_from_array(unknown, AxleParameters, *kinds)))
-
-
 def _mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list[Array]]:
     """Return the mesh as packed by default, and the series and windows of all options."""
     modulus = contact_modulus(axle.solid, axle.solid)
@@ -377,10 +370,13 @@ def native_model(definition: Definition) -> NativeModel:
     found = parameter_map(definition.variables, pack, frozenset(_derived(place).values()))
     packed_mesh, series, windows = _mesh_data(by_default)
     at = _places(found, packed_mesh, place)
+    unknown = tuple_from_array(
+        np.full(at.settings, np.nan), AxleParameters, TaperedRollerParameters, law
+    )
     data = np.concatenate(
         [
             *found.arrays,
-            _lossless_row(law),
+            flatten(without_losses(unknown)),  # NaN where they stay
             packed_mesh.levels,
             *series,
             *windows,

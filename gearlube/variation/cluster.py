@@ -5,9 +5,8 @@ from __future__ import annotations
 import hashlib
 from typing import Any
 
-from gearlube.variation.block import Block, computed_block
 from gearlube.variation.design import Design
-from gearlube.variation.point_study import PointStudy
+from gearlube.variation.point_study import Block, PointStudy, computed_block
 from gearlube_core.storage.dask_pool import NamedPlugin, get_worker
 
 

@@ -11,7 +11,7 @@ import xarray as xr
 
 from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.plotting.style import HATCHES, MARKERS, SERIES, house_style, new_figure
-from gearlube.variation.block import FINISHED
+from gearlube.variation.point_study import FINISHED
 from gearlube.variation.store import gridded
 from gearlube.variation.summary import cells, inputs_of, varies
 

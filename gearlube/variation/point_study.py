@@ -1,12 +1,21 @@
-"""What a variation asks of a study."""
+"""What a variation asks of a study, and a block of its points."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol, Self
 
-from gearlube.variation.design import Point, Spread, Value
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube.variation.design import Design, Point, Spread, Value
 from gearlube.variation.keys import Keys
+from gearlube_core.arrays import Array
+from gearlube_core.errors import GearLubeError, is_of_machine
+from gearlube_core.storage.process_pool import single_threaded
+
+FINISHED, FAILED = 1, 0
+MISSING = -1  # not computed, or lost to the machine: the next run computes it
 
 
 class Quantity(NamedTuple):
@@ -70,3 +79,36 @@ class PointStudy(Protocol):
     def compute(self, point: Point) -> Sequence[float]:
         """Return the quantities at a point; raise GearLubeError where it fails."""
         ...
+
+
+class Block(NamedTuple):
+    """Results of neighbouring points.
+
+    values has the shape (points, quantities).
+    """
+
+    values: Array
+    status: NDArray[np.int8]
+    messages: list[str]
+
+
+def computed_block(study: PointStudy, design: Design, block: int, number: int) -> Block:
+    """Return the results of the points of block `number`, each `block` long.
+
+    A point that fails has a row of NaN and the reason; its status is MISSING where the reason is
+    memory, disk or the program.
+    """
+    points = range(number * block, min((number + 1) * block, design.size))
+    values = np.full((len(points), len(study.quantities)), np.nan)
+    status = np.full(len(points), FAILED, dtype=np.int8)
+    messages = [""] * len(points)
+    with single_threaded():
+        for row, point in enumerate(points):
+            try:
+                values[row] = study.compute(design.point(point))
+                status[row] = FINISHED
+            except Exception as error:
+                known = isinstance(error, GearLubeError)
+                messages[row] = str(error) if known else f"{type(error).__name__}: {error}"
+                status[row] = MISSING if is_of_machine(error) else FAILED
+    return Block(values, status, messages)

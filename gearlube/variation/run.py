@@ -17,9 +17,8 @@ import drivetrain
 import fmu_src
 import gearlube
 import gearlube_core
-from gearlube.variation.block import FAILED, MISSING, Block, computed_block
 from gearlube.variation.design import Design
-from gearlube.variation.point_study import PointStudy
+from gearlube.variation.point_study import FAILED, MISSING, Block, PointStudy, computed_block
 from gearlube.variation.store import BlockStore
 from gearlube_core import __version__
 from gearlube_core.checks import check_within

@@ -26,9 +26,8 @@ import numpy as np
 import xarray as xr
 import zarr
 
-from gearlube.variation.block import MISSING, Block
 from gearlube.variation.design import Axis, Design
-from gearlube.variation.point_study import PointStudy, Quantity
+from gearlube.variation.point_study import MISSING, Block, PointStudy, Quantity
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.storage.atomic_file import file_hash, write_text
 

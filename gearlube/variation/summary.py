@@ -12,7 +12,7 @@ import xarray as xr
 from scipy.stats import rankdata
 
 from gearlube.output.csv_text import csv_text
-from gearlube.variation.block import FINISHED
+from gearlube.variation.point_study import FINISHED
 from gearlube.variation.store import open_variation, read_points
 from gearlube_core.arrays import Array
 from gearlube_core.storage.atomic_file import atomic_write, write_compressed_dataset, write_text

@@ -1,4 +1,4 @@
-"""Forces and roller loads of a single bearing, exact; time steps use `shaft_expansion`."""
+"""Forces and roller loads of a single bearing, exact, and between rings under given forces."""
 
 from __future__ import annotations
 

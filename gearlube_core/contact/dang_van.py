@@ -1,4 +1,4 @@
-"""Fatigue number of Dang Van over a sequence of stresses."""
+"""Fatigue number of Dang Van over a sequence of stresses, from their smallest ball."""
 
 from __future__ import annotations
 

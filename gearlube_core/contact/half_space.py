@@ -1,4 +1,4 @@
-"""Normal displacement of an elastic half-space under uniformly loaded rectangular cells."""
+"""Displacement of an elastic half-space under uniformly loaded cells, equal or graded."""
 
 from __future__ import annotations
 

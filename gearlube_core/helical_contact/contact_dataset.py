@@ -1,4 +1,4 @@
-"""Loaded contact of a helical pair as a labelled dataset: stiffness, sharing, Harris map."""
+"""Tooth contact analysis of a helical pair: labelled dataset and line mesh."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Results of a tooth contact analysis as one labelled dataset."""
+"""Tooth contact analysis of a hypoid pair, and its results as one labelled dataset."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Position of a member: its rotation and its misalignment."""
+"""Position of a member, its rotation and misalignment, and a flank placed so."""
 
 from __future__ import annotations
 

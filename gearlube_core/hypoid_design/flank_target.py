@@ -1,4 +1,4 @@
-"""What a design asks of one flank, and the gap to the conjugate flank that gives it."""
+"""What a design asks of one flank, the gap that gives it, and the contact of it."""
 
 from __future__ import annotations
 

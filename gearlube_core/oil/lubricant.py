@@ -1,4 +1,4 @@
-"""A lubricant: viscosity line, pressure coefficient, shear strength and thermal data."""
+"""A lubricant by viscosity line, pressure coefficient, shear strength and heat; its state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Damped Newton's method in the plane through a starting point."""
+"""Damped Newton's method in a plane through a point, and pseudo-arclength steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Folds and bifurcations between two points of a branch."""
+"""Folds and bifurcations between two points of a branch; switch to another branch."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Flow factors and asperity load over the film ratio, means over patches."""
+"""Flow factors and asperity load over the film ratio: means over patches."""
 
 from __future__ import annotations
 

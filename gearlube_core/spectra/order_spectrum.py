@@ -1,4 +1,4 @@
-"""Amplitude spectrum over orders of a shaft."""
+"""Amplitude spectra over orders of a shaft, waterfalls, and extremes of a signal."""
 
 from __future__ import annotations
 

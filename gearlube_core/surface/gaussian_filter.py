@@ -1,4 +1,4 @@
-"""Gaussian filters of profiles [iso_16610_21] and maps [iso_16610_61]."""
+"""Levelling, Gaussian filters [iso_16610_21] [iso_16610_61] and running-in of heights."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Geometry of one gear member for the compliance model: two flanks, the axis and the rim."""
+"""Geometry of one gear member for the compliance model: flanks, axis, rim, sections."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Unilateral contact of cells that are held in place, solved anew for every gap."""
+"""Unilateral contact of cells that are held in place, and equilibrium under a torque."""
 
 from __future__ import annotations
 

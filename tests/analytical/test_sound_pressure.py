@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from scipy.io import wavfile
 
-from gearlube.studies.sound.a_weighting import a_weighted, a_weighting
 from gearlube.studies.sound.dataset import fast_level
 from gearlube.studies.sound.force_record import read_forces
-from gearlube.studies.sound.generic_path import generic_path
 from gearlube.studies.sound.order_tracks import order_signal, pinion_angle, track_orders
-from gearlube.studies.sound.pressure import RATE, sound_pressure
+from gearlube.studies.sound.pressure import RATE, a_weighted, a_weighting, sound_pressure
+from gearlube.studies.sound.transfer_path import generic_path
 from gearlube.studies.sound.wav import write_wav
 from gearlube_core.errors import ParameterError
 from tests.helpers.made_run import made_run, one_path

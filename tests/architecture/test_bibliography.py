@@ -6,6 +6,7 @@ from collections import Counter
 import pytest
 
 from docs import equations as page
+from docs.page import Page
 from docs.source_tags import (
     PACKAGES,
     ROOT,
@@ -90,4 +91,4 @@ def test_every_implemented_equation_has_a_tag(tags):
 
 def test_page_of_equations_is_up_to_date():
     """If not: python -m docs.equations."""
-    assert page.page() == (ROOT / "docs" / "equations.md").read_text(encoding="utf-8")
+    assert page.refreshed().text == Page("equations").text

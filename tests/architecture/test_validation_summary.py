@@ -1,11 +1,12 @@
 """The page that counts verdicts agrees with the pages of verdicts."""
 
 from docs import validation_summary
+from docs.page import Page
 
 
 def test_the_page_counts_the_verdicts_as_they_stand():
     # cure: python -m docs.validation_summary
-    assert validation_summary.PAGE.read_text(encoding="utf-8") == validation_summary.page()
+    assert validation_summary.refreshed().text == Page("validation_summary").text
 
 
 def test_a_row_counts_once_by_its_first_verdict():

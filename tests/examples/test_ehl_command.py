@@ -12,8 +12,8 @@ import xarray as xr
 
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.studies.films import run_march, run_steady
-from gearlube.studies.films.datasets.helical_cycle import march_key
-from gearlube.studies.films.datasets.line import hertz_line
+from gearlube.studies.films.datasets.contact import hertz_line
+from gearlube.studies.films.datasets.helical import march_key
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, jamali_2015_film
 from gearlube_core.errors import ConvergenceError, ParameterError

@@ -7,8 +7,7 @@ import pytest
 import xarray as xr
 
 from gearlube.studies.films.compare import compare_marches
-from gearlube.studies.films.datasets.line import line_dataset
-from gearlube.studies.films.datasets.point import point_dataset
+from gearlube.studies.films.datasets.contact import line_dataset, point_dataset
 from gearlube.studies.films.figures.catalogue import drawn_figures
 from gearlube.studies.films.helical_case import HelicalLineCase, with_flanks
 from gearlube.studies.films.results import write_film_results

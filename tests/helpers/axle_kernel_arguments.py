@@ -206,9 +206,9 @@ def all_cases():
         (mesh_force.reference_frequency, (p.mesh, 145.0)),
         (mesh_force.reference_frequency, (p.mesh, -1.0)),
         *(
-            (mesh_force.mesh_force, (state, series, mesh.orders, parameters.mesh))
+            (mesh_force.mesh_force, (state, series, mesh.orders, one.mesh))
             for state in (state, separated, coasting)
-            for parameters in (p, printed)
+            for one in (p, printed)
         ),
         *raceway_cases(state, state_of_oil, p),
         *(

@@ -7,7 +7,7 @@ import time
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sweep.channels import CHANNELS, LOSSES
+from gearlube.studies.sweep.operating_point import CHANNELS, LOSSES
 from gearlube.studies.sweep.point import failed_point, summarise
 from gearlube.studies.sweep.recording import record
 from gearlube_core.errors import GearLubeError

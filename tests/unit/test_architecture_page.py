@@ -1,11 +1,12 @@
 """docs/architecture.md says what the import contracts say."""
 
 from docs.architecture import make
+from docs.page import Page
 
 
 def test_page_and_picture_are_up_to_date():
     """If not: python -m docs.architecture.make."""
-    assert make.page() == make.PAGE.read_text(encoding="utf-8")
+    assert make.refreshed().text == Page("architecture").text
     assert make.picture() == make.PICTURE.read_text(encoding="utf-8")
 
 

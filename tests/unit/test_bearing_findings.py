@@ -7,8 +7,7 @@ import xarray as xr
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.bearing.figures import _panel_grid
-from gearlube.studies.bearing.findings import findings, numbers
-from gearlube.studies.bearing.report import bearing_report
+from gearlube.studies.bearing.report import bearing_report, findings, numbers
 from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables
 
 RPM = 30.0 / np.pi

@@ -317,8 +317,7 @@ def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
     """Each draw computed again: the axle changed, its map anew, its sources scaled."""
     from dataclasses import replace
 
-    from gearlube.studies.drive_cycle.demand import demand_of
-    from gearlube.studies.drive_cycle.loss_field import at_temperatures, losses_along
+    from gearlube.studies.drive_cycle.loss_field import at_temperatures, demand_of, losses_along
     from gearlube.studies.drive_cycle.spread import uncertain_inputs
 
     draws = 24

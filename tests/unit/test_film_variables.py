@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from gearlube.studies.films.datasets import helical_line, line, point
-from gearlube.studies.films.datasets.cycle_lines import with_steady_film
+from gearlube.studies.films.datasets import contact, helical
+from gearlube.studies.films.datasets.helical import with_steady_film
 from gearlube.studies.films.film_formulas import FilmFormula
 from gearlube_core.ehl.line.thermal import ThermalLineSolution
 from gearlube_core.ehl.point.thermal.solver import ThermalPointSolution
@@ -24,7 +24,7 @@ OF_FORMULAS = {
 
 def test_variables_of_a_line_film_are_known(monkeypatch):
     """Dry pressure and gap at X = 0, 3/5, 1 and 5/3 of the half-width: 5/3 4/3 - ln 3."""
-    monkeypatch.setattr(line, "line_film_formulas", lambda problem: FORMULAS)
+    monkeypatch.setattr(contact, "line_film_formulas", lambda problem: FORMULAS)
     units = dict.fromkeys(("pressure", "mean_stress", "stress_1", "stress_2"), "Pa")
     units |= {"film": "m", "void": "1", "viscosity": "Pa s", "density": "kg/m3"}
     values, expected = fields(units, 4)
@@ -54,7 +54,7 @@ def test_variables_of_a_line_film_are_known(monkeypatch):
         "load_error_history": ("1", [0.3, 0.2]),
         "nodes_history": ("1", [5.0, 5.0]),
     }
-    made = line.line_dataset(film, seconds=3.0)
+    made = contact.line_dataset(film, seconds=3.0)
     assert_variables(made, expected)
     known = {
         "radius": 0.01, "line_load": 2e5, "reduced_modulus": 2e11, "speed_1": 3.0, "speed_2": 2.0,
@@ -76,7 +76,7 @@ def test_variables_of_a_line_film_are_known(monkeypatch):
         "heat_flux_2": ("W/m2", warm.flux[:, 1]),
         "temperature_change": ("K", [2.0, 0.5]),
     }
-    made = line.line_dataset(warm)
+    made = contact.line_dataset(warm)
     assert_variables(made, expected | heated)
     known = {"temperature_max": warm.temperature.max(), "turns": 2, "converged": 0}
     assert_attributes(made, known)
@@ -85,10 +85,12 @@ def test_variables_of_a_line_film_are_known(monkeypatch):
 def test_variables_of_a_point_film_are_known(monkeypatch):
     """Dry pressure at the centre and at 3/5 of one and of both semi-axes."""
     shape = (2, 3)
-    monkeypatch.setattr(point, "point_film_formulas", lambda problem: FORMULAS)
+    monkeypatch.setattr(contact, "point_film_formulas", lambda problem: FORMULAS)
     units = {"viscosity": "Pa s", "density": "kg/m3", "mean_stress": "Pa"}
     shear, expected = fields(units, *shape)
-    monkeypatch.setattr(point, "point_traction", lambda *_, **__: PointTraction(**shear, force=9.0))
+    monkeypatch.setattr(
+        contact, "point_traction", lambda *_, **__: PointTraction(**shear, force=9.0)
+    )
     values, own = fields({"pressure": "Pa", "film": "m", "fill": "1"}, *shape)
     problem = named(
         entrainment=(3.0, 4.0), sliding=(0.5, 0.25), hertz_contact=(2e-4, 4e-4, 1e9),
@@ -115,7 +117,7 @@ def test_variables_of_a_point_film_are_known(monkeypatch):
             "y": ("m", [0.0, 2.4e-4, 3.2e-4]),
         }
     )
-    made = point.point_dataset(film)
+    made = contact.point_dataset(film)
     assert_variables(made, expected)
     known = {
         "radius_x": 0.01, "radius_y": 0.03, "load": 100.0, "reduced_modulus": 2e11,
@@ -144,7 +146,7 @@ def test_variables_of_a_point_film_are_known(monkeypatch):
         "heating": ("W/m2", warm.heating),
         "heat_balance_history": ("1", [0.5, 0.25]),
     }
-    made = point.point_dataset(warm)
+    made = contact.point_dataset(warm)
     assert_variables(made, expected | heated)
     known = {"temperature_max": warm.temperature.max(), "turns": 1, "heat_balance": 0.25}
     assert_attributes(made, known)
@@ -153,10 +155,10 @@ def test_variables_of_a_point_film_are_known(monkeypatch):
 def test_variables_of_a_helical_film_are_known(monkeypatch):
     """Oil of one viscosity: the shear stress is eta (u2 - u1)/h, of both signs along the line."""
     film = a_film()
-    monkeypatch.setattr(helical_line, "line_of_step", lambda steps, step: (1e-3 * step, 2e-3))
+    monkeypatch.setattr(helical, "line_of_step", lambda steps, step: (1e-3 * step, 2e-3))
     middle = named(half_width=3e-4, hertz_pressure=9e8)
-    monkeypatch.setattr(helical_line, "_middle_line", lambda *_: middle)
-    monkeypatch.setattr(helical_line, "line_film_formulas", lambda problem: FORMULAS)
+    monkeypatch.setattr(helical, "_middle_line", lambda *_: middle)
+    monkeypatch.setattr(helical, "line_film_formulas", lambda problem: FORMULAS)
     first, second = np.array([5.0, 4.0, 3.0, 2.0]), np.array([3.0, 3.5, 4.0, 4.5])
     of = named(
         steps=None, surface_speeds=lambda y, X: (first, second), lubricant=THIN,
@@ -166,7 +168,7 @@ def test_variables_of_a_helical_film_are_known(monkeypatch):
     stress = 0.01 * (second - first) / film.film
     across = 1e-4 * (0.5 * stress[0] + stress[1] + 0.5 * stress[2])
     ends = 1e-3 * np.array([0.5, 1.0, 1.0, 0.5])
-    made = helical_line.helical_dataset(of, 4.0, film)
+    made = helical.helical_dataset(of, 4.0, film)
     expected = OF_FORMULAS | {
         "pressure": ("Pa", film.pressure),
         "film": ("m", film.film),

@@ -7,8 +7,7 @@ import numpy as np
 
 from gearlube.studies.films.compare import compare_marches
 from gearlube.studies.films.datasets import hypoid
-from gearlube.studies.films.datasets.cycle_lines import CycleLines
-from gearlube.studies.films.datasets.helical_cycle import cycle_dataset, with_steady_points
+from gearlube.studies.films.datasets.helical import CycleLines, cycle_dataset, with_steady_points
 from gearlube.studies.films.rough import gather
 from gearlube_core.ehl.statistics.rough_film import (
     FILM_EDGES,

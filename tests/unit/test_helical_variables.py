@@ -11,7 +11,7 @@ from gearlube.studies.helical import (
     stability,
     sweep_grid,
 )
-from gearlube.studies.helical.labels import FORCES, LENGTHS, MOMENTS, TILTS
+from gearlube.studies.helical.operating_point import FORCES, LENGTHS, MOMENTS, TILTS
 from gearlube.studies.helical.sweep_grid import QUANTITIES
 from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from tests.helpers.known_answers import assert_attributes, assert_variables, made_up, named

@@ -11,8 +11,7 @@ from gearlube.studies.drive_cycle.report import loss_chart
 from gearlube.studies.loss_map.figures import loss_split
 from gearlube.studies.loss_map.report import split_chart
 from gearlube.studies.runup.figures.catalogue import overview
-from gearlube.studies.sweep.figures.charts import efficiency_chart
-from gearlube.studies.sweep.figures.efficiency import efficiency
+from gearlube.studies.sweep.figures.charts import efficiency, efficiency_chart
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 
 # as results list them, and turned round with one that loses nothing: places must not decide

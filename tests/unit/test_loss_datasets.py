@@ -7,9 +7,8 @@ import numpy as np
 
 from drivetrain.sump_heat import Warming
 from gearlube.report import churning
-from gearlube.studies.drive_cycle.datasets import cycle_dataset
-from gearlube.studies.drive_cycle.demand import Demand
-from gearlube.studies.drive_cycle.loss_field import LossesAlong
+from gearlube.studies.drive_cycle.loss_field import Demand, LossesAlong
+from gearlube.studies.drive_cycle.run import cycle_dataset
 from gearlube.studies.drive_cycle.spread import CycleSpread
 from gearlube.studies.loss_map import datasets
 from gearlube.studies.loss_map.sampling import Spread
@@ -174,9 +173,9 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
         draws=60,
         seed=1,
     )
-    monkeypatch.setattr("gearlube.studies.drive_cycle.datasets.uncertain_inputs", lambda _: ())
+    monkeypatch.setattr("gearlube.studies.drive_cycle.run.uncertain_inputs", lambda _: ())
     regime = np.array([0.0, 1.0, 0.0, 0.0])
-    monkeypatch.setattr("gearlube.studies.drive_cycle.datasets.churning_regime", lambda *_: regime)
+    monkeypatch.setattr("gearlube.studies.drive_cycle.run.churning_regime", lambda *_: regime)
     made = cycle_dataset(settings, demand, losses, warming, others, spread)
     power = 0.875 * cold  # a quarter of the way from 1 to 0.5
     total = power.sum(axis=1)

@@ -10,7 +10,6 @@ import pytest
 from typer.testing import CliRunner
 
 import gearlube as gl
-from docs import oil_file as page
 from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
@@ -19,6 +18,7 @@ from gearlube.command import app
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table, write_mesh_table
+from gearlube_core.oil.base_oils import BASE_OILS
 from gearlube_core.oil.oil_file import FILE_IN_FMU, OilFile
 
 SHEET = {
@@ -273,13 +273,8 @@ def test_the_command_refuses_a_wrong_file(tmp_path, caplog):
     assert "got 'silicone'" in caplog.text
 
 
-def test_the_page_is_up_to_date():
-    """If not: python -m docs.oil_file."""
-    assert page.page() == page.PAGE.read_text(encoding="utf-8")
-
-
 def test_a_given_class_value_never_leaves_its_range():
-    for base in page.BASE_OILS.values():
+    for base in BASE_OILS.values():
         for one in base[1:]:
             assert one.factor >= 1.0
             assert math.isfinite(one.value)

@@ -12,7 +12,7 @@ import pytest
 from fmu_src.helical_pair import DEFINITION, HelicalPair, definition_with, pair_parameters
 from fmu_src.identity import guid_of
 from gearlube.output.toml_text import toml_text
-from gearlube.studies.bearing.findings import findings
+from gearlube.studies.bearing.report import findings
 from gearlube.studies.bearing.run import run_bearing
 from gearlube.studies.bearing.settings import BearingSettings
 from gearlube.studies.helical.film_friction import film_dataset

@@ -15,7 +15,7 @@ from gearlube.studies.films.figures.rough import (
     rough_history,
     rough_thin_films,
 )
-from gearlube.studies.films.figures.rough_animation import save_rough_animation
+from gearlube.studies.films.rough.animation import save_rough_animation
 from gearlube_core.ehl.statistics.rough_film import RoughFilmStatistics
 from gearlube_core.ehl.statistics.zone import FilmZone
 from gearlube_core.errors import ParameterError

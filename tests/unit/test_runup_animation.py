@@ -20,9 +20,9 @@ from gearlube.studies.runup.animation.dataset import (
     animate_ramp,
     animation_dataset,
     load_animation,
+    roller_variables,
 )
 from gearlube.studies.runup.animation.frames import PER_PERIOD, Frames
-from gearlube.studies.runup.animation.rollers import roller_variables
 from gearlube.studies.runup.figures.moving.parts import moving_figures, save_moving
 from gearlube.studies.runup.figures.moving.rollers import ring_at
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle

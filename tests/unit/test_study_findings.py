@@ -7,7 +7,7 @@ import xarray as xr
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.report.solved_films import flank_friction
-from gearlube.studies.drive_cycle import findings as cycle
+from gearlube.studies.drive_cycle import report as cycle
 from gearlube.studies.drive_cycle.report import cycle_report
 from gearlube.studies.drive_cycle.tables import series_rows, summary_rows
 from gearlube.studies.loss_map import findings as loss_map

@@ -8,14 +8,12 @@ import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.sweep import datasets
-from gearlube.studies.sweep.crossings import crossings
 from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.findings import findings
-from gearlube.studies.sweep.peaks import numbers, peak_orders
+from gearlube.studies.sweep.peaks import crossings, numbers, peak_orders
 from gearlube.studies.sweep.point import failed_point
-from gearlube.studies.sweep.report import sweep_report
+from gearlube.studies.sweep.report import sweep_report, tables
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
-from gearlube.studies.sweep.tables import tables
 from tests.helpers import sweep_stand_in as stand_in
 from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables, quantities
 

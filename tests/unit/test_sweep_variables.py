@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from gearlube.studies.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from gearlube.studies.sweep.datasets import merge, summary_csv
+from gearlube.studies.sweep.operating_point import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from gearlube.studies.sweep.point import summarise
 from gearlube.studies.sweep.recording import record
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings

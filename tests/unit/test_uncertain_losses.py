@@ -13,7 +13,7 @@ import xarray as xr
 from gearlube.report.churning import churning_regime
 from gearlube.report.parts import WARNING
 from gearlube.report.solved_films import covered_alone, covered_share, points_beyond, solved_films
-from gearlube.studies.drive_cycle import findings as drive_cycle
+from gearlube.studies.drive_cycle import report as drive_cycle
 from gearlube.studies.loss_map import findings as loss_map
 from gearlube.studies.loss_map import sampling
 from gearlube.studies.loss_map.run import run_loss_map

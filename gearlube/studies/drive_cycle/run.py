@@ -10,18 +10,226 @@ import xarray as xr
 
 from drivetrain.sump_heat import SumpHeat, Warming, warm
 from gearlube.output.csv_text import csv_text
-from gearlube.studies.drive_cycle.datasets import cycle_dataset
-from gearlube.studies.drive_cycle.demand import demand_of
+from gearlube.plotting.loss_words import not_modelled
+from gearlube.report.churning import REGIME, churning_regime
+from gearlube.report.solved_films import covered_alone, film_model_attributes
 from gearlube.studies.drive_cycle.figures import save_cycle_figures
-from gearlube.studies.drive_cycle.loss_field import losses_along
+from gearlube.studies.drive_cycle.loss_field import (
+    Demand,
+    LossesAlong,
+    at_temperatures,
+    demand_of,
+    losses_along,
+)
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
-from gearlube.studies.drive_cycle.spread import check_inputs, cycle_spread
+from gearlube.studies.drive_cycle.spread import (
+    CycleSpread,
+    check_inputs,
+    cycle_spread,
+    uncertain_inputs,
+)
 from gearlube.studies.drive_cycle.tables import SUMMARY_HEAD, series_rows, summary_rows
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 
+_KJ = 1e-3
+_NOT_HEATED = "heat from brakes, gearbox and exhaust"
 _OF_MAP, _OF_SPREAD = 0.3, 0.95  # shares of the work at which map and error bars are done
+
+
+def cycle_dataset(
+    settings: DriveCycleSettings,
+    demand: Demand,
+    losses: LossesAlong,
+    warming: Warming,
+    others: list[Warming],
+    spread: CycleSpread | None = None,
+) -> xr.Dataset:
+    """Return a cycle over time: demand, losses by source and oil temperature, and the energies.
+
+    Parameters
+    ----------
+    others
+        Temperatures with capacity and conductances at the ends of their intervals.
+    spread
+        Error bars; None: those of the heat data alone, and none of the efficiency.
+    """
+    ratio = settings.car.driveline.road_load.final_drive.ratio
+    power = at_temperatures(losses.power, losses.temperatures, warming.mean)
+    torque = at_temperatures(losses.torque, losses.temperatures, warming.mean)
+    outside = at_temperatures(losses.outside, losses.temperatures, warming.mean)
+    total = power.sum(axis=-1)
+    put_in = torque * demand.pinion_speed  # W at the pinion; below 0 it takes
+    given_out = put_in - total  # W at the wheels
+    turning = np.where(demand.pinion_speed > 0.0, demand.pinion_speed, 1.0)
+    wheel_torque = np.where(demand.pinion_speed > 0.0, given_out / turning * ratio, 0.0)
+    temperatures = np.array([one.temperature for one in (warming, *others)]) - ZERO_CELSIUS
+    lost = _KJ * (power * demand.steps[:, None]).sum(axis=0)
+    ends = _KJ * np.array(
+        [
+            float(
+                at_temperatures(losses.power, losses.temperatures, one.mean).sum(-1) @ demand.steps
+            )
+            for one in (warming, *others)
+        ]
+    )
+    if spread is not None:
+        ends = np.array(spread.lost)
+    whose = "fastest and slowest warming" if spread is None else "95 % of draws"
+    energy_in = _energy(np.maximum(put_in, 0.0) + np.maximum(-given_out, 0.0), demand)
+    step, time = ("step",), ("time",)
+    variables = {
+        "oil_temperature": (time, temperatures[0], "degC", "oil temperature"),
+        "oil_temperature_low": (time, temperatures.min(axis=0), "degC", "oil, slowest warming"),
+        "oil_temperature_high": (time, temperatures.max(axis=0), "degC", "oil, fastest warming"),
+        "duration": (step, demand.steps, "s", "duration of the step"),
+        "vehicle_speed": (step, 3.6 * demand.speed, "km/h", "vehicle speed"),
+        "pinion_speed": (step, rads_to_rpm(1.0) * demand.pinion_speed, "rpm", "pinion speed"),
+        "pinion_torque": (step, torque, "N.m", "torque on the pinion; < 0: coast"),
+        "wheel_torque": (step, wheel_torque, "N.m", "torque of both wheels together"),
+        "brake_power": (step, demand.brakes, "W", "power of the friction brakes"),
+        "loss": (("step", "source"), power, "W", "power lost"),
+        "outside_range": (
+            ("step", "range"),
+            outside,
+            "1",
+            "share of the points of the map around the step that are outside a range",
+        ),
+        "time_outside_range": (
+            ("range",),
+            _share(outside, np.where(demand.pinion_speed > 0.0, demand.steps, 0.0)),
+            "1",
+            "share of the running time outside a range",
+        ),
+        "energy_outside_range": (
+            ("range",),
+            _share(outside, total * demand.steps),
+            "1",
+            "share of the energy lost that is lost outside a range",
+        ),
+        "energy_in": ((), energy_in, "kJ", "energy into the axle, from either side"),
+        "energy_in_pinion": ((), _energy(np.maximum(put_in, 0.0), demand), "kJ", "by the pinion"),
+        "energy_lost": (("source",), lost, "kJ", "energy lost"),
+        "energy_lost_low": ((), ends.min(), "kJ", f"energy lost in all, low: {whose}"),
+        "energy_lost_high": ((), ends.max(), "kJ", f"energy lost in all, high: {whose}"),
+        "energy_brakes": ((), _energy(demand.brakes, demand), "kJ", "to the friction brakes"),
+        "efficiency": (
+            (),
+            1.0 - lost.sum() / energy_in if energy_in > 0.0 else np.nan,
+            "1",
+            "efficiency of the axle over the cycle",
+        ),
+    }
+    regime = churning_regime(settings.car.axle, warming.mean, demand.pinion_speed / ratio)
+    if regime is not None:
+        variables["churning_regime"] = (step, regime, *REGIME)
+    bound, share, drag, rollers = at_temperatures(losses.film, losses.temperatures, warming.mean).T
+    bound, drag = covered_alone(bound, share), covered_alone(drag, rollers)
+    if settings.car.axle.bearing_torque_loss == "solved_films":
+        variables |= {
+            "drag_bound": (step, drag, "W", "bound of the bearings' drag loss"),
+            "rollers_outside": (step, rollers, "1", "share of the rollers' load outside it"),
+            "energy_drag_bound": (
+                (),
+                _energy(np.nan_to_num(drag), demand),
+                "kJ",
+                "bound of the bearings' drag in steps that the model covers",
+            ),
+        }
+    if settings.car.axle.film == "solved":
+        energy_bound = _energy(np.nan_to_num(bound), demand)
+        variables |= {
+            "friction_bound": (step, bound, "W", "bound of the flanks' friction loss"),
+            "share_outside": (step, share, "1", "share of their load outside the film model"),
+            "energy_lost_bound": (
+                (),
+                energy_bound,
+                "kJ",
+                "bound of the energy lost by films in steps that the model covers",
+            ),
+            "efficiency_bound": (
+                (),
+                energy_bound / energy_in if energy_in > 0.0 else np.nan,
+                "1",
+                "the same of the efficiency",
+            ),
+        }
+    if spread is not None:
+        bounds = {
+            "efficiency": (spread.efficiency, "1"),
+            "end_temperature": (np.subtract(spread.end_temperature, ZERO_CELSIUS), "degC"),
+        }
+        for name, (pair, unit) in bounds.items():
+            for end, value in zip(("low", "high"), pair, strict=True):
+                about = f"{name.replace('_', ' ')}, {end}: 95 % of draws"
+                variables[f"{name}_{end}"] = ((), float(value), unit, about)
+    middle = 0.5 * (settings.cycle.time[1:] + settings.cycle.time[:-1])
+    coordinates = {
+        "time": ("time", np.array(settings.cycle.time), _about("s", "time")),
+        "step": ("step", middle, _about("s", "time, middle of the step")),
+        "source": ("source", np.array(LOSS_SOURCES), {"long_name": "kind of loss"}),
+        "range": (
+            "range",
+            np.array([one.output for one in settings.car.axle.ranges]),
+            {"long_name": "range of a formula or table"},
+        ),
+    }
+    return xr.Dataset(
+        {
+            name: (dims, values, _about(unit, words))
+            for name, (dims, values, unit, words) in variables.items()
+        },
+        coords=coordinates,
+        attrs=_attributes(settings, lost, outside),
+    )
+
+
+def _share(outside: Array, weights: Array) -> Array:
+    """Return the weighted mean over the steps; 0 where the weights are 0."""
+    whole = float(weights.sum())
+    return np.asarray(weights @ outside / whole if whole > 0.0 else 0.0 * outside.sum(axis=0))
+
+
+def _energy(power: Array, demand: Demand) -> float:
+    return _KJ * float(power @ demand.steps)
+
+
+def _about(unit: str, words: str) -> dict[str, str]:
+    return {"units": unit, "long_name": words}
+
+
+def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> dict[str, object]:
+    losing = {name for name, one in zip(LOSS_SOURCES, lost, strict=True) if one > 0.0}
+    heat, cycle = settings.heat, settings.cycle
+    left = np.flatnonzero(outside.sum(axis=0))
+    ranges = [settings.car.axle.ranges[i] for i in left]
+    return {
+        "cycle": cycle.name,
+        "trace_notes": "\n".join(cycle.notes),
+        "axle": settings.car.name,
+        "oil": settings.car.axle.oil.name,
+        **film_model_attributes(settings.car.axle.film_models),
+        "not_modelled": ", ".join((*not_modelled(losing), _NOT_HEATED)),
+        "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in ranges),
+        "start_temperature_degc": settings.start_temperature - ZERO_CELSIUS,
+        "air_temperature_degc": settings.air_temperature - ZERO_CELSIUS,
+        "regeneration": settings.regeneration,
+        "coast_torque_n_m": settings.coast_torque,
+        "capacity_j_k": heat.capacity,
+        "conductance_at_rest_w_k": heat.conductance_at_rest,
+        "conductance_at_100_kmh_w_k": heat.conductance_at_100_kmh,
+        "draws": settings.draws,
+        "seed": settings.seed,
+        "uncertain": "; ".join(
+            f"{one.name}: factor {one.factor:g} (k = 2), {one.why}"
+            for one in uncertain_inputs(settings)
+        ),
+        "band": "capacity and conductances at the ends of their assumed intervals",
+    }
 
 
 def run_cycle(

@@ -7,8 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drivetrain.sump_heat import SumpHeat, warm
-from gearlube.studies.drive_cycle.demand import Demand
-from gearlube.studies.drive_cycle.loss_field import LossesAlong, at_temperatures, losses_along
+from gearlube.studies.drive_cycle.loss_field import (
+    Demand,
+    LossesAlong,
+    at_temperatures,
+    losses_along,
+)
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings, LossGrid
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES

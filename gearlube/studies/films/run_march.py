@@ -9,13 +9,15 @@ from pathlib import Path
 import xarray as xr
 
 from gearlube.report.inputs import remark_attributes
-from gearlube.studies.films.datasets.cycle_lines import CycleLines, step_dataset, with_steady_film
-from gearlube.studies.films.datasets.helical_cycle import (
+from gearlube.studies.films.datasets.helical import (
+    CycleLines,
     cycle_dataset,
+    helical_dataset,
     march_key,
+    step_dataset,
+    with_steady_film,
     with_steady_points,
 )
-from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished, step_file, write_film_results
 from gearlube.studies.films.run_steady import note_roughness, warn_of_ends, warn_of_grid

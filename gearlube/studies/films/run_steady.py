@@ -9,9 +9,8 @@ from pathlib import Path
 import xarray as xr
 
 from gearlube.report.inputs import remark_attributes
-from gearlube.studies.films.datasets.helical_line import helical_dataset
-from gearlube.studies.films.datasets.line import line_dataset
-from gearlube.studies.films.datasets.point import point_dataset
+from gearlube.studies.films.datasets.contact import line_dataset, point_dataset
+from gearlube.studies.films.datasets.helical import helical_dataset
 from gearlube.studies.films.film_ratios import ROUGHNESS
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished

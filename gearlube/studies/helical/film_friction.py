@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.report.solved_films import film_model_attributes
-from gearlube.studies.helical.labels import Variables
+from gearlube.studies.helical.operating_point import Variables
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
 from gearlube_core.friction.line_integrals import LineFrictionCycle

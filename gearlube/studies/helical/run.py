@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from gearlube.studies.helical.figures.catalogue import save_helical_figures
-from gearlube.studies.helical.labels import study_attributes
+from gearlube.studies.helical.operating_point import study_attributes
 from gearlube.studies.helical.pair_losses import losses_csv
 from gearlube.studies.helical.report import write_helical_report
 from gearlube.studies.helical.results import HelicalResults

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.helical.labels import Variables
+from gearlube.studies.helical.operating_point import Variables
 from gearlube.studies.helical.stability import LIGHT_DAMPING
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response

@@ -13,8 +13,7 @@ import xarray as xr
 
 from gearlube.studies.helical.film_friction import film_dataset, share_outside
 from gearlube.studies.helical.geometry_dataset import gear_file_geometry
-from gearlube.studies.helical.labels import pair_attributes
-from gearlube.studies.helical.operating_point import operating_point
+from gearlube.studies.helical.operating_point import operating_point, pair_attributes
 from gearlube.studies.helical.pair_losses import losses_dataset
 from gearlube.studies.helical.separation import separation_dataset
 from gearlube.studies.helical.settings import SHOWN_MU, HelicalSettings

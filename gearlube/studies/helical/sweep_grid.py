@@ -13,15 +13,16 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.helical.labels import (
+from gearlube.studies.helical.operating_point import (
     FORCES,
+    HARMONIC_LABEL,
     LENGTHS,
     MOMENTS,
+    MU_LABEL,
     TILTS,
     Variables,
     description_of,
 )
-from gearlube.studies.helical.operating_point import HARMONIC_LABEL, MU_LABEL
 from gearlube.studies.helical.settings import HARMONICS
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within

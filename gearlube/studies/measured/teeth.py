@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.measured.figures import tooth_errors
+from gearlube.studies.measured.run import tooth_errors
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness

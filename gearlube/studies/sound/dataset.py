@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sound.a_weighting import REFERENCE, a_weighted, a_weighting
 from gearlube.studies.sound.force_record import ForceRecord
 from gearlube.studies.sound.metrics import METRICS, Curve
 from gearlube.studies.sound.order_tracks import OrderTracks
-from gearlube.studies.sound.pressure import RATE, Pressure
+from gearlube.studies.sound.pressure import RATE, REFERENCE, Pressure, a_weighted, a_weighting
 from gearlube.studies.sound.settings import SoundSettings
 from gearlube.studies.sound.transfer_path import TransferPath
 from gearlube_core import __version__

@@ -16,8 +16,7 @@ from gearlube.plotting.style import (
     new_figure,
     outlined,
 )
-from gearlube.studies.sound.a_weighting import REFERENCE, a_weighting
-from gearlube.studies.sound.audible import AUDIBLE_SHARE
+from gearlube.studies.sound.audible import AUDIBLE_SHARE, HeardRun
 from gearlube.studies.sound.dataset import (
     is_ramp,
     level_names,
@@ -26,9 +25,8 @@ from gearlube.studies.sound.dataset import (
     order_name,
     speed_axis,
 )
-from gearlube.studies.sound.heard import HeardRun
 from gearlube.studies.sound.metrics import METRICS
-from gearlube.studies.sound.pressure import RATE
+from gearlube.studies.sound.pressure import RATE, REFERENCE, a_weighting
 from gearlube_core.arrays import Array
 
 _RANGE = 60.0  # dB from the loudest to the darkest colour

@@ -1,18 +1,21 @@
-"""Sound pressure from bearing forces: each force convolved with the response of its path."""
+"""Sound pressure from bearing forces by the response of each path; A-weighting."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
-from gearlube.studies.sound.a_weighting import a_weighting
 from gearlube.studies.sound.force_record import ForceRecord
-from gearlube.studies.sound.resample import resampled
 from gearlube.studies.sound.transfer_path import TransferPath
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 
+REFERENCE = 20e-6  # Pa
+_F1, _F2, _F3, _F4 = 20.60, 107.7, 737.9, 12194.0  # Hz
+_AT_1_KHZ = 10.0 ** (2.000 / 20.0)
+_DENOMINATOR = 2000  # rates are ratios of smaller numbers; 32768 Hz is 256/375 of 48 kHz
 RATE = 48000  # Hz, as ISO 532-1 and ECMA-418-2 want it
 _LOWEST = 20.0  # Hz, below nobody hears
 _HIGHEST = 0.45  # of the rate of the record
@@ -22,6 +25,55 @@ LARGEST_OUTSIDE = 0.01  # of the A-weighted energy of the forces, 0.04 dB
 LARGEST_EARLY = 0.1  # of the energy of a response before the force
 _EDGE = 2.0 ** (1.0 / 12.0)  # width of the fade at the upper end of the band
 _FADE = 0.02  # s at the ends of the record
+
+
+def a_weighting(frequency: Array) -> Array:
+    """Return the factor on pressure of the A-weighting [-], 1 at 1 kHz: [iec_61672_1].
+
+    Examples
+    --------
+    >>> (20.0 * np.log10(a_weighting(np.array([100.0, 1000.0, 10000.0])))).round(1)
+    array([-19.1,   0. ,  -2.5])
+    """
+    square = np.asarray(frequency, dtype=np.float64) ** 2
+    rest = (square + _F1**2) * (square + _F4**2)
+    rest = rest * np.sqrt((square + _F2**2) * (square + _F3**2))
+    return np.asarray(_AT_1_KHZ * _F4**2 * square**2 / rest)
+
+
+def a_weighted(pressure: Array, rate: float) -> Array:
+    """Return a signal with A-weighted magnitude and unchanged phase [Pa], shape (n,)."""
+    from scipy.fft import irfft, next_fast_len, rfft
+
+    size = next_fast_len(2 * pressure.size, real=True)
+    f = np.fft.rfftfreq(size, 1.0 / rate).astype(np.float64)
+    return np.asarray(irfft(rfft(pressure, size) * a_weighting(f), size)[: pressure.size])
+
+
+def resampled(signal: Array, ratio: float) -> Array:
+    """Return a signal at `ratio` times its rate, from its Fourier coefficients.
+
+    What the new rate holds keeps its level exactly; the rest is cut off. The signal must be about
+    zero at both ends, as it is continued by zeros.
+
+    Examples
+    --------
+    >>> tone = np.sin(2.0 * np.pi * np.arange(4000) / 8.0) * np.hanning(4000)
+    >>> twice = resampled(tone, 2.0)
+    >>> twice.size, bool(np.allclose(twice[::2], tone, atol=1e-6))
+    (8000, True)
+    """
+    from scipy.fft import next_fast_len
+    from scipy.signal import resample
+
+    exact = Fraction(ratio).limit_denominator(_DENOMINATOR)
+    up, down = exact.numerator, exact.denominator
+    if up == down:
+        return signal
+    pieces = next_fast_len(-(-signal.size // down) + 1)
+    padded = np.concatenate([signal, np.zeros(pieces * down - signal.size)])
+    size = -(-signal.size * up // down)
+    return np.asarray(resample(padded, pieces * up)[:size])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

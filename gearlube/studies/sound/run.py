@@ -10,12 +10,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sound.audible import contributions
+from gearlube.studies.sound.audible import HeardRun, Sound, contributions
 from gearlube.studies.sound.compare import common_speeds, difference_sentences
 from gearlube.studies.sound.dataset import sound_dataset
 from gearlube.studies.sound.force_record import ForceRecord, read_forces
-from gearlube.studies.sound.generic_path import generic_path
-from gearlube.studies.sound.heard import HeardRun, Sound
 from gearlube.studies.sound.metrics import (
     NEITHER,
     Curve,
@@ -26,10 +24,10 @@ from gearlube.studies.sound.metrics import (
 )
 from gearlube.studies.sound.order_tracks import track_orders
 from gearlube.studies.sound.pressure import sound_pressure
-from gearlube.studies.sound.results import write_sound
+from gearlube.studies.sound.report import write_sound
 from gearlube.studies.sound.settings import METRICS, SoundSettings
 from gearlube.studies.sound.transfer_csv import read_csv_path
-from gearlube.studies.sound.transfer_path import Complex, TransferPath
+from gearlube.studies.sound.transfer_path import Complex, TransferPath, generic_path
 from gearlube.studies.sound.wav import full_scale_for, played, wav_names
 from gearlube.studies.sound.words import limit_sentences, sound_sentences
 from gearlube_core.arrays import Array

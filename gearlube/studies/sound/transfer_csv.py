@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gearlube.studies.sound.generic_path import generic_path
-from gearlube.studies.sound.transfer_path import Complex, TransferPath
+from gearlube.studies.sound.transfer_path import Complex, TransferPath, generic_path
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.table import read_table

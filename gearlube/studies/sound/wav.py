@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gearlube.studies.sound.pressure import RATE
-from gearlube.studies.sound.resample import resampled
+from gearlube.studies.sound.pressure import RATE, resampled
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.storage.atomic_file import atomic_write

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube.studies.sweep.channels import FLANK_QUANTITIES, FLANKS
+from gearlube.studies.sweep.operating_point import FLANK_QUANTITIES, FLANKS
 from gearlube.studies.sweep.recording import Recording
 from gearlube.studies.sweep.scalars import radial_displacement
 from gearlube_core.arrays import Array

@@ -20,8 +20,7 @@ from gearlube.report.solved_films import (
     solved_films,
     solved_rollers,
 )
-from gearlube.studies.sweep.crossings import ORDERS, Crossing, crossings
-from gearlube.studies.sweep.peaks import Peak, peak_orders
+from gearlube.studies.sweep.peaks import ORDERS, Crossing, Peak, crossings, peak_orders
 from gearlube.studies.sweep.point import FINISHED
 from gearlube.studies.sweep.quantities import GRID
 from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE

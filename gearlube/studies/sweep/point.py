@@ -16,11 +16,17 @@ from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.drivers import Driver
 from gearlube.studies.sweep.axle_in_fmu import car_axle_at, car_axle_of
-from gearlube.studies.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from gearlube.studies.sweep.curves import mesh_cycle, roller_zone, spectra, waves
 from gearlube.studies.sweep.fmu_axle import FmuAxle
-from gearlube.studies.sweep.oil_at_rest import oil_at_rest
-from gearlube.studies.sweep.operating_point import operation
+from gearlube.studies.sweep.natural_frequencies import oil_at_rest
+from gearlube.studies.sweep.operating_point import (
+    AXES,
+    BEARINGS,
+    CHANNELS,
+    FLANKS,
+    LOSSES,
+    operation,
+)
 from gearlube.studies.sweep.quantities import described
 from gearlube.studies.sweep.recording import Recording, SteppedAxle, record
 from gearlube.studies.sweep.scalars import scalars

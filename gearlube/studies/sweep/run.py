@@ -27,11 +27,10 @@ from gearlube.studies.sweep.axle_in_fmu import (
     chosen_axle,
     settings_of,
 )
-from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.datasets import merge, save
 from gearlube.studies.sweep.fmu_axle import FmuAxle, axle_description
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
-from gearlube.studies.sweep.operating_point import operation
+from gearlube.studies.sweep.operating_point import CHANNELS, operation
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.provenance import code_version
 from gearlube.studies.sweep.quantities import GRID, described

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from gearlube.report.solved_films import covered_alone
-from gearlube.studies.sweep.channels import AXES, BEARINGS, FLANKS, LOSSES
+from gearlube.studies.sweep.operating_point import AXES, BEARINGS, FLANKS, LOSSES
 from gearlube.studies.sweep.recording import Recording
 from gearlube.studies.sweep.separation import separation_class
 from gearlube_core.arrays import Array

@@ -9,8 +9,7 @@ from typing import ClassVar
 from gearlube.variation.design import Point
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
-from gearlube.variation.points.of_file import FilePoint
-from gearlube.variation.points.operands import operand, value
+from gearlube.variation.points.of_file import FilePoint, operand, value
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.bearings.losses.loss import PARTS, LossModel, bearing_loss, check_condition

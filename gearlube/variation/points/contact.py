@@ -13,9 +13,13 @@ from gearlube.studies.contact.settings import ContactSettings, CycleSettings, Mi
 from gearlube.variation.design import Point
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
-from gearlube.variation.points.mesh_orders import order_quantities, order_values
-from gearlube.variation.points.of_file import FilePoint
-from gearlube.variation.points.operands import operand, value
+from gearlube.variation.points.of_file import (
+    FilePoint,
+    operand,
+    order_quantities,
+    order_values,
+    value,
+)
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.hypoid_contact.contact_dataset import (

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import ClassVar, Self
 
 from drivetrain.sump_heat import SumpHeat
-from gearlube.studies.drive_cycle.demand import demand_of
+from gearlube.studies.drive_cycle.loss_field import demand_of
 from gearlube.studies.drive_cycle.run import run_cycle
 from gearlube.studies.drive_cycle.settings import COAST_TORQUE, DriveCycleSettings
 from gearlube.studies.drive_cycle.traces import DriveCycle
@@ -16,7 +16,7 @@ from gearlube.variation.file_variants import content_hash
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
 from gearlube.variation.points.of_axle import AxlePoint
-from gearlube.variation.points.operands import operand, value
+from gearlube.variation.points.of_file import operand, value
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.units import celsius_to_kelvin
 

@@ -15,9 +15,13 @@ from gearlube.studies.helical.settings import HelicalSettings, quick_settings
 from gearlube.variation.design import Point
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
-from gearlube.variation.points.mesh_orders import order_quantities, order_values
-from gearlube.variation.points.of_file import FilePoint
-from gearlube.variation.points.operands import operand, value
+from gearlube.variation.points.of_file import (
+    FilePoint,
+    operand,
+    order_quantities,
+    order_values,
+    value,
+)
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
 from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from gearlube_core.errors import ParameterError

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.studies.sweep.axle_in_fmu import check_operation, settings_of
-from gearlube.studies.sweep.channels import AXES, BEARINGS, LOSSES
+from gearlube.studies.sweep.operating_point import AXES, BEARINGS, LOSSES
 from gearlube.studies.sweep.point import march
 from gearlube.studies.sweep.quantities import QUANTITIES
 from gearlube.studies.sweep.settings import SPEED_RANGE, SweepSettings, quick_sweep_settings
@@ -18,7 +18,7 @@ from gearlube.variation.design import Point
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
 from gearlube.variation.points.of_axle import AxlePoint
-from gearlube.variation.points.operands import operand, value
+from gearlube.variation.points.of_file import operand, value
 from gearlube_core.checks import check_option
 from gearlube_core.units import celsius_to_kelvin
 

@@ -7,11 +7,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Generic, Self, TypeVar
 
+import numpy as np
+
 from gearlube.variation.design import Point, Spread, Value
 from gearlube.variation.file_variants import content_hash
-from gearlube.variation.keys import Keys, file_keys
+from gearlube.variation.keys import Key, Keys, Kind, file_keys
 from gearlube.variation.point_study import Quantity
 from gearlube.variation.scatter import scatter_of, values_of
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import harmonics
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import FilmModel
@@ -20,7 +24,46 @@ from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import read_oil
 
+ORDERS = (1, 2, 3)
 File = TypeVar("File", bound=InputFile)
+
+
+def operand(
+    name: str,
+    unit: str,
+    meaning: str,
+    usual: float | str,
+    low: float = float("-inf"),
+    high: float = float("inf"),
+    kind: Kind = "number",
+) -> Key:
+    """Return the key of an operand."""
+    return Key(name, kind, unit, meaning, "operand", usual, low, high)
+
+
+def value(point: Point, key: Key) -> Any:
+    """Return the value of an operand at a point, the usual one where it is not varied."""
+    return point.get(key.name, key.usual)
+
+
+def order_quantities(name: str, unit: str, meaning: str) -> tuple[Quantity, ...]:
+    """Return the quantities of a signal: peak to peak, and the amplitude of each mesh order."""
+    return (
+        Quantity(f"{name}_pp", unit, f"{meaning}, peak to peak"),
+        *(Quantity(f"{name}_mesh_{k}", unit, f"{meaning}, mesh order {k}") for k in ORDERS),
+    )
+
+
+def order_values(signal: Array) -> list[float]:
+    """Return peak to peak and amplitudes of a signal over one mesh period, equal steps.
+
+    Examples
+    --------
+    >>> phase = np.arange(24) / 24
+    >>> [round(one, 9) for one in order_values(3.0 * np.cos(4.0 * np.pi * phase))]
+    [6.0, 0.0, 3.0, 0.0]
+    """
+    return [float(np.ptp(signal)), *map(float, harmonics(signal, len(ORDERS)))]
 
 
 @dataclass(frozen=True, kw_only=True)

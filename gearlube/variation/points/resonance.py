@@ -18,8 +18,7 @@ from gearlube.variation.design import Point, Spread, Value
 from gearlube.variation.file_variants import content_hash
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
-from gearlube.variation.points.mesh_orders import ORDERS
-from gearlube.variation.points.operands import operand, value
+from gearlube.variation.points.of_file import ORDERS, operand, value
 from gearlube.variation.scatter import scatter_of
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table

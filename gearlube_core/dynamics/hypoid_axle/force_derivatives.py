@@ -1,4 +1,4 @@
-"""Derivatives of the forces on the axle with respect to its coordinates and speeds."""
+"""Derivatives of the forces on the axle, and the time step that follows from them."""
 
 from __future__ import annotations
 

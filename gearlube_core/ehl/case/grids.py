@@ -1,4 +1,4 @@
-"""The sections of a case file for the domain, the grid and the solver."""
+"""The sections of a case file for the film, its domain, grid and solver."""
 
 from __future__ import annotations
 

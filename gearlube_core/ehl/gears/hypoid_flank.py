@@ -1,4 +1,4 @@
-"""One tooth pair's contact through its engagement: load, radii and motion over time."""
+"""One tooth pair's contact through its engagement, and the window of its film."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Oil pressure around a point contact, far outside the Hertzian contact."""
+"""Oil pressure around a point contact: far outside it, and at the border of a grid."""
 
 from __future__ import annotations
 

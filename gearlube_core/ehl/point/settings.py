@@ -1,4 +1,4 @@
-"""Settings of the point-contact solver."""
+"""Settings of the point-contact solver, and the sides of its domain."""
 
 from __future__ import annotations
 

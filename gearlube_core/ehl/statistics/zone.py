@@ -1,4 +1,4 @@
-"""The part of a film that statistics are taken over."""
+"""The part of a film that statistics are taken over, and distributions there."""
 
 from __future__ import annotations
 

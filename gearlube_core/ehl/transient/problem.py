@@ -1,4 +1,4 @@
-"""A transient film problem and its grids."""
+"""A transient film problem, its grids, and a section of a line contact as one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Two pitch cones that touch at one mean point, with tooth directions that match."""
+"""Two pitch cones that touch at one mean point with tooth directions that match."""
 
 from __future__ import annotations
 

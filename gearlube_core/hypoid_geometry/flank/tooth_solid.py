@@ -1,4 +1,4 @@
-"""Closed triangulated surfaces of one tooth and of a whole member."""
+"""Closed triangulated surfaces of a tooth and of a whole member, and their files."""
 
 from __future__ import annotations
 

@@ -11,21 +11,18 @@ import xarray as xr
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 from gearlube.report.pictures import Picture
 from gearlube.studies.films.figures.helical_cycle import cycle_curves, cycle_map
-from gearlube.studies.films.figures.helical_line import (
+from gearlube.studies.films.figures.hypoid import hypoid_contours, hypoid_curves, hypoid_ratios
+from gearlube.studies.films.figures.line_contact import (
     across_limits,
     helical_along,
     helical_contours,
     helical_sections,
-    line_title,
-    loaded_rows,
-)
-from gearlube.studies.films.figures.hypoid_contours import hypoid_contours
-from gearlube.studies.films.figures.hypoid_cycle import hypoid_curves, hypoid_ratios
-from gearlube.studies.films.figures.line_contact import (
     line_profile,
     line_profile_hertz,
     line_shear,
     line_temperature,
+    line_title,
+    loaded_rows,
 )
 from gearlube.studies.films.figures.parts import (
     HEADROOM,

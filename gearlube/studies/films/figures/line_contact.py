@@ -1,16 +1,130 @@
-"""Pressure, film, shear and temperature across a line contact."""
+"""Pressure, film, shear and temperature across a line contact and along a contact line."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
-from gearlube.studies.films.figures.parts import HEADROOM, shown_range, titled, two_scales
+from gearlube.studies.films.figures.parts import (
+    HEADROOM,
+    film_contours,
+    legend_of_both,
+    pressure_contours,
+    shown_range,
+    titled,
+    two_scales,
+)
 
+_SIDE = 2.0  # half widths that are shown
+_THICK = 2.0  # films over the central one that have contours
 _ALONG = "x [mm], oil enters on the left"
-_SIDE = 2.0  # half widths that are shown, at most
+
+
+def helical_contours(dataset: xr.Dataset) -> Any:
+    """Return contours of pressure and film over the line, stretched across."""
+    with house_style():
+        figure = new_figure(10.0, 6.4)
+        top, bottom = figure.subplots(2, 1, sharex=True, sharey=True)
+        of = dataset.attrs
+        pressure, film = 1e-9 * dataset["pressure"].values, 1e6 * dataset["film"].values
+        places = (1e3 * dataset["y"].values, 1e3 * dataset["x"].values)
+        pressure_contours(top, places, pressure)
+        top.plot(1e3 * of["pressure_max_y"], 1e3 * of["pressure_max_x"], "+", color=BLUE)
+        top.set_title(f"pressure, up to {1e-9 * of['pressure_max']:.3f} GPa (cross)")
+        lowest, central = 1e6 * of["minimum_film"], 1e6 * of["central_film"]
+        film_contours(bottom, places, film, (lowest, max(_THICK * central, 1.1 * lowest)))
+        bottom.plot(1e3 * of["minimum_film_y"], 1e3 * of["minimum_film_x"], "+", color=VERMILLION)
+        bottom.set_title(f"film, smallest {lowest:.3f} µm (cross)")
+        for ax in (top, bottom):
+            ax.set_ylabel("across the line, x [mm]")
+            ax.set_ylim(across_limits(dataset))
+            ax.grid(visible=False)
+        bottom.set_xlabel("along the line, y [mm]")
+        figure.suptitle(line_title(dataset), fontsize=11.5)
+    return figure
+
+
+def helical_along(dataset: xr.Dataset) -> Any:
+    """Return the largest pressure and the smallest film of each section along the line."""
+    with house_style():
+        figure = new_figure(8.6, 4.8)
+        left = figure.subplots()
+        y = 1e3 * dataset["y"].values
+        left.plot(
+            y, 1e-9 * dataset["pressure"].max("x").values, color=BLUE, label="largest pressure"
+        )
+        right = left.twinx()
+        smallest = 1e6 * dataset["film"].min("x").values
+        right.plot(y, smallest, color=VERMILLION, label="smallest film")
+        right.set_ylim(0.0, 1e6 * HEADROOM * dataset.attrs["central_film"])
+        two_scales(left, right)
+        at = int(np.argmin(smallest))
+        right.plot(y[at], smallest[at], "v", color=VERMILLION, label=f"least {smallest[at]:.3f} µm")
+        dry = 1e-9 * dataset.attrs["hertz_pressure_max"]
+        left.axhline(dry, color=BLUE, ls=":", lw=1.2, label="Hertz, mean load")
+        for end in y[loaded_rows(dataset)][[0, -1]]:
+            left.axvline(end, color=GREY, ls="--", lw=0.9)
+        left.set_title("dashed: ends of the loaded length", fontsize=9)
+        left.set(xlim=(y[0], y[-1]), ylim=(0.0, None), xlabel="along the line, y [mm]")
+        figure.legend(ncols=4, loc="outside lower center")
+        figure.suptitle(line_title(dataset), fontsize=11.5)
+    return figure
+
+
+def helical_sections(dataset: xr.Dataset) -> Any:
+    """Return pressure and film across the line in its middle and near both ends."""
+    with house_style():
+        figure = new_figure(8.6, 9.0)
+        of = dataset.attrs
+        rows = loaded_rows(dataset)
+        places = {
+            f"{what} of the loaded length": int(rows[round(share * (rows.size - 1))])
+            for share, what in ((0.1, "first tenth"), (0.5, "middle"), (0.9, "last tenth"))
+        }
+        x, top = 1e3 * dataset["x"].values, 1.12e-9 * of["pressure_max"]
+        for ax, (what, row) in zip(figure.subplots(3, 1, sharex=True), places.items(), strict=True):
+            section, film = dataset.isel(y=row), ax.twinx()
+            ax.plot(x, 1e-9 * section["pressure"].values, color=BLUE, label="pressure")
+            gap = 1e6 * section["film"].values
+            film.plot(x, gap, color=VERMILLION, label="film")
+            at = int(np.argmin(gap))
+            film.plot(x[at], gap[at], "v", color=VERMILLION, label="smallest film of the section")
+            ax.axvline(0.0, color=GREY, lw=0.8, ls=":")
+            ax.set(xlim=across_limits(dataset), ylim=(0.0, top))
+            film.set_ylim(0.0, 1e6 * HEADROOM * of["central_film"])
+            two_scales(ax, film)
+            ax.set_title(
+                f"{what}, y = {1e3 * float(section['y']):.2f} mm, smallest film {gap[at]:.3f} µm"
+            )
+        ax.set_xlabel("across the line, x [mm]")
+        legend_of_both(ax, film, 3)
+        figure.suptitle(line_title(dataset), fontsize=11.5)
+    return figure
+
+
+def across_limits(dataset: xr.Dataset) -> tuple[float, float]:
+    """Return the limits across the line that are shown [mm]."""
+    x, side = dataset["x"].values, _SIDE * dataset.attrs["half_width"]
+    carried = dataset["pressure"].max("y").values
+    loaded = x[carried > 0.02 * carried.max()]
+    low, high = min(-side, 1.1 * float(loaded[0])), max(side, 1.1 * float(loaded[-1]))
+    return 1e3 * max(low, float(x[0])), 1e3 * min(high, float(x[-1]))
+
+
+def loaded_rows(dataset: xr.Dataset) -> Any:
+    """Return the indices along y of sections that carry a fiftieth of the largest pressure."""
+    along = dataset["pressure"].max("x").values
+    return np.flatnonzero(along > 0.02 * along.max())
+
+
+def line_title(dataset: xr.Dataset) -> str:
+    """Return pair, position and load of a line."""
+    of = dataset.attrs
+    place = f"line at $s_i$ = {1e3 * of['position']:.2f} mm (step {of['step']:.4g})"
+    return titled(dataset, f"{place}, {1e-3 * of['load']:.2f} kN")
 
 
 def line_profile(dataset: xr.Dataset) -> Any:

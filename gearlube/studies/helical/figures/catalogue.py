@@ -12,26 +12,25 @@ import xarray as xr
 from gearlube.plotting.style import MARKERS, SERIES, house_style, new_figure
 from gearlube.report.numbers import number_text
 from gearlube.report.pictures import Picture
-from gearlube.studies.helical.figures.film_friction import film_on_lines, film_over_mesh
-from gearlube.studies.helical.figures.friction_sweep import (
+from gearlube.studies.helical.figures.friction import (
+    film_on_lines,
+    film_over_mesh,
     friction_force_harmonics,
     friction_harmonics,
+)
+from gearlube.studies.helical.figures.geometry import (
+    contact_characteristics,
+    contact_plane,
+    lay_angles,
+    relieved_lines,
+    sliding_on_line,
+    unmodified_lines,
 )
 from gearlube.studies.helical.figures.geometry_gaps import (
     crown_forms,
     equal_relief,
     facet_gaps,
     relief_gaps,
-)
-from gearlube.studies.helical.figures.geometry_loads import (
-    contact_plane,
-    relieved_lines,
-    unmodified_lines,
-)
-from gearlube.studies.helical.figures.geometry_path import (
-    contact_characteristics,
-    lay_angles,
-    sliding_on_line,
 )
 from gearlube.studies.helical.figures.layout import (
     PERIODS,
@@ -41,10 +40,14 @@ from gearlube.studies.helical.figures.layout import (
     stems,
     title,
 )
-from gearlube.studies.helical.figures.load_sharing import harris_map, load_sharing
+from gearlube.studies.helical.figures.load_sharing import (
+    constant_stiffness,
+    harris_map,
+    load_sharing,
+    loaded_stiffness,
+)
 from gearlube.studies.helical.figures.speed_sweep import campbell, friction_speed_maps, order_cuts
 from gearlube.studies.helical.figures.stability import instability, separation
-from gearlube.studies.helical.figures.tooth_stiffness import constant_stiffness, loaded_stiffness
 from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.storage.atomic_file import write_figure
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREY, SERIES, VERMILLION, house_style, new_figure
-from gearlube.studies.helical.figures.geometry_layout import (
+from gearlube.studies.helical.figures.geometry import (
     MICRO,
     MILLI,
     columns,

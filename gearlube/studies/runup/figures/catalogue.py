@@ -13,11 +13,17 @@ from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, name_levels, new_figure
 from gearlube.report.numbers import quantity_text
 from gearlube.studies.runup import levels
-from gearlube.studies.runup.figures.charts import map_chart, track_chart
 from gearlube.studies.runup.figures.maps import frequency_map, order_map
 from gearlube.studies.runup.figures.moving.words import AXES, RINGS
-from gearlube.studies.runup.figures.shapes import mode_shapes, operating_shape
-from gearlube.studies.runup.figures.tracks import ORDER_LOOKS, bearing_tracks, order_tracks
+from gearlube.studies.runup.figures.tracks import (
+    ORDER_LOOKS,
+    bearing_tracks,
+    map_chart,
+    mode_shapes,
+    operating_shape,
+    order_tracks,
+    track_chart,
+)
 from gearlube_core.arrays import Array
 from gearlube_core.units import rads_to_rpm
 

@@ -13,8 +13,8 @@ import xarray as xr
 
 from gearlube.plotting.style import preload_label
 from gearlube.report.charts import Axis, panels
-from gearlube.studies.sweep.figures import bubbles, charts, extremes, spectrum_map
-from gearlube.studies.sweep.figures.efficiency import efficiency
+from gearlube.studies.sweep.figures import bubbles, charts, spectrum_map
+from gearlube.studies.sweep.figures.charts import efficiency
 from gearlube.studies.sweep.figures.film import film_over_mesh_cycle
 from gearlube.studies.sweep.figures.operation import operating_points
 from gearlube.studies.sweep.figures.order_cuts import BEARING_CUTS, order_cuts
@@ -58,8 +58,8 @@ def _map_chart(channel: spectrum_map.MapChannel) -> Callable[..., Any]:
     return partial(_bubble_chart, channel=channel)
 
 
-def _band(channel: extremes.ExtremesChannel) -> Callable[..., Any]:
-    return partial(extremes.extremes_against_speed, channel=channel)
+def _band(channel: charts.ExtremesChannel) -> Callable[..., Any]:
+    return partial(charts.extremes_against_speed, channel=channel)
 
 
 _BUBBLES = (
@@ -151,8 +151,8 @@ CATALOGUE = (
         essential=True,
         caption="Extremes of the dynamic transmission error (compare figure 5). Below zero the "
         "drive flanks separate; the strip names the kind of separation.",
-        draw=_band(extremes.DTE),
-        chart=partial(charts.extremes_chart, channel=extremes.DTE),
+        draw=_band(charts.DTE),
+        chart=partial(charts.extremes_chart, channel=charts.DTE),
     ),
     Entry(
         name="dte_waveforms",
@@ -176,8 +176,8 @@ CATALOGUE = (
         essential=True,
         caption="Extremes of the radial displacement of the pinion, sqrt(y2 + z2) from the "
         "preloaded rest position (compare figure 8).",
-        draw=_band(extremes.RADIAL),
-        chart=partial(charts.extremes_chart, channel=extremes.RADIAL),
+        draw=_band(charts.RADIAL),
+        chart=partial(charts.extremes_chart, channel=charts.RADIAL),
     ),
     Entry(
         name="bearing_force_map",
@@ -214,8 +214,8 @@ CATALOGUE = (
         essential=True,
         caption="Extremes of the load of one roller (compare figure 11). A roller that reaches "
         "zero has left its races: the preload is too low.",
-        draw=_band(extremes.ROLLER),
-        chart=partial(charts.extremes_chart, channel=extremes.ROLLER),
+        draw=_band(charts.ROLLER),
+        chart=partial(charts.extremes_chart, channel=charts.ROLLER),
     ),
     Entry(
         name="roller_zone",

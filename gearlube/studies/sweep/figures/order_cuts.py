@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import (
@@ -15,7 +14,7 @@ from gearlube.plotting.style import (
     series,
     speed_limits,
 )
-from gearlube_core.arrays import Array
+from gearlube.studies.sweep.peaks import harmonic_amplitude
 
 HARMONICS = (1, 2, 3)
 
@@ -68,16 +67,3 @@ def order_cuts(dataset: xr.Dataset, channel: CutChannel = DTE_CUTS) -> Any:
         figure.legend(handles, labels, ncols=len(handles), loc="outside lower center")
         figure.suptitle(channel.title, fontsize=11.5)
     return figure
-
-
-def harmonic_amplitude(row: xr.Dataset, harmonic: int, variable: str = "dte_spectrum") -> Array:
-    """Return the amplitude of mesh order `harmonic` of a spectrum at every speed of one preload."""
-    result = np.full(row.sizes["speed"], np.nan)
-    target = harmonic * row["mesh_frequency"].values
-    for column in range(result.size):
-        frequency = row["frequency"].values[column]
-        known = np.isfinite(frequency)
-        if np.isfinite(target[column]) and np.any(known):
-            nearest = np.argmin(np.abs(frequency[known] - target[column]))
-            result[column] = row[variable].values[column][known][nearest]
-    return result

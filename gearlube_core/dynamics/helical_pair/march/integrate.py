@@ -1,4 +1,4 @@
-"""Fixed-step RK4 over one communication interval: kernels."""
+"""Fixed-step RK4 over one communication interval, friction refreshed between: kernels."""
 
 from __future__ import annotations
 

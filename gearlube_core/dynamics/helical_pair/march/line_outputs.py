@@ -1,4 +1,4 @@
-"""Outputs of the single contact lines: their names and the kernel that writes them."""
+"""Outputs of the single contact lines, and bounds of their films: names and kernels."""
 
 from __future__ import annotations
 
