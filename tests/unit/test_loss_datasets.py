@@ -35,7 +35,7 @@ def an_axle(**changes):
         "flank_bulk_resistance": 0.1,
         "pinion_seal_torque": 1.0,
         "wheel_seal_torque": 0.0,
-        "friction": "on",
+        "friction_law": SimpleNamespace(rubs=True),
         "rolling": "none",
         "ranges": RANGES,
     }
