@@ -7,7 +7,7 @@ import logging
 import sys
 from pathlib import Path
 
-from fmu_src.native.platforms import compile_for_any_machine
+from fmu_src.native.build_target import compile_for_any_machine
 from gearlube_core.errors import GearLubeError
 
 _LOGGER = logging.getLogger("build_fmu")

@@ -59,7 +59,7 @@ def build_fmu(
     ] = False,
 ) -> None:
     """Build HypoidAxle.fmu, HelicalPair.fmu and Driveline.fmu; they need no Python."""
-    from fmu_src.native.platforms import compile_for_any_machine
+    from fmu_src.native.build_target import compile_for_any_machine
 
     if not python:
         compile_for_any_machine()

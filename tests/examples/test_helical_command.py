@@ -274,7 +274,7 @@ def test_bad_options_say_what_is_wrong_and_what_would_be_right(options, words, a
         ({"damping.tilt": 0.02}, "damping.tilt"),
     ],
 )
-def test_files_that_lack_something_are_refused(changes, word, asked, caplog, monkeypatch):
+def test_files_that_lack_something_are_refused(changes, word, asked, caplog, monkeypatch, tmp_path):
     file = HelicalGearFile.named("jamali_2015_a")
     keep = {
         key: value
@@ -283,8 +283,9 @@ def test_files_that_lack_something_are_refused(changes, word, asked, caplog, mon
     }
     varied = file.model_copy(update={"completed": keep}).varied(changes)
     monkeypatch.setattr(HelicalGearFile, "from_toml", lambda path: varied)
+    (tmp_path / "own.toml").write_text("")
     with caplog.at_level(logging.ERROR, "gearlube"):
-        assert run("own.toml").exit_code == BAD_ARGUMENT
+        assert run(str(tmp_path / "own.toml")).exit_code == BAD_ARGUMENT
     assert word in caplog.text
     assert not asked
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.native.platforms import compile_for_any_machine
+from fmu_src.native.build_target import compile_for_any_machine
 
 ROOT = Path(__file__).parents[2]
 CODE = """
-from fmu_src.native.platforms import compile_for_any_machine
+from fmu_src.native.build_target import compile_for_any_machine
 assert compile_for_any_machine() is True
 from numba import cfunc, types
 from fmu_src.object_code import intermediate_code, array_at

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Final, NamedTuple
 
 from numba.extending import register_jitable
@@ -160,7 +160,6 @@ DEFAULT_LAW: Final = "palmgren"
 NO_HEATING, AIHARA_HEATING, ZHU_CHENG_HEATING = 0, 1, 2
 HEATINGS = {"none": NO_HEATING, "aihara": AIHARA_HEATING, "zhu_cheng": ZHU_CHENG_HEATING}
 USUAL_HEATING = {one.name: one.heating for one in ROLLING} | {"solved_films": "none"}
-_USUAL_CODES = tuple(HEATINGS[one.heating] for one in ROLLING)
 
 
 def _force_by_code(code: int) -> Any:
@@ -179,7 +178,20 @@ def _force_by_code(code: int) -> Any:
     return chosen
 
 
+def number_at(numbers: Sequence[int]) -> Any:
+    """Return a function for kernels: the number at a place, the first one at any other.
+
+    An index could raise, and native code has nobody who would take that.
+    """
+    *before, last = numbers
+    if not before:
+        return register_jitable(lambda place: last)
+    below, here = number_at(before), len(before)
+    return register_jitable(lambda place: last if place == here else below(place))
+
+
 _force = _force_by_code(len(ROLLING) - 1)
+_heating = number_at([HEATINGS[one.heating] for one in ROLLING])
 
 
 @kernel
@@ -202,7 +214,7 @@ def rolling_force(
 @kernel
 def usual_heating(law: int) -> int:
     """Return the code of the inlet heating that a law of rolling is used with."""
-    return _USUAL_CODES[law]
+    return _heating(law)  # type: ignore[no-any-return]
 
 
 @kernel

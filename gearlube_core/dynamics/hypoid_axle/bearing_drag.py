@@ -27,7 +27,7 @@ from gearlube_core.bearings.bearing_type import (
     solved_raceways,
 )
 from gearlube_core.bearings.losses.laws import PALMGREN as PALMGREN_LAW
-from gearlube_core.bearings.losses.laws import ROLLING, ROLLING_LAWS, SKF
+from gearlube_core.bearings.losses.laws import ROLLING, ROLLING_LAWS, SKF, number_at
 from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
@@ -61,7 +61,7 @@ _RELEASED = (
     "solved_films",
 )
 TORQUE_LOSSES = (*_RELEASED, *(name for name in _BY_ROLLING if name not in _RELEASED))
-_ROLLING_CODES = tuple(ROLLING_LAWS.get(_BY_ROLLING.get(name, ""), 0) for name in TORQUE_LOSSES)
+_rolling_law = number_at([ROLLING_LAWS.get(_BY_ROLLING.get(name, ""), 0) for name in TORQUE_LOSSES])
 PALMGREN = float(TORQUE_LOSSES.index("palmgren"))
 _PALMGREN_LOADED = float(TORQUE_LOSSES.index("palmgren_loaded"))
 _SKF = float(TORQUE_LOSSES.index("skf_2013"))
@@ -171,7 +171,7 @@ def bearing_drag(
             raceways.gear.torque + beside_g,
             drag_bound_of(s, raceways),
         )
-    law = _ROLLING_CODES[int(p.drag)]
+    law = _rolling_law(p.drag)
     return BearingDrag(
         raceway_torque(p.bearing_p, pinion, law, oil) + beside_p,
         raceway_torque(p.bearing_g, gear, law, oil) + beside_g,
