@@ -11,7 +11,6 @@ import xarray as xr
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     PeriodicResponse,
     harmonics,
@@ -37,7 +36,8 @@ from gearlube_core.helical_geometry.contact_line import (
     segment_length,
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
+from tests.helpers.named_pairs import named_pair
 
 HE = named_pair("he_2007")
 LOW, HIGH = 0.01, 0.1  # mu of He et al. 2007, figures 6 to 8

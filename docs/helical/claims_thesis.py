@@ -14,10 +14,9 @@ from gearlube_core.helical_geometry.contact_line import line_count, line_kinemat
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.lay_angle import equal_radius_line, lay_angle_limits, lay_angles
 from gearlube_core.helical_geometry.load_sharing import position_of, positions_at, shared_load
-from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import contact_line_gap
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 
 DESIGNS = ("a", "b")
 FILES = {d: HelicalGearFile.named(f"jamali_2015_{d}") for d in DESIGNS}

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.kernel_parameters import (
     MeshArrays,
     PairConstants,
@@ -31,9 +30,10 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
     wrench_of_sums,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.kernels.jit import kernel
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_accelerations import pair_accelerations
+from tests.helpers.named_pairs import named_pair
 
 SPEED = 1000.0 * math.pi / 30.0  # rad/s
 

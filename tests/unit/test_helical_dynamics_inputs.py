@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from gearlube.studies.helical.sweep_grid import QUANTITIES, harmonic_grid
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
@@ -28,8 +27,9 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
 from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import SPEED, random_state
+from tests.helpers.named_pairs import named_pair
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from gearlube_core.helical_geometry.load_sharing import (
     unrelieved_plane,
 )
 from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair, TipRelief
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.named_pairs import named_pair
 
 HE = named_pair("he_2007")
 
