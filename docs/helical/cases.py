@@ -22,12 +22,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
-    line_loads,
-    load_sums,
-    mesh_strain,
-    wrench_of_sums,
-)
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain, wrench_of_sums
 from gearlube_core.dynamics.helical_pair.parameters import Form, HelicalPairParameters
 from gearlube_core.helical_geometry.contact_line import (
     clip_line,
@@ -37,6 +32,7 @@ from gearlube_core.helical_geometry.contact_line import (
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
 from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
+from tests.helpers.helical_mesh_points import line_loads, load_sums
 from tests.helpers.named_pairs import named_pair
 
 HE = named_pair("he_2007")

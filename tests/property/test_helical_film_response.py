@@ -32,7 +32,7 @@ from gearlube_core.dynamics.helical_pair.mesh.film_friction import (
     film_coefficients,
     film_moments,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.line_integrals import friction_along_lines
@@ -41,6 +41,7 @@ from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import SPEED
+from tests.helpers.helical_mesh_points import line_loads
 
 _ROUGHNESS = 0.5e-6
 _FILM = FilmFriction(

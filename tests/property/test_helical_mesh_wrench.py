@@ -19,10 +19,6 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     X,
     Z,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
-    friction_power,
-    mesh_stiffness_matrix,
-)
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_accelerations import points_damping
 from tests.helpers.helical_dynamics_cases import (
@@ -32,6 +28,7 @@ from tests.helpers.helical_dynamics_cases import (
     spur_pair,
     summed_wrench,
 )
+from tests.helpers.helical_mesh_points import friction_power, mesh_stiffness_matrix
 from tests.helpers.named_pairs import named_pair
 
 phases = st.floats(min_value=0.0, max_value=1.0, exclude_max=True)

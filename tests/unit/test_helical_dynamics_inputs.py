@@ -18,17 +18,13 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
-    line_loads,
-    load_sums,
-    mesh_strain,
-    wrench_of_sums,
-)
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain, wrench_of_sums
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
 from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import SPEED, random_state
+from tests.helpers.helical_mesh_points import line_loads, load_sums
 from tests.helpers.named_pairs import named_pair
 
 
