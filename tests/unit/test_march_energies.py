@@ -149,7 +149,7 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
         motion=SimpleNamespace(flanks=FLANKS, pinion=member, gear=member._replace(mobility_r=3.0)),
         teeth=teeth, oil="oil", ranges=ranges,
     )  # fmt: skip
-    changes = RNG.normal(size=N_ODE)
+    slope = RNG.normal(size=N_ODE)
 
     def line_sums(a, tilt, phase, data, s, mu_at):
         load = loads[mu_at]
@@ -158,7 +158,7 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
 
     def march_rates(s, pinion_torque, wheel_torque, data, out):
         assert (pinion_torque, wheel_torque) == (50.0, 120.0)
-        out[:] = changes
+        out[:] = slope
 
     def write_lines(view, mu_at, s, temperature, data, oil, constants, first, bounds, out):
         calls["lines"] = (mu_at, temperature, oil, first, bounds)
@@ -185,9 +185,9 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
     outputs.write_outputs(s, inputs, "mesh", "data", bearings, np.empty(N_ODE), out)
     told = dict(zip(outputs.OUTPUT_NAMES, out, strict=True))
 
-    assert told["pinion.acceleration"] == changes[W_P]
-    assert told["wheel.acceleration"] == changes[W_G]
-    assert told["der(pinion.speed)"] == changes[W_P]
+    assert told["pinion.acceleration"] == slope[W_P]
+    assert told["wheel.acceleration"] == slope[W_G]
+    assert told["der(pinion.speed)"] == slope[W_P]
     assert told["der(mesh.load_torque)"] == pytest.approx((50.0 - 0.8) / LOAD_FILTER_TIME)
     assert told["mesh.load"] == on_drive - on_coast
     assert told["mesh.separated"] == (on_drive == on_coast == 0.0)
