@@ -25,10 +25,11 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
-from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, HelicalFilm, jamali_2015_film
+from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, HelicalFilm
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.oil.film_oil import fill_properties
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 Mesh = tuple[str, tuple[int, int], tuple[tuple[float, float], ...]]
 THESIS: Mesh = ("that of the thesis", (182, 857), ())

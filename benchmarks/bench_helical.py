@@ -22,7 +22,6 @@ from scipy.integrate import solve_ivp
 from gearlube.studies.helical.settings import RPM, HelicalSettings
 from gearlube.studies.helical.stages import analyse_loaded_contact
 from gearlube.studies.helical.sweep_grid import sweep_dataset
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     PeriodicResponse,
     periodic_response,
@@ -33,10 +32,12 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_accelerations import pair_accelerations
+from tests.helpers.helical_mesh_points import line_loads
 
 _LOGGER = logging.getLogger("bench_helical")
 SPEED = 1000.0 * RPM

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gearlube_core.ehl.gears.helical_film import HelicalFilm, jamali_2015_film
+from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.point.solid_contact import SolidContact
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_film
 
 STEPS = 575  # of the thesis' cycle; positions are named by them whatever the time step
 CYCLE, LINE, FACETED = (97, 161), (97, 257), (193, 257)  # nodes across, along

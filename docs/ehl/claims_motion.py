@@ -17,9 +17,9 @@ from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 from gearlube_core.storage.atomic_file import write_arrays
+from tests.helpers.jamali_2015 import jamali_2015
 
 # y of the thesis' sections [mm] at steps 75, 300, 500
 _APART = {75: (2.0, 5.0), 300: (19.0, 19.8), 500: (-2.0, -5.0)}

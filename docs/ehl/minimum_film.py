@@ -11,10 +11,9 @@ from docs.ehl.store import MissingFilmError, Store
 from docs.page import Page
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
-from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.storage.atomic_file import write_arrays
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_film
 
 FIRST, LAST = 470, 490  # steps of design A; the contact is crossed in 17
 _COLUMNS = ("steady", "moving", "x", "y", "failures")

@@ -6,8 +6,8 @@ import csv
 from pathlib import Path
 
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
-from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 FIRST, LAST = 470, 490  # steps of design A of Jamali 2015
 NODES = (97, 81)

@@ -11,7 +11,6 @@ import xarray as xr
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     PeriodicResponse,
     harmonics,
@@ -23,12 +22,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
-    line_loads,
-    load_sums,
-    mesh_strain,
-    wrench_of_sums,
-)
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain, wrench_of_sums
 from gearlube_core.dynamics.helical_pair.parameters import Form, HelicalPairParameters
 from gearlube_core.helical_geometry.contact_line import (
     clip_line,
@@ -37,7 +31,9 @@ from gearlube_core.helical_geometry.contact_line import (
     segment_length,
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
+from tests.helpers.helical_mesh_points import line_loads, load_sums
+from tests.helpers.named_pairs import named_pair
 
 HE = named_pair("he_2007")
 LOW, HIGH = 0.01, 0.1  # mu of He et al. 2007, figures 6 to 8

@@ -12,8 +12,8 @@ from docs.helical.closed_forms import zone_differences
 from docs.helical.structure import reaction, sliding_reversal, symmetry
 from docs.page import Verdict, judge
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import event_phases
+from tests.helpers.he_2007 import he_2007_pair
 
 _RATIO, _SWING = 2.7426, 0.136  # by arithmetic on the printed dimensions
 _JUST = 1e-9  # mesh periods beside an event

@@ -19,12 +19,12 @@ from docs.helical.cases import (
 )
 from docs.helical.structure import six_against_twelve
 from docs.page import Verdict, judge
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
     natural_frequencies,
 )
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import harmonics
+from tests.helpers.he_2007 import he_2007_pair
 
 CALIBRATED = "calibrated"
 _UNCHANGED = (4, 5, *range(7, ORDERS + 1))

@@ -13,11 +13,11 @@ from gearlube_core.arrays import Array
 from gearlube_core.helical_geometry.contact_line import line_count, line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.lay_angle import equal_radius_line, lay_angle_limits, lay_angles
-from gearlube_core.helical_geometry.load_sharing import position_of, positions_at, shared_load
-from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
+from gearlube_core.helical_geometry.load_sharing import positions_at, shared_load
+from gearlube_core.helical_geometry.meshing_steps import line_at_position
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import contact_line_gap
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 
 DESIGNS = ("a", "b")
 FILES = {d: HelicalGearFile.named(f"jamali_2015_{d}") for d in DESIGNS}
@@ -115,7 +115,7 @@ def largest_load(_: Evidence) -> Verdict:
         pair = PAIRS[d]
         lag = pair.face_width * math.tan(pair.base_helix_angle)
         s = np.linspace(limits(d)[0] - lag, limits(d)[1], 8001)
-        X = position_of(s, pair)
+        X = line_at_position(s, pair)
         load = shared_load(X, MODIFIED[d], _TORQUE, "thesis").load
         window = s[load > load.max() * (1.0 - 1e-6)]
         loads.append(1e-3 * float(load.max()))

@@ -9,7 +9,6 @@ import numpy as np
 
 from docs.helical.cases import pressed_points, random_state
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     LENGTH,
@@ -19,6 +18,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     Z,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from tests.helpers.he_2007 import he_2007_pair
 
 _STATES, _SHARES = 3, (0.05, 0.5, 0.95)
 _FIRST_SEED = 2007

@@ -17,7 +17,6 @@ from docs.helical.cases import HE
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
@@ -28,6 +27,7 @@ from gearlube_core.friction.line_points import line_points, table_line_load, uni
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import ZERO_CELSIUS
+from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 
 OIL, OIL_TEMPERATURE, SIGMA = "mohammadpour_2015", 353.15, 0.5e-6  # -, K, m
 RPM = math.pi / 30.0

@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 
 from docs.helical.cases import HE, LINE_LOAD, SPUR
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_TORQUE
 from gearlube_core.helical_contact.contact_dataset import contact_dataset, line_mesh
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
@@ -27,6 +26,7 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
+from tests.helpers.he_2007 import PINION_TORQUE
 
 C_M = 0.8  # of ISO 6336-1: measured over calculated stiffness
 PLAIN = ModifiedPair(pair=HE)

@@ -14,7 +14,6 @@ from docs.helical.loaded import COARSE, table_of_torques
 from docs.helical.stiffness_density import table_density
 from docs.helical.structure import TRANSVERSE
 from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
     natural_frequencies,
@@ -27,6 +26,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 from gearlube_core.dynamics.helical_pair.parameters import Form, HelicalPairParameters
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 
 ANGLES = (0.0, 5.0, 10.0, 15.0, math.degrees(HE.helix_angle), 25.0, 30.0)  # deg
 _FRICTION = (0.1, 0.15, 0.2, 0.25, 0.3)

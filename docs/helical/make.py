@@ -46,13 +46,13 @@ from gearlube.studies.helical.figures.catalogue import GEOMETRY_CATALOGUE, HELIC
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import HelicalSettings
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     PeriodicResponse,
     harmonics,
     periodic_response,
 )
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 
 logger = logging.getLogger("docs.helical")
 

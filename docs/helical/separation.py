@@ -11,13 +11,13 @@ import numpy as np
 from docs.helical.cases import HIGH
 from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.periodic import follow
 from gearlube_core.periodic.branch import Branch
+from tests.helpers.he_2007 import PINION_TORQUE, he_2007_pair
 
 UM = 1e6
 DAMPING = (0.05, 0.03, 0.02, 0.01)

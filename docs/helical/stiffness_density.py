@@ -9,7 +9,6 @@ import numpy as np
 
 from docs.helical.cases import HE, HIGH, LINE_LOAD, LOW, density, line_lengths
 from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
@@ -22,6 +21,7 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import (
     virtual_teeth,
 )
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from tests.helpers.he_2007 import PINION_SPEED, he_2007_pair
 
 # q' of ISO 6336-1 without profile shift, a transcription beside that of `iso_stiffness`
 _Q = (0.04723, 0.15551, 0.25791)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-MOST_FRAMES = 60
 _ROOM = 90  # px below the chart, for the slider
 
 

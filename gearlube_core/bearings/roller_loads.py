@@ -255,13 +255,3 @@ def ring_loads(axial_load: float, radial_load: float, p: BearingParameters, out:
     for i in range(count):
         out[i] *= scale
     return 0
-
-
-def roller_loads_between_rings(
-    axial_load: float, radial_load: float, p: BearingParameters
-) -> Array:
-    """Return what `ring_loads` writes, shape (n_rollers,) [N]; nan where it finds none."""
-    out = np.zeros(int(p.n_rollers))
-    if ring_loads(axial_load, radial_load, p, out):
-        out[:] = np.nan
-    return out

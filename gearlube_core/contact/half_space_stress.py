@@ -13,7 +13,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError
 
-COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")
 _FAR = 4.0  # widths of a domain open on all sides to which it is padded
 _FADED = 1.5  # periods along the closed side, over which its longest wave fades to 8e-5
 

@@ -109,11 +109,6 @@ def of_kind(model: FilmModel, kind: str, what: str) -> FilmModel:
     return model
 
 
-def fits_oil(model: FilmModel, oil: Lubricant, solid: Solid) -> bool:
-    """Tell whether the model says anything of an oil, at any temperature of the oil's data."""
-    return not _misfits(model, oil, solid)
-
-
 def check_oil(model: FilmModel, oil: Lubricant, solid: Solid, what: str) -> None:
     """Refuse a model that says nothing of an oil at any temperature of the oil's data.
 

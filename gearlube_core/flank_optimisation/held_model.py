@@ -291,7 +291,7 @@ def plain_check(
     }
     band = problem.given.limits.edge_band
     cells: Any = settings.hypoid if problem.is_hypoid else settings.helical
-    digest = hashlib.sha256(f"plain check {_FORMAT}".encode())
+    digest = hashlib.sha256(f"plain check {_PLAIN_FORMAT}".encode())
     digest.update(file.model_dump_json().encode())
     digest.update(repr((problem.scenarios, band, cells)).encode())
     for side in sorted(sides):

@@ -75,20 +75,6 @@ def unrelieved_plane(modified: ModifiedPair) -> ContactPlane:
     return modified.pair.plane._replace(A=start, D=end)
 
 
-def position_of(s_i: ArrayLike, pair: HelicalPair) -> Array:
-    """Return X of lines [m] from s_i, their distance past the pitch line on the face z = -W/2.
-
-    X = P + s_i + W tan(beta_b)
-
-    Parameters
-    ----------
-    s_i
-        [m], any shape; [jamali_2015 sec. 2.2.1].
-    """
-    skew = pair.face_width * math.tan(pair.base_helix_angle)
-    return np.asarray(s_i, dtype=float) + (pair.pitch_point + skew)
-
-
 def positions_at(phase: ArrayLike, pair: HelicalPair) -> Array:
     """Return X of all lines at mesh phases, shape (phases, lines) [m]."""
     plane = pair.plane
@@ -110,7 +96,7 @@ def shared_load(
     Parameters
     ----------
     X
-        Of the lines [m], any shape; see `position_of` and `positions_at`.
+        Of the lines [m], any shape; see `line_at_position` and `positions_at`.
     modified
         Pair with its tip relief; without relief the whole path of contact carries.
     torque

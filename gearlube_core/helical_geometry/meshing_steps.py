@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.modification import ModifiedPair
@@ -165,15 +165,3 @@ def gear_file_steps(file: HelicalGearFile) -> MeshingSteps:
         step=given.step_mm * MILLIMETRE,
         count=given.count,
     )
-
-
-def jamali_2015_steps(design: str) -> MeshingSteps:
-    """Return the time steps of Jamali 2015 chapters 4 to 6 for design "a" or "b".
-
-    Notes
-    -----
-    575 steps of 0.04 mm are printed (sec. 4.4). s_0 = -18.7 mm is completed: the position where
-    L = 0.16 w, -18.64 mm in design A.
-    """
-    check_option("design", design, ("a", "b"))
-    return gear_file_steps(HelicalGearFile.named(f"jamali_2015_{design}"))

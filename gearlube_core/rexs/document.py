@@ -80,16 +80,12 @@ class Document:
         """Give a gear its flanks."""
         self.relation("flank", gear=gear, left=left, right=right)
 
-    def text(self) -> str:
-        """Return the file as text; its heading says UTF-8."""
-        etree.indent(self.root)
-        text = etree.tostring(self.root, xml_declaration=True, encoding="UTF-8")
-        return f"{text.decode('utf-8')}\n"
-
     def write(self, path: Path) -> None:
         """Write the file, in UTF-8."""
+        etree.indent(self.root)
+        content = etree.tostring(self.root, xml_declaration=True, encoding="UTF-8")
         with atomic_write(path) as partial:
-            partial.write_bytes(_BYTE_ORDER_MARK + self.text().encode("utf-8"))
+            partial.write_bytes(_BYTE_ORDER_MARK + content + b"\n")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -149,12 +149,6 @@ def write_rexs(file: PairFile, path: str | Path) -> tuple[ExchangeNote, ...]:
     return notes
 
 
-def rexs_text(file: PairFile) -> tuple[str, tuple[ExchangeNote, ...]]:
-    """Return what `write_rexs` writes, as text, and what could not be written."""
-    document, notes = _document(file)
-    return document.text(), notes
-
-
 def _document(file: PairFile) -> tuple[Document, tuple[ExchangeNote, ...]]:
     document = Document()
     taken = _WRITERS[type(file)](file, document)

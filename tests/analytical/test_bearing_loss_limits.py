@@ -13,11 +13,10 @@ from gearlube_core.bearings.losses.geometry import Rib
 from gearlube_core.bearings.losses.laws import (
     aihara_force,
     aihara_heating,
-    aihara_rib_torque,
     goksem_hargreaves_force,
     zhou_hoeprich_force,
 )
-from gearlube_core.bearings.roller_loads import roller_loads_between_rings
+from gearlube_core.bearings.roller_loads import ring_loads
 from gearlube_core.contact.greenwood_tripp_1971 import asperity_share
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
@@ -132,11 +131,18 @@ def test_heating_lowers_the_torque_once():
     assert zhu_cheng_heating(1.0, 0.003, 0.3) < zhu_cheng_heating(1.0, 0.003, 0.0) < 1.0
 
 
+def between_rings(axial: float, radial: float) -> np.ndarray:
+    """Return the loads of the rollers [N]; nan where the rings find none."""
+    loads = np.zeros(16)
+    failed = ring_loads(axial, radial, BEARING.dry_rollers(), loads)
+    return np.full(16, np.nan) if failed else loads
+
+
 @pytest.mark.parametrize("radial", [0.0, 3000.0, 6500.0, 12000.0])
 def test_rollers_between_rigid_rings_carry_both_loads(radial):
     """Against the two equations of balance, solved on their own."""
     a, psi = BEARING.outer_angle, 2.0 * np.pi * np.arange(16) / 16
-    loads = roller_loads_between_rings(F_A, radial, BEARING.dry_rollers())
+    loads = between_rings(F_A, radial)
 
     def carried(d: np.ndarray) -> np.ndarray:
         reach = d[0] * math.sin(a) + d[1] * math.cos(a) * np.cos(psi)
@@ -154,18 +160,17 @@ def test_rollers_between_rigid_rings_carry_both_loads(radial):
 
 def test_a_roller_is_unloaded_where_the_radial_load_is_large():
     tan = math.tan(BEARING.outer_angle)
-    rollers = BEARING.dry_rollers()
-    assert roller_loads_between_rings(F_A, 0.45 * F_A / tan, rollers).min() > 0.0
-    assert roller_loads_between_rings(F_A, 0.60 * F_A / tan, rollers).min() == 0.0
-    assert np.isnan(roller_loads_between_rings(F_A, 0.85 * F_A / tan, rollers)).all()
-    assert np.isnan(roller_loads_between_rings(0.0, 1.0, rollers)).all()
+    assert between_rings(F_A, 0.45 * F_A / tan).min() > 0.0
+    assert between_rings(F_A, 0.60 * F_A / tan).min() == 0.0
+    assert np.isnan(between_rings(F_A, 0.85 * F_A / tan)).all()
+    assert np.isnan(between_rings(0.0, 1.0)).all()
 
 
 def test_torque_of_the_rib_is_that_of_its_height():
-    """All load on asperities: power over speed is e mu F_a, whatever the radii."""
+    """All load on asperities: e mu cos(b) F_a, whatever the radii, Aihara 1987 eq. (11)."""
     rough = Rib(contact_height=2.5e-3, roughness=1e-5, share_b=0.1, share_c=3.0)
     found = loss_at(10, changes={"rib": rough})
-    expected = aihara_rib_torque(F_A, 2.5e-3, 0.15, math.cos(BEARING.half_cone))
+    expected = 2.5e-3 * 0.15 * math.cos(BEARING.half_cone) * F_A
     # common apex to 0.03 % of the roller radius, cos(b) 0.07 %; asperities carry 99.9 %
     assert found.rib_friction == pytest.approx(0.15, rel=2e-3)
     assert found.parts["rib"] == pytest.approx(expected, rel=3e-3)

@@ -12,7 +12,6 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.ehl.point.contact_domain import elliptical_contact, line_section
-from gearlube_core.ehl.point.dry_contact import dry_contact
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
@@ -23,6 +22,7 @@ from gearlube_core.ehl.transient.problem import moving_section
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import film_properties
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.ehl_point_cases import dry_contact
 
 # [jamali_2015] Table 7.1: 720 N over 2 mm, mean 6.71 m/s, slide-roll ratio 0.36
 R, W, FAST, SLOW, MODULUS = 0.014, 3.6e5, 7.9178, 5.5022, 0.5 * 227.5e9

@@ -8,9 +8,10 @@ from scipy.special import ellipe, ellipk
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
-from gearlube_core.ehl.point.dry_contact import dry_contact, dry_contact_of_gap
+from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.ehl_point_cases import dry_contact
 from tests.references.hertz_reference import HertzContact
 
 E = 1.1375e11

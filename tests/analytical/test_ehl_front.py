@@ -9,9 +9,9 @@ import pytest
 
 import gearlube_core.ehl.transient.newton as transient_front
 import gearlube_core.ehl.transient.newton as transient_newton
-from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.newton import advance_front, mark_band, relax_band
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 ROW = np.array([[0, 0], [0, -1], [0, 1]])
 

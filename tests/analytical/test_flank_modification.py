@@ -12,7 +12,7 @@ from gearlube_core.helical_geometry.modification import (
     PowerTipRelief,
     TipRelief,
 )
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.named_pairs import named_pair
 
 TIP, EXTENT, AMOUNT = 0.083305, 2e-3, 70e-6
 START = TIP - EXTENT

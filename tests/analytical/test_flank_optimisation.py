@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.flank_optimisation import held_model
 from gearlube_core.flank_optimisation.held_model import (
     HELICAL_CELLS,
     CheckSettings,
@@ -61,6 +62,20 @@ def test_held_cells_give_what_the_plain_analysis_gives(here):
     # harmonics of six points by hand
     first = 2.0 / 6.0 * abs(sum(plain.rotation[0, 0] * np.exp(-1j * np.pi / 3.0 * np.arange(6))))
     assert abs(plain.orders((1,))[0])[0, 0, 0] == pytest.approx(first, rel=1e-9)
+
+
+def test_a_new_number_of_the_plain_check_finds_no_older_positions(monkeypatch):
+    def asked(*given, key, **options):
+        raise InterruptedError(key)
+
+    monkeypatch.setattr(held_model, "compute_positions", asked)
+    keys = []
+    for number in (3, 3, 4):
+        monkeypatch.setattr(held_model, "_PLAIN_FORMAT", number)
+        with pytest.raises(InterruptedError) as found:
+            plain_check(RELIEFS, RELIEFS.changed(RELIEFS.start), TEETH, jobs=1)
+        keys.append(str(found.value))
+    assert keys[0] == keys[1] != keys[2]
 
 
 @pytest.mark.parametrize("loss", [False, True])

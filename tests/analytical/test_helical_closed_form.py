@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     LENGTH,
@@ -17,6 +16,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     Z,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import loaded_points, random_state
 
 

@@ -10,7 +10,6 @@ import pytest
 from scipy.linalg import expm
 
 from gearlube.studies.helical.stability import instability_map
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     LinearSystem,
     linear_system,
@@ -20,6 +19,7 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
 from gearlube_core.dynamics.helical_pair.linear.period_march import march_period
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.periodic.floquet import floquet_multipliers
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import estimated_pair, spur_pair
 
 

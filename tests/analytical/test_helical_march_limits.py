@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
@@ -34,7 +33,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     coast_view,
     drive_view,
 )
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_accelerations import points_damping
 from tests.helpers.helical_dynamics_cases import loaded_points
 from tests.helpers.helical_march_cases import (
@@ -47,6 +46,7 @@ from tests.helpers.helical_march_cases import (
     started,
     wavy_mesh,
 )
+from tests.helpers.named_pairs import named_pair
 
 MU = np.full(60, 0.1)
 

@@ -17,7 +17,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain
 from gearlube_core.dynamics.helical_pair.separation.march import (
     N_EXTRA,
     march_separating,
@@ -25,9 +25,11 @@ from gearlube_core.dynamics.helical_pair.separation.march import (
 )
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.dynamics.helical_pair.separation.system import N_BY, N_ROWS, relative_masses
-from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES, symmetric_support
+from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from gearlube_core.periodic.shooting import solve_periodic
 from tests.helpers.helical_accelerations import pair_accelerations
+from tests.helpers.helical_dynamics_cases import symmetric_support
+from tests.helpers.helical_mesh_points import line_loads
 from tests.helpers.separation_cases import separated_motion, separating_pair, spur_geometry
 
 

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.supports import (
     Bearing,
     ShaftEnds,
@@ -17,8 +16,9 @@ from gearlube_core.dynamics.helical_pair.supports import (
     printed_support_stiffness,
     support_damping,
     support_stiffness,
-    symmetric_support,
 )
+from tests.helpers.he_2007 import he_2007_pair
+from tests.helpers.helical_dynamics_cases import symmetric_support
 
 _BEARING_1 = Bearing(
     position=0.05, K_xx=3e8, K_yy=4e8, K_zz=1e8, K_theta_x=2e4, K_theta_y=3e4, K_x_theta_y=1e6,

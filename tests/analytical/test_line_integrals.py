@@ -20,9 +20,9 @@ from gearlube_core.friction.line_points import (
 )
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from tests.helpers.named_pairs import named_pair
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 SURFACE = SurfaceParameters(sigma=0.5e-6, xi_beta_sigma=0.055, sigma_over_beta=0.001)

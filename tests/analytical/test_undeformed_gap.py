@@ -9,9 +9,9 @@ import pytest
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.involute import facet_bounds, involute_flank, parabola_distance
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
-from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap, contact_line_gap
+from tests.helpers.jamali_2015 import jamali_2015
+from tests.helpers.named_pairs import PAIRS, named_pair
 
 
 def full_line(pair):

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from docs.film_error.contacts import random_contacts
-from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.line.problem import LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
@@ -16,6 +15,7 @@ from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError
 from tests.helpers.ehl_line_cases import thesis_line
 from tests.helpers.ehl_point_cases import moes_contact
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 
 @pytest.fixture(scope="module")

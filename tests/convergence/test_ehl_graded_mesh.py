@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
-from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, jamali_2015_film
+from gearlube_core.ehl.gears.helical_film import EXIT_GRADING
 from gearlube_core.ehl.point import start as point_continuation
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS, FilmMarch
 from gearlube_core.ehl.transient.solution import FilmSolution
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 ROWS = 33
 

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 
 
 @pytest.mark.parametrize("form", ["involute", "parabola"])

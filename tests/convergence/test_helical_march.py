@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     ResponseSettings,
@@ -16,6 +15,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     periodic_response,
 )
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import N_COLUMNS, point_capacity
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import SPEED, spur_pair, state_rates
 
 

@@ -15,10 +15,11 @@ from gearlube.studies.films import run_march, run_steady
 from gearlube.studies.films.datasets.contact import hertz_line
 from gearlube.studies.films.datasets.helical import march_key
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
-from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, jamali_2015_film
+from gearlube_core.ehl.gears.helical_film import EXIT_GRADING
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from tests.helpers.ehl_command import run, written
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 
 @pytest.fixture

@@ -10,7 +10,9 @@ import numpy as np
 
 from gearlube_core.contact.hertz import log_curvature_ratio
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
+from gearlube_core.ehl.point.dry_contact import DryContact, dry_contact_of_gap
 from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.settings import Sides
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.oil.film_oil import FilmOil, density, viscosity
 from gearlube_core.oil.film_oil_data import film_oil
@@ -121,3 +123,16 @@ def box_flow(
 
     entering = along_x(i0 - 1)
     return entering, entering - along_x(i1) - along_y(j1) + along_y(j0 - 1)
+
+
+def dry_contact(problem: PointContactProblem) -> DryContact:
+    """Return the dry contact of a film's problem on its own grid."""
+    x, y = problem.x, problem.y
+    return dry_contact_of_gap(
+        np.broadcast_to(problem.gap(x[:, None], y[None, :]), problem.nodes),
+        x[1] - x[0],
+        y[1] - y[0],
+        problem.contact_modulus,
+        problem.load,
+        repeated=Sides(problem.sides).closed,
+    )

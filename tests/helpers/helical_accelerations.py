@@ -12,8 +12,9 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import (
     damping_factor,
     flank_damping,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import load_sums, wrench_of_sums
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import wrench_of_sums
 from gearlube_core.kernels.jit import kernel
+from tests.helpers.helical_mesh_points import load_sums
 
 
 @kernel

@@ -11,10 +11,10 @@ import numpy as np
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair, TipRelief
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
+from tests.helpers.named_pairs import named_pair
 from tests.helpers.session_folder import shared_folder
 
 HE_2007 = named_pair("he_2007")

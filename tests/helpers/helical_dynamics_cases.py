@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.kernel_parameters import (
     MeshArrays,
     PairConstants,
@@ -24,16 +23,14 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
-    line_loads,
-    load_sums,
-    mesh_strain,
-    wrench_of_sums,
-)
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain, wrench_of_sums
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftEnds, ShaftSupport
 from gearlube_core.kernels.jit import kernel
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_accelerations import pair_accelerations
+from tests.helpers.helical_mesh_points import line_loads, load_sums
+from tests.helpers.named_pairs import named_pair
 
 SPEED = 1000.0 * math.pi / 30.0  # rad/s
 
@@ -58,6 +55,18 @@ def estimated_pair(mu: float) -> HelicalPairParameters:
     """
     pair = he_2007_pair(mu)
     return replace(pair, mesh=constant_density_mesh(pair.pair, 1.316e10, "estimated"))
+
+
+def symmetric_support(
+    *, K_xx: float, K_yy: float, K_zz: float, distance: float, shaft: ShaftEnds | None = None
+) -> ShaftSupport:
+    """Return two equal bearings at +-`distance` [m] that share the totals K [N/m] evenly."""
+    halves = {"K_xx": 0.5 * K_xx, "K_yy": 0.5 * K_yy, "K_zz": 0.5 * K_zz}
+    return ShaftSupport(
+        first=Bearing(position=distance, **halves),
+        second=Bearing(position=-distance, **halves),
+        shaft=shaft,
+    )
 
 
 def random_state(rng: np.random.Generator) -> np.ndarray:

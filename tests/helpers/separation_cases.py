@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.periodic.shooting import PeriodicMotion, solve_periodic
+from tests.helpers.he_2007 import he_2007_pair
+from tests.helpers.named_pairs import named_pair
 
 
 def spur_geometry() -> HelicalPair:

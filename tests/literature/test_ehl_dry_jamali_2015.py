@@ -12,10 +12,9 @@ import pytest
 
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.helical_geometry.load_sharing import shared_load
-from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 
 TORQUE = 1060.0  # on the pinion [N m]
 MODULUS = 0.5 * 207e9 / (1.0 - 0.3**2)  # E* of steel on steel, E' 227.5 GPa

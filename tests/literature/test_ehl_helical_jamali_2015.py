@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
-from gearlube_core.ehl.gears.helical_film import HelicalFilm, jamali_2015_film
+from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.meshing_steps import meshing_steps
 from gearlube_core.oil.film_oil_data import jamali_2015_oil
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 
 @pytest.mark.parametrize(

@@ -14,9 +14,7 @@ from gearlube_core.helical_contact.strips import StripSettings, line_gap
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness
 from gearlube_core.helical_geometry.load_sharing import shared_load
-from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from tests.helpers.helical_contact_cases import (
     HE_2007,
     SPUR,
@@ -26,6 +24,7 @@ from tests.helpers.helical_contact_cases import (
     relieved,
     stiff_teeth,
 )
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 
 SPUR_CELLS = LoadedSettings(strips=StripSettings(cells_along=16))
 

@@ -7,8 +7,7 @@ import pytest
 
 from gearlube.studies.helical.geometry_dataset import gear_file_geometry, geometry_dataset
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 
 DATASETS = {d: gear_file_geometry(HelicalGearFile.named(f"jamali_2015_{d}")) for d in "ab"}
 RELIEVED = {"relief": "with tip relief"}

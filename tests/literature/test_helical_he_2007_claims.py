@@ -16,7 +16,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
     natural_frequencies,
@@ -29,6 +28,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 )
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import LENGTH
 from gearlube_core.errors import ConvergenceError
+from tests.helpers.he_2007 import PINION_SPEED, he_2007_pair
 from tests.helpers.helical_dynamics_cases import estimated_pair, loaded_points, spur_pair
 
 

@@ -15,7 +15,7 @@ from gearlube_core.helical_geometry.contact_line import (
 )
 from gearlube_core.helical_geometry.load_sharing import positions_at, shared_load
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.named_pairs import named_pair
 
 PAIR = named_pair("he_2007")
 PLANE = PAIR.plane

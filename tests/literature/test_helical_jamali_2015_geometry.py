@@ -9,10 +9,10 @@ from scipy.integrate import quad
 from gearlube_core.helical_geometry.contact_line import clip_line, line_kinematics, segment_length
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.load_sharing import (
-    position_of,
     relief_on_path,
     shared_load,
 )
+from gearlube_core.helical_geometry.meshing_steps import line_at_position
 from gearlube_core.helical_geometry.modification import ModifiedPair
 
 FILES = {design: HelicalGearFile.named(f"jamali_2015_{design}") for design in "ab"}
@@ -71,7 +71,7 @@ def test_line_length_follows_the_three_cases_of_section_2_2_1(relation):
 
     plane = pair.plane
     for s in np.linspace(low - reach, high, 501)[1:-1]:
-        got = segment_length(clip_line(float(position_of(s, pair)), plane), plane)
+        got = segment_length(clip_line(float(line_at_position(s, pair)), plane), plane)
         assert got == pytest.approx(printed(s), rel=1e-9, abs=1e-11)
 
 
@@ -102,7 +102,7 @@ def test_relief_shortens_the_contact_by_two_fifths(design, reduction):
     """A percentage point: the thesis' z_p, z_w are not those of its formula (above)."""
     modified = FILES[design].modified_pair()
     s = whole_cycle(modified.pair)
-    X = position_of(s, modified.pair)
+    X = line_at_position(s, modified.pair)
     plain = shared_load(X, ModifiedPair(pair=modified.pair), TORQUE).total_length
     relieved = shared_load(X, modified, TORQUE).total_length
     assert 1.0 - relieved.mean() / plain.mean() == pytest.approx(reduction, abs=0.01)
@@ -115,7 +115,7 @@ def test_total_length_varies_by_four_to_five_percent_with_relief(design):
     z_w decides the order, and the printed z_w cannot be design B's (above).
     """
     modified = FILES[design].modified_pair()
-    X = position_of(whole_cycle(modified.pair), modified.pair)
+    X = line_at_position(whole_cycle(modified.pair), modified.pair)
     total = shared_load(X, modified, TORQUE).total_length
     assert 0.04 < np.ptp(total) / total.mean() < 0.05
 
@@ -125,12 +125,12 @@ def test_largest_load_of_a_line_is_14_4_kn_about_minus_7_5_mm(design):
     """Printed in tenths of a kilonewton; the load is flat over a window of positions."""
     modified = FILES[design].modified_pair()
     s = whole_cycle(modified.pair)
-    load = shared_load(position_of(s, modified.pair), modified, TORQUE, "thesis").load
+    load = shared_load(line_at_position(s, modified.pair), modified, TORQUE, "thesis").load
     assert 1e-3 * load.max() == pytest.approx(14.4, abs=0.05)
     window = s[load > load.max() * (1.0 - 1e-6)]
     assert window.min() < -7.5e-3 < window.max()
     # All of the line between its ends carries there, as the thesis says.
-    at = shared_load(position_of(-7.5e-3, modified.pair), modified, TORQUE, "thesis")
+    at = shared_load(line_at_position(-7.5e-3, modified.pair), modified, TORQUE, "thesis")
     assert at.load == pytest.approx(load.max(), rel=1e-6)
 
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from benchmarks.shipped_meshes import analysed_line_mesh
 from gearlube_core.errors import TableError
-from gearlube_core.helical_contact.shipped_line_mesh import analysed_line_mesh
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position, segment_length
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helpers.helical_contact_cases import HE_2007

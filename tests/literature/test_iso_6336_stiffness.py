@@ -14,7 +14,7 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import (
     virtual_teeth,
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.named_pairs import named_pair
 
 PER_MM_UM = 1e9
 LOAD = 1273.52e3  # N/m: 127352 N on 100 mm

@@ -11,14 +11,10 @@ from gearlube_core.helical_geometry.lay_angle import (
     lay_angle_limits,
     lay_angles,
 )
-from gearlube_core.helical_geometry.meshing_steps import (
-    jamali_2015_steps,
-    line_at_position,
-    meshing_steps,
-)
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from gearlube_core.helical_geometry.meshing_steps import line_at_position, meshing_steps
 from gearlube_core.helical_geometry.undeformed_gap import contact_line_gap
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
+from tests.helpers.named_pairs import named_pair
 
 
 def half_length(pair):

@@ -19,8 +19,8 @@ from gearlube_core.film.line_film import minimum_line_film_thickness
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import line_points, uniform_line_load
 from gearlube_core.helical_geometry.contact_line import line_kinematics
-from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.named_pairs import named_pair
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 HE = named_pair("he_2007")

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
-from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.point.contact_domain import ContactDomain, elliptical_contact
-from gearlube_core.ehl.point.dry_contact import dry_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact, SolidLayer
@@ -19,7 +17,8 @@ from gearlube_core.ehl.point.terms.solids import ContactPressure
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS, FilmMarch
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
-from tests.helpers.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, flow_out
+from tests.helpers.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, dry_contact, flow_out
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 
 def _contact(speed: float, thickness: float | None) -> PointContactProblem:

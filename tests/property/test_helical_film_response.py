@@ -11,7 +11,6 @@ import pytest
 from gearlube.studies.helical.stability import instability_map
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
@@ -33,14 +32,16 @@ from gearlube_core.dynamics.helical_pair.mesh.film_friction import (
     film_coefficients,
     film_moments,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.line_integrals import friction_along_lines
 from gearlube_core.friction.line_points import line_friction, line_points, uniform_line_load
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import SPEED
+from tests.helpers.helical_mesh_points import line_loads
 
 _ROUGHNESS = 0.5e-6
 _FILM = FilmFriction(

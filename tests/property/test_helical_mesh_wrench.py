@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     LENGTH,
@@ -20,11 +19,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     X,
     Z,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
-    friction_power,
-    mesh_stiffness_matrix,
-)
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_accelerations import points_damping
 from tests.helpers.helical_dynamics_cases import (
     SPEED,
@@ -33,6 +28,8 @@ from tests.helpers.helical_dynamics_cases import (
     spur_pair,
     summed_wrench,
 )
+from tests.helpers.helical_mesh_points import friction_power, mesh_stiffness_matrix
+from tests.helpers.named_pairs import named_pair
 
 phases = st.floats(min_value=0.0, max_value=1.0, exclude_max=True)
 seeds = st.integers(min_value=0, max_value=10_000)

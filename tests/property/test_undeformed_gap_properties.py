@@ -16,8 +16,8 @@ from gearlube_core.helical_geometry.modification import (
     PowerTipRelief,
     TipRelief,
 )
-from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+from tests.helpers.named_pairs import PAIRS, named_pair
 
 reliefs = st.one_of(
     st.none(),

@@ -33,7 +33,6 @@ CASES = [
     (laws.goksem_hargreaves_force, CONTACT),
     (laws.aihara_force, CONTACT),
     (laws.aihara_heating, (0.5,)),
-    (laws.aihara_rib_torque, (6000.0, 2e-3, 0.1, 0.99)),
     (zhu_cheng_1989.zhu_cheng_heating, (0.5, 0.004, 0.3)),
     (rolling.rolling_power, (75.0, 1.4, 0.02)),
     (groups.inlet_heating_number, (0.05, 0.04, 1.4, 0.13)),

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
-from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.far_field import border_pressure
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.jamali_2015 import jamali_2015_film
 
 PLACES = {"small x": (1, 4), "large x": (-2, 4), "small y": (4, 1), "large y": (4, -2)}
 

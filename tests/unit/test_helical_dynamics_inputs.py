@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from gearlube.studies.helical.sweep_grid import QUANTITIES, harmonic_grid
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
@@ -19,17 +18,14 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
-    line_loads,
-    load_sums,
-    mesh_strain,
-    wrench_of_sums,
-)
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain, wrench_of_sums
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
 from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import SPEED, random_state
+from tests.helpers.helical_mesh_points import line_loads, load_sums
+from tests.helpers.named_pairs import named_pair
 
 
 @pytest.mark.parametrize(

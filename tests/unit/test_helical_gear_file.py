@@ -11,8 +11,8 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.flank_optimisation.problem import read_gear_file
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.modification import PowerTipRelief, TipRelief
-from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
 from gearlube_core.input_file.field_notes import field_notes
+from tests.helpers.named_pairs import PAIRS, named_pair
 
 HE = HelicalGearFile.named("he_2007")
 JAMALI = HelicalGearFile.named("jamali_2015_a")

@@ -9,13 +9,13 @@ import pytest
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.load_sharing import (
-    position_of,
     relief_on_path,
     shared_load,
     unrelieved_plane,
 )
+from gearlube_core.helical_geometry.meshing_steps import line_at_position
 from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair, TipRelief
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.named_pairs import named_pair
 
 HE = named_pair("he_2007")
 
@@ -93,7 +93,7 @@ def test_relief_ends_where_equations_2_14_and_2_15_put_it():
 
 
 def test_position_of_a_line_is_its_s_i_on_the_lower_face():
-    x = position_of([-2e-3, 0.0, 3e-3], HE)
+    x = line_at_position([-2e-3, 0.0, 3e-3], HE)
     low = x - HE.face_width * math.tan(HE.base_helix_angle)
     assert low - HE.pitch_point == pytest.approx([-2e-3, 0.0, 3e-3], abs=1e-15)
 

@@ -16,7 +16,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain
 from gearlube_core.dynamics.helical_pair.separation import march as separation_march
 from gearlube_core.dynamics.helical_pair.separation.march import (
     N_EXTRA,
@@ -37,6 +37,7 @@ from gearlube_core.dynamics.helical_pair.separation.system import (
 )
 from gearlube_core.errors import ParameterError
 from tests.helpers.helical_accelerations import pair_accelerations
+from tests.helpers.helical_mesh_points import line_loads
 from tests.helpers.separation_cases import crowned_mesh, separating_pair
 
 COARSE = {"steps_per_mesh_period": 16}

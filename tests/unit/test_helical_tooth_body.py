@@ -18,8 +18,8 @@ from gearlube_core.helical_contact.tooth_body import (
 from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
 from tests.helpers.helical_contact_cases import HE_2007, SPUR, coarse_stiffness
+from tests.helpers.named_pairs import PAIRS, named_pair
 
 
 @pytest.mark.parametrize("name", PAIRS)

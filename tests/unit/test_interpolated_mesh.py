@@ -12,7 +12,7 @@ from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.friction.line_points import line_points
 from gearlube_core.friction.thermal_eyring_flank import bracketed_secant_step
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position
-from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.named_pairs import named_pair
 from tests.helpers.source_of import interpret, source_of
 
 RNG = np.random.default_rng(13)

@@ -11,9 +11,9 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameter
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.line_integrals import friction_along_lines
 from gearlube_core.friction.line_points import line_points, table_line_load, uniform_line_load
-from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.mesh_table.line_mesh import uniform_line_mesh
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.named_pairs import named_pair
 
 HE = named_pair("he_2007")
 POINTS = line_points(HE, 4, 2)

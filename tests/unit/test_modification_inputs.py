@@ -7,7 +7,6 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.lay_angle import lay_angles
 from gearlube_core.helical_geometry.meshing_steps import (
     MeshingSteps,
-    jamali_2015_steps,
     meshing_steps,
     position_of_line,
 )
@@ -18,9 +17,9 @@ from gearlube_core.helical_geometry.modification import (
     PowerTipRelief,
     TipRelief,
 )
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
-from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
+from tests.helpers.named_pairs import named_pair
 
 PAIR = named_pair("jamali_2015_a")
 

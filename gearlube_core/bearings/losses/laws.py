@@ -57,30 +57,6 @@ def aihara_heating(heating_number: float) -> float:
 
 
 @kernel
-def aihara_rib_torque(axial_load: float, height: float, mu: float, cos_half_cone: float) -> float:
-    """Return the torque of the rib on the inner ring, e mu cos(b) F_a [N m].
-
-    Parameters
-    ----------
-    axial_load
-        F_a [N].
-    height
-        e, of the rib contact above the race of the inner ring [m].
-    mu
-        Coefficient of friction at the rib [-].
-    cos_half_cone
-        Cosine of b, half the cone angle of the rollers [-].
-
-    Notes
-    -----
-    Holds for a common apex of rollers and races. `rib.rib_friction` finds the same from the sliding
-    speed, within 1/cos(b).
-    Source: [aihara_1987 (11)]
-    """
-    return height * mu * cos_half_cone * axial_load
-
-
-@kernel
 def goksem_hargreaves_force(
     R: float, line_load: float, reduced_modulus: float, eta0: float, alpha: float, speed: float
 ) -> tuple[float, int]:

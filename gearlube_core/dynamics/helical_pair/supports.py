@@ -219,18 +219,6 @@ class ShaftSupport:
         check_positive("-second.position", -self.second.position, "m", cure)
 
 
-def symmetric_support(
-    *, K_xx: float, K_yy: float, K_zz: float, distance: float, shaft: ShaftEnds | None = None
-) -> ShaftSupport:
-    """Return two equal bearings at +-`distance` [m] that share the totals K [N/m] evenly."""
-    halves = {"K_xx": 0.5 * K_xx, "K_yy": 0.5 * K_yy, "K_zz": 0.5 * K_zz}
-    return ShaftSupport(
-        first=Bearing(position=distance, **halves),
-        second=Bearing(position=-distance, **halves),
-        shaft=shaft,
-    )
-
-
 def bearing_matrix(bearing: Bearing, shaft: ShaftEnds | None) -> Array:
     """Return K_SB of one bearing, with its shaft end in series, at the bearing; shape (6, 6).
 

@@ -15,19 +15,14 @@ from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.helical_geometry.load_sharing import CONVENTIONS, shared_load
-from gearlube_core.helical_geometry.meshing_steps import MeshingSteps, jamali_2015_steps
+from gearlube_core.helical_geometry.meshing_steps import MeshingSteps
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 from gearlube_core.oil.film_oil import FilmOil
-from gearlube_core.oil.film_oil_data import jamali_2015_oil
 
-JAMALI_2015_MODULUS = 0.5 * 227.5e9  # E*, Pa; E 207 GPa, nu 0.3: from [jamali_2015 ch. 7]
-_TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: [jamali_2015 ch. 4]
 _LARGEST_GAP = 50e-6  # m
 _OPEN_FILM = 10e-6  # m
 _DOMAIN = (-2.75, 1.775)  # of the largest Hertz semi-width; 4.5 in [jamali_2015 ch. 4]
-_SOLIDS = SolidContact()
 _SLENDEST = 2000.0  # R_y/R_x that stands for a line
 
 
@@ -204,48 +199,3 @@ class HelicalFilm:
             grading=self._grading(a),
             speed=0.5 * float(speeds[0][0] + speeds[1][0]),
         )
-
-
-def jamali_2015_film(
-    design: str,
-    *,
-    k: float = 1.0,
-    beta: float | None = None,
-    crown_start: float = 0.0,
-    facets: int = 0,
-    newtonian: bool = False,
-    nodes: tuple[int, int] = (97, 257),
-    grading: tuple[tuple[float, float], ...] = (),
-    convention: str = "thesis",
-    solids: SolidContact | None = _SOLIDS,
-) -> HelicalFilm:
-    """Return the film of design "a" or "b" of Jamali 2015 chapters 4 to 6.
-
-    Parameters
-    ----------
-    design, k, beta, crown_start, facets
-        As in `gearlube_core.helical_geometry.sample_modifications.jamali_2015`.
-    newtonian
-        Leave the Eyring stress out.
-    nodes
-        His mesh is (182, 857), uniform.
-    grading
-        As in `HelicalFilm`.
-    convention
-        Of the load; his leaves out cos(beta_b).
-    solids
-        What carries load where the film vanishes: by default a layer of 10 nm, of which his own
-        films of 20 nm and more know nothing. Where his solution fails solids touch and say so.
-    """
-    return HelicalFilm(
-        modified=jamali_2015(design, k=k, beta=beta, crown_start=crown_start, facets=facets),
-        steps=jamali_2015_steps(design),
-        torque=_TORQUE,
-        pinion_speed=_SPEED,
-        lubricant=jamali_2015_oil(newtonian=newtonian),
-        contact_modulus=JAMALI_2015_MODULUS,
-        nodes=nodes,
-        grading=grading,
-        convention=convention,
-        solids=solids,
-    )

@@ -13,8 +13,6 @@ from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coeffici
 from gearlube_core.contact.half_space_periodic import PeriodicDeflection, periodic_modes
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import Outcome, UnilateralProblem
-from gearlube_core.ehl.point.problem import PointContactProblem
-from gearlube_core.ehl.point.settings import Sides
 from gearlube_core.errors import ParameterError
 
 
@@ -137,40 +135,4 @@ def dry_contact_of_gap(
         approach=solution.rotation,
         touches_border=bool((pressure[border] > 0.0).any()),
         outcome=solution.outcome,
-    )
-
-
-def dry_contact(
-    problem: PointContactProblem,
-    *,
-    tolerance: float = 1e-6,
-    start: Array | None = None,
-    throw: bool = True,
-) -> DryContact:
-    """Return the dry contact of a film's problem on its own grid.
-
-    Parameters, errors and source as in `dry_contact_of_gap`; motion and oil do not matter.
-
-    Examples
-    --------
-    >>> from gearlube_core.oil.film_oil_data import film_oil
-    >>> from gearlube_core.ehl.point.contact_domain import elliptical_contact
-    >>> film = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(1.0, 0.0), load=20.0,
-    ...     contact_modulus=1.15e11, lubricant=film_oil(eta0=0.04, alpha=2e-8), nodes=(65, 65))
-    >>> dry = dry_contact(film)
-    >>> float(round(dry.pressure.max() / film.hertz_contact[2], 2))
-    1.0
-    """
-    x, y = problem.x, problem.y
-    gap = np.broadcast_to(problem.gap(x[:, None], y[None, :]), problem.nodes)
-    return dry_contact_of_gap(
-        gap,
-        x[1] - x[0],
-        y[1] - y[0],
-        problem.contact_modulus,
-        problem.load,
-        tolerance=tolerance,
-        start=start,
-        repeated=Sides(problem.sides).closed,
-        throw=throw,
     )

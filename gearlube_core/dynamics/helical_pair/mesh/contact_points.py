@@ -52,7 +52,7 @@ def contact_points(
     points : ndarray of shape (at least `point_capacity`, N_COLUMNS)
         Written: X, Z [m]; LENGTH of line that the point stands for [m]; DENSITY k [N/m2]; OFFSET
         e [m]; SLIDING v_s of the pinion over the gear along y [m/s]; LINE by age. LOAD and MU are
-        left to `line_loads` and a friction law.
+        left to a law of contact and one of friction.
 
     Notes
     -----

@@ -171,8 +171,7 @@ def separating_sums(
 
     Notes
     -----
-    Line loads as in `mesh_wrench.line_loads`, one-sided. The derivatives are exact but where a
-    point is about to touch, where the sums have kinks.
+    The derivatives are exact but where a point is about to touch, where the sums have kinks.
     """
     sums[:, :] = 0.0
     touching = 0.0
