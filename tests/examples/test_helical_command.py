@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.output.toml_text import toml_text
 from gearlube.plotting.edge_pressure import mark_edge_pressure
 from gearlube.plotting.style import house_style, new_figure
 from gearlube.report.stored import read_report
@@ -283,7 +284,7 @@ def test_files_that_lack_something_are_refused(changes, word, asked, caplog, mon
     }
     varied = file.model_copy(update={"completed": keep}).varied(changes)
     monkeypatch.setattr(HelicalGearFile, "from_toml", lambda path: varied)
-    (tmp_path / "own.toml").write_text("")
+    (tmp_path / "own.toml").write_text(toml_text(file.model_dump(exclude_none=True)))
     with caplog.at_level(logging.ERROR, "gearlube"):
         assert run(str(tmp_path / "own.toml")).exit_code == BAD_ARGUMENT
     assert word in caplog.text
