@@ -58,6 +58,8 @@ class Definition:
         Files of the installed packages that the model reads, as `glob` patterns.
     resources : mapping of str to bytes
         Files inside the FMU for its model, by name.
+    sources : tuple of str
+        Files of code that the model needs and that the slave's module does not import.
     """
 
     name: str
@@ -70,6 +72,7 @@ class Definition:
     slave: str
     shipped_data: tuple[str, ...]
     resources: Mapping[str, bytes] = field(default_factory=dict)
+    sources: tuple[str, ...] = ()
 
     @cached_property
     def references(self) -> dict[str, int]:

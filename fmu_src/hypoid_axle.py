@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
@@ -13,7 +14,7 @@ from fmu_src.axle_arguments import CUSTOM_OIL, axle_parameters, start_arguments
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
 from fmu_src.variable import Variable, declared
-from fmu_src.variables import HYPOID_AXLE
+from fmu_src.variables import FRICTION_VARIANTS, HYPOID_AXLE
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics import hypoid_axle
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
@@ -218,6 +219,7 @@ def _definition_with(
         ),
         start=partial(start_axle, base=base),
         resources=resources,
+        sources=_file_of(base.friction_law),
     )
 
 
@@ -233,6 +235,8 @@ def _starting(
         return replace(variable, start=(variable.start or 0.0) * (base.mesh.ratio / paper))
     if variable.name == "friction.model" and starts["friction"] not in variable.literals:
         return replace(variable, literals=(str(starts["friction"]),), start=1)
+    if variable.option_of == "friction.model" and starts["friction"] not in FRICTION_VARIANTS:
+        return replace(variable, maximum=1.0)
     own_oil = starts["oil"] == CUSTOM_OIL
     if own_oil and variable.argument == "oil":
         variable = replace(variable, literals=(*variable.literals, CUSTOM_OIL))
@@ -244,6 +248,14 @@ def _starting(
     if isinstance(value, str):
         value = 1.0 + variable.literals.index(value)
     return replace(variable, start=float(value))
+
+
+def _file_of(law: FlankFriction) -> tuple[str, ...]:
+    """Return the file of a law; none of one that was typed into an interpreter."""
+    try:
+        return (inspect.getfile(type(law)),)
+    except (OSError, TypeError):
+        return ()
 
 
 def _law_numbers(law: FlankFriction) -> tuple[Variable, ...]:

@@ -21,13 +21,14 @@ _HERE = Path(__file__).parent  # beside it lie the packages of this project
 def contents(definition: Definition) -> dict[str, bytes]:
     """Return all code and shipped data that an FMU uses, by path in the package.
 
-    These are the slave's module and what it imports, without comments and docstrings, and the
-    data that the definition names.
+    These are the slave's module and what it imports, the sources of the definition, without
+    comments and docstrings, and the data that it names.
     """
     slave = str(_HERE / f"{definition.slave}.py")
     code = {
         _name(Path(path)): code_of(Path(path).read_text(encoding="utf-8")).encode()
-        for path in source_files(slave)
+        for file in (slave, *definition.sources)
+        for path in source_files(file)
     }
     data = {
         _name(path): path.read_bytes()
@@ -41,7 +42,8 @@ def contents(definition: Definition) -> dict[str, bytes]:
 
 
 def _name(path: Path) -> str:
-    return path.relative_to(_HERE.parent).as_posix()
+    own = path.is_relative_to(_HERE.parent)
+    return path.relative_to(_HERE.parent).as_posix() if own else path.name
 
 
 @cache

@@ -110,7 +110,7 @@ def units_of(variables: Iterable[Variable]) -> tuple[Unit, ...]:
             if variable.unit not in UNITS:
                 raise ParameterError(
                     f"The unit of {variable.name} must be one of {', '.join(UNITS)}; "
-                    f"got {variable.unit!r}. Add it to fmu_src/units.py."
+                    f"got {variable.unit!r}. Add it to the units of fmu_src/model_description.py."
                 )
             shown.setdefault(variable.unit, set()).add(variable.display_unit)
     return tuple(

@@ -39,6 +39,12 @@ from gearlube_core.friction.flank_laws import FILM_MODELS, MixedFriction
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS
 
 _number = partial(declared, HypoidAxleParameters)
+# variants of one law in the package: an FMU is compiled for the law of its axle file
+FRICTION_VARIANTS = tuple(
+    name
+    for name, law in friction_laws().items()
+    if issubclass(law, MixedFriction) and law.__module__.startswith("gearlube_core.")
+)
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
 
 _INPUTS = (
@@ -71,10 +77,8 @@ _PARAMETERS = (
            "consistent", "paper", "mean", start="consistent", argument="radii"),
     option("mesh.damping", "Law of the mesh damping", "hysteretic", "modal", start="hysteretic",
            argument="mesh_damping"),
-    # variants of one law: an FMU is compiled for the law of its axle file
     option("friction.model", "Model of the flank friction",
-           *(name for name, law in friction_laws().items() if issubclass(law, MixedFriction)),
-           start="consistent", argument="friction"),
+           *FRICTION_VARIANTS, start="consistent", argument="friction"),
     option("bearing.approach", "Formula of the roller deflection under shaft displacement",
            "full", "as_printed", start="full", argument="bearing_approach"),
     option("bearing.torque_loss", "Drag torque of the bearings",

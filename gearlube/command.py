@@ -93,7 +93,7 @@ def _read_files_first(command: Any) -> None:
         for one in command.params:
             values = given.get(one.name)
             for value in values if isinstance(values, list | tuple) else [values]:
-                if isinstance(value, str | Path) and one.name != "out":
+                if isinstance(value, str | Path) and one.name not in ("out", "program"):
                     _check_file(str(value), _INPUTS.get(one.metavar or ""))
         return run(**given)
 

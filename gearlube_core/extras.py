@@ -29,8 +29,11 @@ def extra_package(module: str, extra: str, what: str, instead: str = "") -> Any:
     """
     try:
         return import_module(module)
-    except ImportError:
-        package = module.partition(".")[0].replace("sklearn", "scikit-learn")
+    except ModuleNotFoundError as missing:
+        top = module.partition(".")[0]
+        if missing.name is not None and missing.name.partition(".")[0] != top:
+            raise  # the package is there, and lacks another
+        package = top.replace("sklearn", "scikit-learn")
         raise ParameterError(
             f"{what} by the package {package}, which is not installed. Install it: "
             f"pip install 'gearlube[{extra}]'.{' ' * bool(instead)}{instead}"

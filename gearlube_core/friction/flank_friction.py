@@ -15,6 +15,7 @@ named as an entry point of the group `gearlube.laws`, which commands and their w
 
 from __future__ import annotations
 
+import logging
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -31,6 +32,8 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.film import point_film
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
 from gearlube_core.number import check_fields, numbers_of
+
+logger = logging.getLogger(__name__)
 
 _LAWS: dict[str, type[FlankFriction]] = {}
 
@@ -54,11 +57,14 @@ class FlankFriction(ABC):
 
     def __init_subclass__(cls, name: str = "", text: str = "") -> None:
         cls.name, cls.text = name, text
-        if name and _LAWS.setdefault(name, cls).__module__ != cls.__module__:
+        if not name:
+            return
+        if name in _LAWS and _LAWS[name].__module__ != cls.__module__:
             raise ParameterError(
                 f"A law of flank friction must have a name of its own, got {name!r} of "
                 f"{cls.__module__}, which {_LAWS[name].__module__} has. Rename one of them."
             )
+        _LAWS[name] = cls  # of a file that is read again the new one counts
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -99,7 +105,13 @@ def friction_laws(wanted: str = "") -> Mapping[str, type[FlankFriction]]:
     _import_laws()
     if wanted and wanted not in _LAWS:
         for plugin in entry_points(group="gearlube.laws"):
-            plugin.load()
+            try:
+                plugin.load()
+            except Exception as reason:
+                logger.warning(
+                    "The entry point %s of gearlube.laws (%s) cannot be loaded: %s: %s. Its laws "
+                    "are left out.", plugin.name, plugin.value, type(reason).__name__, reason,
+                )  # fmt: skip
     ours = {
         name: law for name, law in _LAWS.items() if law.__module__.startswith(f"{__package__}.")
     }

@@ -1,7 +1,7 @@
 """Interface of a flank friction law for models of meshing gears.
 
 A law is a NamedTuple of floats with the method of `FlankLaw`. Its fields are the data of
-the flanks. A new law is one new file; `flank_laws.FLANK_LAWS` lists the laws of the package.
+the flanks. A new law is one new file; `flank_friction.friction_laws` gives them by name.
 """
 
 from __future__ import annotations

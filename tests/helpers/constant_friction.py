@@ -12,6 +12,7 @@ import numpy as np
 
 from drivetrain.axle_file.axle_file import AxleFile
 from fmu_src.hypoid_axle import definition_with_axle
+from fmu_src.identity import contents
 from fmu_src.native.hypoid_axle import native_model
 from fmu_src.native.model import OK, Operation
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
@@ -70,7 +71,8 @@ def report_names():
     with TemporaryDirectory() as folder:  # where an installed package would be
         entry = Path(folder, "coulomb-1.0.dist-info", "entry_points.txt")
         entry.parent.mkdir()
-        entry.write_text("[gearlube.laws]\ncoulomb = tests.helpers.coulomb_law\n")
+        laws = "broken = no_such_module_at_all\ncoulomb = tests.helpers.coulomb_law\n"
+        entry.write_text(f"[gearlube.laws]\n{laws}")
         sys.path.append(folder)
         axle = of_file()
     uncertain = next(one for one in uncertain_of(axle) if one.name == "friction_mu")
@@ -87,6 +89,8 @@ def report_names():
         "upper": upper.friction_law.numbers["mu"],
         "range": [axle.ranges[1].low, axle.ranges[1].high],
         "literals": law.literals,
+        "by number": variables["friction.model.number"].maximum,
+        "code": "tests/helpers/coulomb_law.py" in contents(definition()),
         "mu": [mu.start, mu.minimum, mu.maximum, mu.unit, mu.description],
         "references": list(variables).index("friction.mu") - len(variables),
     }

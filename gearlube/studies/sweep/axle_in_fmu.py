@@ -19,8 +19,10 @@ from fmu_src.hypoid_axle import (
     car_axle_in,
     check_one_table,
 )
+from fmu_src.variables import FRICTION_VARIANTS
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
+from gearlube_core.checks import check_option
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
@@ -109,6 +111,9 @@ def check_operation(
         The oil's data do not reach the temperature, or the axle would refuse the torque.
     """
     road, axle = car_axle.driveline.road_load, car_axle.axle
+    law = str(axle.friction)  # an FMU has the variants of its axle's law, or one of its own alone
+    variants = FRICTION_VARIANTS if law in FRICTION_VARIANTS else (law,)
+    check_option("friction", settings.friction, variants)
     if settings.oil == start_arguments(axle)["oil"]:
         name, temperature = settings.lowest_oil_temperature
         axle.oil.check_temperature(temperature, name)

@@ -194,7 +194,7 @@ class HypoidTorsional:
         return reduced_rates(x, v, phi, speed, row, 0, mode, p)
 
     def initial_state(self, speed: float) -> Array:
-        """Return y of `angle_march` at pinion angle and time zero: static deflection, x' = 0."""
+        """Return y of `mode_march` at pinion angle and time zero: static deflection, x' = 0."""
         row = self.row(0.0)[0]
         x = MICRO * self.static_deflection
         if self.parameters.form == "one_dof":

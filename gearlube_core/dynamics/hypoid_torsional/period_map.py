@@ -199,7 +199,7 @@ def period_map(
     Parameters
     ----------
     y : ndarray of shape (N_Y,)
-        State of `angle_march`; in: start, out: end.
+        State of `mode_march`; in: start, out: end.
     derivatives : ndarray of shape (N_Y, N_COLUMNS)
         Out: d(y_end)/d(three states of y0, load torque [N.m], speed [rad/s]).
     load_torque, speed : float

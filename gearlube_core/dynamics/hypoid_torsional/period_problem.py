@@ -110,7 +110,7 @@ class PeriodProblem:
         return np.append(y, self.model.mean_load_torque) if self._two else y
 
     def state(self, z: Array, speed: float) -> tuple[Array, float]:
-        """Return y0 of `angle_march` and the load torque [N.m]."""
+        """Return y0 of `mode_march` and the load torque [N.m]."""
         m = self._per_speed.size
         y = np.zeros(N_Y)
         y[:m] = z[:m] + speed * self._per_speed

@@ -117,7 +117,7 @@ def sweep_kernel(
     Parameters
     ----------
     y : ndarray of shape (4,)
-        State of `angle_march` at the first speed.
+        State of `mode_march` at the first speed.
     speeds, mean_speeds, load_torques : ndarray of shape (n,)
         Asked for and found [rad/s], and the load of each [N.m].
     balance : int

@@ -2,7 +2,7 @@
 
 The continuous states are the first N_CONTINUOUS of the state vector. What else the future depends
 on, the coefficients of friction and when they were computed, changes at events alone: there
-`film_refresh.refresh_friction` does what it does between the steps of `integrate.advance`.
+`integrate.refresh_friction` does what it does between the steps of `integrate.advance`.
 """
 
 from __future__ import annotations

@@ -147,7 +147,7 @@ def write_lines(
 ) -> LinesFound:
     """Write the quantities of every line of the flank in `view`; return what stands out of them.
 
-    Their outputs begin at `first`, those of `film_bounds.LINE_BOUNDS` at `bounds`. Means are
+    Their outputs begin at `first`, those of `LINE_BOUNDS` at `bounds`. Means are
     weighted with the load. A line without load has no film: zeros, and the temperature of the oil.
     `mu_at` is the place of the flank's friction coefficients in `s`.
     """
