@@ -4,7 +4,7 @@ A bearing type is a NamedTuple of floats with the methods of `ShaftBearings`. It
 opposed bearings of one shaft. A new type is one new file. The functions below the classes call
 the method of the type that is given; see `kernels.by_class`.
 
-Coordinates are those of `cage_frame`.
+Coordinates are those of `parameters`.
 """
 
 from __future__ import annotations

@@ -73,14 +73,14 @@ class TaperedRollerBearing:
     solid : Solid
         Material of rollers and races.
     f0, f1 : float
-        Viscous and load factor of the drag torque, see `palmgren_1959` [-].
+        Viscous and load factor of the drag torque, see `losses.catalogue` [-].
     preload : float or None
         Axial force on each bearing of the pair at standstill [N].
     interference : float or None
         Approach of every roller at standstill, negative for a clearance [m]. Give it or `preload`,
         because each follows from the other.
     series : str
-        Series in the catalogue, for the drag by `skf_2013`: one of `SERIES_NAMES`.
+        Series in the catalogue, for the drag by SKF: one of `SERIES_NAMES`.
     rib_height : float, optional
         Height of the contact between roller ends and rib above the inner race [m], for drag torques
         from rolling; None: 0.15 roller diameters, assumed; 0: no rib.
