@@ -89,6 +89,7 @@ def test_one_file_makes_the_law_known_to_axle_file_error_bars_and_fmu():
     assert found["range"] == [1e-9, 1e-3]
     assert found["literals"] == ["coulomb"]
     assert found["by number"] == 1  # as many as there are literals
+    assert found["read again"]  # the new class counts
     assert found["code"]  # the GUID changes with the file of the law
     assert found["mu"] == [0.08, 0.0, 0.5, "1", "Coefficient of the flank friction"]
     assert found["references"] == -1  # behind all variables of other FMUs

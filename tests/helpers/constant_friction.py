@@ -4,7 +4,7 @@ import json
 import sys
 import tomllib
 from dataclasses import replace
-from importlib import import_module
+from importlib import import_module, reload
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -18,6 +18,7 @@ from fmu_src.native.model import OK, Operation
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle, uncertain_of
 from gearlube_core.errors import ParameterError
+from gearlube_core.friction.flank_friction import friction_laws
 
 SPEED, TORQUE, OIL = 240.0, 66.0, 368.15  # rad/s, N.m, K
 COEFFICIENTS = (0.04, 0.08)
@@ -81,8 +82,10 @@ def report_names():
     law, mu = variables["friction.model"], variables["friction.mu"]
     by_name = AXLE.replace("friction_numbers = { mu = 0.08 }\n", "")
     notes = file_with(by_name).car_axle().inputs
+    read_again = reload(sys.modules["tests.helpers.coulomb_law"])  # as a notebook does
     found = {
         "before": before,
+        "read again": friction_laws()["coulomb"] is read_again.Coulomb,
         "wrong name": refusal(AXLE.replace("mu =", "nu =")),
         "wrong value": refusal(AXLE.replace("0.08", "0.8")),
         "note": next(list(one) for one in notes if one.field == "model.friction_numbers.mu"),

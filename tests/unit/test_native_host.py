@@ -3,6 +3,7 @@
 import sys
 import sysconfig
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
@@ -67,3 +68,14 @@ def test_what_is_set_already_stays_behind(library):
 def test_an_unknown_program_is_a_bad_argument(library):
     library("base/lib")
     assert CliRunner().invoke(app, ["native", "no_such_program"]).exit_code == 2
+
+
+def test_files_of_the_other_program_are_its_own_business(library, monkeypatch, tmp_path):
+    library("base/lib")
+    ran = []
+    monkeypatch.setattr(native.os, "execve", lambda path, words, environment: ran.append(words))
+    monkeypatch.setattr(native.subprocess, "run", lambda words, **_: SimpleNamespace(returncode=0))
+    file = tmp_path / "other.toml"
+    file.write_text("a = [")  # not TOML
+    CliRunner().invoke(app, ["native", "cat", str(file)])
+    assert ran == [["cat", str(file)]]

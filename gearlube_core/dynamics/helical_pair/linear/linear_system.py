@@ -152,7 +152,7 @@ def event_phases(plane: ContactPlane, mesh: MeshArrays) -> Array:
 
 
 def moments_at(plane: ContactPlane, mesh: MeshArrays, mu: float, phase: Array) -> Array:
-    """Return G and g at many phases, shape (phases, 5, 3); see `mesh_moments`."""
+    """Return G and g of the mesh at many phases, shape (phases, 5, 3)."""
     points = np.empty((point_capacity(mesh), N_COLUMNS))
     moments = np.empty((phase.size, N_SUMS, 3))
     _fill(plane, mesh, mu, phase, points, moments)
