@@ -20,6 +20,7 @@ from typer.core import TyperCommand, TyperGroup
 from typer.main import get_group
 
 from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.option_groups import group_options
 
 _MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would swallow [units]
@@ -40,8 +41,6 @@ class LazyCommand:
         One sentence for the list of commands, which is shown without importing them.
     panel : str
         Heading over it in the list of commands.
-    command_class : str
-        Name of a class of commands in the same module; typer's own if empty.
     context_settings : mapping
         Passed to click.
     """
@@ -50,7 +49,6 @@ class LazyCommand:
     target: str
     summary: str
     panel: str = "More"
-    command_class: str = ""
     context_settings: Mapping[str, Any] = field(default_factory=dict)
 
     def load(self) -> Any:  # a click command; newer typers have a click of their own
@@ -63,8 +61,8 @@ class LazyCommand:
         if isinstance(found, typer.Typer):
             app.add_typer(found, name=self.name)
         else:
-            chosen = getattr(module, self.command_class) if self.command_class else None
-            app.command(self.name, cls=chosen, context_settings=dict(self.context_settings))(found)
+            settings = dict(self.context_settings)
+            app.command(self.name, cls=MultiValueCommand, context_settings=settings)(found)
         command = get_group(app).commands[self.name]
         group_options(command)
         _read_files_first(command)
@@ -137,7 +135,6 @@ COMMANDS = (
         target="gearlube.studies.sweep.command:sweep",
         summary="Sweep vehicle speed and bearing preload of the hypoid axle.",
         panel=_AXLE,
-        command_class="SweepCommand",
     ),
     LazyCommand(
         name="runup",
@@ -168,7 +165,6 @@ COMMANDS = (
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",
         panel=_GEARS,
-        command_class="ContactCommand",
     ),
     LazyCommand(
         name="optimise",
@@ -187,21 +183,18 @@ COMMANDS = (
         target="gearlube.studies.whine.command:whine",
         summary="Whine orders of a gear pair against its settings and reliefs.",
         panel=_GEARS,
-        command_class="WhineCommand",
     ),
     LazyCommand(
         name="convert",
         target="gearlube.cli.convert:convert",
         summary="Convert a gear pair between REXS and gear files.",
         panel=_GEARS,
-        command_class="ConvertCommand",
     ),
     LazyCommand(
         name="helical",
         target="gearlube.studies.helical.command:helical",
         summary="Study a helical or spur pair: contact, vibration, stability.",
         panel=_GEARS,
-        command_class="HelicalCommand",
     ),
     LazyCommand(
         name="resonance",
@@ -220,7 +213,6 @@ COMMANDS = (
         target="gearlube.studies.loss_map.command:loss_map",
         summary="Map the losses of an axle over torque, speed and oil temperature.",
         panel=_AXLE,
-        command_class="MapCommand",
     ),
     LazyCommand(
         name="cycle",
@@ -233,7 +225,6 @@ COMMANDS = (
         target="gearlube.variation.command:vary",
         summary="Vary any parameter in a study: grids, samples, scatter.",
         panel=_STUDIES,
-        command_class="VaryCommand",
     ),
     LazyCommand(
         name="compare",
@@ -277,7 +268,6 @@ COMMANDS = (
         target="gearlube.studies.bearing.command:bearing",
         summary="Friction of a tapered roller bearing: torque and power loss.",
         panel=_PARTS,
-        command_class="BearingCommand",
     ),
     LazyCommand(
         name="roughness",

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from gearlube.cli.console import console
-from gearlube.cli.progress_report import progress_on
+from gearlube.cli.study_run import progress_on
 
 
 def bring_gears_up_to_date(
@@ -40,5 +39,5 @@ def bring_gears_up_to_date(
     for one in [file, *(file.varied({"gear_set.gear_file": other}) for other in others)]:
         if one.gear_set.gear_file is None or kept_table(one, folder).current() is not None:
             continue
-        with progress_on(console, "contact") as progress:
+        with progress_on("contact") as progress:
             table_file(one, folder, jobs=jobs, progress=progress)

@@ -8,7 +8,6 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
 
@@ -29,13 +28,13 @@ def compare(
     Reads the report.html of both folders. Marches of films have `gearlube ehl compare`, which draws
     several over their steps.
     """
-    from gearlube.cli.report_end import finish_with_report
+    from gearlube.cli.study_run import study_run
     from gearlube.report.comparison import comparison
     from gearlube.report.page import report_html
     from gearlube.report.stored import read_report
     from gearlube_core.errors import GearLubeError, ParameterError
 
-    with exit_on_error():
+    with study_run("compare", out, overwrite=overwrite, stopped="Stopped.") as run:
         names, data = [], []
         for entry in (first, second):
             name, given, folder = entry.rpartition("=")
@@ -55,4 +54,4 @@ def compare(
                 f"but one was changed or is damaged ({type(reason).__name__}). Run its study again."
             ) from None
         with results_folder(out, "compare", overwrite=overwrite):
-            finish_with_report(report, out)
+            run.finish(report)

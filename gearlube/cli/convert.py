@@ -11,7 +11,6 @@ import typer
 
 from gearlube.cli.example_file import kept_example, prints_example
 from gearlube.cli.exit_codes import exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -20,13 +19,6 @@ if TYPE_CHECKING:
 
 logger = logging.getLogger("gearlube")
 _REXS = (".rexs", ".rexsz", ".rexsj", ".xml")
-
-
-class ConvertCommand(MultiValueCommand):
-    """`gearlube convert`, with several fields after one `--set`."""
-
-    multi_value = frozenset({"--set"})
-    value = re.compile(r"^[a-z_]\w*(\.\w+)*=")
 
 
 def _example() -> str:
@@ -57,7 +49,7 @@ def convert(
         typer.Option(
             "--set",
             help="Value of a field that is missing in the REXS file.",
-            metavar="FIELD=VALUE",
+            metavar="FIELD=VALUE...",
         ),
     ] = None,
     overwrite: Annotated[

@@ -10,6 +10,7 @@ from typer.core import TyperCommand
 
 # a number, or a range that begins with one; not the path of a file
 _VALUE = re.compile(r"^[+\-]?\.?\d[^/\\]*$(?<!\.toml)")
+_NAMED = re.compile(r"^[^=\s/\\-][^=\s/\\]*=")  # NAME=VALUE
 
 
 def repeat_flags(
@@ -36,14 +37,17 @@ def repeat_flags(
 
 
 class MultiValueCommand(TyperCommand):
-    """A command whose options in `multi_value` take one or more values each.
+    """A command whose options take several values where their metavar ends in three dots.
 
-    `value` is what such a value begins with; by default it is a number or a range.
+    Such a value is a number or a range, or a text NAME=VALUE where the metavar has a `=`.
     """
-
-    multi_value: Collection[str] = frozenset()
-    value: re.Pattern[str] = _VALUE
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse `args` after repeating the flags."""
-        return super().parse_args(ctx, repeat_flags(args, self.multi_value, self.value))
+        several = [one for one in self.params if (one.metavar or "").endswith("...")]
+        for value, sign in ((_VALUE, False), (_NAMED, True)):
+            flags = {
+                flag for one in several if ("=" in (one.metavar or "")) == sign for flag in one.opts
+            }
+            args = repeat_flags(args, flags, value)
+        return super().parse_args(ctx, args)

@@ -3,28 +3,18 @@
 from __future__ import annotations
 
 import logging
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.exit_codes import exit_if_failed
 from gearlube.cli.options import JobsOption, OverwriteOption
-from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:
     from gearlube.variation.point_study import PointStudy
 
 logger = logging.getLogger("gearlube")
-
-
-class VaryCommand(MultiValueCommand):
-    """A command whose option `--vary` takes several texts KEY=VALUES."""
-
-    multi_value = frozenset({"--vary", "--limit"})
-    value = re.compile(r"^[^=\s-][^=\s]*=")
 
 
 def vary(
@@ -102,9 +92,7 @@ def vary(
     blocks of points are kept: run the same command again to go on after a stop.
     """
     from gearlube.cli.axle_gears import bring_gears_up_to_date
-    from gearlube.cli.console import console
-    from gearlube.cli.progress_report import progress_on
-    from gearlube.cli.report_end import finish_with_report
+    from gearlube.cli.study_run import study_run
     from gearlube.variation.design import Design
     from gearlube.variation.figures import save_variation_figures
     from gearlube.variation.file_variants import GEAR_FILE
@@ -121,7 +109,7 @@ def vary(
     )
     from gearlube_core.checks import check_address, check_within
 
-    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+    with study_run(f"vary {study}", out, overwrite=overwrite) as run:
         if study in OF_AXLE:
             bring_gears_up_to_date(file, jobs=jobs)
         chosen = point_study(study, file, quick=quick)
@@ -149,29 +137,28 @@ def vary(
         bring_gears_up_to_date(file if gears else None, gears, jobs=jobs)
         chosen = prepared(chosen, plan)
         logger.info("%d points: %s.", plan.size, ", ".join(plan.keys))
-        with results_folder(out, f"vary {study}", overwrite=overwrite):
-            with progress_on(console, "points", plan.size) as progress:
-                done = run_variation(
-                    chosen,
-                    plan,
-                    out=out,
-                    jobs=jobs,
-                    scheduler=scheduler,
-                    block=block,
-                    overwrite=overwrite,
-                    progress=progress,
-                )
+        with run.results(plan.size, bar="points") as progress:
+            done = run_variation(
+                chosen,
+                plan,
+                out=out,
+                jobs=jobs,
+                scheduler=scheduler,
+                block=block,
+                overwrite=overwrite,
+                progress=progress,
+            )
             results, summary = write_summary(out, limits)
             save_variation_figures(results, summary, out / "figures")
-        logger.info("%d points computed in %.1f s.", done.computed, done.seconds)
+        logger.info("%d points computed.", done.computed)
         if done.lost:
             logger.warning(
                 "%d points are lost to memory, disk or program, not to physics. Run the same "
                 "command again to compute them.",
                 done.lost,
             )
-        logger.info("Results: %s, %s, %s", done.store.path, out / "summary.csv", out / "figures")
-        finish_with_report(variation_report(results, summary), out, done.seconds)
+        run.written(done.store.path.name, "summary.csv", "figures")
+        run.finish(variation_report(results, summary))
         failures = int(summary["failed"].sum())
         exit_if_failed(f"{failures} points failed; points.csv says why." if failures else "")
 

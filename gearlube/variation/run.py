@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
-import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cache, partial
@@ -49,15 +48,12 @@ class VariationRun:
     lost : int
         Points whose process died several times, or that had no memory, disk or program for them;
         another run computes them again.
-    seconds : float
-        For all of it.
     """
 
     store: BlockStore
     computed: int
     failed: int
     lost: int
-    seconds: float
 
 
 def run_variation(
@@ -114,7 +110,6 @@ def run_variation(
     >>> run_variation(point_study("map"), design, out="my_variation").computed  # doctest: +SKIP
     2
     """
-    began = time.monotonic()
     if jobs is not None:
         check_within("jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all processors.")
     usual = max(1, min(study.block, -(-design.size // LEAST_BLOCKS)))
@@ -128,7 +123,7 @@ def run_variation(
         store = BlockStore.found(folder, design, key=key, overwrite=overwrite)
         store = store or BlockStore.made(folder, study, design, key=key, block=points)
         tally = _run(store, study, design, key, jobs, scheduler, progress)
-    return VariationRun(store, tally.computed, tally.failed, tally.lost, time.monotonic() - began)
+    return VariationRun(store, tally.computed, tally.failed, tally.lost)
 
 
 def _run(

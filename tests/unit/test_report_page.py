@@ -11,7 +11,7 @@ import typer
 import xarray as xr
 from lxml import html as lxml_html
 
-from gearlube.cli.report_end import tell_findings
+from gearlube.cli.study_run import tell_findings
 from gearlube.command import COMMANDS, command_line
 from gearlube.report.charts import (
     Axis,

@@ -2,8 +2,6 @@
 
 import pytest
 
-from gearlube.cli.multi_value_options import repeat_flags
-from gearlube.variation.command import VaryCommand
 from gearlube.variation.design import Axis, Sampling, Spread
 from gearlube.variation.file_variants import axle_keys
 from gearlube.variation.keys import Key, understood
@@ -39,13 +37,6 @@ def test_a_width_is_three_standard_deviations(text):
     (found,) = varied_from([text], KEYS).spreads
     assert (found.low, found.mean, found.high) == (120.0, 150.0, 180.0)
     assert found.deviation == pytest.approx(10.0)
-
-
-def test_several_variations_follow_one_flag():
-    typed = ["map", "--vary", "a.b=1", "c=2,3", "--out", "x=y", "--vary", "d=4", "axle.toml"]
-    assert repeat_flags(typed, VaryCommand.multi_value, VaryCommand.value) == [
-        "map", "--vary", "a.b=1", "--vary", "c=2,3", "--out", "x=y", "--vary", "d=4", "axle.toml",
-    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(

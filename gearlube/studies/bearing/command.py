@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import logging
 import math
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -13,29 +11,18 @@ import typer
 from rich.box import SIMPLE
 from rich.table import Table
 
-from gearlube.cli.console import console
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import ExampleOption, OverwriteOption
-from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import study_run
 from gearlube_core.checks import check_within
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm, rpm_to_rads
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.bearing.summary import BearingRow
 
-logger = logging.getLogger("gearlube")
 _MICRO = 1e-6
-
-
-class BearingCommand(MultiValueCommand):
-    """A command with options that take several values."""
-
-    multi_value = frozenset({"--speed-rpm", "--axial-load", "--radial-load", "--temperature"})
 
 
 def bearing(
@@ -104,7 +91,6 @@ def bearing(
     if example:
         print_example("gearlube_core.bearings.bearing_file:BearingFile", "wingertszahn_2023")
         return
-    from gearlube.cli.report_end import finish_with_report
     from gearlube.report.inputs import file_inputs, noted_inputs
     from gearlube.studies.bearing.report import bearing_report
     from gearlube.studies.bearing.run import run_bearing
@@ -118,8 +104,7 @@ def bearing(
     from gearlube_core.film_model.model import ROLLER
     from gearlube_core.oil.oil_file import read_oil
 
-    began = time.monotonic()
-    with exit_on_error():
+    with study_run("bearing", out, overwrite=overwrite) as run:
         given = BearingFile.given(file)
         lubricant = read_oil(given.oil if oil is None else oil).lubricant
         operation = given.operation
@@ -174,17 +159,12 @@ def bearing(
             ),
         )
         settings.check(geometry, lubricant)
-        with (
-            results_folder(out, "bearing", overwrite=overwrite),
-            progress_on(console, "bearing") as progress,
-        ):
+        with run.results() as progress:
             dataset = run_bearing(given, settings, oil=lubricant, folder=out, progress=progress)
-        console.print(_table(given.name, laws[0], bearing_summary(dataset)))
-        seconds = time.monotonic() - began
-        logger.info("Computed in %.1f s.", seconds)
-        logger.info("Results: %s, %s, %s", out / "bearing.nc", out / "bearing.csv", out / "figures")
+        run.show(_table(given.name, laws[0], bearing_summary(dataset)))
+        run.written("bearing.nc", "bearing.csv", "figures")
         inputs = [*file_inputs(given), *noted_inputs(given.inferred_notes())]
-        finish_with_report(bearing_report(dataset, inputs), out, seconds)
+        run.finish(bearing_report(dataset, inputs))
 
 
 def _table(name: str, law: str, rows: list[BearingRow]) -> Table:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -13,12 +12,14 @@ from rich.table import Table
 
 from gearlube.cli.console import console
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
-from gearlube.cli.progress_report import progress_on
-from gearlube.cli.report_end import command_line, tell_findings
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import (
+    StudyRun,
+    command_line,
+    empty_table,
+    study_run,
+    tell_findings,
+)
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -28,12 +29,6 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 logger = logging.getLogger("gearlube")
-
-
-class ContactCommand(MultiValueCommand):
-    """A command whose option `--torques` takes several numbers."""
-
-    multi_value = frozenset({"--torques"})
 
 
 def contact(
@@ -156,8 +151,8 @@ def contact(
     from gearlube_core.hypoid_contact.kept_table import KeptTable
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
-    began = time.monotonic()
-    with exit_on_error(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
+    stopped = f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."
+    with study_run("contact", out, overwrite=overwrite, stopped=stopped) as frame:
         file = HypoidGearFile.given(gear)
         usual = QUICK if quick else ContactSettings()
         films = film_request(films_rpm, oil, oil_temperature, axle)
@@ -180,13 +175,9 @@ def contact(
             wanted = _sensitivity_settings(
                 torques, positions, cycle.misalignment, export, films is not None
             )
-            with results_folder(out, "contact", overwrite=overwrite):
-                _sensitivity(file, wanted, out, jobs)
+            _sensitivity(file, wanted, frame, jobs)
             return
-        with (
-            results_folder(out, "contact", overwrite=overwrite),
-            progress_on(console, "contact", 2 * cycle.positions) as progress,
-        ):
+        with frame.results(2 * cycle.positions) as progress:
             results = run.run_contact(
                 file,
                 replace(usual, cycle=cycle),
@@ -212,11 +203,10 @@ def contact(
         console.print(_table(file.name, rows))
         for sentence in [*levels_left_out(results.contact), *edge_warnings(results.contact)]:
             logger.warning("%s", sentence)
-        table = out / f"{pair_stem(file.name)}.nc"
-        logger.info("Analysed in %.1f s.", time.monotonic() - began)
+        table = f"{pair_stem(file.name)}.nc"
         if films is not None:
             logger.info("Animation: %s", animation)
-        logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")
+        frame.written(table, "contact.nc", "figures", note=" (mesh table)")
         tell_findings(findings(results.contact), out / PAGE)
         if kept is not None:
             logger.info("Kept for axle files whose gear_file is %s: %s", gear, kept)
@@ -251,34 +241,28 @@ def _sensitivity_settings(
 
 
 def _sensitivity(
-    file: HypoidGearFile, settings: SensitivitySettings, out: Path, jobs: int | None
+    file: HypoidGearFile, settings: SensitivitySettings, frame: StudyRun, jobs: int | None
 ) -> None:
     from gearlube.studies.contact.sensitivity import run_sensitivity, sensitivity_rows
     from gearlube.studies.contact.sensitivity_table import sensitivity_table
 
-    with progress_on(console, "contact", 2 * settings.positions) as progress:
-        dataset = run_sensitivity(file, settings, folder=out, jobs=jobs, progress=progress)
-    console.print(sensitivity_table(file.name, settings.torque, sensitivity_rows(dataset)))
-    logger.info(
-        "Results: %s, %s, %s",
-        out / "sensitivity.nc",
-        out / "sensitivity.csv",
-        out / "figures" / "sensitivity.png",
-    )
+    with frame.results(2 * settings.positions) as progress:
+        dataset = run_sensitivity(file, settings, folder=frame.out, jobs=jobs, progress=progress)
+    frame.show(sensitivity_table(file.name, settings.torque, sensitivity_rows(dataset)))
+    frame.written("sensitivity.nc", "sensitivity.csv", "figures/sensitivity.png")
 
 
 def _table(name: str, rows: list[ContactSummary]) -> Table:
-    table = Table(title=f"{name}: loaded tooth contact, means over the mesh")
-    for heading in (
-        "flanks",
-        "torque [N·m]",
-        "secant k [N/µm]",
-        "tangent k [N/µm]",
-        "R_p [mm]",
-        "pairs",
-        "highest pressure [GPa]",
-    ):
-        table.add_column(heading, justify="right")
+    table = empty_table(
+        f"{name}: loaded tooth contact, means over the mesh",
+        ">flanks",
+        ">torque [N·m]",
+        ">secant k [N/µm]",
+        ">tangent k [N/µm]",
+        ">R_p [mm]",
+        ">pairs",
+        ">highest pressure [GPa]",
+    )
     for row in rows:
         table.add_row(
             row.side,

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import logging
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.table import Table
 
-from gearlube.cli.console import console
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_on_error
-from gearlube.cli.next_command import run_next
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
-from gearlube.cli.progress_report import progress_on
-from gearlube.cli.report_end import command_line, tell_findings
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import (
+    command_line,
+    empty_table,
+    run_next,
+    study_run,
+    tell_findings,
+)
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -60,20 +60,15 @@ def design(
     from gearlube.studies.design.summary import asked_and_found
     from gearlube_core.hypoid_design.blank_file import BlankFile
 
-    began = time.monotonic()
-    with exit_on_error():
+    with study_run("design", out, overwrite=overwrite) as frame:
         file = BlankFile.given(blank)
-        with (
-            results_folder(out, "design", overwrite=overwrite),
-            progress_on(console, "design") as progress,
-        ):
+        with frame.results() as progress:
             results = run.run_design(
                 file, folder=out, jobs=jobs, progress=progress, command_line=command_line()
             )
-        console.print(_table(file.name, asked_and_found(results.design)))
+        frame.show(_table(file.name, asked_and_found(results.design)))
         gear = out / f"{pair_stem(results.design.file.name)}.toml"
-        logger.info("Designed in %.1f s.", time.monotonic() - began)
-        logger.info("Results: %s, %s, %s", gear, out / "design.nc", out / "figures")
+        frame.written(gear.name, "design.nc", "figures")
         tell_findings(findings(results.dataset), out / PAGE)
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
         logger.info("Then: gearlube map %s, once you have completed it", out / "axle.toml")
@@ -87,9 +82,7 @@ def design(
 
 
 def _table(name: str, rows: list[AskedAndFound]) -> Table:
-    table = Table(title=f"{name}: contact without load")
-    for heading in ("flanks", "", "asked", "found"):
-        table.add_column(heading)
+    table = empty_table(f"{name}: contact without load", "flanks", "", "asked", "found")
     for row in rows:
         table.add_row(*row)
     return table

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import logging
-import time
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption, OverwriteOption
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import study_run
 
 logger = logging.getLogger("gearlube")
 
@@ -95,9 +93,6 @@ def drive_cycle(
     from drivetrain.axle_file.read_axle import read_axle
     from drivetrain.sump_heat import SumpHeat
     from gearlube.cli.axle_gears import bring_gears_up_to_date
-    from gearlube.cli.console import console
-    from gearlube.cli.progress_report import progress_on
-    from gearlube.cli.report_end import finish_with_report
     from gearlube.report.inputs import noted_inputs
     from gearlube.studies.drive_cycle.report import cycle_report
     from gearlube.studies.drive_cycle.run import grid_change, run_cycle
@@ -105,8 +100,7 @@ def drive_cycle(
     from gearlube.studies.drive_cycle.traces import DriveCycle
     from gearlube_core.units import celsius_to_kelvin
 
-    began = time.monotonic()
-    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+    with study_run("cycle", out, overwrite=overwrite) as run:
         trace = DriveCycle.given(cycle)
         bring_gears_up_to_date(axle)
         settings = DriveCycleSettings(
@@ -125,17 +119,10 @@ def drive_cycle(
             seed=seed,
             calibrated_bearings=calibrated_bearings,
         )
-        with results_folder(out, "cycle", overwrite=overwrite):
-            with progress_on(console, "cycle") as progress:
-                dataset = run_cycle(settings, folder=out, progress=progress)
+        with run.results() as progress:
+            dataset = run_cycle(settings, folder=out, progress=progress)
             if check_grid:
-                with progress_on(console, "finer map") as progress:
-                    change = grid_change(settings, dataset, progress)
+                change = grid_change(settings, dataset, progress)
                 logger.info("A map twice as fine changes the energy by %+.2f %%.", 100.0 * change)
-        seconds = time.monotonic() - began
-        logger.info("Computed in %.1f s.", seconds)
-        logger.info(
-            "Results: %s, %s, %s", out / "drive_cycle.nc", out / "summary.csv", out / "figures"
-        )
-        report = cycle_report(dataset, noted_inputs(settings.car.inputs))
-        finish_with_report(report, out, seconds)
+        run.written("drive_cycle.nc", "summary.csv", "figures")
+        run.finish(cycle_report(dataset, noted_inputs(settings.car.inputs)))

@@ -80,9 +80,8 @@ def train(
     Writes solves.csv, one row a film; a film that fails keeps its reason. A stopped run goes on
     when the same command runs again.
     """
-    from gearlube.cli.console import console
-    from gearlube.cli.progress_report import progress_on
     from gearlube.cli.results_folder import results_folder
+    from gearlube.cli.study_run import progress_on
     from gearlube.studies.film_model.limiting import limits_of
     from gearlube.studies.film_model.plan import FilmPlan
     from gearlube.studies.film_model.train import failures_in_words, pool_of, train
@@ -105,7 +104,7 @@ def train(
         )
         with (
             results_folder(out, "film-model", overwrite=overwrite),
-            progress_on(console, "films") as progress,
+            progress_on("films") as progress,
         ):
             table = train(plan, out, pool=pool_of(jobs, scheduler), progress=progress)
         for line in (*failures_in_words(table), *limits_of(table)):
@@ -133,8 +132,7 @@ def fit(
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace OUT.")] = False,
 ) -> None:
     """Fit a model to solved films: processes, net, bounds, test. Some minutes."""
-    from gearlube.cli.console import console
-    from gearlube.cli.progress_report import progress_on
+    from gearlube.cli.study_run import progress_on
     from gearlube.studies.film_model.calibration import tests_table
     from gearlube.studies.film_model.fit import fit_model
     from gearlube.studies.film_model.fit_settings import FitSettings
@@ -152,7 +150,7 @@ def fit(
             raise ParameterError(f"--out must be a new file, got {out}. Add --overwrite.")
         plan = stored_plan(folder)
         rows = list(SolveTable(folder / SOLVES, plan.kind).rows.values())
-        with progress_on(console, "fit") as progress:
+        with progress_on("fit") as progress:
             fitted = fit_model(
                 rows,
                 plan,
@@ -217,9 +215,8 @@ def audit(
     """
     from drivetrain.axle_file.read_axle import read_axle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
-    from gearlube.cli.console import console
     from gearlube.cli.exit_codes import exit_if_failed
-    from gearlube.cli.progress_report import progress_on
+    from gearlube.cli.study_run import progress_on
     from gearlube.studies.film_model import audit as audits
     from gearlube.studies.film_model.visited import visited_contacts, visited_points
     from gearlube_core.checks import check_within
@@ -243,7 +240,7 @@ def audit(
             seed,
             None if eyring_stress is None else 1e6 * eyring_stress,
         )
-        with progress_on(console, "audit") as progress:
+        with progress_on("audit") as progress:
             found = audits.audit(judged, contacts, progress=progress)
         for line in audits.audit_lines(found):
             typer.echo(line)

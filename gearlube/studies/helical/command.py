@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import logging
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 from rich.table import Table
 
-from gearlube.cli.console import console
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.exit_codes import FAILED, INTERRUPTED
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import (
     ExampleOption,
@@ -25,10 +22,8 @@ from gearlube.cli.options import (
     SpeedOfFileOption,
     TorqueOfFileOption,
 )
-from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
-from gearlube.cli.report_end import command_line, tell_findings
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import rpm_to_rads
@@ -40,12 +35,6 @@ logger = logging.getLogger("gearlube")
 
 # units of the table on the terminal; the summary file stays in SI
 _SHOWN = {"m": (1e6, "µm"), "N/m": (1e-6, "N/µm"), "1": (1.0, "")}
-
-
-class HelicalCommand(MultiValueCommand):
-    """A command with options that take several values."""
-
-    multi_value = frozenset({"--mu", "--speeds-rpm", "--torques", "--oil-temperatures"})
 
 
 def helical(
@@ -172,8 +161,8 @@ def helical(
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
     from gearlube_core.oil.oil_file import read_oil
 
-    began = time.monotonic()
-    with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
+    stopped = f"Stopped while results were written; {out} may be incomplete."
+    with study_run("helical", out, overwrite=overwrite, stopped=stopped) as frame:
         file = HelicalGearFile.given(gear)
         given = file.operation
         torque = torque if torque is not None or given is None else given.pinion_torque_n_m
@@ -221,10 +210,7 @@ def helical(
             roughness_rms=1e-6 * roughness_um,
             parts=parts,
         )
-        with (
-            results_folder(out, "helical", overwrite=overwrite, by_parts=True),
-            progress_on(console, "helical pair") as progress,
-        ):
+        with frame.results(bar="helical pair", by_parts=True) as progress:
             results = run.run_helical(
                 quick_settings(settings) if quick else settings,
                 folder=out,
@@ -235,11 +221,10 @@ def helical(
             if export and not results.interrupted:
                 for path in write_gears(file, out / "gears"):
                     logger.info("Flanks: %s", path)
-        console.print(_table(file.name, summary_rows(results)))
+        frame.show(_table(file.name, summary_rows(results)))
         for sentence in remarks(results):
             logger.warning("%s", sentence)
-        logger.info("Studied in %.1f s.", time.monotonic() - began)
-        logger.info("Results: %s", out)
+        frame.written()
         if not results.interrupted:
             tell_findings(findings(results.datasets), out / PAGE)
     for name, reason in results.failures.items():
@@ -260,9 +245,7 @@ _SYMBOLS = (
 def _table(name: str, rows: list[Row]) -> Table:
     from gearlube.report.numbers import number_text
 
-    table = Table(title=f"{name}: helical pair", caption=_SYMBOLS)
-    for heading in ("", "quantity", "value", "unit"):
-        table.add_column(heading, justify="right" if heading == "value" else "left")
+    table = empty_table(f"{name}: helical pair", "", "quantity", ">value", "unit", caption=_SYMBOLS)
     topic = ""
     for row in rows:
         factor, unit = _SHOWN.get(row.unit, (1.0, row.unit))

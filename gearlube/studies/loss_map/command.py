@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -17,10 +16,9 @@ from gearlube.cli.cooling_options import (
     given_cooling,
 )
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.exit_codes import exit_if_failed
 from gearlube.cli.options import ExampleOption, OverwriteOption
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import study_run
 
 if TYPE_CHECKING:
     from drivetrain.driveline.parameters import DrivelineParameters
@@ -31,14 +29,6 @@ if TYPE_CHECKING:
 logger = logging.getLogger("gearlube")
 
 _RPM = 0.104719755119660  # rad/s
-
-
-class MapCommand(MultiValueCommand):
-    """A command whose options for the grid take several values."""
-
-    multi_value = frozenset(
-        {"--torques", "--speeds", "--speeds-rpm", "--temperatures", "--oil-temperatures"}
-    )
 
 
 def loss_map(
@@ -132,9 +122,6 @@ def loss_map(
         return
     from drivetrain.axle_file.read_axle import read_axle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
-    from gearlube.cli.console import console
-    from gearlube.cli.progress_report import progress_on
-    from gearlube.cli.report_end import finish_with_report
     from gearlube.report.inputs import noted_inputs
     from gearlube.studies.loss_map.exports import write_regulation_map
     from gearlube.studies.loss_map.report import loss_map_report
@@ -142,8 +129,7 @@ def loss_map(
     from gearlube.studies.loss_map.settings import LossMapSettings
     from gearlube_core.oil.oil_file import read_oil
 
-    began = time.monotonic()
-    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+    with study_run("map", out, overwrite=overwrite) as run:
         bring_gears_up_to_date(axle)
         described = read_axle(axle)
         described_axle = described.axle
@@ -166,19 +152,14 @@ def loss_map(
                 ),
             ),
         )
-        with (
-            results_folder(out, "map", overwrite=overwrite),
-            progress_on(console, "map") as progress,
-        ):
+        with run.results() as progress:
             dataset = run_loss_map(settings, folder=out, progress=progress)
             for raised, wanted in ((False, regulation_grid), (True, regulation_raised)):
                 if wanted:
                     write_regulation_map(settings, out, raised=raised, progress=progress)
-        seconds = time.monotonic() - began
-        logger.info("%d points in %.1f s.", dataset["status"].size, seconds)
-        logger.info("Results: %s, %s, %s", out / "map.nc", out / "map.csv", out / "figures")
-        report = loss_map_report(dataset, noted_inputs(described.inputs), described.name)
-        finish_with_report(report, out, seconds)
+        logger.info("%d points.", dataset["status"].size)
+        run.written("map.nc", "map.csv", "figures")
+        run.finish(loss_map_report(dataset, noted_inputs(described.inputs), described.name))
         failures = int((dataset["status"] != 0).sum())
         exit_if_failed(f"{failures} points failed; map.csv says why." if failures else "")
 

@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.table import Table
 
-from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import JobsOption, OverwriteOption
-from gearlube.cli.progress_report import progress_on
-from gearlube.cli.report_end import finish_with_report
 from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import StudyRun, empty_table, study_run
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -89,22 +87,21 @@ def measured(
     from gearlube.studies.measured.run import run_measured
     from gearlube_core.storage.atomic_file import write_dataset
 
-    with exit_on_error():
+    with study_run("measured", out, overwrite=overwrite) as frame:
         if table is not None:
-            with results_folder(out, "measured", overwrite=overwrite):
-                _teeth(file, table, positions, out, jobs)
+            _teeth(file, table, positions, frame, jobs)
             return
         with results_folder(out, "measured", overwrite=overwrite):
             flanks = run_measured(file, folder=out)
             fits = _fits(flanks, fit or [], out)
             dataset = flank_dataset(flanks, fits)
             write_dataset(dataset, out / "flanks.nc")
-        console.print(_table(flanks))
+        frame.show(_table(flanks))
         for one in fits:
-            console.print(_settings(flanks.file.name, one))
+            frame.show(_settings(flanks.file.name, one))
         gear = out / f"{pair_stem(flanks.file.name)}.toml"
-        logger.info("Results: %s (gear file), %s", gear, out / "flanks.nc")
-        finish_with_report(flank_report(dataset, out / "flanks.png"), out)
+        frame.written(gear.name, "flanks.nc", note=" (gear file)")
+        frame.finish(flank_report(dataset, out / "flanks.png"))
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
 
 
@@ -127,31 +124,30 @@ def _settings(name: str, fit: SettingsFit) -> Table:
     return table
 
 
-def _teeth(file: str, table: str, positions: int, out: Path, jobs: int | None) -> None:
+def _teeth(file: str, table: str, positions: int, frame: StudyRun, jobs: int | None) -> None:
     from gearlube.studies.measured.report import tooth_report
     from gearlube.studies.measured.teeth import run_tooth_errors
 
-    with progress_on(console, "measured", 2 * positions) as progress:
+    with frame.results(2 * positions) as progress:
         found = run_tooth_errors(
-            file, table, positions=positions, folder=out, jobs=jobs, progress=progress
+            file, table, positions=positions, folder=frame.out, jobs=jobs, progress=progress
         )
-    console.print(_orders(found))
-    mesh = out / f"{pair_stem(found.flanks.file.name)}.nc"
-    logger.info("Results: %s (mesh table), %s", mesh, out / "tooth_errors.png")
-    finish_with_report(tooth_report(found.dataset), out)
-    logger.info("Next: gearlube sweep --mesh-table %s", mesh)
+    frame.show(_orders(found))
+    mesh = f"{pair_stem(found.flanks.file.name)}.nc"
+    frame.written(mesh, "tooth_errors.png", note=" (mesh table)")
+    frame.finish(tooth_report(found.dataset))
+    logger.info("Next: gearlube sweep --mesh-table %s", frame.out / mesh)
 
 
 def _orders(found: ToothErrorResults) -> Table:
     import numpy as np
 
     cycle, rest = found.cycle, found.cycle.turns()[1]
-    table = Table(title=f"{found.flanks.file.name}: largest orders, amplitude in µm")
-    table.add_column("torque [N·m]", justify="right")
     orders = cycle.orders()
-    for member in orders:
-        table.add_column(f"of the {member}")
-    table.add_column("hunting turn alone, rms [µm]", justify="right")
+    table = empty_table(
+        f"{found.flanks.file.name}: largest orders, amplitude in µm",
+        *(">torque [N·m]", *(f"of the {one}" for one in orders), ">hunting turn alone, rms [µm]"),
+    )
     for level, torque in enumerate(cycle.torque):
         row = []
         for values in orders.values():
@@ -163,10 +159,10 @@ def _orders(found: ToothErrorResults) -> Table:
 
 
 def _table(flanks: MeasuredFlanks) -> Table:
-    table = Table(title=f"{flanks.file.name}: smooth surface of degree {flanks.file.degree}")
-    table.add_column("flank")
-    for heading in ("teeth", "points", "largest [µm]", "rest rms [µm]", "teeth apart rms [µm]"):
-        table.add_column(heading, justify="right")
+    table = empty_table(
+        f"{flanks.file.name}: smooth surface of degree {flanks.file.degree}",
+        *("flank", ">teeth", ">points", ">largest [µm]", ">rest rms [µm]", ">teeth apart rms [µm]"),
+    )
     for key, grid in flanks.grids.items():
         surface, mean = flanks.surfaces[key], grid.deviation.mean(axis=0)
         table.add_row(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,13 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.table import Table
 
-from gearlube.cli.console import console
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import JobsOption, OverwriteOption
-from gearlube.cli.progress_report import progress_on
-from gearlube.cli.report_end import command_line, tell_findings
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
 from gearlube_core.checks import check_within
 from gearlube_core.storage.file_names import pair_stem
 
@@ -70,8 +65,8 @@ def optimise(
     from gearlube_core.flank_optimisation.optimise import OptimiseSettings
     from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 
-    began = time.monotonic()
-    with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
+    stopped = f"Stopped. Run the same command again to go on from {out}."
+    with study_run("optimise", out, overwrite=overwrite, stopped=stopped) as frame:
         given = OptimisationFile.given(problem)
         usual = OptimiseSettings()
         check_within("--rounds", rounds, 1, 50)
@@ -85,10 +80,7 @@ def optimise(
             front=front,
             nominal=nominal,
         )
-        with (
-            results_folder(out, "optimise", overwrite=overwrite),
-            progress_on(console, "optimise") as progress,
-        ):
+        with frame.results() as progress:
             results = run.run_optimise(
                 given,
                 settings,
@@ -98,20 +90,19 @@ def optimise(
                 command_line=command_line(),
             )
         found = results.optimised
-        console.print(_table(given.name, measure_rows(found)))
-        logger.info("Optimised in %.1f s.", time.monotonic() - began)
+        frame.show(_table(given.name, measure_rows(found)))
         gear = out / f"{pair_stem(given.name)}.toml"
-        logger.info("Results: %s, %s, %s", gear, out / "optimise.nc", out / "figures")
+        frame.written(gear.name, "optimise.nc", "figures")
         tell_findings(findings(results.dataset), out / PAGE)
         kind = "contact" if found.problem.is_hypoid else "helical"
         logger.info("Next: gearlube %s %s", kind, gear)
 
 
 def _table(name: str, rows: list[MeasureRow]) -> Table:
-    table = Table(title=f"{name}: before and after, by the plain analysis")
-    for heading in ("torque [N·m]", "", "unit", "before", "after", "change", "limit"):
-        left = heading in ("", "unit", "limit")
-        table.add_column(heading, justify="left" if left else "right")
+    table = empty_table(
+        f"{name}: before and after, by the plain analysis",
+        *(">torque [N·m]", "", "unit", ">before", ">after", ">change", "limit"),
+    )
     torque = None
     for row in rows:
         limit = "" if row.limit is None else "kept" if row.is_kept else "not kept"

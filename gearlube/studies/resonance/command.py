@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import logging
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.table import Table
 
-from gearlube.cli.console import console
-from gearlube.cli.exit_codes import INTERRUPTED, exit_on_error
+from gearlube.cli.exit_codes import INTERRUPTED
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import OilTemperatureOption, OverwriteOption, RoughnessOption
-from gearlube.cli.progress_report import progress_on
-from gearlube.cli.report_end import command_line, tell_findings
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
 from gearlube_core.checks import check_finite, check_option, check_within
 from gearlube_core.errors import ParameterError
 
@@ -100,8 +96,8 @@ def resonance(
     from gearlube.studies.resonance.summary import summaries
     from gearlube_core.dynamics.hypoid_torsional.parameters import KARAGIANNIS_OIL
 
-    began = time.monotonic()
-    with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
+    stopped = f"Stopped while results were written; {out} may be incomplete."
+    with study_run("resonance", out, overwrite=overwrite, stopped=stopped) as frame:
         first, last = _range(frequency_range)
         check_option("--radii", radii, _RADII)
         check_option("--friction", friction, _FRICTION)
@@ -119,18 +115,14 @@ def resonance(
         )
         for sentence in settings.warnings:
             logger.warning("%s", sentence)
-        with (
-            results_folder(out, "resonance", overwrite=overwrite),
-            progress_on(console, "resonance") as progress,
-        ):
+        with frame.results() as progress:
             results = run.run_resonance(
                 quick_settings(settings) if quick else settings, folder=out, progress=progress
             )
         found = summaries(results.response)
         if found:
-            console.print(_table(found))
-        logger.info("Studied in %.1f s.", time.monotonic() - began)
-        logger.info("Results: %s, %s, %s", out / "resonance.nc", out / "cycle.nc", out / "figures")
+            frame.show(_table(found))
+        frame.written("resonance.nc", "cycle.nc", "figures")
         page = write_resonance_report(results.response, out, results.load, command_line())
         tell_findings(findings(results.response, results.load), page)
     if results.interrupted:
@@ -168,16 +160,10 @@ def _range(text: str) -> tuple[float, float]:
 def _table(found: list[ModelSummary]) -> Table:
     from gearlube.studies.resonance.settings import MODELS
 
-    table = Table(title="Resonance; mesh frequencies over the natural frequency")
-    for heading in (
-        "model",
-        "folds, bifurcations",
-        "p-p [µm]",
-        "at",
-        "apart, rising",
-        "apart, falling",
-    ):
-        table.add_column(heading, justify="left" if heading == "model" else "right")
+    table = empty_table(
+        "Resonance; mesh frequencies over the natural frequency",
+        *("model", ">folds, bifurcations", ">p-p [µm]", ">at", ">apart, rising", ">apart, falling"),
+    )
     for summary in found:
         table.add_row(
             MODELS[summary.model],

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import logging
-import shlex
-import sys
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -13,9 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption, OverwriteOption
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import command_line, study_run
 
 if TYPE_CHECKING:
     from drivetrain.axle_file.axle_file import CarAxle
@@ -138,9 +134,7 @@ def runup(
         print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
         return
     from gearlube.cli.axle_gears import bring_gears_up_to_date
-    from gearlube.cli.console import console
-    from gearlube.cli.progress_report import progress_on
-    from gearlube.cli.report_end import tell_findings
+    from gearlube.cli.study_run import tell_findings
     from gearlube.studies.runup.animation.dataset import animate_ramp
     from gearlube.studies.runup.figures.moving.parts import save_moving
     from gearlube.studies.runup.findings import findings
@@ -151,8 +145,7 @@ def runup(
     from gearlube_core.progress import part_of
     from gearlube_core.storage.atomic_file import write_text
 
-    began = time.monotonic()
-    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+    with study_run("runup", out, overwrite=overwrite) as run:
         _check_together(rpm, start, end, duration, rate, torque, coast_down, coast_torque)
         bring_gears_up_to_date(axle)
         car_axle = _car_axle(axle, oil, preload)
@@ -183,10 +176,7 @@ def runup(
             )
         animated_speed = _animated_speed(ramps, animate_rpm)
         logger.info("Preparing the axle. The first time it is compiled: a minute or more.")
-        with (
-            results_folder(out, "runup", overwrite=overwrite),
-            progress_on(console, "runup") as progress,
-        ):
+        with run.results() as progress:
             count = len(ramps)
             datasets = [
                 run_runup(one, folder=out, progress=part_of(progress, i / count, (i + 1) / count))
@@ -202,9 +192,8 @@ def runup(
                     animations.append(moving)
             progress(1.0, "writing the report")
             write_text(summary_csv(datasets), out / "summary.csv")
-            command_line = shlex.join(["gearlube", *sys.argv[1:]])
-            report = write_runup_report(datasets, out, command_line, animations)
-        logger.info("%.3g s.", time.monotonic() - began)
+            report = write_runup_report(datasets, out, command_line(), animations)
+        run.written()
         tell_findings([one for dataset in datasets for one in findings(dataset)], report)
 
 

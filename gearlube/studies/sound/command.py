@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import logging
-import shlex
-import sys
-import time
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from gearlube.cli.example_file import prints_example
-from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import OverwriteOption
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import command_line, study_run
 
 logger = logging.getLogger("gearlube")
 
@@ -85,14 +81,11 @@ def sound(
 
     Two runs are compared. Writes sound.nc, WAV files, summary.csv, figures, report.html.
     """
-    from gearlube.cli.console import console
-    from gearlube.cli.progress_report import progress_on
     from gearlube.studies.sound.run import run_sound
     from gearlube.studies.sound.settings import METRICS, SoundSettings
     from gearlube_core.errors import ParameterError
 
-    began = time.monotonic()
-    with exit_on_error():
+    with study_run("sound", out, overwrite=overwrite) as frame:
         if other is not None and against is not None:
             raise ParameterError(
                 f"The second run must be given once, got {other} and --against {against}. Leave "
@@ -109,17 +102,14 @@ def sound(
             field=field,
             metrics=chosen,
         )
-        with (
-            results_folder(out, "sound", overwrite=overwrite),
-            progress_on(console, "sound") as progress,
-        ):
+        with frame.results() as progress:
             found = run_sound(
                 run,
                 settings,
                 against=other or against,
                 transfer=transfer,
                 folder=out,
-                command_line=shlex.join(["gearlube", *sys.argv[1:]]),
+                command_line=command_line(),
                 progress=progress,
             )
         for sentence in found.findings:
@@ -128,8 +118,7 @@ def sound(
             logger.warning("%s", found.limits[0])
         for reason in found.missing:
             logger.warning("Missing: %s.", reason)
-        logger.info("Computed in %.1f s.", time.monotonic() - began)
-        logger.info("Listen: %s", ", ".join(str(out / one.wav) for one in found.runs))
+        frame.written(*(one.wav for one in found.runs))
         logger.info("Report: %s", out / "report.html")
 
 

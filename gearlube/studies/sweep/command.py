@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import logging
-import shlex
-import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
@@ -18,26 +16,19 @@ from gearlube.cli.cooling_options import (
     given_cooling,
 )
 from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.exit_codes import exit_if_failed
 from gearlube.cli.options import (
     ExampleOption,
     JobsOption,
     OverwriteOption,
 )
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import command_line, study_run
 
 logger = logging.getLogger("gearlube")
 
 _DEFAULT_SPEEDS = ("20:100:5",)
 _QUICK_SPEEDS = ("20:100:40",)
 _DEFAULT_PRELOADS = (2500.0, 6000.0)
-
-
-class SweepCommand(MultiValueCommand):
-    """A command whose options `--speeds` and `--preload` take several values."""
-
-    multi_value = frozenset({"--speeds", "--preload"})
 
 
 def sweep(
@@ -142,11 +133,9 @@ def sweep(
         print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
         return
     from gearlube.cli.axle_gears import bring_gears_up_to_date
-    from gearlube.cli.console import console
     from gearlube.cli.oil_option import oil_kelvin
-    from gearlube.cli.progress_report import progress_on
     from gearlube.cli.ranges import numbers_from
-    from gearlube.cli.report_end import tell_findings
+    from gearlube.cli.study_run import tell_findings
     from gearlube.studies.sweep import run
     from gearlube.studies.sweep.axle_in_fmu import chosen_axle, given_preload, settings_of
     from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
@@ -166,7 +155,7 @@ def sweep(
     from gearlube_core.units import kelvin_to_celsius
 
     with (
-        exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."),
+        study_run("sweep", out, overwrite=overwrite) as frame,
         TemporaryDirectory(prefix="gearlube-") as folder,
     ):
         own_axle = axle is not None
@@ -227,10 +216,7 @@ def sweep(
             "Preparing the axle. For new gears or a new axle file its FMU is built first, half a "
             "minute; the very first time kernels are compiled, one to two minutes more."
         )
-        with (
-            results_folder(out, "sweep", overwrite=overwrite),
-            progress_on(console, "sweep") as progress,
-        ):
+        with frame.results() as progress:
             dataset = run.run_sweep(
                 quick_sweep_settings(settings) if quick else settings,
                 speeds_kmh=speeds_kmh,
@@ -242,7 +228,7 @@ def sweep(
                 jobs=jobs,
                 scheduler=scheduler,
                 progress=progress,
-                command_line=shlex.join(["gearlube", *sys.argv[1:]]),
+                command_line=command_line(),
             )
             progress(1.0, "writing the report")
             report = write_sweep_report(dataset, out, ESSENTIAL if quick else CATALOGUE)

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import logging
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.table import Table
 
-from gearlube.cli.console import console
 from gearlube.cli.example import is_shipped, print_example
-from gearlube.cli.exit_codes import exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
-from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
-from gearlube.cli.report_end import command_line, tell_findings
-from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
 from gearlube_core.checks import check_within
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -30,12 +24,6 @@ _HELICAL, _HYPOID = (
     f"gearlube_core.{kind}_geometry.gear_file:{kind.capitalize()}GearFile"
     for kind in ("helical", "hypoid")
 )
-
-
-class WhineCommand(MultiValueCommand):
-    """A command whose option `--speeds-rpm` takes several values."""
-
-    multi_value = frozenset({"--speeds-rpm"})
 
 
 def whine(
@@ -105,8 +93,8 @@ def whine(
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
     from gearlube_core.units import rpm_to_rads
 
-    began = time.monotonic()
-    with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
+    stopped = f"Stopped. Run the same command again to go on from {out}."
+    with study_run("whine", out, overwrite=overwrite, stopped=stopped) as run:
         file = read_gear_file(gear)
         check_within("--positions", positions, 7, 400, "", "Three mesh orders need seven.")
         rpm = numbers_from(
@@ -132,15 +120,11 @@ def whine(
                 "own with --pinion-inertia and --gear-inertia.",
                 *settings.inertias(file),
             )
-        with (
-            results_folder(out, "whine", overwrite=overwrite),
-            progress_on(console, "whine", positions) as progress,
-        ):
+        with run.results(positions) as progress:
             dataset = run_whine(file, settings, folder=out, jobs=jobs, progress=progress)
         rows = whine_rows(dataset)
-        console.print(_table(file.name, torque, rows[:_SHOWN]))
-        logger.info("Computed in %.1f s.", time.monotonic() - began)
-        logger.info("Results: %s, %s, %s", out / "whine.nc", out / "whine.csv", out / "figures")
+        run.show(_table(file.name, torque, rows[:_SHOWN]))
+        run.written("whine.nc", "whine.csv", "figures")
         page = write_whine_report(dataset, out, command_line())
         tell_findings(findings(dataset), page)
 
@@ -149,14 +133,13 @@ def _table(name: str, torque: float, rows: list[WhineRow]) -> Table:
     from gearlube.plotting.parameter_words import parameter_words, tolerance_words
     from gearlube_core.units import rads_to_rpm
 
-    table = Table(title=f"{name}: what small errors change of mesh order 1 at {torque:g} N·m")
-    table.add_column("what grows by how much")
-    for heading in (
-        "mesh force,\nat most [N]",
-        "there\n[rpm]",
-        "transmission error,\nat most [µrad]",
-    ):
-        table.add_column(heading, justify="right")
+    table = empty_table(
+        f"{name}: what small errors change of mesh order 1 at {torque:g} N·m",
+        "what grows by how much",
+        ">mesh force,\nat most [N]",
+        ">there\n[rpm]",
+        ">transmission error,\nat most [µrad]",
+    )
     for row in rows:
         table.add_row(
             f"{parameter_words(row.parameter)}, {tolerance_words(row.tolerance, row.unit)}",

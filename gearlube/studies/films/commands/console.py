@@ -12,9 +12,8 @@ from rich.table import Table
 
 from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
-from gearlube.cli.progress_report import progress_on
-from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
+from gearlube.cli.study_run import command_line, progress_on, tell_findings
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
     import xarray as xr
@@ -46,7 +45,7 @@ def solve_and_show(
 
     with (
         results_folder(out, study, overwrite=overwrite, by_parts=True),
-        progress_on(console, "films") as progress,
+        progress_on("films") as progress,
     ):
         dataset = solve(progress)
     _show(dataset)

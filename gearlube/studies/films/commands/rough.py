@@ -11,9 +11,9 @@ import typer
 from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_if_failed
 from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
-from gearlube.cli.progress_report import progress_on
 from gearlube.cli.results_folder import results_folder
-from gearlube.studies.films.commands.console import console, exit_on_errors
+from gearlube.cli.study_run import progress_on
+from gearlube.studies.films.commands.console import exit_on_errors
 
 logger = logging.getLogger("gearlube")
 
@@ -68,12 +68,12 @@ def rough(
             if statistics:
                 dataset = statistics_again(file, out)
             else:
-                with progress_on(console, "steps") as progress:
+                with progress_on("steps") as progress:
                     dataset = run_rough(
                         file, steps=steps, folder=out, threads=threads, progress=progress
                     )
             if animation:
-                with progress_on(console, "animation") as progress:
+                with progress_on("animation") as progress:
                     write_animation(file, out, progress)
     for quantity, value, unit in summary_rows(dataset):
         logger.info("%s: %.4g%s", quantity.capitalize(), value, "" if unit == "1" else f" {unit}")

@@ -1,0 +1,83 @@
+"""What surrounds a study in its command."""
+
+import logging
+from pathlib import Path
+from typing import Annotated
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.study_run import run_next, study_run
+
+
+@pytest.mark.parametrize("code", [0, 3])
+def test_the_next_command_gets_its_arguments_and_its_exit_code_is_that_of_both(code):
+    app, said = typer.Typer(), []
+
+    @app.command()
+    def first(context: typer.Context):
+        run_next(context, "second", ["a.toml", "--jobs", "2"])
+        said.append("after")
+
+    @app.command()
+    def second(name: str, jobs: int = 1):
+        said.append((name, jobs))
+        raise typer.Exit(code)
+
+    assert CliRunner().invoke(app, ["first"]).exit_code == code
+    assert said == [("a.toml", 2), *(["after"] if code == 0 else [])]
+
+
+def test_options_whose_metavar_ends_in_dots_take_several_values():
+    app, found = typer.Typer(), {}
+
+    @app.command(cls=MultiValueCommand)
+    def vary(
+        study: str,
+        file: str,
+        vary: Annotated[list[str], typer.Option(metavar="KEY=VALUES...")],
+        speed: Annotated[list[str], typer.Option(metavar="RANGE...")],
+        out: Annotated[str, typer.Option(metavar="DIR")],
+    ):
+        found.update(locals())
+
+    typed = [
+        "map",
+        "--vary",
+        "a.b=1",
+        "c=2,3",
+        "--speed",
+        "20:40:10",
+        "55",
+        "axle.toml",
+        "--out",
+        "x=y",
+        "--vary",
+        "d=4",
+    ]
+    assert CliRunner().invoke(app, typed).exit_code == 0
+    assert found["vary"] == ["a.b=1", "c=2,3", "d=4"]
+    assert found["speed"] == ["20:40:10", "55"]
+    assert (found["study"], found["file"], found["out"]) == ("map", "axle.toml", "x=y")
+
+
+def test_a_stopped_study_says_what_may_be_incomplete(tmp_path: Path, caplog):
+    def stopped() -> None:
+        with study_run("springs", tmp_path / "out") as run, run.results() as progress:
+            progress(0.5, "half")
+            raise KeyboardInterrupt
+
+    with pytest.raises(typer.Exit) as stop:
+        stopped()
+    assert stop.value.exit_code == 130
+    assert f"{tmp_path / 'out'} may be incomplete" in caplog.text
+    assert not (tmp_path / "out").exists()  # nothing was written, so nothing stays
+
+
+def test_what_is_written_is_named_with_its_folder(tmp_path: Path, caplog):
+    caplog.set_level(logging.INFO, "gearlube")
+    with study_run("springs", tmp_path) as run:
+        run.written("a.nc", "figures", note=" (table)")
+    assert f"Results: {tmp_path / 'a.nc'} (table), {tmp_path / 'figures'}" in caplog.text
