@@ -16,7 +16,7 @@ import numpy as np
 from docs.film_model.pictures import errors_picture, parity_picture
 from docs.page import IMAGES, Page
 from gearlube.studies.film_model.draws import ANYWHERE
-from gearlube.studies.film_model.limiting import limit_in_words
+from gearlube.studies.film_model.model_lines import limit_in_words
 from gearlube.studies.film_model.samples import axle_contacts
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FilmModel

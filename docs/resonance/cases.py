@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from gearlube.studies.resonance.measures import mesh_harmonics
 from gearlube.studies.resonance.response import Response, Segment
+from gearlube.studies.resonance.summary import mesh_harmonics
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.parameters import (
     HypoidTorsionalParameters,

@@ -20,7 +20,7 @@ from docs.resonance.cases import settled_orbit
 from docs.resonance.contacts import COLD, HOT, Contacts, contacts
 from docs.resonance.evidence import kept
 from docs.resonance.numerics import settled_from
-from gearlube.studies.resonance.measures import mesh_harmonics
+from gearlube.studies.resonance.summary import mesh_harmonics
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import (
     HypoidTorsionalParameters,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gearlube.cli.example_file import kept_example, prints_example
+from gearlube.cli.example import kept_example, prints_example
 from gearlube.cli.exit_codes import exit_on_error
 
 if TYPE_CHECKING:

@@ -1,14 +1,46 @@
-"""The option --example: a shipped input file as a start, without loading what computes."""
+"""The option --example: input files to start from, without loading what computes."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from typing import Any
 
 import typer
 
 from gearlube.cli.exit_codes import exit_on_error
+
+
+def prints_example(text: Callable[[], str], what: str) -> Any:
+    """Return the option `--example`: print a text and stop, whatever else the command needs.
+
+    Parameters
+    ----------
+    text : callable
+        Gives the text of the file.
+    what : str
+        What is printed, for the help of the option: "Print `what` to start from, and stop."
+    """
+
+    def show(wanted: bool) -> None:
+        if wanted:
+            typer.echo(text(), nl=False)
+            raise typer.Exit
+
+    return typer.Option(
+        "--example", help=f"Print {what} to start from, and stop.", callback=show, is_eager=True
+    )
+
+
+def kept_example(name: str) -> str:
+    """Return the text of a file in the folder data beside this module, without computing it.
+
+    >>> kept_example("traction.csv")[:16]
+    'slide_roll_ratio'
+    """
+    return (files("gearlube.cli") / "data" / name).read_text(encoding="utf-8")
 
 
 def print_example(target: str, name: str, prefix: str = "") -> None:

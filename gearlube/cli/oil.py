@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from gearlube.cli.example import print_example
-from gearlube.cli.example_file import kept_example, prints_example
+from gearlube.cli.example import kept_example, print_example, prints_example
 from gearlube.cli.exit_codes import exit_on_error
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import gearlube as gl
 from drivetrain.axle_file.axle_file import AxleFile
-from gearlube.cli.example_file import kept_example
+from gearlube.cli.example import kept_example
 from gearlube.command import app
 from gearlube.studies.sound.transfer_csv import read_csv_path
 from gearlube.studies.sound.transfer_path import generic_path

@@ -9,8 +9,7 @@ import pytest
 
 from gearlube.plotting.parameter_words import parameter_words, tolerance_words
 from gearlube.studies.contact import sensitivity as study
-from gearlube.studies.contact.sensitivity import sensitivity_figure
-from gearlube.studies.contact.sensitivity_table import sensitivity_table
+from gearlube.studies.contact.sensitivity import sensitivity_figure, sensitivity_table
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.sensitivity import analysis

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gearlube.studies.film_model.audit import Audit, AuditRow, audit_lines
+from gearlube.studies.film_model.audit import Audit, AuditRow, audit_lines, visited_points
 from gearlube.studies.film_model.calibration import conformal_bounds
 from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.fit import fit_model
 from gearlube.studies.film_model.fit_settings import FitSettings
 from gearlube.studies.film_model.kinds import BEARING_ROLLER, HYPOID_FLANK
-from gearlube.studies.film_model.limiting import limits_of
+from gearlube.studies.film_model.model_lines import limits_of
 from gearlube.studies.film_model.net_fit import fit_net, net_values
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, box_contacts
@@ -23,7 +23,6 @@ from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
 from gearlube.studies.film_model.targets import expected_friction
 from gearlube.studies.film_model.train import failed_row, stored_plan, train
-from gearlube.studies.film_model.visited import visited_points
 from gearlube_core.errors import ConvergenceError, FileError, ParameterError
 from gearlube_core.film_model.groups import FilmContact, contact_groups, contact_parts
 from gearlube_core.film_model.groups import reference_film as reference

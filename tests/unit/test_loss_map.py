@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.report.parts import WARNING
-from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
+from gearlube.studies.loss_map.exports import lossy_gear_table
 from gearlube.studies.loss_map.findings import findings
 from gearlube.studies.loss_map.swings import moving_inputs
 from gearlube_core.bearings.losses.laws import LAWS

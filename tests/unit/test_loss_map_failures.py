@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import gearlube as gl
 from gearlube.command import COMMANDS, command_line
-from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
+from gearlube.studies.loss_map.exports import lossy_gear_table
 from gearlube.studies.loss_map.regulation import regulation_map
 from gearlube_core.errors import ParameterError
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.resonance import run as load_response
-from gearlube.studies.resonance.figures.load_curves import load_curves
+from gearlube.studies.resonance.figures.catalogue import load_curves
 from gearlube.studies.resonance.response import Response, follow_response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional

@@ -6,11 +6,15 @@ import xarray as xr
 
 from gearlube.studies.resonance.cycle_dataset import cycle_dataset
 from gearlube.studies.resonance.datasets import resonance_dataset
-from gearlube.studies.resonance.measures import mesh_harmonics, rate_over_period
 from gearlube.studies.resonance.response import Response, follow_response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube.studies.resonance.study import study_resonance
-from gearlube.studies.resonance.summary import main_special, summaries
+from gearlube.studies.resonance.summary import (
+    main_special,
+    mesh_harmonics,
+    rate_over_period,
+    summaries,
+)
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import DE, R_G, R_P
 from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh

@@ -16,10 +16,9 @@ from gearlube.studies.runup.figures.tracks import order_tracks
 from gearlube.studies.runup.findings import findings, numbers
 from gearlube.studies.runup.modes import RampModes
 from gearlube.studies.runup.peaks import critical_speeds, peaks
-from gearlube.studies.runup.report import tables
+from gearlube.studies.runup.report import summary_csv, tables
 from gearlube.studies.runup.run import run_runup
 from gearlube.studies.runup.settings import RunupSettings
-from gearlube.studies.runup.summary import summary_csv
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes
 from gearlube_core.spectra import OrderBlocks
 

@@ -6,8 +6,7 @@ import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.runup.findings import findings, numbers
-from gearlube.studies.runup.report import runup_report, tables
-from gearlube.studies.runup.summary import summary_csv
+from gearlube.studies.runup.report import runup_report, summary_csv, tables
 from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables, quantities
 
 RPM = np.pi / 30.0  # rad/s

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.drive_cycle.traces import DriveCycle
-from gearlube.studies.film_model.visited import visited_points
+from gearlube.studies.film_model.audit import visited_points
 from gearlube.studies.sound.transfer_csv import read_csv_path
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.traction_measurements import read_traction

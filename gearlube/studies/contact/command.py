@@ -243,8 +243,11 @@ def _sensitivity_settings(
 def _sensitivity(
     file: HypoidGearFile, settings: SensitivitySettings, frame: StudyRun, jobs: int | None
 ) -> None:
-    from gearlube.studies.contact.sensitivity import run_sensitivity, sensitivity_rows
-    from gearlube.studies.contact.sensitivity_table import sensitivity_table
+    from gearlube.studies.contact.sensitivity import (
+        run_sensitivity,
+        sensitivity_rows,
+        sensitivity_table,
+    )
 
     with frame.results(2 * settings.positions) as progress:
         dataset = run_sensitivity(file, settings, folder=frame.out, jobs=jobs, progress=progress)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from rich.table import Table
 
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.parameter_words import parameter_words, tolerance_words
@@ -29,6 +32,12 @@ _PANELS = (
 )
 
 POSITIONS = "sensitivity_positions"  # folder of finished positions, in that of the results
+_COLUMNS = (
+    ("TE without\nload [µrad]", "unloaded_pp", 1e6),
+    ("TE loaded\n[µrad]", "te_1", 1e6),
+    ("force,\nheight [%]", "s", 1e2),
+    ("force,\nface [%]", "t", 1e2),
+)
 
 
 class SensitivityRow(NamedTuple):
@@ -202,3 +211,29 @@ def _largest(dataset: xr.Dataset) -> Array:
         if np.isfinite(change).any() and np.nanmax(change) > 0.0:
             found = np.fmax(found, np.nanmax(change / np.nanmax(change), axis=0))
     return found
+
+
+def sensitivity_table(name: str, torque: float, rows: Sequence[SensitivityRow]) -> Table:
+    """Return a line a parameter, the largest change of the loaded error's first order on top.
+
+    Errors at the pinion, without load peak to peak; force: its centre on the gear.
+    """
+    table = Table(title=f"{name}: what small errors change at {torque:g} N·m, drive / coast")
+    table.add_column("what grows by how much")
+    for heading, *_ in _COLUMNS:
+        table.add_column(heading, justify="right", no_wrap=True)
+    pairs = list(zip(rows[::2], rows[1::2], strict=True))
+    for pair in sorted(pairs, key=lambda pair: -max(abs(one.te_1) for one in pair)):
+        table.add_row(
+            parameter_words(pair[0].parameter)
+            + f", {tolerance_words(pair[0].tolerance, pair[0].unit)}",
+            *(
+                "/".join(_shown(scale * getattr(one, field)) for one in pair)
+                for _, field, scale in _COLUMNS
+            ),
+        )
+    return table
+
+
+def _shown(change: float) -> str:
+    return "-" if math.isnan(change) else f"{change:+.2f}"

@@ -82,7 +82,7 @@ def train(
     """
     from gearlube.cli.results_folder import results_folder
     from gearlube.cli.study_run import progress_on
-    from gearlube.studies.film_model.limiting import limits_of
+    from gearlube.studies.film_model.model_lines import limits_of
     from gearlube.studies.film_model.plan import FilmPlan
     from gearlube.studies.film_model.train import failures_in_words, pool_of, train
 
@@ -218,7 +218,7 @@ def audit(
     from gearlube.cli.exit_codes import exit_if_failed
     from gearlube.cli.study_run import progress_on
     from gearlube.studies.film_model import audit as audits
-    from gearlube.studies.film_model.visited import visited_contacts, visited_points
+    from gearlube.studies.film_model.audit import visited_contacts, visited_points
     from gearlube_core.checks import check_within
     from gearlube_core.film_model.chosen_model import chosen_model
     from gearlube_core.film_model.model import FLANK, shipped_model

@@ -8,7 +8,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from gearlube.studies.helical.oil_domain import check_film_model
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
@@ -24,7 +23,9 @@ from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
-from gearlube_core.film_model.model import FilmModel
+from gearlube_core.film_model.chosen_model import check_oil
+from gearlube_core.film_model.model import LINE, FilmModel
+from gearlube_core.friction.line_points import line_points, uniform_line_load
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -162,7 +163,7 @@ class HelicalSettings:
                 "torques around it, or take mesh density (ISO 6336-1)."
             )
             check_within("pinion_torque", self.pinion_torque, low, high, "N.m", cure)
-        check_film_model(self)
+        _check_film_model(self)
         for temperature in self.oil_temperatures:
             self.film().oil.check_temperature(temperature, "oil_temperatures")
         if any(np.diff(self.oil_temperatures) <= 0.0):
@@ -269,3 +270,33 @@ def quick_settings(settings: HelicalSettings) -> HelicalSettings:
         separation_speeds=min(settings.separation_speeds, 60),
         body=replace(settings.body, condensation=_COARSE),
     )
+
+
+_ALL_OUTSIDE = 0.999  # of the load: the film model does not apply
+
+
+def _check_film_model(settings: HelicalSettings) -> None:
+    """Refuse solved films where all load lies outside the domain of the film model.
+
+    Raises
+    ------
+    ParameterError
+    """
+    film = settings.film()
+    if film.film != "solved":
+        return
+    if film.line_film_model is not None:
+        check_oil(film.line_film_model, film.oil, film.solid, "The film model")
+    points = line_points(settings.file.helical_pair(), 4, 2)
+    load = np.asarray(uniform_line_load(points, settings.pinion_torque))
+    cycle = film.cycle(points, load, settings.pinion_speed, settings.pinion_torque)
+    if cycle.share_outside > _ALL_OUTSIDE:
+        raise ParameterError(
+            "film.model solved must have an oil and an operating point within the domain of the "
+            f"film model {film.film_models[LINE].name}, got {film.oil.name} at "
+            f"{film.oil_temperature - 273.15:.4g} degC, {settings.pinion_torque:g} N.m and "
+            f"{settings.pinion_speed:.4g} rad/s with all load outside. `gearlube film-model show` "
+            "tells the domain. Take an oil and an operating point inside it; or train a model for "
+            "this oil, `gearlube film-model train --contact line --oil OIL`, and give it with "
+            "--film-model or as film.line_model; or take film.model formula."
+        )

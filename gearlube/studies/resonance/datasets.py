@@ -9,10 +9,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gearlube.studies.resonance.measures import mesh_harmonics
 from gearlube.studies.resonance.response import HARMONICS, Response
 from gearlube.studies.resonance.settings import SWEPT
 from gearlube.studies.resonance.study import DIRECTIONS, ResonanceStudy
+from gearlube.studies.resonance.summary import mesh_harmonics
 from gearlube_core.arrays import Array
 
 MULTIPLIERS = 3  # of the 2-DOF model; the 1-DOF model has two

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlube.studies.resonance.measures import rate_over_period
 from gearlube.studies.resonance.response import Response
 from gearlube.studies.resonance.settings import ResonanceSettings
+from gearlube.studies.resonance.summary import rate_over_period
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import DE, R_G, R_P
 from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, OK, march

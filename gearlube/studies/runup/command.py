@@ -138,10 +138,9 @@ def runup(
     from gearlube.studies.runup.animation.dataset import animate_ramp
     from gearlube.studies.runup.figures.moving.parts import save_moving
     from gearlube.studies.runup.findings import findings
-    from gearlube.studies.runup.report import write_runup_report
+    from gearlube.studies.runup.report import summary_csv, write_runup_report
     from gearlube.studies.runup.run import run_runup
     from gearlube.studies.runup.settings import BENCH, VEHICLE
-    from gearlube.studies.runup.summary import summary_csv
     from gearlube_core.progress import part_of
     from gearlube_core.storage.atomic_file import write_text
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import xarray as xr
 
+from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.report.inputs import origin_of, stored_inputs
 from gearlube.report.page import write_report
@@ -23,6 +24,7 @@ from gearlube.studies.runup.peaks import critical_speeds, peaks
 from gearlube.studies.runup.run import FILES
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
+_DIGITS = 5
 _DPI = 130
 _LIMITS = (
     "The axle has 8 degrees of freedom; housing and shafts do not bend. Forces are those of the "
@@ -47,6 +49,47 @@ _INPUTS = (  # setting, words, unit, conversion, options of the command
     ("settling_time", "settling time", "s", float, ()),
 )
 _BACK = {"start": "end", "end": "start", "torque": "coast_torque"}  # of an added coast-down
+
+
+def summary_csv(datasets: Sequence[xr.Dataset]) -> str:
+    """Return rms levels along ramps as CSV, units in the heads: one row a block."""
+    orders = [int(one) for one in datasets[0]["mesh_order"].values]
+    heads = [
+        "ramp",
+        "time_s",
+        "pinion_speed_rpm",
+        "vehicle_speed_kmh",
+        "bearing_forces_rms_n",
+        *(f"bearing_forces_h{order}_rms_n" for order in orders),
+        "dte_rms_um",
+        *(f"dte_h{order}_rms_um" for order in orders),
+    ]
+    return csv_text(heads, [row for one in datasets for row in _rows(one)])
+
+
+def _rows(dataset: xr.Dataset) -> list[list[object]]:
+    speed = levels.rpm(dataset)
+    force = levels.total_force(dataset, "bearing_force_track").values
+    error = levels.track_rms(dataset, "dte_track").values
+    overall = levels.total_force(dataset, "bearing_force_overall").values
+    name = str(dataset.attrs["ramp"])
+    found: list[list[object]] = []
+    for i in range(speed.size):
+        values = [
+            float(dataset["block_time"][i]),
+            float(speed[i]),
+            levels.kmh_per_rpm(dataset) * float(speed[i]),
+            float(overall[i]),
+            *map(float, force[i]),
+            1e6 * float(dataset["dte_overall"][i]),
+            *(1e6 * float(one) for one in error[i]),
+        ]
+        found.append([name, *map(_rounded, values)])
+    return found
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else value
 
 
 def write_runup_report(

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.example_file import prints_example
+from gearlube.cli.example import prints_example
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.study_run import command_line, study_run
 

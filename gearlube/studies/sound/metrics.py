@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 
@@ -88,7 +89,7 @@ def engine() -> str:
 
 def missing(name: str) -> str:
     """Return why a metric cannot be computed here, "" if it can."""
-    if name in _functions():
+    if name in _FUNCTIONS[engine()]:
         return ""
     return (
         f"{METRICS[name].words} ({METRICS[name].standard}) needs the package phonometry, which "
@@ -114,7 +115,7 @@ def metric_curve(name: str, pressure: Array, field: str = "free") -> Curve:
     """
     if why := missing(name):
         raise ParameterError(f"{why}. Use it with {INSTALL}, or leave the metric out.")
-    return _functions()[name](np.ascontiguousarray(pressure), field)
+    return _FUNCTIONS[engine()][name](np.ascontiguousarray(pressure), field)
 
 
 def steady_loudness(pressure: Array, field: str = "free") -> float:
@@ -128,11 +129,84 @@ def steady_loudness(pressure: Array, field: str = "free") -> float:
     return float(loudness)
 
 
-def _functions() -> dict[str, Callable[[Array, str], Curve]]:
-    if engine() == "phonometry":
-        from gearlube.studies.sound.phonometry_metrics import FUNCTIONS
+def _mosqito_loudness(pressure: Array, field: str) -> Curve:
+    """Return the time-varying loudness of ISO 532-1 [sone]; the single value is N5."""
+    from mosqito import loudness_zwtv
 
-        return FUNCTIONS
-    from gearlube.studies.sound.mosqito_metrics import FUNCTIONS
+    value, _, _, time = loudness_zwtv(pressure, RATE, field_type=field)
+    return Curve(time, value, float(np.percentile(value, 95.0)), "ISO 532-1, MoSQITo")
 
-    return FUNCTIONS
+
+def _mosqito_roughness(pressure: Array, field: str) -> Curve:
+    """Return the roughness of ECMA-418-2 [asper]; this package knows the free field alone."""
+    from mosqito import roughness_ecma
+
+    with np.errstate(divide="ignore"):  # it divides by modulation rates of zero
+        single, value, _, _, time = roughness_ecma(pressure, RATE)
+    return Curve(
+        np.asarray(time), np.asarray(value), float(single), "ECMA-418-2, free field, MoSQITo"
+    )
+
+
+def _phonometry_loudness(pressure: Array, field: str) -> Curve:
+    """Return the time-varying loudness of ISO 532-1 [sone]; the single value is N5."""
+    import phonometry
+
+    found = phonometry.loudness_zwicker(pressure, RATE, field=field)
+    return Curve(
+        np.asarray(found.time),
+        np.asarray(found.loudness_vs_time),
+        float(found.n5),
+        "ISO 532-1, phonometry",
+    )
+
+
+def _phonometry_tonality(pressure: Array, field: str) -> Curve:
+    """Return the tonality of ECMA-418-2 [tu]."""
+    import phonometry
+
+    found = phonometry.tonality_ecma(pressure, RATE, field=field)
+    return _curve(found, "tonality", "ECMA-418-2")
+
+
+def _phonometry_roughness(pressure: Array, field: str) -> Curve:
+    """Return the roughness of ECMA-418-2 [asper]."""
+    import phonometry
+
+    return _curve(phonometry.roughness_ecma(pressure, RATE, field=field), "roughness", "ECMA-418-2")
+
+
+def _phonometry_fluctuation_strength(pressure: Array, field: str) -> Curve:
+    """Return the fluctuation strength of ECMA-418-2 [vacil].
+
+    Before version 3.3 the package has that of [osses_2016] alone, one value a second.
+    """
+    import phonometry
+
+    if hasattr(phonometry, "fluctuation_strength_ecma"):
+        found = phonometry.fluctuation_strength_ecma(pressure, RATE, field=field)
+        return _curve(found, "fluctuation_strength", "ECMA-418-2")
+    older = phonometry.fluctuation_strength(pressure, RATE)
+    value = np.atleast_1d(np.asarray(older.time_dependent, dtype=np.float64))
+    time = np.asarray((np.arange(value.size) + 0.5) * (pressure.size / RATE / value.size))
+    return Curve(time, value, float(older.fluctuation_strength), "Osses et al. 2016, phonometry")
+
+
+def _curve(found: Any, name: str, standard: str) -> Curve:
+    return Curve(
+        np.asarray(found.time),
+        np.asarray(getattr(found, f"{name}_vs_time")),
+        float(getattr(found, name)),
+        f"{standard}, phonometry",
+    )
+
+
+_FUNCTIONS: dict[str, dict[str, Callable[[Array, str], Curve]]] = {
+    "phonometry": {
+        "loudness": _phonometry_loudness,
+        "tonality": _phonometry_tonality,
+        "roughness": _phonometry_roughness,
+        "fluctuation_strength": _phonometry_fluctuation_strength,
+    },
+    "mosqito": {"loudness": _mosqito_loudness, "roughness": _mosqito_roughness},
+}

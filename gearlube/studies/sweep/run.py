@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import math
 import time
@@ -9,12 +10,13 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from multiprocessing import get_context
 from pathlib import Path
 
 import xarray as xr
 
+import drivetrain
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.driveline.parameters import DrivelineParameters
 from gearlube.report.churning import churning_regime
@@ -32,10 +34,10 @@ from gearlube.studies.sweep.fmu_axle import FmuAxle, axle_description
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.operating_point import CHANNELS, operation
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
-from gearlube.studies.sweep.provenance import code_version
 from gearlube.studies.sweep.quantities import GRID, described
 from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSettings
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
+from gearlube_core import __version__
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import InterruptedRunError, ParameterError
@@ -54,6 +56,20 @@ logger = logging.getLogger(__name__)
 MOST_JOBS = 1024
 _MOST_POINTS = 100_000  # some seconds each
 _PRELOAD_CURE = "A preload must press; the paper uses 2500 and 6000 N."
+
+
+@cache
+def code_version() -> str:
+    """Return version and digest of the drivers and of the sweep, "0.1.0+1a2b3c4d5e6f".
+
+    The axle itself is identified by the GUID of its FMU.
+    """
+    root = Path(str(drivetrain.__file__)).parent
+    digest = hashlib.sha256()
+    for path in sorted([*root.rglob("*.py"), *Path(__file__).parent.glob("*.py")]):
+        digest.update(path.name.encode())
+        digest.update(path.read_bytes().replace(b"\r\n", b"\n"))
+    return f"{__version__}+{digest.hexdigest()[:12]}"
 
 
 def _compile_axle(fmu: Path, settings: SweepSettings) -> None:
