@@ -38,8 +38,9 @@ class Flanks:
         self.s[PHI_P] = phase * 2.0 * np.pi * 3.0 / TEETH
         self.s[W_P], self.s[W_G] = speed, speed * TEETH / 36.0
         found = flanks.flank_sum(
-            self.s, force, self.window, self.nodes, lubricant_state(self.p.oil, oil), self.p,
-            refresh, self.kept, np.zeros(N_CHANNELS), self.model,
+            rhs.mesh_motion(self.s), force, self.window, self.nodes,
+            lubricant_state(self.p.oil, oil), self.p, refresh, self.kept, np.zeros(N_CHANNELS),
+            self.model,
         )  # fmt: skip
         return found.viscous_power, found.boundary_power, self.kept[flanks.BOUND_POWER]
 

@@ -8,6 +8,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import flanks, tooth_pair
 from gearlube_core.dynamics.hypoid_axle import state as axle_state
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
 from gearlube_core.friction.flank_film import NO_MODEL_FILM, ModelFilm
 from gearlube_core.oil.lubricant import LubricantState
 
@@ -15,9 +16,9 @@ SPEED = 145.0  # of the pinion [rad/s], as where the axle runs
 
 
 class AxleFlank(NamedTuple):
-    """A running axle: its state, mesh, oil, and parameters without and with a film model."""
+    """A running axle: its motion, mesh, oil, and parameters without and with a film model."""
 
-    state: Array
+    motion: MeshMotion
     force: float  # N, of the mesh
     window: Array
     n_nodes: int
@@ -31,7 +32,7 @@ class AxleFlank(NamedTuple):
 
 def film_cases(axle):
     """Kernels with arguments."""
-    state, force, window, n_nodes, oil, p, by_model, numbers, channels, friction = axle
+    motion, force, window, n_nodes, oil, p, by_model, numbers, channels, friction = axle
     law = by_model.flank_law
     z_p = p.mesh.z_p
     before = axle_state.NodeFlank(-15.0, -4.0, 3e-3, 4e-3, 0.0, 1e-4)
@@ -42,11 +43,11 @@ def film_cases(axle):
     of_nodes = (window, n_nodes, oil)
     films = np.zeros(axle_state.N_FILMS)
     return [
-        (tooth_pair.pair_film, (state, 900.0, 0.7, channels, oil, law, numbers)),
+        (tooth_pair.pair_film, (motion, 900.0, 0.7, channels, oil, law, numbers)),
         *(
             (
                 tooth_pair.pair_friction,
-                (state, 900.0, 0.7, channels, oil, one.flank_law, film, numbers),
+                (motion, 900.0, 0.7, channels, oil, one.flank_law, film, numbers),
             )
             for one, film in (
                 (p, NO_MODEL_FILM),
@@ -59,15 +60,15 @@ def film_cases(axle):
             for F in (900.0, 0.0)
         ),
         *(
-            (tooth_pair._renew_node, (node, state, force, window, oil, law, numbers, films))
+            (tooth_pair._renew_node, (node, motion, force, window, oil, law, numbers, films))
             for node in range(0, n_nodes, 6)  # some carry nothing
         ),
-        (tooth_pair.flank_at_nodes, (0, state, force, *of_nodes, z_p, law, numbers, films)),
+        (tooth_pair.flank_at_nodes, (0, motion, force, *of_nodes, z_p, law, numbers, films)),
         *(
             (
                 kernel,
                 (
-                    *(1, state, 900.0, force, 0.7, channels, *of_nodes),
+                    *(1, motion, 900.0, force, 0.7, channels, *of_nodes),
                     *(z_p, law, model, refresh, films),
                 ),
             )
@@ -104,7 +105,7 @@ def film_cases(axle):
             (
                 flanks.flank_sum,
                 (
-                    *(state, force, window, n_nodes, oil, one, refresh, friction),
+                    *(motion, force, window, n_nodes, oil, one, refresh, friction),
                     *(channels, numbers if one is by_model else np.zeros(0)),
                 ),
             )

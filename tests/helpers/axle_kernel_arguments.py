@@ -109,7 +109,8 @@ def all_cases():
     mesh_data = MeshAtLoad(series, mesh.orders, window, mesh.nodes)
     mesh_at_load.blend_mesh(state[LOAD_TORQUE], 1.0, table, mesh_data)
     at_load = (mesh_data, state_of_oil)
-    force = mesh_force.mesh_force(state, series, mesh.orders, p.mesh).force
+    at_mesh = rhs.mesh_motion(state)
+    force = mesh_force.mesh_force(at_mesh, series, mesh.orders, p.mesh).force
     channels, friction = np.zeros(N_CHANNELS), np.zeros(rhs.N_FRICTION)
     kernels.pair_channels(window, mesh.nodes, p.mesh.z_p, state[PHI_P], 0, N_CHANNELS, channels)
     control = axle.step_control
@@ -117,7 +118,7 @@ def all_cases():
     slope = np.zeros(N_ODE)
     rhs.axle_rhs(state, inputs, *at_load, p, 1.0, 1.0, scratch, slope)
     flank = AxleFlank(
-        state, force, window, mesh.nodes, state_of_oil, p, by_model, numbers, channels, friction
+        at_mesh, force, window, mesh.nodes, state_of_oil, p, by_model, numbers, channels, friction
     )
     motion = bearing_type.ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
     moved = bearing_type.ShaftMotion(3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0)
@@ -206,7 +207,7 @@ def all_cases():
         (mesh_force.reference_frequency, (p.mesh, 145.0)),
         (mesh_force.reference_frequency, (p.mesh, -1.0)),
         *(
-            (mesh_force.mesh_force, (state, series, mesh.orders, one.mesh))
+            (mesh_force.mesh_force, (at_mesh, series, mesh.orders, one.mesh))
             for state in (state, separated, coasting)
             for one in (p, printed)
         ),
@@ -219,7 +220,8 @@ def all_cases():
             integrate.inputs_with_drag,
             (state, 3.0, 5.0, bearing_drag.BearingDrag(0.2, 0.3), state_of_oil, p),
         ),
-        (tooth_pair.sliding_speed, (state, channels)),
+        (tooth_pair.sliding_speed, (at_mesh, channels)),
+        (rhs.mesh_motion, (state,)),
         (tooth_pair.contact_of, (channels,)),
         *film_cases(flank),
         (kernels.pair_node, (60, 13.0, 0.3, 1)),
@@ -367,7 +369,7 @@ def all_cases():
             (
                 flank_outputs.write_flanks,
                 (
-                    *(state, force, window, mesh.nodes, OIL, state_of_oil, one, model, asked),
+                    *(at_mesh, force, window, mesh.nodes, OIL, state_of_oil, one, model, asked),
                     *(zeros(N_FILMS), FLANKS, FIRST_FLANK_BOUND, channels),
                     zeros(N_OUTPUTS),
                 ),

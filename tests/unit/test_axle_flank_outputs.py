@@ -5,8 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import flank_outputs, flanks, tooth_pair
-from gearlube_core.dynamics.hypoid_axle.state import N_FILMS, N_STATE, V_G, V_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_axle import flank_outputs, flanks, rhs, tooth_pair
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
+from gearlube_core.dynamics.hypoid_axle.state import N_FILMS, N_STATE
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_contact_groups
@@ -38,12 +39,8 @@ WINDOW = np.concatenate([PAIRS, PAIRS[:1]]).ravel()
 
 
 def moving():
-    """A state at pinion angle zero, where pair i is at node i of the window."""
-    s = np.zeros(N_STATE)
-    s[[W_P, W_G]] = 150.0, 60.0
-    s[V_P : V_P + 3] = 0.4, -0.7, 1.1
-    s[V_G : V_G + 3] = -0.3, 0.5, 0.2
-    return s
+    """A motion at pinion angle zero, where pair i is at node i of the window."""
+    return MeshMotion(0.0, 0.0, 150.0, 60.0, 0.0, 0.0, 0.0, 0.7, -1.2, 0.9)
 
 
 def parameters(friction=1.0, rolling=0.0):
@@ -245,11 +242,10 @@ def test_rolling_takes_two_forces_times_the_entrainment_across_the_line(
 
     monkeypatch.setattr(flanks, "pair_rolling", force_of)
     with_made_up_flanks(monkeypatch)
-    s = moving()
-    s[[W_P, W_G]] *= turning
+    motion = moving()._replace(w_p=150.0 * turning, w_g=60.0 * turning)
     kept = np.zeros(flanks.N_FRICTION)
     kept[6:9] = 1.2, 7.0, 2.8
-    arguments = s, FORCE, WINDOW, 3, OIL
+    arguments = motion, FORCE, WINDOW, 3, OIL
     with_it, without = (
         source_of(flanks.flank_sum)(
             *arguments, parameters(friction, rolling), fresh, kept, np.zeros(N_CHANNELS), NO_MODEL
@@ -277,3 +273,12 @@ def test_sliding_speed_has_the_relative_velocity_along_the_direction_of_sliding(
     for row in PAIRS:
         found = source_of(tooth_pair.sliding_speed)(moving(), row)
         assert found == pytest.approx(sliding_of(row), rel=1e-13)
+
+
+def test_the_mesh_meets_the_pinion_against_the_gear():
+    s = np.zeros(N_STATE)
+    # DTE [um]; speeds, angles; displacements [um] and velocities of the pinion, then of the gear
+    s[:17] = 8, 150, 60, 0.3, 0.1, 5, 6, 7, 0.4, -0.7, 1.1, 1, 3, 9, -0.3, 0.5, 0.2
+    found = source_of(rhs.mesh_motion)(s)
+    expected = 0.3, 8e-6, 150.0, 60.0, 4e-6, 3e-6, -2e-6, 0.7, -1.2, 0.9
+    np.testing.assert_allclose(found, expected, rtol=1e-14)

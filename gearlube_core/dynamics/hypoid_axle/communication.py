@@ -49,7 +49,7 @@ from gearlube_core.dynamics.hypoid_axle.outputs import (
     write_motion_after_step,
     write_outputs,
 )
-from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, mesh_motion
 from gearlube_core.dynamics.hypoid_axle.start import rest
 from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
@@ -302,7 +302,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
             return
         data = place_at_load(table, work[at_series:at_window], work[at_window:])
         blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
-        force = mesh_force(s, data.series, data.n_orders, p.mesh)
+        force = mesh_force(mesh_motion(s), data.series, data.n_orders, p.mesh)
         if group == OF_BEARINGS:
             write_bearing_group(s, force.stiffness, oil, p, rollers, out)
             return

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_P
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
 from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
     flank_film,
     pair_friction,
@@ -57,7 +57,7 @@ class MostLoaded(NamedTuple):
 
 @kernel
 def write_flanks(
-    s: Array,
+    motion: MeshMotion,
     force: float,
     window: Array,
     n_nodes: int,
@@ -85,7 +85,7 @@ def write_flanks(
     found = MostLoaded(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for pair in range(PAIRS):
         here = first + pair * N_FLANK_QUANTITIES
-        pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
+        pair_channels(window, n_nodes, p.mesh.z_p, motion.angle, pair, N_CHANNELS, channels)
         load = abs(force) * channels[SHARE]
         out[here + LOAD] = load
         out[here + FILM_THICKNESS] = 0.0
@@ -96,10 +96,10 @@ def write_flanks(
         out[bounds] = 0.0
         out[bounds + 1] = 0.0
         if load > 0.0:
-            sliding = sliding_speed(s, channels)
+            sliding = sliding_speed(motion, channels)
             film = flank_film(
                 pair,
-                s,
+                motion,
                 load,
                 force,
                 sliding,
@@ -113,7 +113,9 @@ def write_flanks(
                 refresh,
                 films,
             )
-            bounded = pair_friction(s, load, sliding, channels, oil, p.flank_law, film, film_model)
+            bounded = pair_friction(
+                motion, load, sliding, channels, oil, p.flank_law, film, film_model
+            )
             flank = bounded.state
             total += load
             beyond += bounded.outside * load
@@ -130,7 +132,7 @@ def write_flanks(
                     channels[R_E],
                     oil.eta0,
                     oil.alpha,
-                    max(abs(channels[ENTRAIN] * s[W_P]), SPEED_FLOOR),
+                    max(abs(channels[ENTRAIN] * motion.w_p), SPEED_FLOOR),
                     load,
                     p.reduced_modulus,
                 )

@@ -6,12 +6,8 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.state import (
-    N_FILMS,
-    PHI_P,
-    W_G,
-    W_P,
-)
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
+from gearlube_core.dynamics.hypoid_axle.state import N_FILMS
 from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
     flank_coefficients,
     sliding_speed,
@@ -30,6 +26,7 @@ from gearlube_core.dynamics.packed_mesh import (
 )
 from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.part import part
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant import LubricantState
@@ -77,7 +74,7 @@ def pair_rolling(
 
 @kernel
 def flank_sum(
-    s: Array,
+    motion: MeshMotion,
     force: float,
     window: Array,
     n_nodes: int,
@@ -92,7 +89,7 @@ def flank_sum(
 
     Parameters
     ----------
-    s : ndarray of shape (N_STATE,)
+    motion : MeshMotion
     force : float
         Mesh force [N]; pair i carries abs(force) times its share.
     window : ndarray of shape ((n_nodes + 1) * N_CHANNELS,)
@@ -132,15 +129,15 @@ def flank_sum(
     doubt = 0.0
     if (p.friction != 0.0 or p.rolling != 0.0) and force != 0.0:
         for pair in range(_PAIRS):
-            pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
+            pair_channels(window, n_nodes, p.mesh.z_p, motion.angle, pair, N_CHANNELS, channels)
             load = abs(force) * channels[SHARE]
             if load > 0.0:
-                sliding = sliding_speed(s, channels)
+                sliding = sliding_speed(motion, channels)
                 if p.friction != 0.0:
                     if refresh != 0.0:
                         viscous_over_load, boundary_over_load, bound = flank_coefficients(
                             pair,
-                            s,
+                            motion,
                             load,
                             force,
                             sliding,
@@ -152,7 +149,7 @@ def flank_sum(
                             p.flank_law,
                             film_model,
                             refresh,
-                            friction[FILMS:],
+                            part(friction, FILMS, N_FILMS),
                         )
                         friction[2 * pair] = viscous_over_load
                         friction[2 * pair + 1] = boundary_over_load
@@ -171,7 +168,7 @@ def flank_sum(
                     boundary += f_b * abs(sliding)
                     doubt += friction[BOUND + pair] * load * abs(sliding)
                 if p.rolling != 0.0:
-                    speed = s[W_P] + p.ratio * s[W_G]
+                    speed = motion.w_p + p.ratio * motion.w_g
                     rolling = 0.5 * channels[ROLL] * speed
                     if refresh != 0.0:
                         friction[2 * _PAIRS + pair] = pair_rolling(

@@ -38,6 +38,7 @@ from gearlube_core.dynamics.hypoid_axle.rhs import (
     StepInputs,
     axle_rhs,
     expand_bearings,
+    mesh_motion,
 )
 from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
@@ -72,6 +73,7 @@ from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.part import part
 from gearlube_core.mesh_table.kernels import K_M
 from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
@@ -156,9 +158,9 @@ def rk4_step(
     stages : ndarray of shape (N_STATE + 2 N_ODE,)
         Work space. See `axle_rhs` for the others.
     """
-    trial = stages[0:N_STATE]
-    slope = stages[N_STATE : N_STATE + N_ODE]
-    total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
+    trial = part(stages, 0, N_STATE)
+    slope = part(stages, N_STATE, N_ODE)
+    total = part(stages, N_STATE + N_ODE, N_ODE)
     axle_rhs(s, inputs, mesh, oil, p, BETWEEN_NODES * first, 0.0, scratch, slope)
     for i in range(N_ODE):
         total[i] = slope[i]
@@ -344,7 +346,7 @@ def advance(
     expanded_at = displacements(s, 0.0)
     age = 0
     at_load = s[LOAD_TORQUE]
-    rate = mesh_force(s, mesh.series, mesh.n_orders, p.mesh).x_rate * MICRO
+    rate = mesh_force(mesh_motion(s), mesh.series, mesh.n_orders, p.mesh).x_rate * MICRO
     rollers = RollerFilms(table.roller_model, s[ROLLER_NODES:KEPT_DRAG], 1.0)
     kept = s[KEPT_DRAG:N_STATE]
     cost = 0.0
@@ -372,8 +374,8 @@ def advance(
         cost += parts
         if cost > MAX_STEPS:
             return TOO_MANY_STEPS
-        for part in range(parts):
-            first = 1.0 if k == 0 and part == 0 else 0.0
+        for piece in range(parts):
+            first = 1.0 if k == 0 and piece == 0 else 0.0
             rk4_step(s, h / parts, first, inputs, mesh, oil, p, scratch, stages)
             s[FRICTION_BOUND] += h / parts * scratch[BOUND_POWER]
             if table.levels[0] < 0.0:

@@ -8,17 +8,6 @@ from typing import Annotated, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
-from gearlube_core.dynamics.hypoid_axle.state import (
-    PHI_P,
-    U_G,
-    U_P,
-    UM,
-    V_G,
-    V_P,
-    W_G,
-    W_P,
-    X,
-)
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series
 from gearlube_core.number import Number
@@ -50,6 +39,21 @@ class MeshForceConstants(NamedTuple):
     hysteretic_loss: float  # [-]
     modal_damping: float  # N s/m; zero selects [mohammadpour_2015 (4)]
     consistent: float  # 1 with the terms that make the mesh conserve energy, 0 as printed
+
+
+class MeshMotion(NamedTuple):
+    """Motion of a pinion and its gear, as their mesh takes it."""
+
+    angle: float  # of the pinion [rad]
+    x: float  # dynamic transmission error [m]
+    w_p: float  # rad/s
+    w_g: float  # rad/s
+    d_x: float  # displacement of the pinion less that of the gear [m]
+    d_y: float
+    d_z: float
+    v_x: float  # velocity likewise [m/s]
+    v_y: float
+    v_z: float
 
 
 class MeshForce(NamedTuple):
@@ -86,15 +90,17 @@ def equivalent_mass(R_p: float, ratio: float, I_p: float, I_g: float) -> float:
 
 
 @kernel
-def mesh_force(s: Array, series: Array, n_orders: int, p: MeshForceConstants) -> MeshForce:
-    """Return the mesh force in state `s`.
+def mesh_force(
+    motion: MeshMotion, series: Array, n_orders: int, p: MeshForceConstants
+) -> MeshForce:
+    """Return the mesh force in a motion.
 
     x' = R_p w_p - R_g w_g + n.(v_p - v_g) + n'.(u_p - u_g) w_p - e' w_p
     F = k_m f(x) + c_m x',  c_m = 0.009 k_m / f_m
 
     Parameters
     ----------
-    s : ndarray of shape (N_STATE,)
+    motion : MeshMotion
     series : ndarray of shape (N_SERIES * (2 n_orders + 1),)
         Coefficients at the present load.
     n_orders : int
@@ -112,24 +118,16 @@ def mesh_force(s: Array, series: Array, n_orders: int, p: MeshForceConstants) ->
     [mohammadpour_2015 (2)] as a rate; [mohammadpour_2015 (4)] with f_m in Hz, clamped from below
     because it diverges at rest.
     """
-    m: MeshSeries = mesh_series(series, n_orders, p.z_p, s[PHI_P])
-    w_p = s[W_P]
-    d_x = (s[U_P] - s[U_G]) * UM
-    d_y = (s[U_P + 1] - s[U_G + 1]) * UM
-    d_z = (s[U_P + 2] - s[U_G + 2]) * UM
-    turning = m.dn_x * d_x + m.dn_y * d_y + m.dn_z * d_z
+    m: MeshSeries = mesh_series(series, n_orders, p.z_p, motion.angle)
+    turning = m.dn_x * motion.d_x + m.dn_y * motion.d_y + m.dn_z * motion.d_z
     arm_p = m.R_p - m.de + turning
-    approach = (
-        m.n_x * (s[V_P] - s[V_G])
-        + m.n_y * (s[V_P + 1] - s[V_G + 1])
-        + m.n_z * (s[V_P + 2] - s[V_G + 2])
-    )
-    x_rate = arm_p * w_p - m.R_g * s[W_G] + approach
-    f = backlash_deflection(s[X] * UM, p.backlash)
+    approach = m.n_x * motion.v_x + m.n_y * motion.v_y + m.n_z * motion.v_z
+    x_rate = arm_p * motion.w_p - m.R_g * motion.w_g + approach
+    f = backlash_deflection(motion.x, p.backlash)
     elastic = m.k_m * f
     c = p.modal_damping
     if c == 0.0:
-        c = p.hysteretic_loss * m.k_m / reference_frequency(p, w_p)
+        c = p.hysteretic_loss * m.k_m / reference_frequency(p, motion.w_p)
     force = elastic + c * x_rate
     torque_p = -m.R_p * force
     if p.consistent != 0.0:

@@ -85,6 +85,7 @@ from gearlube_core.dynamics.hypoid_axle.rhs import (
     SCRATCH,
     axle_rhs,
     gear_motion,
+    mesh_motion,
     pinion_motion,
 )
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -164,7 +165,7 @@ def write_motion(
     series : ndarray of shape (series_size(table),)
         Of the mesh table at the present load.
     """
-    mesh = mesh_force(s, series, n_orders, p.mesh)
+    mesh = mesh_force(mesh_motion(s), series, n_orders, p.mesh)
     x = s[X] * UM
     out[PINION_ANGLE] = s[PHI_P]
     out[WHEEL_ANGLE] = s[PHI_G]
@@ -294,7 +295,7 @@ def write_flank_group(
     """Write `FLANK_GROUP` under the mesh force `force` [N]; others as in `axle_rhs`."""
     channels = scratch[N_FRICTION:AT_EXPANSION]
     most_loaded = write_flanks(
-        s,
+        mesh_motion(s),
         force,
         data.window,
         data.n_nodes,

@@ -15,7 +15,11 @@ from gearlube_core.bearings.parameters import cage_torque
 from gearlube_core.dynamics.hypoid_axle.flanks import N_FRICTION, flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad
-from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force, reference_frequency
+from gearlube_core.dynamics.hypoid_axle.mesh_force import (
+    MeshMotion,
+    mesh_force,
+    reference_frequency,
+)
 from gearlube_core.dynamics.hypoid_axle.state import (
     BEARING_DAMPING,
     BEARING_TORQUE,
@@ -44,6 +48,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.part import part
 from gearlube_core.oil.lubricant import LubricantState
 
 AT_EXPANSION = N_FRICTION + N_CHANNELS
@@ -97,12 +102,29 @@ def gear_motion(s: Array) -> ShaftMotion:
 
 
 @kernel
+def mesh_motion(s: Array) -> MeshMotion:
+    """Return the motion of both members as their mesh takes it."""
+    return MeshMotion(
+        s[PHI_P],
+        s[X] * UM,
+        s[W_P],
+        s[W_G],
+        (s[U_P] - s[U_G]) * UM,
+        (s[U_P + 1] - s[U_G + 1]) * UM,
+        (s[U_P + 2] - s[U_G + 2]) * UM,
+        s[V_P] - s[V_G],
+        s[V_P + 1] - s[V_G + 1],
+        s[V_P + 2] - s[V_G + 2],
+    )
+
+
+@kernel
 def expand_bearings(s: Array, oil: LubricantState, p: AxleParameters, scratch: Array) -> None:
     """Expand the bearing forces of both shafts about the state `s`; others as in `axle_rhs`."""
     f_ref = reference_frequency(p.mesh, s[W_P])
-    of_pinion = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
+    of_pinion = part(scratch, AT_EXPANSION, N_EXPANSION)
     expand_forces(p.bearing_p, pinion_motion(s), f_ref, oil, of_pinion)
-    of_gear = scratch[AT_EXPANSION + N_EXPANSION : AT_ROLLERS]
+    of_gear = part(scratch, AT_EXPANSION + N_EXPANSION, N_EXPANSION)
     expand_forces(p.bearing_g, gear_motion(s), f_ref, oil, of_gear)
 
 
@@ -150,25 +172,26 @@ def axle_rhs(
     ----------
     [mohammadpour_2015 (1)] [mohammadpour_2015 (6)]
     """
-    mesh = mesh_force(s, mesh_data.series, mesh_data.n_orders, p.mesh)
+    at_mesh = mesh_motion(s)
+    mesh = mesh_force(at_mesh, mesh_data.series, mesh_data.n_orders, p.mesh)
     friction = flank_sum(
-        s,
+        at_mesh,
         mesh.force,
         mesh_data.window,
         mesh_data.n_nodes,
         oil,
         p,
         tractions,
-        scratch[0:N_FRICTION],
-        scratch[N_FRICTION:AT_EXPANSION],
+        part(scratch, 0, N_FRICTION),
+        part(scratch, N_FRICTION, N_CHANNELS),
         mesh_data.film_model,
     )
     w_p = s[W_P]
     w_g = s[W_G]
     if bearings != 0.0:
         expand_bearings(s, oil, p, scratch)
-    expansion_p = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
-    expansion_g = scratch[AT_EXPANSION + N_EXPANSION : AT_ROLLERS]
+    expansion_p = part(scratch, AT_EXPANSION, N_EXPANSION)
+    expansion_g = part(scratch, AT_EXPANSION + N_EXPANSION, N_EXPANSION)
     pinion = pinion_motion(s)
     gear = gear_motion(s)
     p_z, p_y, p_x, lost_p = expanded_forces(p.bearing_p, pinion, expansion_p)

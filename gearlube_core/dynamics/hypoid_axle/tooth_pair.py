@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
 from gearlube_core.dynamics.hypoid_axle.state import (
     NUDGE,
-    PHI_P,
-    V_G,
-    V_P,
-    W_G,
-    W_P,
     NodeFlank,
     film_of,
     flank_between,
@@ -50,6 +46,7 @@ from gearlube_core.friction.flank_law import (
     takes_film_model,
 )
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.part import part
 from gearlube_core.mesh_table.kernels import pair_node
 from gearlube_core.oil.lubricant import LubricantState
 
@@ -59,18 +56,18 @@ EXACT, BETWEEN_NODES = 1.0, 2.0
 
 
 @kernel
-def sliding_speed(s: Array, channels: Array) -> float:
+def sliding_speed(motion: MeshMotion, channels: Array) -> float:
     """Return the sliding speed of the pinion over the gear flank [m/s].
 
     dU = w_p r_p - w_g r_g + xi.(v_p - v_g): the rate that the friction force does work on, so that
     its power is -f abs(dU) whatever the motion.
     """
     return (
-        channels[ARM_P] * s[W_P]
-        - channels[ARM_G] * s[W_G]
-        + channels[XI_X] * (s[V_P] - s[V_G])
-        + channels[XI_Y] * (s[V_P + 1] - s[V_G + 1])
-        + channels[XI_Z] * (s[V_P + 2] - s[V_G + 2])
+        channels[ARM_P] * motion.w_p
+        - channels[ARM_G] * motion.w_g
+        + channels[XI_X] * motion.v_x
+        + channels[XI_Y] * motion.v_y
+        + channels[XI_Z] * motion.v_z
     )
 
 
@@ -94,7 +91,7 @@ def ellipse_of(channels: Array) -> FlankEllipse:
 
 @kernel
 def pair_film(
-    s: Array,
+    motion: MeshMotion,
     load: float,
     sliding: float,
     channels: Array,
@@ -106,7 +103,7 @@ def pair_film(
     return model_film(
         law,
         load,
-        channels[ENTRAIN] * s[W_P],
+        channels[ENTRAIN] * motion.w_p,
         sliding,
         contact_of(channels),
         ellipse_of(channels),
@@ -117,7 +114,7 @@ def pair_film(
 
 @kernel
 def pair_friction(
-    s: Array,
+    motion: MeshMotion,
     load: float,
     sliding: float,
     channels: Array,
@@ -133,7 +130,7 @@ def pair_friction(
     return bounded_flank(
         law,
         load,
-        channels[ENTRAIN] * s[W_P],
+        channels[ENTRAIN] * motion.w_p,
         sliding,
         contact_of(channels),
         film,
@@ -170,7 +167,7 @@ def _flank_under(
 @kernel
 def _renew_node(
     place: int,
-    s: Array,
+    motion: MeshMotion,
     force: float,
     window: Array,
     oil: LubricantState,
@@ -179,22 +176,22 @@ def _renew_node(
     films: Array,
 ) -> None:
     """Evaluate a node unless what `films` keeps of it still holds; others as in `flank_film`."""
-    if still_holds(films, place, force, s[W_P], oil.temperature):
+    if still_holds(films, place, force, motion.w_p, oil.temperature):
         return
-    channels = window[place * N_CHANNELS : (place + 1) * N_CHANNELS]
-    entrainment = channels[ENTRAIN] * s[W_P]
-    sliding = sliding_speed(s, channels)
+    channels = part(window, place * N_CHANNELS, N_CHANNELS)
+    entrainment = channels[ENTRAIN] * motion.w_p
+    sliding = sliding_speed(motion, channels)
     F = abs(force)
     flank = _flank_under(F, entrainment, sliding, channels, oil, law, film_model)
-    if tells_slopes(films, place, force, s[W_P], oil.temperature):
-        follow_flank(films, place, force, s[W_P], flank)
+    if tells_slopes(films, place, force, motion.w_p, oil.temperature):
+        follow_flank(films, place, force, motion.w_p, flank)
         return
     more = 1.0 + NUDGE
     keep_flank(
         films,
         place,
         force,
-        s[W_P],
+        motion.w_p,
         oil.temperature,
         flank,
         _flank_under(more * F, entrainment, sliding, channels, oil, law, film_model),
@@ -205,7 +202,7 @@ def _renew_node(
 @kernel
 def flank_at_nodes(
     pair: int,
-    s: Array,
+    motion: MeshMotion,
     force: float,
     window: Array,
     n_nodes: int,
@@ -221,17 +218,17 @@ def flank_at_nodes(
     parameters of the axle takes longer than the rest. `films`, shape (N_FILMS,), keeps the nodes.
     Others as in `flank_sum`.
     """
-    before, t = pair_node(n_nodes, z_p, s[PHI_P], pair)
+    before, t = pair_node(n_nodes, z_p, motion.angle, pair)
     after = (before + 1) % n_nodes
-    _renew_node(before, s, force, window, oil, law, film_model, films)
-    _renew_node(after, s, force, window, oil, law, film_model, films)
-    return flank_between(films, before, after, t, force, s[W_P])
+    _renew_node(before, motion, force, window, oil, law, film_model, films)
+    _renew_node(after, motion, force, window, oil, law, film_model, films)
+    return flank_between(films, before, after, t, force, motion.w_p)
 
 
 @kernel
 def flank_film(
     pair: int,
-    s: Array,
+    motion: MeshMotion,
     load: float,
     force: float,
     sliding: float,
@@ -253,16 +250,16 @@ def flank_film(
     if film_model.size == 0 or not takes_film_model(law):
         return NO_MODEL_FILM
     if refresh == EXACT:
-        return pair_film(s, load, sliding, channels, oil, law, film_model)
+        return pair_film(motion, load, sliding, channels, oil, law, film_model)
     return film_of(
-        flank_at_nodes(pair, s, force, window, n_nodes, oil, z_p, law, film_model, films)
+        flank_at_nodes(pair, motion, force, window, n_nodes, oil, z_p, law, film_model, films)
     )
 
 
 @kernel
 def flank_coefficients(
     pair: int,
-    s: Array,
+    motion: MeshMotion,
     load: float,
     force: float,
     sliding: float,
@@ -283,13 +280,15 @@ def flank_coefficients(
     """
     modelled = film_model.size > 0 and takes_film_model(law)
     if modelled and refresh != EXACT:
-        flank = flank_at_nodes(pair, s, force, window, n_nodes, oil, z_p, law, film_model, films)
+        flank = flank_at_nodes(
+            pair, motion, force, window, n_nodes, oil, z_p, law, film_model, films
+        )
         of_load = abs(force) / load
         return flank.viscous * of_load, flank.boundary * of_load, flank.bound * of_load
     film = NO_MODEL_FILM
     if modelled:
-        film = pair_film(s, load, sliding, channels, oil, law, film_model)
-    found = pair_friction(s, load, sliding, channels, oil, law, film, film_model)
+        film = pair_film(motion, load, sliding, channels, oil, law, film_model)
+    found = pair_friction(motion, load, sliding, channels, oil, law, film, film_model)
     viscous = found.state.viscous_friction / load
     boundary = found.state.boundary_friction / load
     return viscous, boundary, found.friction_bound * (viscous + boundary)
