@@ -92,7 +92,7 @@ from gearlube_core.surface.moving import GrownInPlace as GrownInPlace
 from gearlube_core.surface.schedule import RoughSchedule as RoughSchedule
 from gearlube_core.rough_patch.table import gaussian_patches as gaussian_patches
 from gearlube_core.rough_patch.table import patch_table as patch_table
-from gearlube_core.rough_patch.table import greenwood_tripp_fit as greenwood_tripp_fit
+from gearlube_core.rough_patch.asperity_file import greenwood_tripp_fit as greenwood_tripp_fit
 from gearlube_core.rough_patch.flow import flow_factors as flow_factors
 from gearlube_core.rough_patch.table import press_patch as press_patch
 from gearlube_core.contact.half_space_stress import HalfSpaceStress as HalfSpaceStress

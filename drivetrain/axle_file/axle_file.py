@@ -42,8 +42,11 @@ from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import DescribedOil, read_oil_file
-from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
-from gearlube_core.rough_patch.table import GreenwoodTrippFit
+from gearlube_core.rough_patch.asperity_file import (
+    GreenwoodTrippFit,
+    asperities_from_bytes,
+    read_asperity_content,
+)
 from gearlube_core.storage.file_names import Name
 
 Text = Annotated[str, Field(min_length=1)]

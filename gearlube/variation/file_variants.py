@@ -21,7 +21,7 @@ from gearlube_core.film_model.model import FilmModel
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.oil_file import DescribedOil
-from gearlube_core.rough_patch.table import GreenwoodTrippFit
+from gearlube_core.rough_patch.asperity_file import GreenwoodTrippFit
 
 GEAR_FILE = "gear_set.gear_file"
 _START_SPEED = "pinion.speed_start"  # the operating point has it

@@ -11,10 +11,9 @@ import logging
 import warnings
 from importlib.resources import as_file, files
 from pathlib import Path
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
-import xarray as xr
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import FileError, TableError
@@ -28,6 +27,9 @@ from gearlube_core.mesh_table.table import (
     Provenance,
 )
 from gearlube_core.storage.atomic_file import DAMAGED, check_seal, write_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 logger = logging.getLogger(__name__)
 FORMAT = 2  # 1 had one sign of torque, no tangent stiffness, sliding angle or highest pressure
@@ -56,6 +58,8 @@ def dataset_from_bytes(content: bytes, name: str, writer: str) -> xr.Dataset:
         The content is cut off, damaged or of another format, or has a wrong checksum. One without
         a checksum is read with a warning.
     """
+    import xarray as xr
+
     try:
         if not check_seal(io.BytesIO(content), name):
             logger.warning(
@@ -78,6 +82,8 @@ def dataset_from_bytes(content: bytes, name: str, writer: str) -> xr.Dataset:
 
 def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
     """Write `table` to a NetCDF file, atomically; return the path."""
+    import xarray as xr
+
     data: dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]] = {}
     for group, units, dims in (
         (table.series, SERIES_UNITS, ("torque", "order", "part")),

@@ -6,8 +6,6 @@ import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from scipy.optimize import brentq
-
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_unit
@@ -139,6 +137,8 @@ def viscosity_at_100(nu_40: float, index: float) -> float:
             "at 100 degC within 2 to 1000 mm2/s. Give the viscosity at 100 degC instead of the "
             "index."
         )
+    from scipy.optimize import brentq  # takes a third of a second
+
     return float(brentq(excess, low, high, xtol=1e-15, rtol=1e-12))
 
 

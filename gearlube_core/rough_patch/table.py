@@ -5,19 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
-from gearlube_core.contact.greenwood_tripp_1971 import (
-    SurfaceParameters,
-    asperity_area_factor,
-    asperity_integrals,
-    asperity_load_factor,
-)
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem
 from gearlube_core.errors import ParameterError
@@ -279,66 +272,6 @@ def patch_table(
         "nodes": "x".join(map(str, patches[0].height.shape)),
     }
     return xr.Dataset(data, {"film_ratio": coordinate}, attributes)
-
-
-class GreenwoodTrippFit(NamedTuple):
-    """Greenwood and Tripp's surface that stands for computed asperities."""
-
-    surface: SurfaceParameters
-    load_misfit: float  # largest factor between load of the law and of the table, at least 1 [-]
-    area_misfit: float  # the same of the areas
-
-
-def greenwood_tripp_fit(
-    table: xr.Dataset, low: float = 0.5, high: float = 3.0
-) -> GreenwoodTrippFit:
-    """Return the parameters with which Greenwood and Tripp's law fits a table of computed patches.
-
-    The two products of the law are chosen so that the mean logarithms of load and area between two
-    film ratios agree. The misfits tell by how much the shape of the law differs.
-
-    Parameters
-    ----------
-    table
-        Table from `patch_table` with contact.
-    low, high
-        Film ratios between which the law is fitted [-].
-
-    Raises
-    ------
-    ParameterError
-        Fewer than two film ratios with contact lie between the limits.
-
-    Examples
-    --------
-    >>> ratios, load, area = [1.0, 2.0], [2.2e-3, 2.7e-4], [0.11, 0.012]
-    >>> columns = {"asperity_pressure": load, "asperity_area": area}
-    >>> data = {name: ("film_ratio", one) for name, one in columns.items()}
-    >>> table = xr.Dataset(data, {"film_ratio": ratios}, {"roughness": 4e-7})
-    >>> round(greenwood_tripp_fit(table).surface.xi_beta_sigma, 2)
-    0.42
-    """
-    ratios = table.film_ratio.values
-    if "asperity_pressure" not in table:
-        raise ParameterError("table must hold asperity_pressure. Make it with contact=True.")
-    load, area = table.asperity_pressure.values, table.asperity_area.values
-    used = (ratios >= low) & (ratios <= high) & np.isfinite(load)
-    if used.sum() < 2:
-        raise ParameterError(
-            f"table must hold asperities at two film ratios within {low:g} to {high:g}, got "
-            f"{int(used.sum())}. Give more film ratios to patch_table."
-        )
-    integrals = np.array([asperity_integrals(float(one)) for one in ratios[used]])
-    area_rest = np.log(area[used] / integrals[:, 0])
-    load_rest = np.log(load[used] / integrals[:, 1])
-    unit = SurfaceParameters(1.0, 1.0, 1.0)
-    squared = math.exp(float(area_rest.mean())) / asperity_area_factor(unit)
-    root = math.exp(float(load_rest.mean())) / asperity_load_factor(unit) / squared
-    return GreenwoodTrippFit(
-        SurfaceParameters(float(table.attrs["roughness"]), math.sqrt(squared), root**2),
-        math.exp(float(np.abs(load_rest - load_rest.mean()).max())),
-        math.exp(float(np.abs(area_rest - area_rest.mean()).max())),
-    )
 
 
 def _asperities(patch: HeightMap, ratios: Array) -> tuple[Array, Array]:

@@ -14,10 +14,10 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     asperity_load,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.rough_patch.asperity_file import greenwood_tripp_fit
 from gearlube_core.rough_patch.flow import flow_factors
 from gearlube_core.rough_patch.table import (
     gaussian_patches,
-    greenwood_tripp_fit,
     patch_table,
     press_patch,
 )
