@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 # the kernels of the notebooks import the package of this folder too
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # likewise: several run beside each other
 
 project = "gearlube"
 author = copyright = "The gearlube developers"

@@ -375,6 +375,8 @@ class _WarningsOnce(logging.Filter):
 
 def main() -> None:
     """Entry point of the command `gearlube`."""
+    # the matrices of most studies are small: threads would wait for each other
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from rich.logging import RichHandler
 
     from gearlube.cli.console import console

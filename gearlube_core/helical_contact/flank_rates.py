@@ -21,6 +21,7 @@ from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_s
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.storage.process_pool import on_one_thread
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.held_contact import FrozenEquilibrium, frozen_compliance
 
@@ -122,6 +123,7 @@ class _Cells:
         return normal_gap(modified, strip.X, y, z)
 
 
+@on_one_thread
 def flank_rates(
     file: HelicalGearFile,
     names: Sequence[str],

@@ -32,6 +32,7 @@ from gearlube_core.hypoid_design.start_settings import start_pair
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.process_pool import on_one_thread
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 # of a path that the file leaves open, from across the lines of contact: the next where one fails
@@ -84,6 +85,7 @@ class Design:
         return self.file.varied(dict.fromkeys(flanks, None) | {"completed": kept})
 
 
+@on_one_thread
 def design_pair(file: BlankFile, progress: Progress = no_progress, jobs: int | None = 1) -> Design:
     """Return the machine settings of a pair whose contact comes nearest to what the file asks.
 

@@ -12,11 +12,13 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
+from functools import wraps
 from threading import Thread
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar, cast
 
 from threadpoolctl import threadpool_limits
 
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 _END_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)
 _ROOM = 1 << 28  # [byte], less than any worker needs
 _THREADS = "OPENBLAS_NUM_THREADS"
@@ -117,6 +119,21 @@ def single_threaded() -> threadpool_limits:
     Small matrix products lose more time to threads that wait for each other than they gain.
     """
     return threadpool_limits(1)
+
+
+def on_one_thread(function: _Function) -> _Function:
+    """Return a function that runs its linear algebra on one thread, see `single_threaded`.
+
+    >>> on_one_thread(abs)(-2.0)
+    2.0
+    """
+
+    @wraps(function)
+    def run(*arguments: Any, **named: Any) -> Any:
+        with single_threaded():
+            return function(*arguments, **named)
+
+    return cast(_Function, run)
 
 
 def stop_on_interrupt() -> None:

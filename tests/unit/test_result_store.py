@@ -12,6 +12,7 @@ import numpy as np
 import psutil
 import pytest
 import xarray as xr
+from threadpoolctl import threadpool_info, threadpool_limits
 
 import gearlube
 from gearlube_core.errors import ConvergenceError, FileError
@@ -22,7 +23,7 @@ from gearlube_core.storage.atomic_file import (
     write_arrays,
     write_figure,
 )
-from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.process_pool import ProcessPool, on_one_thread
 from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results
 
@@ -311,3 +312,12 @@ def test_every_picture_is_written_by_the_same_function():
         if ".savefig(" in line and ".savefig(buffer" not in line
     ]
     assert places == []
+
+
+def test_linear_algebra_of_a_function_on_one_thread_runs_on_one():
+    def threads():
+        return {one["num_threads"] for one in threadpool_info() if one["user_api"] == "blas"}
+
+    with threadpool_limits(2):
+        assert on_one_thread(threads)() == {1}
+        assert threads() == {2}

@@ -27,6 +27,7 @@ from gearlube_core.ehl.point.start import (
 )
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.storage.process_pool import on_one_thread
 
 _COARSER_TOLERANCE = 1e-5  # of a film that only tells the error of a finer grid
 
@@ -196,6 +197,7 @@ def refuse_rupture(settings: PointSolverSettings, film: str) -> None:
         )
 
 
+@on_one_thread
 def solve_point_contact(
     problem: PointContactProblem,
     settings: PointSolverSettings | None = None,
