@@ -46,7 +46,7 @@ def largest(*args, **kwargs):
 @cache
 def over_the_cycle(design):
     """Return steps of a cycle and the largest pressure in each [GPa]."""
-    steps = np.arange(25, 575, 25)
+    steps = np.arange(50, 575, 50)
     return steps, np.array([largest(design, step, (101, 128)) for step in steps])
 
 
@@ -54,7 +54,7 @@ def over_the_cycle(design):
 def test_range_over_the_cycle(design, low, high):
     # printed from a figure to two digits; dry 1.05..1.26 (A), 0.83..1.12 (B)
     _, pressures = over_the_cycle(design)
-    assert pressures[3:-3].min() == pytest.approx(low, rel=0.05)
+    assert pressures[1:-1].min() == pytest.approx(low, rel=0.05)
     assert pressures.max() == pytest.approx(high, rel=0.05)
 
 
