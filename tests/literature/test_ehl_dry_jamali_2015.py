@@ -88,8 +88,8 @@ def test_crowned_line_without_relief_fills_093_of_the_face_at_the_largest_load()
     crowned = FlankModification(crown=Crown(amount=8e-6, start=0.0))
     gap = UndeformedGap(modified=ModifiedPair(pair=pair, pinion=crowned, gear=crowned))
     width = pair.face_width / math.cos(pair.base_helix_angle)
-    x = np.linspace(-2.0 * HALF_WIDTH, 2.0 * HALF_WIDTH, 101)
-    y = ((np.arange(400) + 0.5) / 400 - 0.5) * width
+    x = np.linspace(-2.0 * HALF_WIDTH, 2.0 * HALF_WIDTH, 61)
+    y = ((np.arange(200) + 0.5) / 200 - 0.5) * width
     contact = dry_contact_of_gap(
         gap.heights(x[:, None], y[None, :], X), x[1] - x[0], y[1] - y[0], MODULUS, 14.4e3
     )
@@ -97,5 +97,5 @@ def test_crowned_line_without_relief_fills_093_of_the_face_at_the_largest_load()
 
 
 def test_pressure_is_that_of_the_refined_grid():
-    coarse, fine = largest("a", 300, (81, 107)), largest("a", 300, (161, 428))
+    coarse, fine = largest("a", 300, (81, 107)), largest("a", 300, (161, 214))
     assert coarse == pytest.approx(fine, rel=0.01)
