@@ -61,10 +61,9 @@ def line(part, nodes, gap=None, **settings):
     return solve_line(problem, LineSettings(nodes=nodes, **settings))
 
 
-@pytest.mark.parametrize("sides", ["cyclic", "no_flow"])
-def test_smooth_section_is_the_line_contact(sides):
-    # 801 columns: both solvers differ by second order in the spacing at the spike, 4 s
-    part = section((801, 16), length=2e-3, sides=sides)
+def test_smooth_section_is_the_line_contact():
+    # 801 columns: both solvers differ by second order in the spacing at the spike
+    part = section((801, 16), length=2e-3)
     film, reference = solve_point_contact(part, QUICK), line(part, 801)
     assert film.pressure == pytest.approx(
         np.tile(reference.pressure[:, None], 16), abs=1e-3 * reference.pressure.max()
@@ -168,10 +167,11 @@ def test_elements_find_the_film_of_differences_between_cyclic_sides():
     # two discretisations of second order, 8 nodes a wave along y; the constriction differs more
     flat = np.abs(film.problem.x) < 0.1e-3
     assert other.film[flat] == pytest.approx(film.film[flat], rel=0.02)
-    shifted = wavy(section((257, 16)), phase=np.pi / 4.0)
-    moved = solve_point_contact(shifted, replace(STRICT, discretisation="elements"))
-    again = solve_point_contact(
-        wavy(section((257, 16))), replace(STRICT, discretisation="elements")
+    moved, again = (
+        solve_point_contact(
+            wavy(section(), phase=phase), replace(STRICT, discretisation="elements")
+        )
+        for phase in (np.pi / 4.0, 0.0)
     )
     assert np.roll(again.film, -1, axis=1) == pytest.approx(moved.film, rel=1e-6)
 

@@ -173,9 +173,9 @@ def test_surfaces_flash_as_jaeger_says_for_a_band_of_heat():
 
 
 def test_pure_rolling_film_cools_where_it_expands():
-    solution = solve_thermal_line(contact(1e-6), STEEL, STEEL, LineSettings(nodes=301))
+    solution = solve_thermal_line(contact(1e-6), STEEL, STEEL, LineSettings(nodes=151))
     still = contact(1e-6, lubricant=OIL._replace(expansion=0.0))
-    without = solve_thermal_line(still, STEEL, STEEL, LineSettings(nodes=301))
+    without = solve_thermal_line(still, STEEL, STEEL, LineSettings(nodes=151))
     # shear by pressure flow alone can only warm; compression and expansion do both
     assert without.temperature.min() >= T0 - 1e-9
     assert solution.temperature.min() < T0 - 0.1
@@ -184,8 +184,8 @@ def test_pure_rolling_film_cools_where_it_expands():
 def test_heat_lowers_traction_and_more_so_at_more_sliding():
     reductions = []
     for slide_roll in (0.05, 0.36, 1.0):
-        warm = solve_thermal_line(contact(slide_roll), STEEL, STEEL, LineSettings(nodes=301))
-        cold = solve_line(contact(slide_roll), LineSettings(nodes=301))
+        warm = solve_thermal_line(contact(slide_roll), STEEL, STEEL, LineSettings(nodes=201))
+        cold = solve_line(contact(slide_roll), LineSettings(nodes=201))
         assert warm.converged
         reductions.append(warm.film.friction_coefficient / cold.friction_coefficient)
     assert 1.0 > reductions[0] > reductions[1] > reductions[2] > 0.2

@@ -119,7 +119,7 @@ def _wavy_contact(nodes: int) -> PointContactProblem:
 
 def test_film_of_a_wavy_wall_breaks_and_forms_again_where_the_closed_form_says() -> None:
     errors = []
-    for nodes in (153, 305):
+    for nodes in (115, 229):
         problem = _wavy_contact(nodes)
         solution = solve_point_contact(problem, replace(RUPTURED, tolerance=1e-8))
         x, p = problem.x, solution.pressure[:, 8]

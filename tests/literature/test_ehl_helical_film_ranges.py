@@ -72,7 +72,7 @@ def test_films_in_motion_are_known_to_the_estimated_error_of_the_time_step(claim
         design, crown_start, first, nodes, count = "a", 0.45, 297, (33, 97), 3
     else:
         design, crown_start, _, films, first = CLAIMS[claim]
-        nodes, count = NODES, 6
+        nodes, count = NODES, 4
     whole, told = _smallest_films(design, crown_start, nodes, first, count, 1)
     quarters, _ = _smallest_films(design, crown_start, nodes, first, count, 4)
     true = float(np.abs(whole / quarters - 1.0).max())
