@@ -25,7 +25,6 @@ LIMIT = 1e-6
 NAMES = (
     "misalignment.pinion_axial",
     "pinion.machine.tilt_angle_deg",
-    "gear.cutter.point_radius_mm",
 )
 CYCLE = SeriesSettings(parameters=NAMES, torque=80.0, positions=5)
 KEPT = ("rotation", "touching", "gear_torque", "force")
