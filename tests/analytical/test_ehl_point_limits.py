@@ -69,7 +69,7 @@ def test_a_stiff_contact_floats_on_the_rigid_isoviscous_film() -> None:
         load=load,
         contact_modulus=1e13,
         lubricant=ISOVISCOUS,
-        nodes=(97, 97),
+        nodes=(65, 65),
         domain=ContactDomain(inlet=50.0, outlet=15.0, side=50.0),
     )
     solution = solve_point_contact(problem, QUICK)

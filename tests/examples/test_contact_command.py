@@ -44,7 +44,7 @@ def run(*arguments):
 def coarse(monkeypatch, tmp_path):
     """The command with coarse teeth and cells, and a cache of its own."""
     monkeypatch.setenv("GEARLUBE_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(contact_dataset, "ERROR_POSITIONS", 16)
+    monkeypatch.setattr(contact_dataset, "ERROR_POSITIONS", 8)
     real = contact_run.run_contact
 
     def run_coarse(file, settings, **options):
@@ -74,14 +74,14 @@ def test_quick_run_goes_on_after_a_stop_and_writes_table_dataset_and_figures(coa
     real, loaded = mesh_cycle.position_record, []
 
     def stopping(pair, phase, *others):
-        if len(loaded) == 3:
+        if len(loaded) == 2:
             raise KeyboardInterrupt
         loaded.append((pair.side, phase))
         return real(pair, phase, *others)
 
     monkeypatch.setattr(mesh_cycle, "position_record", stopping)
     assert run(*options).exit_code == INTERRUPTED
-    assert len(list((coarse / "positions").glob("*.npz"))) == 3
+    assert len(list((coarse / "positions").glob("*.npz"))) == 2
     assert not (coarse / "contact.nc").exists()
 
     before = list(loaded)
@@ -95,7 +95,7 @@ def test_quick_run_goes_on_after_a_stop_and_writes_table_dataset_and_figures(coa
     assert result.exit_code == 0, result.output
     # four positions of either side, none of them twice
     assert len(loaded) == len(set(loaded)) == 8
-    assert not set(before) & set(loaded[3:])
+    assert not set(before) & set(loaded[2:])
 
     data = read_report(coarse)
     assert data["findings"]

@@ -295,7 +295,7 @@ def test_heights_at_rest_between_moving_surfaces_are_warned_of(tmp_path, caplog,
     x = np.linspace(-2.0, 1.0, 601)
     table = np.stack([x, 0.02 * np.cos(8.0 * x)], 1)
     np.savetxt(tmp_path / "own.csv", table, "%.9g", ",", header="x_mm,height_um", comments="")
-    text = LineCase.shipped_text("jamali_2015").replace("nodes = 1001", "nodes = 201")
+    text = LineCase.shipped_text("jamali_2015").replace("nodes = 1001", "nodes = 101")
     text += '[domain]\nfirst_mm = -1.5\nlast_mm = 0.5\n[profile]\nfile = "own.csv"\n'
     standing = text.replace("speed_2_m_s = 5.5022", "speed_2_m_s = 0.0")
     for case, warned in ((text, True), (standing, False)):

@@ -68,8 +68,8 @@ def test_a_stopped_run_writes_what_was_found_and_says_so(tmp_path, monkeypatch, 
         raise KeyboardInterrupt
 
     monkeypatch.setattr(study, "motions_at", stop)
-    options = ("--mesh", "synthetic", "--friction", "off", "--quick", "--frequencies", 5)
-    options += ("--range", "0.7:1.1")
+    options = ("--mesh", "synthetic", "--friction", "off", "--quick", "--frequencies", 2)
+    options += ("--range", "0.9:1.05")
     with caplog.at_level(logging.WARNING, "gearlube"):
         assert run(*options, "--out", tmp_path).exit_code == INTERRUPTED
     assert "Stopped" in caplog.text

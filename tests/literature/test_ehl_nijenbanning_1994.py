@@ -52,7 +52,7 @@ def test_wide_contact_nears_the_line_in_the_piezoviscous_rigid_film():
 @pytest.mark.parametrize(
     ("M", "L", "ratio"),
     [
-        (30.0, 6.0, 2.0),
+        pytest.param(30.0, 6.0, 2.0, marks=pytest.mark.slow),
         pytest.param(120.0, 8.0, 5.0, marks=pytest.mark.slow),
         (400.0, 10.0, 20.0),
     ],

@@ -106,7 +106,7 @@ def test_load_share_is_not_length_share():
 
 
 def harris_map(modified, torques):
-    settings = CycleSettings(torques=torques, positions=16, stations=2, loaded=SPUR_CELLS)
+    settings = CycleSettings(torques=torques, positions=12, stations=2, loaded=SPUR_CELLS)
     cycle = run_cycle(modified, coarse_stiffness(SPUR), settings, jobs=1)
     return contact_dataset(modified, settings, cycle)
 
