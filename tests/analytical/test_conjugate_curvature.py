@@ -7,6 +7,7 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from tests.helpers.conjugate_curvature import conjugate_relative_curvature
+from tests.helpers.each import each
 
 BASE_1, BASE_2 = 0.03, 0.07  # base radii [m]
 PRESSURE = math.radians(20.0)
@@ -58,7 +59,7 @@ def parallel_pair(share, helix=0.0, internal=False):
     return arguments, across, math.cos(helix) * (1.0 / rho_1 + 1.0 / rho_2)
 
 
-@pytest.mark.parametrize("share", SHARES)
+@each("share", SHARES)
 def test_spur_pair_has_the_curvature_of_its_two_involutes(share):
     arguments, across, expected = parallel_pair(share)
     result = conjugate_relative_curvature(**arguments)
@@ -67,8 +68,8 @@ def test_spur_pair_has_the_curvature_of_its_two_involutes(share):
     assert abs(result.across @ across) == pytest.approx(1.0, rel=1e-14)
 
 
-@pytest.mark.parametrize("share", SHARES)
-@pytest.mark.parametrize("helix_deg", [-25.0, 15.0, 30.0])
+@each("share", SHARES)
+@each("helix_deg", [-25.0, 15.0, 30.0])
 def test_helical_pair_has_the_curvature_of_its_normal_section(share, helix_deg):
     """Radii rho / cos(base helix angle) across the straight line of contact."""
     arguments, across, expected = parallel_pair(share, math.radians(helix_deg))
@@ -78,7 +79,7 @@ def test_helical_pair_has_the_curvature_of_its_normal_section(share, helix_deg):
     assert abs(result.across @ across) == pytest.approx(1.0, rel=1e-14)
 
 
-@pytest.mark.parametrize("share", SHARES)
+@each("share", SHARES)
 def test_internal_pair_has_the_difference_of_the_curvatures(share):
     arguments, _, expected = parallel_pair(share, internal=True)
     # closed form on both sides: rounding, magnified by the difference of the radii

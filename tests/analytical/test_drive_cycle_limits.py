@@ -15,6 +15,7 @@ from gearlube.studies.drive_cycle.loss_field import demand_of, resistance
 from gearlube.studies.drive_cycle.run import grid_change
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 CAR = gl.read_axle("mohammadpour_2015")
 ROAD = CAR.driveline.road_load
@@ -178,7 +179,7 @@ def test_wheels_and_brakes_do_the_work_of_the_road(nedc):
     assert work == pytest.approx(road, rel=1e-3)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+@each("share", [0.0, 0.4, 1.0])
 def test_brakes_take_what_is_beyond_coast_torque(share):
     deceleration = 2.0  # m/s2
     time = np.arange(11.0)
@@ -204,7 +205,7 @@ def test_gentle_braking_needs_no_friction_brakes():
     assert asked.torque[0] == pytest.approx(force * RADIUS / RATIO, rel=1e-12)
 
 
-@pytest.mark.parametrize("grade", [-0.04, 0.0, 0.07])
+@each("grade", [-0.04, 0.0, 0.07])
 def test_resistance_on_a_slope_is_that_of_the_road_load(grade):
     slope = replace(ROAD, vehicle=replace(ROAD.vehicle, grade=grade))
     for found in (
@@ -251,7 +252,7 @@ def steps_of(power, nodes, **changed):
     return heat, warm(heat, **(usual | changed))
 
 
-@pytest.mark.parametrize("slope", [0.0, -6.0, 9.0])
+@each("slope", [0.0, -6.0, 9.0])
 def test_oil_warms_by_the_exponential(slope):
     """P = 700 + slope (T - 280); at slope 9 W/K cooling and loss grow alike: a straight line."""
     nodes = np.array([280.0, 320.0, 400.0])

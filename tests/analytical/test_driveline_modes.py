@@ -11,6 +11,7 @@ from drivetrain.driveline.model import Driveline, driveline_modes
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load, mohammadpour_2015_vehicle
+from tests.helpers.each import each
 
 RATIO = 36 / 13
 INERTIA = 1.734e-3 + 5.81e-2 / RATIO**2
@@ -30,7 +31,7 @@ UNDAMPED = replace(
 )
 
 
-@pytest.mark.parametrize("speed_kmh", [20.0, 60.0, 100.0])
+@each("speed_kmh", [20.0, 60.0, 100.0])
 def test_undamped_modes_are_those_of_a_chain_of_five_masses(speed_kmh: float) -> None:
     line = Driveline(UNDAMPED, speed_kmh / 3.6)
     g, r = line.gear_ratio, LOAD.tyre.rolling_radius

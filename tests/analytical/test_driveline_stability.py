@@ -18,6 +18,7 @@ from tests.helpers.communication_stability import (
     communication_stability,
     largest_stable_step,
 )
+from tests.helpers.each import each
 
 RATIO = 36 / 13
 SMOOTH = DrivelineParameters(road_load=mohammadpour_2015_road_load(), engine=Engine(orders=()))
@@ -67,7 +68,7 @@ def cosimulate(axle: TorsionalAxle, speed: float, h: float, steps: int, kick: fl
     return rows
 
 
-@pytest.mark.parametrize("axle", [RIGID, ELASTIC], ids=["rigid", "elastic"])
+@each("axle", [RIGID, ELASTIC])
 def test_a_stable_exchange_follows_the_linear_map(axle: TorsionalAxle) -> None:
     h, speed, kick, steps = 1e-4, 60 / 3.6, 1e-3, 300
     line = Driveline(SMOOTH, speed)

@@ -22,6 +22,7 @@ from gearlube_core.ehl.transient.problem import moving_section
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import film_properties
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import dry_contact
 
 # [jamali_2015] Table 7.1: 720 N over 2 mm, mean 6.71 m/s, slide-roll ratio 0.36
@@ -303,7 +304,7 @@ def test_deflection_of_single_precision_is_that_of_double():
     assert rough == pytest.approx(exact, abs=1e-5 * np.ptp(exact))
 
 
-@pytest.mark.parametrize(
+@each(
     ("change", "words"),
     [
         ({"nodes": (129, 17)}, "nodes along y must be even, within 16 to 2048"),

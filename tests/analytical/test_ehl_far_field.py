@@ -16,6 +16,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import moes_contact
 
 ISOVISCOUS = film_oil(eta0=0.02, alpha=0.0, density_law="incompressible")
@@ -36,7 +37,7 @@ def _far_field(R_x: float, R_y: float, velocity: tuple[float, float]) -> FarFiel
     )
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.6, 2.5])
+@each("angle", [0.0, 0.6, 2.5])
 def test_pressure_towards_the_inlet_is_that_of_kapitza(angle: float) -> None:
     R_x, R_y, speed, film = 0.01, 0.023, 1.3, 2e-6
     u, v = speed * math.cos(angle), speed * math.sin(angle)

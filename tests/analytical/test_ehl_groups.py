@@ -7,6 +7,7 @@ import pytest
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.groups import point_contact_groups
 from gearlube_core.film.point_film import central_film_thickness, film_geometry
+from tests.helpers.each import each
 
 CASE = {
     "viscosity": 0.0171,
@@ -55,7 +56,7 @@ def test_moes_groups_leave_two_of_three_numbers():
     assert pytest.approx(groups.G, rel=1e-14) == groups.L / (2.0 * groups.U) ** 0.25
 
 
-@pytest.mark.parametrize("name", list(CASE))
+@each("name", list(CASE))
 def test_a_quantity_that_is_not_positive_is_named(name):
     with pytest.raises(ParameterError, match=name):
         point_contact_groups(**{**CASE, name: 0.0})

@@ -26,6 +26,7 @@ from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.film_oil import thermal_viscosity
 from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
 from gearlube_core.oil.oil_heat import OilHeat
+from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
 
 T0 = 363.15  # K
@@ -113,8 +114,8 @@ def test_a_broken_film_is_heated_in_its_share_of_full_film(limit_slope):
     assert heat[1].max() > 0.0
 
 
-@pytest.mark.parametrize("tau0", [None, 5e6])
-@pytest.mark.parametrize("slope", [0.0, 3e13, -8e13])
+@each("tau0", [None, 5e6])
+@each("slope", [0.0, 3e13, -8e13])
 def test_shear_across_an_unevenly_warm_film_slides_as_the_surfaces_do(tau0, slope):
     oil = OIL._replace(shear=Eyring(tau0 or 0.0))
     p, h, us, m = 4e8, 0.3e-6, 1.5, 2001

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import pytest
 
 from gearlube_core.ehl.point.contact_domain import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.level import PointLevel
@@ -13,6 +12,7 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import moes_contact
 
 ISOVISCOUS = film_oil(eta0=0.02, alpha=0.0, density_law="incompressible")
@@ -47,10 +47,8 @@ def _kapitza_residual(nodes: int, wedge: str, angle: float) -> float:
     return float(np.abs(state.residual[inner]).mean() / wedge_size)
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.5, 2.3])
-@pytest.mark.parametrize(
-    ("wedge", "order"), [("upwind-1", 1), ("upwind-2", 2), ("central", 2), ("quick", 2)]
-)
+@each("angle", [0.0, 0.5, 2.3])
+@each(("wedge", "order"), [("upwind-1", 1), ("upwind-2", 2), ("central", 2), ("quick", 2)])
 def test_kapitzas_rigid_film_solves_the_equation_to_the_order_of_the_stencil(
     wedge: str, order: int, angle: float
 ) -> None:

@@ -13,6 +13,7 @@ from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
+from tests.helpers.each import each
 from tests.helpers.helical_contact_cases import (
     COARSE_BODY,
     EQUAL,
@@ -57,7 +58,7 @@ def test_on_stiff_teeth_a_line_is_hertz_line_contact(pair):
     assert loaded == pytest.approx(2.0 * half_width, abs=line.strip.cell[0])
 
 
-@pytest.mark.parametrize("phase", [0.0, 0.35, 0.8])
+@each("phase", [0.0, 0.35, 0.8])
 def test_torques_balance_to_rounding(phase):
     state = MeshPosition.at(HELICAL, phase).load(
         TORQUE, coarse_stiffness(HE_2007), LoadedSettings()

@@ -25,6 +25,7 @@ from gearlube_core.oil.sheared_film import (
     shear_rate,
     stress_share,
 )
+from tests.helpers.each import each
 from tests.helpers.small_films import SLIP, SPEED, films_in_time, line_film, point_film
 from tests.helpers.source_of import source_of
 
@@ -64,7 +65,7 @@ def oil(shear_law):
     return film_oil(eta0=0.05, alpha=15e-9, shear_law=shear_law)
 
 
-@pytest.mark.parametrize("sigma", [0.0, 1e-3, 0.4, -3.0])
+@each("sigma", [0.0, 1e-3, 0.4, -3.0])
 def test_quadrature_of_any_law_meets_eyrings_closed_forms(sigma):
     for a in (0.0, 0.3, -20.0, 1e6):
         factor, by_sigma, by_a = flow_factor(PLAIN, sigma, a)
@@ -90,7 +91,7 @@ def test_layers_of_uneven_viscosity_meet_eyrings_closed_form():
         assert stress_share(PLAIN, stress) == pytest.approx(stress_share(CLOSED, stress), rel=1e-6)
 
 
-@pytest.mark.parametrize("law", [PLAIN, Rabinowitsch(TAU0)], ids=["eyring", "rabinowitsch"])
+@each("law", [PLAIN, Rabinowitsch(TAU0)])
 def test_layers_of_any_law_shear_as_far_as_the_walls_slide(law):
     """Drops of stress up to 240 tau0, where Newton's method alone swings about the root."""
     h, z = 3e-7, np.linspace(0.0, 1.0, 9)
@@ -109,7 +110,7 @@ def test_layers_of_any_law_shear_as_far_as_the_walls_slide(law):
         assert slid(middle - near) < sliding < slid(middle + near), (steep, slope, sliding)
 
 
-@pytest.mark.parametrize("slope", [-1e15, 1e13, 1e15])
+@each("slope", [-1e15, 1e13, 1e15])
 def test_stress_in_a_film_with_one_thin_wall_layer_is_finite_and_mirrored(slope):
     """Turned over, with the surfaces' speeds exchanged, a film has the opposite stress."""
     eta = np.array([1e18, 1e18, 1.0])  # all flow in the last layer, up to the last digit

@@ -7,6 +7,7 @@ from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coeffici
 from gearlube_core.contact.unilateral import solve_rotation, solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem, tangent_stiffness
 from gearlube_core.tooth_contact.coupled_strips import StripCompliance
+from tests.helpers.each import each
 
 E_STAR, DX, DY, NX, NY = 115.4e9, 3e-5, 5e-4, 40, 48
 CELLS = NX * NY
@@ -101,7 +102,7 @@ def test_work_of_the_torque_becomes_strain_energy() -> None:
     assert states[-1].strain_energy < 0.49 * torques[-1] * rotation[-1]
 
 
-@pytest.mark.parametrize("torque", [10.0, 60.0, 200.0])
+@each("torque", [10.0, 60.0, 200.0])
 def test_tangent_stiffness_is_the_slope_of_the_torque(torque: float) -> None:
     problem = teeth([3e-6, 0.0, 5e-6], [0.022, 0.0222, 0.0224])
     state = solve_torque(problem, torque, tolerance=1e-9)
@@ -131,7 +132,7 @@ def test_tangent_stiffness_is_exact_while_the_cells_hold() -> None:
     assert tangent_stiffness(flat, low, tolerance=1e-8) == pytest.approx(slope, rel=1e-7)
 
 
-@pytest.mark.parametrize("torque", [2.0, 30.0, 400.0])
+@each("torque", [2.0, 30.0, 400.0])
 def test_given_rotation_returns_the_torque(torque: float) -> None:
     problem = teeth([3e-6, 0.0, 5e-6], [0.022, 0.0222, 0.0224])
     balanced = solve_torque(problem, torque, tolerance=1e-8)

@@ -16,8 +16,9 @@ from gearlube.studies.films.datasets.contact import hertz_line
 from gearlube.studies.films.datasets.helical import march_key
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.gears.helical_film import EXIT_GRADING
-from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers.each import each
 from tests.helpers.ehl_command import run
 from tests.helpers.jamali_2015 import jamali_2015_film
 
@@ -232,7 +233,7 @@ def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
     assert asked[0]["case"] == model.from_data(data, "own")
 
 
-@pytest.mark.parametrize(
+@each(
     ("arguments", "word"),
     [
         (("line", "no_such_case"), "no_such_case"),
@@ -272,6 +273,7 @@ def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
     ],
 )
 def test_what_is_out_of_range_ends_with_bad_argument(arguments, word, tmp_path, caplog):
+    caplog.clear()
     with caplog.at_level(logging.ERROR, "gearlube"):
         assert run(*arguments, "--out", tmp_path).exit_code == BAD_ARGUMENT
     assert word in caplog.text
@@ -306,19 +308,3 @@ def test_heights_at_rest_between_moving_surfaces_are_warned_of(tmp_path, caplog,
         assert ("heights do not move" in caplog.text) == warned
     dataset = xr.load_dataset(tmp_path / "out" / "line.nc", engine="scipy")
     assert np.trapezoid(dataset["pressure"], dataset["x"]) == pytest.approx(3.6e5, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("reason", "code"),
-    [(ConvergenceError("no film"), FAILED), (OSError("disk full"), FAILED),
-     (KeyboardInterrupt(), INTERRUPTED)],
-)  # fmt: skip
-def test_a_failed_or_stopped_run_says_so(reason, code, monkeypatch, caplog):
-    def fail(_, **given):
-        raise reason
-
-    monkeypatch.setattr(run_steady, "run_point", fail)
-    with caplog.at_level(logging.WARNING, "gearlube"):
-        assert run("point").exit_code == code
-    assert str(reason) in caplog.text
-    assert caplog.text

@@ -20,6 +20,7 @@ from docs.ehl.sections import section
 from docs.ehl.store import Steady, Store
 from docs.page import FAILS, HOLDS, PARTLY
 from gearlube_core.ehl.transient.solution import FilmSolution
+from tests.helpers.each import each
 
 CLAIMS = {**CYCLES, **RELIEFS, **MOTIONS, **FACETED_FLANKS}
 
@@ -87,9 +88,7 @@ def test_measures_on_curves_known_in_closed_form():
     assert measures.peaks(arch + 1e-2 * np.sin(26.0 * np.pi * phase), 0.2) == 1
 
 
-@pytest.mark.parametrize(
-    ("power", "rise", "verdict"), [(0.68, 1.0, HOLDS), (0.5, 1.0, PARTLY), (0.5, 1.1, FAILS)]
-)
+@each(("power", "rise", "verdict"), [(0.68, 1.0, HOLDS), (0.5, 1.0, PARTLY), (0.5, 1.1, FAILS)])
 def test_speed_claim_follows_the_exponent_and_the_pressure(power, rise, verdict):
     def pressure(case):
         return 1e9 * (rise if case.speed == 10.0 else 1.0)
@@ -130,7 +129,7 @@ def test_place_of_the_largest_pressure(first, verdict):
     assert CLAIMS["J8"](Given(moving=moving)).verdict == verdict
 
 
-@pytest.mark.parametrize(
+@each(
     ("error", "converged", "verdict"), [(4e-3, 1.0, HOLDS), (6e-3, 1.0, FAILS), (0.0, 0.0, FAILS)]
 )
 def test_load_claim_wants_the_load_and_convergence(error, converged, verdict):

@@ -9,10 +9,11 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.film.line_film import central_film_group as line_film_group
 from gearlube_core.film.point_film import central_film_group, regime_films
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import moes_contact, moes_film
 
 
-@pytest.mark.parametrize(
+@each(
     ("M", "L", "value"),
     [
         (20.0, 5.0, 2.866),

@@ -12,6 +12,7 @@ from gearlube_core.helical_geometry.load_sharing import (
     relief_on_path,
 )
 from gearlube_core.helical_geometry.meshing_steps import line_at_position
+from tests.helpers.each import each
 
 FILES = {design: HelicalGearFile.named(f"jamali_2015_{design}") for design in "ab"}
 PAIRS = {design: file.helical_pair() for design, file in FILES.items()}
@@ -35,7 +36,7 @@ def test_path_of_design_b_is_4_4_percent_longer():
     assert path["b"] / path["a"] == pytest.approx(1.044, abs=1e-3)
 
 
-@pytest.mark.parametrize("relation", ["below", "equal", "above"])
+@each("relation", ["below", "equal", "above"])
 def test_line_length_follows_the_three_cases_of_section_2_2_1(relation):
     """F tan(b) below, at and above the path AB; the printed branches, one routine."""
     pair = PAIRS["a"]
@@ -64,7 +65,7 @@ def test_line_length_follows_the_three_cases_of_section_2_2_1(relation):
         assert got == pytest.approx(printed(s), rel=1e-9, abs=1e-11)
 
 
-@pytest.mark.parametrize(
+@each(
     ("design", "member", "exact"),
     [("a", "pinion", 4.456), ("a", "gear", 4.477), ("b", "pinion", 4.456), ("b", "gear", 5.084)],
 )

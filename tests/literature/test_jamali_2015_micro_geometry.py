@@ -13,6 +13,7 @@ from gearlube_core.helical_geometry.lay_angle import (
 )
 from gearlube_core.helical_geometry.meshing_steps import line_at_position, meshing_steps
 from gearlube_core.helical_geometry.undeformed_gap import contact_line_gap
+from tests.helpers.each import each
 from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 from tests.helpers.named_pairs import named_pair
 
@@ -21,7 +22,7 @@ def half_length(pair):
     return 0.5 * pair.face_width / math.cos(pair.base_helix_angle)
 
 
-@pytest.mark.parametrize(("k", "c_e"), [(0.1, 3.684), (0.5, 23.333), (1.0, 70.0)])
+@each(("k", "c_e"), [(0.1, 3.684), (0.5, 23.333), (1.0, 70.0)])
 def test_parabola_of_the_relief_ends_at_equation_5_5(k, c_e):
     # (5.5) with 70 um: 70 k/(2 - k), to the last digit written
     relief = jamali_2015("a", k=k).pinion.tip_relief
@@ -81,7 +82,7 @@ def test_steps_are_those_in_which_the_line_exceeds_its_share():
     assert steps.duration(235.62) == pytest.approx(0.04e-3 / (0.073520 * 235.62), rel=1e-5)
 
 
-@pytest.mark.parametrize(
+@each(
     ("count", "length", "sagitta", "slope"),
     [(20, 0.415, 0.72, 0.0140), (40, 0.207, 0.18, 0.0070), (100, 0.083, 0.029, 0.0028)],
 )
