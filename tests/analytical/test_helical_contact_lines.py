@@ -175,19 +175,3 @@ def test_normal_curvature_is_that_of_the_involute_helicoid(member):
     assert curvature == pytest.approx(plane.cos_b / radius, rel=1e-5)
     both = plane.cos_b * (1.0 / got.R_p + 1.0 / got.R_g)
     assert pytest.approx(both, rel=1e-12) == 1.0 / got.R
-
-
-@each("share", [-0.2, 0.0, 0.3, 0.8, 1.0, 1.7])
-def test_compiled_kernels_equal_their_python(share):
-    plane = HE.helical_pair().plane
-    X = line_position(share, 1, plane)
-    assert line_position.py_func(share, 1, plane) == X
-    segment = clip_line(X, plane)
-    assert tuple(clip_line.py_func(X, plane)) == pytest.approx(tuple(segment), rel=1e-14)
-    assert segment_length.py_func(segment, plane) == segment_length(segment, plane)
-    crossing = pitch_crossing(X, segment, plane)
-    assert pitch_crossing.py_func(X, segment, plane) == pytest.approx(crossing, abs=1e-16)
-    assert line_count.py_func(plane) == line_count(plane)
-    assert line_kinematics.py_func(0.02, 100.0, plane) == pytest.approx(
-        line_kinematics(0.02, 100.0, plane), rel=1e-14
-    )
