@@ -101,7 +101,7 @@ def test_slow_running_leaves_no_squeeze():
     )
 
     def excess(one):
-        march = march_flank(one, 8, BETA)
+        march = march_flank(one, 5, BETA)
         steady = steady_films(one, one.cycle.time[[0, -1]], BETA)
         return march["central_film"][-1] / steady["central_film"][-1] - 1.0
 
