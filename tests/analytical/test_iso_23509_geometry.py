@@ -81,7 +81,7 @@ class InSpace:
 
 
 @each("case", CASES)
-def test_cones_share_the_mean_point_and_its_normal(case):
+def test_cones_touch_along_generators_whose_angles_follow_the_sliding(case):
     cones = touching(case)
     space = InSpace(cones)
     # the point found on the gear lies at the pinion's cone distance and angle, to rounding
@@ -95,22 +95,11 @@ def test_cones_share_the_mean_point_and_its_normal(case):
         space.normal(space.gear_axis, space.gear_line),
     )
     assert normals[0] @ normals[1] == pytest.approx(-1.0, abs=1e-14)
-
-
-@each("case", CASES)
-def test_the_generators_include_the_offset_angle(case):
-    cones = touching(case)
-    space = InSpace(cones)
+    # the generators include the offset angle
     angle = math.acos(unit(space.pinion_line) @ unit(space.gear_line))
     assert angle == pytest.approx(cones.offset_angle, rel=1e-10)
     assert angle == pytest.approx(cones.pinion_spiral_angle - cones.gear_spiral_angle, rel=1e-10)
-
-
-@each("case", CASES)
-def test_sliding_follows_the_tooth_which_makes_both_spiral_angles(case):
-    """Speeds in the ratio of teeth leave no velocity across the teeth."""
-    cones = touching(case)
-    space = InSpace(cones)
+    # speeds in the ratio of teeth leave no velocity across the teeth
     v1, v2 = space.velocities(cones)
     sliding = unit(v1 - v2)
     for line, spiral in (
@@ -132,20 +121,13 @@ def limit_normal(space, cones):
 
 
 @each("case", CASES)
-def test_limit_pressure_angle_is_that_of_the_limit_normal(case):
-    cones = touching(case)
-    space = InSpace(cones)
-    normal, _ = limit_normal(space, cones)
-    tilt = abs(normal @ space.normal(space.gear_axis, space.gear_line))
-    assert math.asin(tilt) == pytest.approx(abs(cones.limit_pressure_angle), rel=1e-9)
-
-
-@each("case", CASES)
-def test_limit_curvature_keeps_the_contact_point_on_the_limit_normal(case):
-    """Along the tooth the sliding turns a normal of curvature k as fast as the speeds do."""
+def test_limit_angle_and_curvature_are_those_of_the_limit_normal(case):
     cones = touching(case)
     space = InSpace(cones)
     normal, tooth = limit_normal(space, cones)
+    tilt = abs(normal @ space.normal(space.gear_axis, space.gear_line))
+    assert math.asin(tilt) == pytest.approx(abs(cones.limit_pressure_angle), rel=1e-9)
+    # along the tooth the sliding turns a normal of curvature k as fast as the speeds do
     v1, v2 = space.velocities(cones)
     w1, w2 = space.speeds(cones)
     curvature = np.cross(w1 - w2, normal) @ tooth / np.linalg.norm(v1 - v2)

@@ -129,6 +129,13 @@ def values(cones):
     }
 
 
+def check_printed(cones, quantities, degrees, millimetres):
+    found = values(cones)
+    for quantity, printed in quantities.items():
+        tolerance = degrees if quantity in ANGLES else millimetres
+        assert found[quantity] == pytest.approx(printed, abs=tolerance), quantity
+
+
 # F.3: the last trial ends 0.002 deg short of the 50 deg asked for, which is 0.0024 mm of R_m1.
 # F.4: the misfit left of 0.3 % (limit 1 %) is 0.18 mm of R_m1 or, at 2.4 mm/deg, 0.075 deg of
 #      delta_2; the apexes move by the same 0.18 mm. To this comes its open 0.012 deg (see below).
@@ -140,10 +147,7 @@ def values(cones):
 def test_solved_pitch_cones_meet_the_sample_within_its_stopping_tolerance(
     name, degrees, millimetres
 ):
-    found = values(SAMPLES[name].solve())
-    for quantity, printed in SAMPLES[name].printed.items():
-        tolerance = degrees if quantity in ANGLES else millimetres
-        assert found[quantity] == pytest.approx(printed, abs=tolerance), quantity
+    check_printed(SAMPLES[name].solve(), SAMPLES[name].printed, degrees, millimetres)
 
 
 # F.3, F.5: as above. F.4: printed beta_m1 - beta_m2 is 0.012 deg off its own zeta_mp, which is
@@ -159,10 +163,7 @@ def test_cones_that_touch_the_printed_gear_cone_are_the_printed_ones(name, degre
         0.5e-3 * sample.printed["d_m2"],
         gear_spiral_angle=RAD(sample.printed["beta_m2"]),
     )
-    found = values(cones)
-    for quantity, printed in sample.printed.items():
-        tolerance = degrees if quantity in ANGLES else millimetres
-        assert found[quantity] == pytest.approx(printed, abs=tolerance), quantity
+    check_printed(cones, sample.printed, degrees, millimetres)
 
 
 # Rounded inputs: 0.0005 deg of the cones moves no length by more than 0.0016 mm. In F.5 outer cone
