@@ -68,12 +68,6 @@ def test_factors_equal_the_flow_of_the_velocity_profile(slope_s, slope_r, slidin
     assert flow[1] == pytest.approx(newtonian * factors.across * slope_r, rel=1e-7, abs=1e-16)
 
 
-@each(("sigma", "a", "value"), [(1.0, 0.0, 1.103638), (1.0, 10.0, 9.455686), (0.5, 5.0, 5.024314)])
-def test_values_of_conry(sigma, a, value):
-    # 3 (s cosh s - sinh s)/s^3 sqrt(1 + (a s/sinh s)^2) to the digits printed
-    assert shear_flow(EYRING, sigma, 0.0, a, UNLIMITED).along == pytest.approx(value, abs=6e-7)
-
-
 def test_without_cross_slope_the_one_dimensional_factor_returns():
     # quadrature and an iteration to 1e-9 against the closed form; slopes a digit less
     for sigma in (0.0, 1e-7, 3e-5, 0.02, 0.4, 2.4, 6.9, 19.0, -70.0):
