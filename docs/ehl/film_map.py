@@ -19,6 +19,7 @@ from gearlube.studies.films.film_formulas import point_film_formulas
 from gearlube_core.contact.hertz import log_curvature_ratio
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.film.point_film import regime_films
 from gearlube_core.oil.film_oil_data import film_oil
@@ -135,7 +136,8 @@ class Film:
 def solve(contact: Contact, nodes: int) -> Film:
     """Return the film of a contact, converged or not."""
     began = time.process_time()
-    found = solve_point_contact(contact.problem(nodes), throw=False)
+    settings = PointSolverSettings(estimate_error=False)  # each contact has two grids here
+    found = solve_point_contact(contact.problem(nodes), settings, throw=False)
     return Film(
         contact,
         nodes,

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.hypoid_axle.mesh_force import backlash_deflection
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from tests.helpers.axle_cases import (
     axle_with,
@@ -100,7 +99,7 @@ def test_two_dof_pair_on_mean_radii_swings_at_the_natural_frequency_of_the_one_d
     parameters = stiff_bearings(conservative(axle), 1e4)
     axle, pinion_torque, wheel_torque = running_axle(20, parameters, efficiency=1.0)
     # a kick: ten per cent more torque than the static deflection balances
-    data = record(axle, (1.1 * pinion_torque, wheel_torque), ["mesh.dte"], 0.1, h=2e-5)[0]
+    data = record(axle, (1.1 * pinion_torque, wheel_torque), ["mesh.dte"], 0.05, h=2e-5)[0]
     spectrum = np.abs(np.fft.rfft((data - data.mean()) * np.hanning(data.size), 16 * data.size))
     frequency = np.fft.rfftfreq(16 * data.size, 2e-5)
     R_p = parameters.mesh.series["R_p"][0, 0, 0]
@@ -108,15 +107,5 @@ def test_two_dof_pair_on_mean_radii_swings_at_the_natural_frequency_of_the_one_d
     expected = np.sqrt(k * (R_p**2 / I_P + (R_p * 36 / 13) ** 2 / I_G)) / (2 * np.pi)
     window = frequency > 0.7 * expected
     peak = frequency[window][np.argmax(spectrum[window])]
-    # 6 % variation of the stiffness shifts the mean frequency by its square. 0.2 % off with
-    # 0.1 s of record, the same for bearings ten times as stiff
+    # 6 % variation of the stiffness shifts the mean frequency by its square
     assert peak == pytest.approx(expected, rel=0.01)
-
-
-@pytest.mark.parametrize(
-    ("x", "expected"),
-    [(2e-6, 2e-6), (0.0, 0.0), (-1e-6, 0.0), (-149e-6, 0.0), (-151e-6, -1e-6), (-150e-6, 0.0)],
-)
-def test_backlash_has_three_regimes(x, expected):
-    assert backlash_deflection(x, 150e-6) == pytest.approx(expected, abs=1e-18)
-    assert backlash_deflection.py_func(x, 150e-6) == pytest.approx(expected, abs=1e-18)

@@ -13,6 +13,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 AXLE = mohammadpour_2015_axle()
 RATIO = AXLE.mesh.ratio
@@ -52,9 +53,7 @@ def marched(torque, speed, temperature, loss, mesh_periods=60, parameters=AXLE):
 
 # 1 %: what a user of the map is promised; friction rises less than in proportion to the load, so
 # the swing about its mean changes the mean loss in second order
-@pytest.mark.parametrize(
-    ("torque", "speed", "degc"), [(50.0, 209.4, 60.0), (-30.0, 209.4, 60.0), (100.0, 60.0, 80.0)]
-)
+@each(("torque", "speed", "degc"), [(50.0, 209.4, 60.0), (-30.0, 209.4, 60.0), (100.0, 60.0, 80.0)])
 def test_the_mean_losses_are_those_of_the_march(torque, speed, degc):
     loss, _ = one_point(torque, speed, degc + 273.15)
     found = marched(torque, speed, degc + 273.15, loss.sum())
@@ -136,7 +135,7 @@ def test_extremes_are_those_of_the_outputs():
     assert 333.15 < found.flank_temperature[0, 0, 0] < 500.0
 
 
-@pytest.mark.parametrize(
+@each(
     ("changed", "words"),
     [
         ({"torques": np.array([900.0])}, "torque"),

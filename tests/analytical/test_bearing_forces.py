@@ -30,6 +30,7 @@ from gearlube_core.bearings.shaft_expansion import roller_energy, shaft_bearing_
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.bearings.tapered_roller_kernels import shaft_bearing_forces
 from gearlube_core.film.mostofi_gohar_1983 import central_film
+from tests.helpers.each import each
 
 OIL = (0.0171, 2.383e-8)  # Pa s, 1/Pa
 BEARING = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0)
@@ -109,7 +110,7 @@ def test_written_roller_loads_add_up_to_the_force():
     assert roller_loads(*args, 1.0, out[:11]) == 1
 
 
-@pytest.mark.parametrize("film", [0.0, 0.2, 0.8, 2.0])
+@each("film", [0.0, 0.2, 0.8, 2.0])
 def test_fast_load_of_a_line_contact_agrees_with_the_iterated_one(film):
     K, c = 40.0, 3e-5
     for g, rate in itertools.product(np.linspace(-2.0, 250.0, 401), (-4e3, 0.0, 300.0)):
@@ -246,7 +247,7 @@ def test_squeeze_changes_the_film_by_about_a_ten_thousandth():
     assert (with_squeeze - steady) / hysteresis == pytest.approx(3e-3, rel=0.3)
 
 
-@pytest.mark.parametrize(
+@each(
     ("respond", "edge"),
     [
         (roller_response_line, 0.0),

@@ -28,6 +28,7 @@ from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.oil.film_oil_data import film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.bearing_32216 import BEARING, F_A, RPM, loss_at
+from tests.helpers.each import each
 
 CONTACT = {"R": 9.8e-3, "reduced_modulus": 2.31e11, "eta0": 0.05, "alpha": 2.1e-8}
 
@@ -49,8 +50,8 @@ def test_rolling_force_of_a_light_contact_is_that_of_rigid_cylinders():
         assert force == pytest.approx(1.42 * math.sqrt(2.0 * 0.05 * 2.0 * 1.0), rel=1e-6)
 
 
-@pytest.mark.parametrize("speed", [0.2, 1.0])
-@pytest.mark.parametrize(
+@each("speed", [0.2, 1.0])
+@each(
     ("law", "by_speed", "by_load"),
     [
         (zhou_hoeprich_force, 0.648, 0.246),
@@ -138,7 +139,7 @@ def between_rings(axial: float, radial: float) -> np.ndarray:
     return np.full(16, np.nan) if failed else loads
 
 
-@pytest.mark.parametrize("radial", [0.0, 3000.0, 6500.0, 12000.0])
+@each("radial", [0.0, 3000.0, 6500.0, 12000.0])
 def test_rollers_between_rigid_rings_carry_both_loads(radial):
     """Against the two equations of balance, solved on their own."""
     a, psi = BEARING.outer_angle, 2.0 * np.pi * np.arange(16) / 16
@@ -188,7 +189,7 @@ def test_rib_friction_falls_from_boundary_to_full_film_as_speed_rises():
     assert all(np.diff(friction) < 0.0)
 
 
-@pytest.mark.parametrize("law", ["biboulet_houpert", "zhou_hoeprich", "palmgren", "skf"])
+@each("law", ["biboulet_houpert", "zhou_hoeprich", "palmgren", "skf"])
 def test_no_speed_no_power_and_hotter_oil_less_of_it(law):
     assert loss_at(0, law=law).power == 0.0
     cold, hot = (loss_at(1000, law=law, temperature_degc=t).power for t in (40.0, 90.0))

@@ -8,7 +8,6 @@ from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.bearings.tapered_roller_kernels import shaft_bearing_forces
 from gearlube_core.errors import ConvergenceError
 from tests.helpers.bearing_statics import (
-    natural_frequencies,
     static_displacement,
     stiffness,
 )
@@ -46,12 +45,6 @@ def test_stiffness_is_the_slope_of_the_kernel_force():
         # second-order differences of a force with a scale of 5 um: (h/d)^2 and the film's fit
         assert pytest.approx(slope, rel=1e-5, abs=1e-6 * K.max()) == K
         assert pytest.approx(K.T, rel=1e-12) == K
-
-
-def test_natural_frequencies_are_those_of_independent_springs():
-    K = np.diag([4e8, 1e8, 9e8])
-    expected = np.sqrt(np.array([1e8, 4e8, 9e8]) / 50.0) / (2 * math.pi)
-    assert natural_frequencies(K, 50.0) == pytest.approx(expected, rel=1e-12)
 
 
 def test_static_displacement_balances_the_load():

@@ -18,6 +18,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from tests.helpers.each import each
 
 PRELOAD, SPEED, OIL_TEMPERATURE = 3000.0, 180.0, 343.15
 OIL = lubricant_state(Lubricant.named("mohammadpour_2015").parameters(), OIL_TEMPERATURE)
@@ -63,8 +64,8 @@ def skf(axial, radial):
     return 1e-3 * (rolling * (nu * n) ** 0.6 + 0.017 * dm**0.82 * (radial + 2.0 * Y * axial) * mu)
 
 
-@pytest.mark.parametrize(("law", "by_hand"), [(PALMGREN, palmgren), (SKF, skf)])
-@pytest.mark.parametrize("at", [(0.0, 0.0), (0.0, 20e-6), (15e-6, 5e-6), (60e-6, 50e-6)], ids=str)
+@each(("law", "by_hand"), [(PALMGREN, palmgren), (SKF, skf)])
+@each("at", [(0.0, 0.0), (0.0, 20e-6), (15e-6, 5e-6), (60e-6, 50e-6)])
 def test_each_bearing_has_the_drag_of_its_own_loads(law, by_hand, at):
     made = replace(BEARING, series="303").parameters()._replace(cage_ratio=0.0)
     expected = sum(by_hand(*loads) for loads in loads_by_hand(*at))

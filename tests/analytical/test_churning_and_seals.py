@@ -22,6 +22,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 # ring of 165 mm and 30 mm, 40 mm deep in 1.2 l
 SPEED = 830.0 * math.pi / 30.0
@@ -35,7 +36,7 @@ def ring(law, **changes):
 
 
 # worked out once outside this package, to the two digits given
-@pytest.mark.parametrize(
+@each(
     ("law", "nu", "torque"),
     [
         ("boness_1989", 100e-6, 0.44), ("boness_1989", 15e-6, 0.80),
@@ -60,7 +61,7 @@ def test_a_half_wetted_disc_has_half_its_faces_and_rim_in_oil():
     assert churning_torque(speed, nu, density, half) == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.parametrize("law", CHURNING_LAWS)
+@each("law", CHURNING_LAWS)
 def test_the_torque_opposes_either_way_and_ends_at_rest(law):
     forward = churning_torque(60.0, 2e-5, 870.0, ring(law))
     assert churning_torque(-60.0, 2e-5, 870.0, ring(law)) == -forward

@@ -14,6 +14,7 @@ from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.hypoid_design.flank_target import MeanContact, measured_contact
 from gearlube_core.hypoid_design.start_settings import image_pair, start_pair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 
 SIDES = ("drive", "coast")
 SAMPLE = BlankFile.named("hypoid_13_42")
@@ -41,8 +42,8 @@ def gap(file, side):
     return flank, PinionGap.from_pair(pair, flank).of(pair)
 
 
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize(
+@each("side", SIDES)
+@each(
     ("changes", "micrometres"),
     [
         # face milling: the cutters of both members are one surface, so only rounding is left

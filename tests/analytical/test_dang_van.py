@@ -17,6 +17,7 @@ from gearlube_core.contact.dang_van import (
     smallest_ball,
 )
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 STEEL = FatigueLimits(bending=400e6, torsion=250e6)  # alpha = 0.375
 TURN = np.linspace(0.0, 2.0 * np.pi, 49)
@@ -136,7 +137,7 @@ def test_material_follows_its_surface():
     assert passage_history(stress[0])[3, 2, 1] == stress[0, 2, 3, 1]
 
 
-@pytest.mark.parametrize(
+@each(
     ("wrong", "words"),
     [
         (lambda: dang_van_number(np.zeros((1, 6)), STEEL), r"got \(1, 6\)"),

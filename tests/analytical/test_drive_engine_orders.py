@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from drivetrain.engine import IDEAL_OTTO_ORDERS
+from tests.helpers.each import each
 
 COMPRESSION, EXPONENT, CRANK_OVER_ROD = 10.0, 1.32, 0.27
 AMBIENT = 1e5  # Pa
@@ -27,7 +28,7 @@ def otto_torque(intake: float, points: int = 2880) -> np.ndarray:
     return sum(np.roll(torque, cylinder * points // 4) for cylinder in range(4))
 
 
-@pytest.mark.parametrize(("intake", "tolerance"), [(0.6e5, 0.01), (0.4e5, 0.10), (1e5, 0.10)])
+@each(("intake", "tolerance"), [(0.6e5, 0.01), (0.4e5, 0.10), (1e5, 0.10)])
 def test_torque_orders_are_those_of_an_ideal_otto_cycle(intake: float, tolerance: float) -> None:
     torque = otto_torque(intake)
     lines = np.fft.rfft(torque) / len(torque)

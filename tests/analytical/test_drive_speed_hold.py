@@ -7,6 +7,7 @@ import pytest
 
 from drivetrain.drivers import SpeedHold
 from drivetrain.road_load import mohammadpour_2015_road_load
+from tests.helpers.each import each
 
 LOAD = mohammadpour_2015_road_load()
 RATIO = 36 / 13
@@ -28,8 +29,8 @@ def drive(driver: SpeedHold, loss: float, duration: float, h: float = 1e-4) -> n
     return speeds
 
 
-@pytest.mark.parametrize("speed_kmh", [20.0, 100.0])
-@pytest.mark.parametrize("loss_share", [0.0, 0.05])
+@each("speed_kmh", [20.0, 100.0])
+@each("loss_share", [0.0, 0.05])
 def test_the_mean_speed_meets_the_request_after_the_start(
     speed_kmh: float, loss_share: float
 ) -> None:

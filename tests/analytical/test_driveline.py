@@ -14,6 +14,7 @@ from drivetrain.driveline.steady_state import periodic_deviation
 from drivetrain.drivers import CoupledVehicle
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load
+from tests.helpers.each import each
 
 LOAD = mohammadpour_2015_road_load()
 CAR = DrivelineParameters(road_load=LOAD)
@@ -74,7 +75,7 @@ def hand_written_rates(
     )
 
 
-@pytest.mark.parametrize("speed_kmh", [20.0, 60.0, 120.0])
+@each("speed_kmh", [20.0, 60.0, 120.0])
 def test_the_steady_state_is_a_fixed_point(speed_kmh: float) -> None:
     line = Driveline(SMOOTH, speed_kmh / 3.6, axle_power_loss=150.0)
     steady = line.steady

@@ -11,6 +11,7 @@ from drivetrain.driveline.model import Driveline, driveline_modes
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load, mohammadpour_2015_vehicle
+from tests.helpers.each import each
 
 RATIO = 36 / 13
 INERTIA = 1.734e-3 + 5.81e-2 / RATIO**2
@@ -30,7 +31,7 @@ UNDAMPED = replace(
 )
 
 
-@pytest.mark.parametrize("speed_kmh", [20.0, 60.0, 100.0])
+@each("speed_kmh", [20.0, 60.0, 100.0])
 def test_undamped_modes_are_those_of_a_chain_of_five_masses(speed_kmh: float) -> None:
     line = Driveline(UNDAMPED, speed_kmh / 3.6)
     g, r = line.gear_ratio, LOAD.tyre.rolling_radius
@@ -52,20 +53,7 @@ def test_undamped_modes_are_those_of_a_chain_of_five_masses(speed_kmh: float) ->
     assert max(m.damping_ratio for m in modes) < 1e-6
 
 
-def test_an_axle_between_two_walls_rings_on_both_shafts() -> None:
-    walls = replace(
-        UNDAMPED,
-        engine=Engine(orders=(), secondary_inertia=1e7, flywheel_damping=0.0),
-        wheel_inertia=1e7,
-    )
-    mode = driveline_modes(Driveline(walls, 60 / 3.6))[0]
-    k = walls.propshaft_stiffness + walls.half_shaft_stiffness / RATIO**2
-    # Walls of 1e7 kg m2 against 1e-2 kg m2.
-    assert mode.frequency == pytest.approx(math.sqrt(k / INERTIA) / (2 * math.pi), rel=1e-6)
-    assert mode.name == "axle on propshaft"
-
-
-def test_half_shaft_damping_between_walls_gives_its_ratio() -> None:
+def test_an_axle_between_two_walls_rings_on_both_shafts_and_has_their_damping() -> None:
     walls = replace(
         UNDAMPED,
         engine=Engine(orders=(), secondary_inertia=1e7, flywheel_damping=0.0),
@@ -76,7 +64,10 @@ def test_half_shaft_damping_between_walls_gives_its_ratio() -> None:
     mode = driveline_modes(Driveline(walls, 60 / 3.6))[0]
     c = 0.5 + 2.0 / RATIO**2
     k = walls.propshaft_stiffness + walls.half_shaft_stiffness / RATIO**2
+    # Walls of 1e7 kg m2 against 1e-2 kg m2.
+    assert mode.frequency == pytest.approx(math.sqrt(k / INERTIA) / (2 * math.pi), rel=1e-6)
     assert mode.damping_ratio == pytest.approx(c / (2 * math.sqrt(k * INERTIA)), rel=1e-6)
+    assert mode.name == "axle on propshaft"
 
 
 def test_the_default_car_shuffles_below_ten_hertz_and_rings_at_the_axle_near_300() -> None:

@@ -22,6 +22,7 @@ from gearlube_core.ehl.transient.problem import moving_section
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import film_properties
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import dry_contact
 
 # [jamali_2015] Table 7.1: 720 N over 2 mm, mean 6.71 m/s, slide-roll ratio 0.36
@@ -61,10 +62,9 @@ def line(part, nodes, gap=None, **settings):
     return solve_line(problem, LineSettings(nodes=nodes, **settings))
 
 
-@pytest.mark.parametrize("sides", ["cyclic", "no_flow"])
-def test_smooth_section_is_the_line_contact(sides):
-    # 801 columns: both solvers differ by second order in the spacing at the spike, 4 s
-    part = section((801, 16), length=2e-3, sides=sides)
+def test_smooth_section_is_the_line_contact():
+    # 801 columns: both solvers differ by second order in the spacing at the spike
+    part = section((801, 16), length=2e-3)
     film, reference = solve_point_contact(part, QUICK), line(part, 801)
     assert film.pressure == pytest.approx(
         np.tile(reference.pressure[:, None], 16), abs=1e-3 * reference.pressure.max()
@@ -168,10 +168,11 @@ def test_elements_find_the_film_of_differences_between_cyclic_sides():
     # two discretisations of second order, 8 nodes a wave along y; the constriction differs more
     flat = np.abs(film.problem.x) < 0.1e-3
     assert other.film[flat] == pytest.approx(film.film[flat], rel=0.02)
-    shifted = wavy(section((257, 16)), phase=np.pi / 4.0)
-    moved = solve_point_contact(shifted, replace(STRICT, discretisation="elements"))
-    again = solve_point_contact(
-        wavy(section((257, 16))), replace(STRICT, discretisation="elements")
+    moved, again = (
+        solve_point_contact(
+            wavy(section(), phase=phase), replace(STRICT, discretisation="elements")
+        )
+        for phase in (np.pi / 4.0, 0.0)
     )
     assert np.roll(again.film, -1, axis=1) == pytest.approx(moved.film, rel=1e-6)
 
@@ -303,7 +304,7 @@ def test_deflection_of_single_precision_is_that_of_double():
     assert rough == pytest.approx(exact, abs=1e-5 * np.ptp(exact))
 
 
-@pytest.mark.parametrize(
+@each(
     ("change", "words"),
     [
         ({"nodes": (129, 17)}, "nodes along y must be even, within 16 to 2048"),

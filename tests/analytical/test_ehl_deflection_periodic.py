@@ -10,6 +10,7 @@ from scipy.special import k0
 from gearlube_core.contact.half_space import love_coefficients
 from gearlube_core.contact.half_space_periodic import PeriodicDeflection, periodic_modes
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 E = 1.1375e11  # contact modulus of steel on steel, E' 227.5 GPa
 
@@ -18,8 +19,8 @@ def deflection(dx, dy, nx, ny, axis="last", reference=1e-3):
     return PeriodicDeflection(periodic_modes(dx, dy, nx, ny, E, reference), ny, axis)
 
 
-@pytest.mark.parametrize(("dx", "dy"), [(1e-6, 1e-6), (1e-6, 3.3e-6), (2e-6, 0.7e-6)])
-@pytest.mark.parametrize("ny", [6, 7])
+@each(("dx", "dy"), [(1e-6, 1e-6), (1e-6, 3.3e-6), (2e-6, 0.7e-6)])
+@each("ny", [6, 7])
 def test_equals_the_sum_over_many_periods_up_to_the_lines_constant(dx, dy, ny):
     # images beyond H leave 2/L ln(2H/reference) and an end correction of the order (L/H)^2
     nx, images = 5, 400

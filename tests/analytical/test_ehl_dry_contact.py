@@ -11,6 +11,7 @@ from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import dry_contact
 from tests.references.hertz_reference import HertzContact
 
@@ -31,7 +32,7 @@ def radius_ratio(ellipticity):
     return (ellipticity**2 * ellipe(m) - ellipk(m)) / (ellipk(m) - ellipe(m))
 
 
-@pytest.mark.parametrize("ellipticity", [1.0001, 5.0, 30.0, 100.0])
+@each("ellipticity", [1.0001, 5.0, 30.0, 100.0])
 def test_ellipse_of_hertz(ellipticity):
     hertz = HertzContact(
         R_x=0.012, R_y=0.012 * radius_ratio(ellipticity), contact_modulus=E, load=300.0

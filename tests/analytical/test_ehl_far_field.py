@@ -16,10 +16,12 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import moes_contact
 
 ISOVISCOUS = film_oil(eta0=0.02, alpha=0.0, density_law="incompressible")
 LIMITS = ((-3e-3, 2e-3), (-4e-3, 5e-3))
+QUICK = PointSolverSettings(estimate_error=False)
 
 
 def _far_field(R_x: float, R_y: float, velocity: tuple[float, float]) -> FarField:
@@ -35,7 +37,7 @@ def _far_field(R_x: float, R_y: float, velocity: tuple[float, float]) -> FarFiel
     )
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.6, 2.5])
+@each("angle", [0.0, 0.6, 2.5])
 def test_pressure_towards_the_inlet_is_that_of_kapitza(angle: float) -> None:
     R_x, R_y, speed, film = 0.01, 0.023, 1.3, 2e-6
     u, v = speed * math.cos(angle), speed * math.sin(angle)
@@ -96,7 +98,7 @@ def test_rigid_solids_have_the_film_of_brewe_hamrock_and_taylor(ratio: float) ->
         lubricant=ISOVISCOUS,
         nodes=(81, 81),
     )
-    solution = solve_point_contact(problem)
+    solution = solve_point_contact(problem, QUICK)
     # H = 128 a [0.131 atan(a/2) + 1.683]^2 phi^2 (U/W)^2, phi = 1/(1 + 2/(3 a)), a = R_y/R_x
     lift = (0.131 * math.atan(0.5 * ratio) + 1.683) / (1.0 + 2.0 / (3.0 * ratio))
     brewe = 128.0 * ratio * (lift * 0.02 * speed * R / load) ** 2 * R
@@ -134,8 +136,8 @@ def test_central_film_does_not_hang_on_the_default_domain(
 ) -> None:
     problem = moes_contact(M, L, nodes=(65, 65), radius_ratio=ratio, angle=angle)
     assert problem.oil_beyond
-    film = solve_point_contact(problem).central_film
-    wide = solve_point_contact(_widened(problem, 2.0))
+    film = solve_point_contact(problem, QUICK).central_film
+    wide = solve_point_contact(_widened(problem, 2.0), QUICK)
     # nodes of the two grids differ: 1 % on 65 nodes, of which the domain is a tenth
     assert film == pytest.approx(wide.central_film, rel=0.01)
     assert "cuts" not in wide.outcome.sentence
@@ -159,7 +161,7 @@ def test_a_ball_that_floats_far_above_its_plane_says_that_the_theory_has_ended()
         R_x=0.01, R_y=0.01, entrainment=(1.0, 0.0), load=0.01, contact_modulus=1.15e11,
         lubricant=film_oil(eta0=0.1, alpha=2e-8), nodes=(33, 33),
     )  # fmt: skip
-    film = solve_point_contact(ball, PointSolverSettings(estimate_error=False))
+    film = solve_point_contact(ball, QUICK)
     assert film.central_film > 0.01
     assert "Thin-film theory has ended: the smallest film is 1.4 of the radius" in (
         film.outcome.sentence
@@ -167,19 +169,19 @@ def test_a_ball_that_floats_far_above_its_plane_says_that_the_theory_has_ended()
 
 
 def test_oil_goes_on_beyond_elements_as_well() -> None:
-    problem = moes_contact(3.0, 5.0, nodes=(97, 97))
-    volumes = solve_point_contact(problem)
-    elements = solve_point_contact(problem, PointSolverSettings(discretisation="elements"))
+    problem = moes_contact(3.0, 5.0, nodes=(65, 65))
+    volumes = solve_point_contact(problem, QUICK)
+    elements = solve_point_contact(problem, replace(QUICK, discretisation="elements"))
     # both of second order on the same nodes: 1.3, 0.6 and 0.3 % apart on 65, 97 and 129
-    assert elements.central_film == pytest.approx(volumes.central_film, rel=0.01)
-    assert elements.outcome.beyond == pytest.approx(volumes.outcome.beyond, rel=0.01)
+    assert elements.central_film == pytest.approx(volumes.central_film, rel=0.02)
+    assert elements.outcome.beyond == pytest.approx(volumes.outcome.beyond, rel=0.02)
 
 
 def test_border_through_the_contact_says_so_with_oil_beyond() -> None:
     problem = moes_contact(3.0, 5.0, nodes=(49, 49))
-    assert "cuts" not in solve_point_contact(problem).outcome.sentence
+    assert "cuts" not in solve_point_contact(problem, QUICK).outcome.sentence
     low, high = problem.x_limits
-    cut = solve_point_contact(replace(problem, x_limits=(0.2 * low, high)), throw=False)
+    cut = solve_point_contact(replace(problem, x_limits=(0.2 * low, high)), QUICK, throw=False)
     assert "at small x off that of the oil beyond by" in cut.outcome.sentence
 
 

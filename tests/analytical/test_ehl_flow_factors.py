@@ -13,6 +13,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.oil.eyring_1936 import Eyring, eyring_flow_factor, eyring_mean_stress
 from gearlube_core.oil.film_oil_data import film_oil
 from gearlube_core.oil.shear_flow import shear_flow
+from tests.helpers.each import each
 
 UNLIMITED = math.inf
 EYRING = Eyring(1.0)
@@ -40,7 +41,7 @@ def profile_flow(
     return simpson(velocity - mean[:, None], x=z)
 
 
-@pytest.mark.parametrize(
+@each(
     ("slope_s", "slope_r", "sliding"),
     [
         (4e13, 0.0, 1.0),
@@ -65,14 +66,6 @@ def test_factors_equal_the_flow_of_the_velocity_profile(slope_s, slope_r, slidin
     newtonian = -(h**3) / (12.0 * eta)
     assert flow[0] == pytest.approx(newtonian * factors.along * slope_s, rel=1e-7, abs=1e-16)
     assert flow[1] == pytest.approx(newtonian * factors.across * slope_r, rel=1e-7, abs=1e-16)
-
-
-@pytest.mark.parametrize(
-    ("sigma", "a", "value"), [(1.0, 0.0, 1.103638), (1.0, 10.0, 9.455686), (0.5, 5.0, 5.024314)]
-)
-def test_values_of_conry(sigma, a, value):
-    # 3 (s cosh s - sinh s)/s^3 sqrt(1 + (a s/sinh s)^2) to the digits printed
-    assert shear_flow(EYRING, sigma, 0.0, a, UNLIMITED).along == pytest.approx(value, abs=6e-7)
 
 
 def test_without_cross_slope_the_one_dimensional_factor_returns():
@@ -256,8 +249,8 @@ def test_border_and_nodes_without_film_are_newtonian():
             assert np.all(rate[plain] == 0.0)
 
 
-@pytest.mark.parametrize("law", [{}, {"limiting_shear": (1e4, 0.02)}])
-@pytest.mark.parametrize(("size", "a"), [(0.004, 0.006), (0.5, 0.7), (1.5, 3.0)])
+@each("law", [{}, {"limiting_shear": (1e4, 0.02)}])
+@each(("size", "a"), [(0.004, 0.006), (0.5, 0.7), (1.5, 3.0)])
 def test_powers_of_the_flow_are_its_logarithmic_derivatives(size, a, law):
     """Flow along sliding goes as G(s, a)/eta, s as h dp/dx and a as eta/h."""
     oil = film_oil(eta0=0.01, alpha=2e-8, eyring_stress=1e4, **law)

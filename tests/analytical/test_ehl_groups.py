@@ -6,7 +6,7 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.groups import point_contact_groups
-from gearlube_core.film.point_film import central_film_thickness, film_geometry
+from tests.helpers.each import each
 
 CASE = {
     "viscosity": 0.0171,
@@ -32,22 +32,6 @@ def test_groups_printed_with_er_and_the_sum_of_speeds_are_the_same_numbers():
     assert pytest.approx((U, G, W), rel=1e-14) == (groups.U, groups.G, groups.W)
 
 
-def test_film_kernel_is_the_power_law_in_these_groups():
-    R_e, side_flow = film_geometry(CASE["radius"], 1.0, 0.0)
-    groups = point_contact_groups(**{**CASE, "radius": R_e})
-    H = 4.31 * groups.U**0.68 * groups.G**0.49 * groups.W**-0.073 * side_flow
-    film = central_film_thickness(
-        R_e,
-        side_flow,
-        CASE["viscosity"],
-        CASE["pressure_viscosity"],
-        CASE["entrainment_speed"],
-        CASE["load"],
-        CASE["reduced_modulus"],
-    )
-    assert film == pytest.approx(H * R_e, rel=1e-12)  # powers collected in another order
-
-
 def test_moes_groups_leave_two_of_three_numbers():
     """Scaling load and speed so that M and L stay leaves H (2U)^(-1/2) of any film law alone."""
     groups = point_contact_groups(**CASE)
@@ -55,7 +39,7 @@ def test_moes_groups_leave_two_of_three_numbers():
     assert pytest.approx(groups.G, rel=1e-14) == groups.L / (2.0 * groups.U) ** 0.25
 
 
-@pytest.mark.parametrize("name", list(CASE))
+@each("name", list(CASE))
 def test_a_quantity_that_is_not_positive_is_named(name):
     with pytest.raises(ParameterError, match=name):
         point_contact_groups(**{**CASE, name: 0.0})

@@ -48,7 +48,7 @@ def test_a_turned_gap_under_straight_entrainment_is_the_oblique_contact():
         nodes=(113, 113),
         **shared,
     )
-    settings = PointSolverSettings(wedge="quick")
+    settings = PointSolverSettings(wedge="quick", estimate_error=False)
     first, second = (solve_point_contact(one, settings) for one in (aligned, turned))
     # with 4/3 of the nodes the central films move by 3e-4, the smallest by 1.1 %
     assert second.central_film == pytest.approx(first.central_film, rel=3e-3)
@@ -101,7 +101,7 @@ def test_slow_running_leaves_no_squeeze():
     )
 
     def excess(one):
-        march = march_flank(one, 8, BETA)
+        march = march_flank(one, 5, BETA)
         steady = steady_films(one, one.cycle.time[[0, -1]], BETA)
         return march["central_film"][-1] / steady["central_film"][-1] - 1.0
 

@@ -17,6 +17,7 @@ from gearlube_core.ehl.line.solver import hertz_start, solve_line
 from gearlube_core.ehl.line.system import LineDeflection, LineState, LineSystem, hat_coefficients
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
 
 R = 0.01  # m
@@ -114,9 +115,7 @@ def test_error_of_a_given_domain_covers_what_it_leaves_out():
     assert "error of the domain is not known" in solve_line(wavy).outcome
 
 
-@pytest.mark.parametrize(
-    ("line_load", "slide_roll"), [(2e3, 0.36), (2e4, 0.36), (360e3, 0.36), (360e3, 0.0)]
-)
+@each(("line_load", "slide_roll"), [(2e3, 0.36), (2e4, 0.36), (360e3, 0.36), (360e3, 0.0)])
 def test_film_and_forces_are_those_of_three_times_the_domain(line_load, slide_roll):
     problem = thesis_line(line_load=line_load, slide_roll=slide_roll)
     film = solve_line(problem, LineSettings(nodes=401))
@@ -161,7 +160,7 @@ def test_deflection_under_hertz_pressure_flattens_the_parabola():
     assert errors[2] < errors[0] / 4.0**1.4
 
 
-@pytest.mark.parametrize("d", [0, 1, 9, 10, 11, 300])
+@each("d", [0, 1, 9, 10, 11, 300])
 def test_hat_coefficients_are_the_integral_of_the_logarithm(d):
     def second(x):  # antiderivative of the logarithm's antiderivative
         return x * x * (abs(x).ln() / 2 - Decimal("0.75")) if x else Decimal(0)
@@ -230,7 +229,7 @@ def _manufactured(nodes: int, stencil: str) -> float:
     return float(np.abs(state.P - exact(X)).max())
 
 
-@pytest.mark.parametrize(
+@each(
     ("stencil", "order"),
     [("central", 2.0), ("upwind-2", 2.0), ("upwind-1", 1.0), ("galerkin", 2.0)],
 )

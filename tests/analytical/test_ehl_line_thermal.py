@@ -26,6 +26,7 @@ from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.film_oil import thermal_viscosity
 from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
 from gearlube_core.oil.oil_heat import OilHeat
+from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
 
 T0 = 363.15  # K
@@ -113,8 +114,8 @@ def test_a_broken_film_is_heated_in_its_share_of_full_film(limit_slope):
     assert heat[1].max() > 0.0
 
 
-@pytest.mark.parametrize("tau0", [None, 5e6])
-@pytest.mark.parametrize("slope", [0.0, 3e13, -8e13])
+@each("tau0", [None, 5e6])
+@each("slope", [0.0, 3e13, -8e13])
 def test_shear_across_an_unevenly_warm_film_slides_as_the_surfaces_do(tau0, slope):
     oil = OIL._replace(shear=Eyring(tau0 or 0.0))
     p, h, us, m = 4e8, 0.3e-6, 1.5, 2001
@@ -173,9 +174,9 @@ def test_surfaces_flash_as_jaeger_says_for_a_band_of_heat():
 
 
 def test_pure_rolling_film_cools_where_it_expands():
-    solution = solve_thermal_line(contact(1e-6), STEEL, STEEL, LineSettings(nodes=301))
+    solution = solve_thermal_line(contact(1e-6), STEEL, STEEL, LineSettings(nodes=151))
     still = contact(1e-6, lubricant=OIL._replace(expansion=0.0))
-    without = solve_thermal_line(still, STEEL, STEEL, LineSettings(nodes=301))
+    without = solve_thermal_line(still, STEEL, STEEL, LineSettings(nodes=151))
     # shear by pressure flow alone can only warm; compression and expansion do both
     assert without.temperature.min() >= T0 - 1e-9
     assert solution.temperature.min() < T0 - 0.1
@@ -184,8 +185,8 @@ def test_pure_rolling_film_cools_where_it_expands():
 def test_heat_lowers_traction_and_more_so_at_more_sliding():
     reductions = []
     for slide_roll in (0.05, 0.36, 1.0):
-        warm = solve_thermal_line(contact(slide_roll), STEEL, STEEL, LineSettings(nodes=301))
-        cold = solve_line(contact(slide_roll), LineSettings(nodes=301))
+        warm = solve_thermal_line(contact(slide_roll), STEEL, STEEL, LineSettings(nodes=201))
+        cold = solve_line(contact(slide_roll), LineSettings(nodes=201))
         assert warm.converged
         reductions.append(warm.film.friction_coefficient / cold.friction_coefficient)
     assert 1.0 > reductions[0] > reductions[1] > reductions[2] > 0.2

@@ -15,13 +15,14 @@ from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
 
 
-@pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
-@pytest.mark.parametrize("cavitation", ["reynolds", "mass_conserving"])
+@each("scheme", ["bdf2", "crank_nicolson"])
+@each("cavitation", ["reynolds", "mass_conserving"])
 def test_steady_film_stays(scheme, cavitation):
     film = solve_line(THESIS, LineSettings(nodes=201, cavitation=cavitation))
     march = LineMarch(film, LineHistory(), 1e-6, scheme)

@@ -23,6 +23,7 @@ from gearlube_core.oil.film_oil import (
 )
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of, jamali_2015_oil
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.each import each
 
 PRESSURES = (0.0, 1e6, 2e8, 1e9, 3e9)
 
@@ -43,7 +44,7 @@ def test_barus_viscosity_is_exponential():
         assert viscosity(oil, p) == pytest.approx(0.05 * math.exp(20e-9 * p), rel=1e-13)
 
 
-@pytest.mark.parametrize("law", ["barus", "roelands", "houpert"])
+@each("law", ["barus", "roelands", "houpert"])
 def test_slopes_are_the_derivatives_of_the_values(law):
     oil = film_oil(eta0=0.05, alpha=20e-9, law=law)
     for p in (1e7, 2e8, 1e9):
@@ -95,7 +96,7 @@ def test_houpert_follows_the_oil_of_the_library_in_temperature():
     assert viscosity(hot, 0.0) == pytest.approx(viscosity(roelands, 0.0), rel=0.03)
 
 
-@pytest.mark.parametrize(
+@each(
     ("sigma", "a", "expected"), [(1.0, 0.0, 1.103638), (1.0, 10.0, 9.455686), (0.5, 5.0, 5.024314)]
 )
 def test_eyring_factor_has_the_values_of_conry(sigma, a, expected):
@@ -103,8 +104,8 @@ def test_eyring_factor_has_the_values_of_conry(sigma, a, expected):
     assert eyring_flow_factor(sigma, a)[0] == pytest.approx(expected, abs=5e-7)
 
 
-@pytest.mark.parametrize("sigma", [0.05, 0.299, 0.301, 2.0, -3.0])
-@pytest.mark.parametrize("a", [0.0, 0.7, -30.0])
+@each("sigma", [0.05, 0.299, 0.301, 2.0, -3.0])
+@each("a", [0.0, 0.7, -30.0])
 def test_eyring_factor_is_the_integral_across_the_film(sigma, a):
     def rate(z, mean):
         return math.sinh(mean + 2.0 * sigma * z)
@@ -117,8 +118,8 @@ def test_eyring_factor_is_the_integral_across_the_film(sigma, a):
     assert eyring_mean_stress(sigma, a, 5e6) == pytest.approx(5e6 * mean, rel=1e-9, abs=1e-3)
 
 
-@pytest.mark.parametrize("sigma", [1e-3, 0.2, 0.31, 4.0, -1.5])
-@pytest.mark.parametrize("a", [0.3, -8.0])
+@each("sigma", [1e-3, 0.2, 0.31, 4.0, -1.5])
+@each("a", [0.3, -8.0])
 def test_slopes_of_the_eyring_factor(sigma, a):
     d = 1e-5
     value, by_sigma, by_a = eyring_flow_factor(sigma, a)

@@ -12,12 +12,13 @@ from scipy.special import k0
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.ehl.point.thermal.surfaces import MovingHeat, moving_heat_coefficients
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 K = STEEL.conductivity
 KAPPA = K / (STEEL.density * STEEL.heat_capacity)
 
 
-@pytest.mark.parametrize("velocity", [(0.0, 0.0), (0.5, 0.0), (5.0, -2.0), (-0.3, 2.0)])
+@each("velocity", [(0.0, 0.0), (0.5, 0.0), (5.0, -2.0), (-0.3, 2.0)])
 def test_cells_away_are_warmed_as_by_moving_point_sources(velocity):
     dx, dy, n = 8e-6, 6e-6, 65
     table = moving_heat_coefficients(STEEL, velocity, (dx, dy), (n, n))
@@ -43,7 +44,7 @@ def test_square_at_rest_has_the_temperature_of_the_potential_of_a_plate():
     assert rise == pytest.approx(2.0 * side * math.asinh(1.0) / (math.pi * K), rel=1e-4)
 
 
-@pytest.mark.parametrize("speed", [0.05, 0.5, 5.0])
+@each("speed", [0.05, 0.5, 5.0])
 def test_band_is_as_hot_as_jaegers_at_any_peclet_number(speed):
     half, cells, rows = 1e-4, 80, 41
     dx = 2.0 * half / cells

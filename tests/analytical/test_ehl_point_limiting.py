@@ -9,6 +9,7 @@ import pytest
 
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.equations.film_shear import FilmShear
+from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.traction import point_traction
 from gearlube_core.oil.film_oil import FilmOil
@@ -77,7 +78,7 @@ def _solved(oil: FilmOil) -> tuple[float, float, float]:
         nodes=(65, 65),
         sliding=(1.5, 0.5),
     )
-    solution = solve_point_contact(problem)
+    solution = solve_point_contact(problem, PointSolverSettings(estimate_error=False))
     traction = point_traction(
         problem.x, problem.y, solution.pressure, solution.film, (1.5, 0.5), oil
     )

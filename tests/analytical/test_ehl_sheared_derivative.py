@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from gearlube_core.ehl.point.contact_domain import elliptical_contact, line_section
 from gearlube_core.ehl.point.equations.grid import PointGrid
@@ -22,6 +21,7 @@ from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.level import FilmConditions, MovingLevel
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 
 TAU0 = 4e6
 NODES = 25
@@ -82,8 +82,8 @@ def thinned(state: FilmState) -> bool:
     return bool(state.shear.xx.max() > 20.0)
 
 
-@pytest.mark.parametrize("wedge", ["upwind-2", "quick", "central"])
-@pytest.mark.parametrize("sliding", DIRECTIONS)
+@each("wedge", ["upwind-2", "quick", "central"])
+@each("sliding", DIRECTIONS)
 def test_operator_of_a_steady_sheared_film_is_the_derivative_of_its_residual(sliding, wedge):
     problem = contact(sliding, entrainment=(2.0, 0.8))
     level = PointLevel(problem, PointScales.of(problem), (NODES, NODES), wedge)
@@ -91,7 +91,7 @@ def test_operator_of_a_steady_sheared_film_is_the_derivative_of_its_residual(sli
     assert error_of_the_operator(level, *wavy(level, problem), thinned) < 1e-6
 
 
-@pytest.mark.parametrize("sliding", DIRECTIONS)
+@each("sliding", DIRECTIONS)
 def test_operator_follows_a_limiting_stress_that_grows_with_pressure(sliding):
     problem = contact(sliding, limiting_shear=(1e4, 0.01))
     level = PointLevel(problem, PointScales.of(problem), (NODES, NODES), "upwind-2")
@@ -105,9 +105,9 @@ def test_operator_follows_a_limiting_stress_that_grows_with_pressure(sliding):
     assert error_of_the_operator(level, pressure, approach, slips) < 1e-6
 
 
-@pytest.mark.parametrize("limits", [(-np.inf, np.inf), (0.9, 1.1)])
-@pytest.mark.parametrize("graded", [False, True])
-@pytest.mark.parametrize("side", [0.0, 0.4])
+@each("limits", [(-np.inf, np.inf), (0.9, 1.1)])
+@each("graded", [False, True])
+@each("side", [0.0, 0.4])
 def test_operator_of_a_film_in_motion_is_the_derivative_of_its_residual(limits, graded, side):
     """Storage, rows of other sliding or one across the motion, faces limited or not."""
     problem = contact(sliding=None)
@@ -132,7 +132,7 @@ def test_operator_of_a_film_in_motion_is_the_derivative_of_its_residual(limits, 
     assert error_of_the_operator(level, pressure, approach, limited) < 1e-6
 
 
-@pytest.mark.parametrize(
+@each(
     ("sides", "across", "scheme"),
     [
         ("cyclic", 0.0, Differences),
@@ -170,7 +170,7 @@ def test_operator_of_a_film_between_closed_sides_is_the_derivative_of_its_residu
     assert error_of_the_operator(level, pressure, approach, thinned) < 1e-6
 
 
-@pytest.mark.parametrize("sliding", DIRECTIONS)
+@each("sliding", DIRECTIONS)
 def test_operator_of_elements_is_the_derivative_of_their_residual(sliding):
     problem = contact(sliding)
     level = PointLevel(problem, PointScales.of(problem), (NODES, NODES), "central", scheme=galerkin)

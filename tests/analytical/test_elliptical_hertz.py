@@ -13,12 +13,13 @@ from gearlube_core.contact.hertz import (
     hertz_coefficients,
     hertz_ellipse,
 )
+from tests.helpers.each import each
 from tests.references.hertz_reference import HertzContact
 
 E_STAR = 115.4e9
 
 
-@pytest.mark.parametrize("axis_ratio", [1.0, 0.999, 0.7, 0.3, 0.05, 1e-3, 1e-6])
+@each("axis_ratio", [1.0, 0.999, 0.7, 0.3, 0.05, 1e-3, 1e-6])
 def test_elliptic_integrals_agree_with_scipy(axis_ratio: float) -> None:
     K, D = complete_elliptic_k_d(axis_ratio)
     m = (1.0 - axis_ratio) * (1.0 + axis_ratio)
@@ -31,7 +32,7 @@ def test_difference_integral_of_a_circle_is_a_quarter_pi() -> None:
     assert complete_elliptic_k_d(1.0)[1] == pytest.approx(math.pi / 4.0, rel=1e-15)
 
 
-@pytest.mark.parametrize("ratio", [1.0, 1.0000003, 1.01, 1.7, 5.0, 16.0, 54.5, 2e3, 1e6])
+@each("ratio", [1.0, 1.0000003, 1.01, 1.7, 5.0, 16.0, 54.5, 2e3, 1e6])
 def test_ellipticity_solves_the_curvature_equation(ratio: float) -> None:
     # bracketed root with scipy's integrals; scipy's K loses digits as m approaches 1
     reference = HertzContact(R_x=1.0, R_y=ratio, contact_modulus=1.0, load=1.0).ellipticity
@@ -53,7 +54,7 @@ def test_circular_contact_meets_the_sphere_formulas() -> None:
     assert p_mean == pytest.approx(W / (math.pi * a**2), rel=1e-14)
 
 
-@pytest.mark.parametrize(("R_x", "R_y"), [(0.01, 0.01), (0.01, 0.03), (0.011, 0.6)])
+@each(("R_x", "R_y"), [(0.01, 0.01), (0.01, 0.03), (0.011, 0.6)])
 def test_kernel_and_reference_class_agree(R_x: float, R_y: float) -> None:
     a_x, a_y, p_mean = hertz_ellipse(R_x, R_y, E_STAR, 800.0)
     reference = HertzContact(R_x=R_x, R_y=R_y, contact_modulus=E_STAR, load=800.0)
@@ -87,7 +88,7 @@ def surface_displacement(contact: HertzContact, x: float, y: float) -> float:
     return contact.maximum_pressure / (math.pi * contact.contact_modulus) * integral
 
 
-@pytest.mark.parametrize("R_y", [0.01, 0.04, 0.6])
+@each("R_y", [0.01, 0.04, 0.6])
 def test_deformed_surfaces_conform_inside_the_ellipse(R_y: float) -> None:
     contact = HertzContact(R_x=0.01, R_y=R_y, contact_modulus=E_STAR, load=1000.0)
     for share in (0.0, 0.5, 0.9):

@@ -22,6 +22,7 @@ from gearlube_core.friction.evans_johnson_1986 import (
     surface_heating_number,
     viscous_friction_coefficient,
 )
+from tests.helpers.each import each
 
 H, ETA0, BETA, TAU0, K = 4e-7, 0.0171, 0.024, 2e6, 0.14
 Y = np.linspace(1e-3, 4.0, 4001)
@@ -42,7 +43,7 @@ def plateau(alpha_p: float, zeta: float = 0.0) -> float:
     return float(plateau_stress_ratio(H, p, ETA0, alpha_p / p, BETA, TAU0, K, zeta))
 
 
-@pytest.mark.parametrize("argument", [5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 11.8])
+@each("argument", [5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 11.8])
 def test_plateau_is_the_maximum_traction_of_a_thermal_eyring_film(argument: float) -> None:
     alpha_p = argument - LOG_A_SQUARED
     # a straight line through the exact curve: 0.9 % low at 5, 0.1 % high at 7, 1 % low at 11.8
@@ -81,8 +82,8 @@ def test_closed_solution_of_the_film_satisfies_the_energy_equation() -> None:
     assert path.y[0, -1] == pytest.approx(0.0, abs=1e-8)
 
 
-@pytest.mark.parametrize("zeta", [0.05, 0.2, 0.5, 1.0])
-@pytest.mark.parametrize("argument", [8.0, 10.0, 12.0])
+@each("zeta", [0.05, 0.2, 0.5, 1.0])
+@each("argument", [8.0, 10.0, 12.0])
 def test_surface_heating_lowers_the_plateau_as_a_moving_band_source_does(
     zeta: float, argument: float
 ) -> None:

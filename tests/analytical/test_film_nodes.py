@@ -13,6 +13,7 @@ from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_STATE, PHI_P
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with
+from tests.helpers.each import each
 
 FORCE, SPEED, TORQUE, TEETH = 2500.0, 145.0, 60.0, 13
 
@@ -145,7 +146,7 @@ def kept_after(*states):
     return films
 
 
-@pytest.mark.parametrize("then", [(2000.0, 150.0), (2500.0, 130.0), (1800.0, 160.0)])
+@each("then", [(2000.0, 150.0), (2500.0, 130.0), (1800.0, 160.0)])
 def test_renewed_slopes_give_back_the_values_before(then):
     films = kept_after(then, (FORCE, SPEED))
     before = state.flank_between(films, 3, 3, 0.0, *then)
@@ -176,7 +177,7 @@ def test_values_follow_a_force_that_goes_on_changing(axle):
     assert abs(kept / exact - 1.0).max() < 1e-3
 
 
-@pytest.mark.parametrize(
+@each(
     ("now", "tells"),
     [
         ({"force": 2.4}, True),

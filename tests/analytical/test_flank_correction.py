@@ -19,6 +19,7 @@ from gearlube_core.hypoid_geometry.flank.correction import (
 )
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from tests.helpers.contact_cases import shipped_pair
+from tests.helpers.each import each
 from tests.helpers.loaded_cases import FILE, stiffness
 
 HEIGHT, WIDTH = 7e-3, 30e-3
@@ -47,7 +48,7 @@ def with_relief(**members):
     return FILE.varied({f"{role}.drive_flank": fields for role, fields in members.items()})
 
 
-@pytest.mark.parametrize(
+@each(
     ("place", "expected"),
     [
         # crowns 4 - 7 um in the corners; twist +9 at heel tip and toe root, -9 at the others

@@ -27,6 +27,7 @@ from gearlube_core.friction.flank_laws import PrintedTraction
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED, contact_temperature_rise
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.axle_cases import axle_with
+from tests.helpers.each import each
 from tests.references.hertz_reference import HertzContact
 
 STEEL = STEEL_MOHAMMADPOUR_2015
@@ -187,7 +188,7 @@ def test_without_a_film_asperities_carry_all_load_by_the_share_and_little_by_the
     )
 
 
-@pytest.mark.parametrize("form", [CONSISTENT, AS_PRINTED, PRINTED_TRACTION, ZHOU_HOEPRICH_SHARE])
+@each("form", [CONSISTENT, AS_PRINTED, PRINTED_TRACTION, ZHOU_HOEPRICH_SHARE])
 def test_an_unloaded_flank_has_no_friction(form: int) -> None:
     for load in (0.0, -100.0):
         state = flank(load, ROLLING, SLIDING, form)
@@ -195,7 +196,7 @@ def test_an_unloaded_flank_has_no_friction(form: int) -> None:
         assert state.film_thickness == flank(LOAD_FLOOR, ROLLING, SLIDING, form).film_thickness
 
 
-@pytest.mark.parametrize("form", [CONSISTENT, AS_PRINTED, PRINTED_TRACTION])
+@each("form", [CONSISTENT, AS_PRINTED, PRINTED_TRACTION])
 def test_friction_grows_linearly_from_rest(form: int) -> None:
     assert flank(LOAD, ROLLING, 0.0, form)[2:6] == (0.0, 0.0, 0.0, 0.0)
     one, two = flank(LOAD, ROLLING, 1e-9, form), flank(LOAD, ROLLING, 2e-9, form)

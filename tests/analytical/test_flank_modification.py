@@ -12,6 +12,7 @@ from gearlube_core.helical_geometry.modification import (
     PowerTipRelief,
     TipRelief,
 )
+from tests.helpers.each import each
 from tests.helpers.named_pairs import named_pair
 
 TIP, EXTENT, AMOUNT = 0.083305, 2e-3, 70e-6
@@ -23,7 +24,7 @@ def relief(k):
     return TipRelief(amount=AMOUNT, extent=EXTENT, k=k)
 
 
-@pytest.mark.parametrize("k", [0.1, 0.3, 0.5, 0.9])
+@each("k", [0.1, 0.3, 0.5, 0.9])
 def test_relief_joins_parabola_and_line_without_a_step_in_slope(k):
     r_ce, d = START + k * EXTENT, 1e-9
     below, at, above = relief(k).removal([r_ce - d, r_ce, r_ce + d], TIP)
@@ -35,7 +36,7 @@ def test_relief_joins_parabola_and_line_without_a_step_in_slope(k):
     assert (start[1] - start[0]) / d < 1e-5 * AMOUNT / EXTENT / k
 
 
-@pytest.mark.parametrize("k", [0.0, 0.1, 0.5, 1.0])
+@each("k", [0.0, 0.1, 0.5, 1.0])
 def test_relief_reaches_its_amount_at_the_tip_with_the_stated_slope(k):
     d = 1e-9
     before, tip, past = relief(k).removal([TIP - d, TIP, TIP + d], TIP)

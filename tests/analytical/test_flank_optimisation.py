@@ -154,7 +154,7 @@ def test_a_limit_that_binds_is_kept_and_costs():
             goal,
             (given.low, given.high),
             given.start,
-            SearchSettings(rounds=2, steps=10),
+            SearchSettings(rounds=1, steps=10),
         )
         return goal.highest(found.evaluation), found.evaluation
 

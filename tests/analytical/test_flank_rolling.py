@@ -24,6 +24,7 @@ from gearlube_core.friction.flank_rolling import (
     rolling_geometry,
 )
 from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from tests.helpers.each import each
 
 MODULUS = 115e9  # E* [Pa]
 R_X, LOAD, SPEED = 0.015, 2500.0, 3.0
@@ -38,7 +39,7 @@ def line_pressure(length):
     return 0.25 * math.pi * math.sqrt(LOAD / length * MODULUS / (math.pi * R_X))
 
 
-@pytest.mark.parametrize(("R_y", "within"), [(50.0, 1e-3), (1.5, 0.01), (0.5, 0.03)])
+@each(("R_y", "within"), [(50.0, 1e-3), (1.5, 0.01), (0.5, 0.03)])
 def test_the_line_has_the_mean_pressure_of_the_ellipse(R_y, within):
     """Of slender ellipses; of hypoid flanks, with a/b above 8, it stays within a few percent."""
     line = rolling_geometry(R_X, R_y, MODULUS)

@@ -10,6 +10,7 @@ from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.surface_point import CONVERGED, locate, surface_point
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 SINGLE_INDEXED = {
@@ -134,7 +135,7 @@ def error_of_involute(radius, far):
     return abs(swept) - abs(involute(math.acos(BASE_RADIUS / radius)) - involute(RACK_ANGLE))
 
 
-@pytest.mark.parametrize("radius", [38.2e-3, 39e-3, 41e-3, 43e-3])
+@each("radius", [38.2e-3, 39e-3, 41e-3, 43e-3])
 def test_rack_generates_the_involute(radius):
     error, double = error_of_involute(radius, FAR), error_of_involute(radius, 0.5 * FAR)
     # 2.5 um of rack form at 40 mm, which is inverse to its radius
@@ -150,7 +151,7 @@ def principal_curvatures(radius):
     return np.sort(np.abs(np.linalg.eigvalsh(operator)))
 
 
-@pytest.mark.parametrize("radius", [39e-3, 40e-3, 42e-3])
+@each("radius", [39e-3, 40e-3, 42e-3])
 def test_generated_involute_has_the_length_of_its_tangent_as_radius_of_curvature(radius):
     along, across = principal_curvatures(radius)
     # straight along the axis but for the round cutter

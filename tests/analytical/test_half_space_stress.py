@@ -15,6 +15,7 @@ from gearlube_core.contact.half_space_stress import (
     principal_stresses,
 )
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 N = 129
 X = np.linspace(-2.0, 2.0, N)  # half-widths
@@ -45,7 +46,7 @@ def mcewen(x: np.ndarray, z: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return -(m * (1.0 + share) - 2.0 * z), -m * (1.0 - share), xz
 
 
-@pytest.mark.parametrize("z", [0.25, 0.786, 2.0])
+@each("z", [0.25, 0.786, 2.0])
 def test_line_contact_has_the_field_of_mcewen(z: float):
     stress = line()(z)[:, :, 2]
     xx, zz, xz = mcewen(X, z)
@@ -70,7 +71,7 @@ def test_greatest_shear_lies_where_hertz_has_it():
     assert z[int(np.argmax(shear))] == pytest.approx(0.48, abs=0.01)
 
 
-@pytest.mark.parametrize("z", [0.0, 0.3, 1.0, 2.5])
+@each("z", [0.0, 0.3, 1.0, 2.5])
 def test_axis_of_a_round_contact_has_its_closed_form(z: float):
     # [johnson_1985 (3.45)]
     stress = circle()(z)[:, N // 2, N // 2]
@@ -201,7 +202,7 @@ def test_invariants_are_those_of_the_eigenvalues():
     assert mises_stress(stress) == pytest.approx(np.sqrt(0.5 * squares), abs=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     ("wrong", "words"),
     [
         ({"periodic": (True, False)}, "Turn the axes"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import pytest
 
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
@@ -16,6 +15,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     Z,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from tests.helpers.each import each
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import loaded_points, random_state
 
@@ -87,7 +87,7 @@ def _expected_ends(zone: int, position: float, plane: ContactPlane) -> tuple[flo
     return x_m, -half, plane.D, half - (position - plane.D) / tan_b
 
 
-@pytest.mark.parametrize("zone", range(1, 8))
+@each("zone", range(1, 8))
 def test_corrected_integrals_equal_the_quadrature_in_every_zone(zone: int) -> None:
     parameters = he_2007_pair(0.0)
     plane, density = parameters.pair.plane, parameters.mesh.density.max()

@@ -16,6 +16,7 @@ from gearlube_core.helical_geometry.contact_line import (
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.load_sharing import positions_at, shared_load
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from tests.helpers.each import each
 
 HE = HelicalGearFile.named("he_2007")
 PHASES = np.arange(2000) / 2000
@@ -44,7 +45,7 @@ def pair_of(ratio):
 RATIOS = [1.2, 1.6, 2.0, 2.7, 3.5, 5.0]
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
+@each("ratio", RATIOS)
 def test_mean_total_length_is_contact_ratio_times_width_over_cosine(ratio):
     """Area of the plane of contact over base pitch, along the lines: for any contact ratio.
 
@@ -58,7 +59,7 @@ def test_mean_total_length_is_contact_ratio_times_width_over_cosine(ratio):
     assert total[:, 0].mean() == pytest.approx(area / plane.pitch / plane.cos_b, rel=2e-6)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
+@each("ratio", RATIOS)
 def test_pairs_in_contact_average_to_the_total_contact_ratio(ratio):
     pair = pair_of(ratio)
     plane, count = pair.plane, 0
@@ -72,7 +73,7 @@ def test_pairs_in_contact_average_to_the_total_contact_ratio(ratio):
     assert count / PHASES.size == pytest.approx(pair.total_contact_ratio, abs=1.1e-3)
 
 
-@pytest.mark.parametrize("error", [-1e-14, 0.0, 1e-14])
+@each("error", [-1e-14, 0.0, 1e-14])
 def test_rounding_of_a_whole_contact_ratio_adds_no_line(error):
     plane = HE.helical_pair().plane
     travel = plane.D - plane.A + plane.W * plane.sin_b / plane.cos_b
@@ -174,19 +175,3 @@ def test_normal_curvature_is_that_of_the_involute_helicoid(member):
     assert curvature == pytest.approx(plane.cos_b / radius, rel=1e-5)
     both = plane.cos_b * (1.0 / got.R_p + 1.0 / got.R_g)
     assert pytest.approx(both, rel=1e-12) == 1.0 / got.R
-
-
-@pytest.mark.parametrize("share", [-0.2, 0.0, 0.3, 0.8, 1.0, 1.7])
-def test_compiled_kernels_equal_their_python(share):
-    plane = HE.helical_pair().plane
-    X = line_position(share, 1, plane)
-    assert line_position.py_func(share, 1, plane) == X
-    segment = clip_line(X, plane)
-    assert tuple(clip_line.py_func(X, plane)) == pytest.approx(tuple(segment), rel=1e-14)
-    assert segment_length.py_func(segment, plane) == segment_length(segment, plane)
-    crossing = pitch_crossing(X, segment, plane)
-    assert pitch_crossing.py_func(X, segment, plane) == pytest.approx(crossing, abs=1e-16)
-    assert line_count.py_func(plane) == line_count(plane)
-    assert line_kinematics.py_func(0.02, 100.0, plane) == pytest.approx(
-        line_kinematics(0.02, 100.0, plane), rel=1e-14
-    )

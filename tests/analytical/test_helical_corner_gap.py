@@ -9,6 +9,7 @@ import pytest
 from gearlube_core.helical_contact.strips import edge, engagement, line_gap, roll_beside
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
+from tests.helpers.each import each
 from tests.helpers.helical_contact_cases import HE_2007, SPUR
 
 
@@ -50,7 +51,7 @@ def edge_against_flank(pair, beyond, end):
     return r_g * (flank - place), *arms
 
 
-@pytest.mark.parametrize("beyond", [0.05e-3, 0.2e-3, 0.5e-3, 1.0e-3])
+@each("beyond", [0.05e-3, 0.2e-3, 0.5e-3, 1.0e-3])
 def test_corner_gap_is_the_tip_edges_distance_from_the_mating_involute(beyond):
     gap, pinion_arm, gear_arm = edge_against_flank(SPUR, beyond, SPUR.contact_end)
     found = line_gap(ModifiedPair(pair=SPUR), SPUR.contact_end + beyond)
@@ -64,7 +65,7 @@ def test_corner_gap_is_the_tip_edges_distance_from_the_mating_involute(beyond):
     assert float(met.gear_arm) == pytest.approx(gear_arm, rel=1e-9)
 
 
-@pytest.mark.parametrize("before", [0.05e-3, 0.2e-3, 0.5e-3])
+@each("before", [0.05e-3, 0.2e-3, 0.5e-3])
 def test_an_undercut_begins_with_an_edge_like_that_of_a_tip(before):
     start = UNDERCUT.involute_starts[0].roll
     assert UNDERCUT.contact_start == start > UNDERCUT.tip_start

@@ -17,6 +17,7 @@ from gearlube_core.helical_contact.strips import StripSettings, normal_gap
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.tooth_contact.coupled_strips import solve_coupled
 from tests.helpers.differences import apart, extrapolated
+from tests.helpers.each import each
 from tests.helpers.helical_contact_cases import TORQUE, coarse_stiffness, stiff_teeth
 
 MODULUS = 1.1e11
@@ -163,7 +164,7 @@ def test_rates_over_the_mesh_follow_from_those_of_phases(rates):
     )
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "reason"),
     [
         ("pinion.flank.profile_crown_um", "docs/helical_gear_file"),

@@ -19,6 +19,7 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
 from gearlube_core.dynamics.helical_pair.linear.period_march import march_period
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.periodic.floquet import floquet_multipliers
+from tests.helpers.each import each
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import estimated_pair, spur_pair
 
@@ -69,7 +70,7 @@ def test_constant_mesh_rests_at_its_static_deflection() -> None:
     assert np.abs(start[n:]).max() < 1e-6 * np.abs(static).max() * 2.0 * math.pi * 416.0
 
 
-@pytest.mark.parametrize("mesh_frequency", [2000.0, 7000.0, 14900.0])
+@each("mesh_frequency", [2000.0, 7000.0, 14900.0])
 def test_spur_rotation_alone_is_a_meissner_oscillator(mesh_frequency: float) -> None:
     """Two stiffnesses in turn: trace M = 2 ca cb - (w1/w2 + w2/w1) sa sb exactly."""
     parameters = replace(spur_pair(0.0), mesh_damping_ratio=0.0, support_damping_ratio=0.0)

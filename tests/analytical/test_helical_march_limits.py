@@ -33,6 +33,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     coast_view,
     drive_view,
 )
+from tests.helpers.each import each
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_accelerations import points_damping
 from tests.helpers.helical_dynamics_cases import loaded_points
@@ -60,8 +61,8 @@ def flanks(parameters: HelicalMarchParameters) -> tuple[FlankConstants, np.ndarr
     return constants.motion.flanks, pair_data(constants, parameters.mesh, parameters.film_model())
 
 
-@pytest.mark.parametrize("phase", [0.03, 0.37, 0.71, 5.9])
-@pytest.mark.parametrize(("a", "tilt"), [(8e-6, 1e-4), (0.0, 3e-4), (-1e-6, -3e-4)])
+@each("phase", [0.03, 0.37, 0.71, 5.9])
+@each(("a", "tilt"), [(8e-6, 1e-4), (0.0, 3e-4), (-1e-6, -3e-4)])
 def test_sums_are_integrals_along_the_lines(phase: float, a: float, tilt: float) -> None:
     """Contact over part of a line included; adaptive quadrature of the definition."""
     parameters = he_march()
@@ -103,7 +104,7 @@ def test_sums_are_integrals_along_the_lines(phase: float, a: float, tilt: float)
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
 
 
-@pytest.mark.parametrize("phase", [0.03, 0.37, 0.71])
+@each("phase", [0.03, 0.37, 0.71])
 def test_forces_and_moving_lines_are_the_slopes_of_one_energy(phase: float) -> None:
     """d(energy) = N da + (cos(b) Nz + sin(b) Nx) d(tilt) + moving dX, by central differences."""
     parameters = wavy_mesh(he_march())
@@ -166,8 +167,8 @@ def test_coast_flanks_press_the_other_way_and_need_no_frame_of_their_own() -> No
     assert w.M_pz / p.plane.r_bp == pytest.approx(w.M_gz / p.plane.r_bg, rel=1e-12)
 
 
-@pytest.mark.parametrize("form", ["twelve_dof", "six_dof"])
-@pytest.mark.parametrize("mu", [0.0, 0.1])
+@each("form", ["twelve_dof", "six_dof"])
+@each("mu", [0.0, 0.1])
 def test_harmonics_are_those_of_the_linear_periodic_solution(mu: float, form: str) -> None:
     """Contact is never lost, so that the springs are linear; inertia forces hold the speed."""
     parameters = he_march(
@@ -236,8 +237,8 @@ def test_the_start_is_the_mean_of_what_follows() -> None:
     assert np.ptp(rows[:100]) < 1.2 * np.ptp(later)
 
 
-@pytest.mark.parametrize("psi_rate", [2e-3, -2e-3])
-@pytest.mark.parametrize(
+@each("psi_rate", [2e-3, -2e-3])
+@each(
     ("psi", "tilt", "tolerance"),
     [
         (20e-6, 5e-5, 1e-10),  # all lines deep in contact

@@ -11,6 +11,7 @@ from gearlube_core.helical_geometry.tooth_limits import (
     largest_fillet,
     tip_thickness,
 )
+from tests.helpers.each import each
 
 
 def inside_tool(u, depth, tool):
@@ -45,7 +46,7 @@ def is_cut(roll, tool):
     return bool(inside_tool(u - 1e-9 * tool.radius, depth, tool).any())
 
 
-@pytest.mark.parametrize(
+@each(
     ("teeth", "pressure_angle", "helix_angle", "depth", "fillet", "undercut"),
     [
         (24, 14.5, 0.0, 1.25, 0.275, True),

@@ -12,6 +12,7 @@ import pytest
 
 from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, apex_misfit, method_2
 from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones, ToothTrace
+from tests.helpers.each import each
 
 FIELDS = ("shaft", "gear_angle", "teeth", "radius", "offset", "spiral")
 CASES = [
@@ -79,8 +80,8 @@ class InSpace:
         return np.cross(pinion, self.pinion_line), np.cross(gear, self.gear_line)
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_cones_share_the_mean_point_and_its_normal(case):
+@each("case", CASES)
+def test_cones_touch_along_generators_whose_angles_follow_the_sliding(case):
     cones = touching(case)
     space = InSpace(cones)
     # the point found on the gear lies at the pinion's cone distance and angle, to rounding
@@ -94,22 +95,11 @@ def test_cones_share_the_mean_point_and_its_normal(case):
         space.normal(space.gear_axis, space.gear_line),
     )
     assert normals[0] @ normals[1] == pytest.approx(-1.0, abs=1e-14)
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_the_generators_include_the_offset_angle(case):
-    cones = touching(case)
-    space = InSpace(cones)
+    # the generators include the offset angle
     angle = math.acos(unit(space.pinion_line) @ unit(space.gear_line))
     assert angle == pytest.approx(cones.offset_angle, rel=1e-10)
     assert angle == pytest.approx(cones.pinion_spiral_angle - cones.gear_spiral_angle, rel=1e-10)
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_sliding_follows_the_tooth_which_makes_both_spiral_angles(case):
-    """Speeds in the ratio of teeth leave no velocity across the teeth."""
-    cones = touching(case)
-    space = InSpace(cones)
+    # speeds in the ratio of teeth leave no velocity across the teeth
     v1, v2 = space.velocities(cones)
     sliding = unit(v1 - v2)
     for line, spiral in (
@@ -130,21 +120,14 @@ def limit_normal(space, cones):
     return unit(np.cross(tooth, np.cross(w1, v2) - np.cross(w2, v1))), tooth
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_limit_pressure_angle_is_that_of_the_limit_normal(case):
-    cones = touching(case)
-    space = InSpace(cones)
-    normal, _ = limit_normal(space, cones)
-    tilt = abs(normal @ space.normal(space.gear_axis, space.gear_line))
-    assert math.asin(tilt) == pytest.approx(abs(cones.limit_pressure_angle), rel=1e-9)
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_limit_curvature_keeps_the_contact_point_on_the_limit_normal(case):
-    """Along the tooth the sliding turns a normal of curvature k as fast as the speeds do."""
+@each("case", CASES)
+def test_limit_angle_and_curvature_are_those_of_the_limit_normal(case):
     cones = touching(case)
     space = InSpace(cones)
     normal, tooth = limit_normal(space, cones)
+    tilt = abs(normal @ space.normal(space.gear_axis, space.gear_line))
+    assert math.asin(tilt) == pytest.approx(abs(cones.limit_pressure_angle), rel=1e-9)
+    # along the tooth the sliding turns a normal of curvature k as fast as the speeds do
     v1, v2 = space.velocities(cones)
     w1, w2 = space.speeds(cones)
     curvature = np.cross(w1 - w2, normal) @ tooth / np.linalg.norm(v1 - v2)
@@ -174,7 +157,7 @@ def test_without_offset_the_cones_are_those_of_a_bevel_pair():
     assert cones.pinion_apex == pytest.approx(0.0, abs=1e-15)
 
 
-@pytest.mark.parametrize("case", CASES)
+@each("case", CASES)
 def test_either_spiral_angle_leads_to_the_same_pair(case):
     cones = touching(case)
     other = PitchCones.touching(
@@ -237,7 +220,7 @@ def rolled(groups, radius, crown, cone, spiral):
     return trace, state, start
 
 
-@pytest.mark.parametrize("head", HEADS)
+@each("head", HEADS)
 def test_curvature_at_the_mean_point_is_that_of_the_rolled_epicycloid(head):
     trace, state, start = rolled(*head)
     _, first, second = state(0.0, start)
@@ -245,8 +228,8 @@ def test_curvature_at_the_mean_point_is_that_of_the_rolled_epicycloid(head):
     assert trace.curvature_radius == pytest.approx(1.0 / abs(curvature), rel=1e-10)
 
 
-@pytest.mark.parametrize("head", HEADS)
-@pytest.mark.parametrize("roll", [-0.04, -0.02, 0.0, 0.02, 0.04])
+@each("head", HEADS)
+@each("roll", [-0.04, -0.02, 0.0, 0.02, 0.04])
 def test_spiral_angle_is_that_of_the_rolled_epicycloid(head, roll):
     trace, state, start = rolled(*head)
     place, velocity, _ = state(roll, start)

@@ -13,6 +13,7 @@ from gearlube_core.friction.johnson_greenwood_1980 import (
     thermal_eyring_film,
     thermal_newtonian_stress,
 )
+from tests.helpers.each import each
 
 # ln eta, beta, K, tau0, h: the oil of Karagiannis et al. 2012 at 40 degC and about 0.5 GPa
 LOG_ETA, BETA, K, TAU0, H = math.log(9.5), 0.063, 0.112, 2e6, 0.5e-6
@@ -32,7 +33,7 @@ def test_newtonian_isothermal_at_small_sliding() -> None:
     assert film.viscosity_ratio == pytest.approx(1.0, abs=1e-12)
 
 
-@pytest.mark.parametrize("slip", [1e-4, 1e-2, 1.0, 30.0])
+@each("slip", [1e-4, 1e-2, 1.0, 30.0])
 def test_eyring_isothermal_with_perfect_conduction(slip: float) -> None:
     film = thermal_eyring_film(LOG_ETA, BETA, 1e12, TAU0, H, slip)
     # heat of order dU^2 eta beta/K = 1e-9 left
@@ -40,7 +41,7 @@ def test_eyring_isothermal_with_perfect_conduction(slip: float) -> None:
     assert film.stress_ratio == pytest.approx(expected, rel=1e-8)
 
 
-@pytest.mark.parametrize("slip", [0.01, 0.3, 3.0, 40.0])
+@each("slip", [0.01, 0.3, 3.0, 40.0])
 def test_newtonian_thermal_with_large_eyring_stress(slip: float) -> None:
     film = thermal_eyring_film(LOG_ETA, BETA, K, 1e13, H, slip)
     # sinh(s)/s - 1 = s^2/6 with s = tau/tau0 below 1e-5
@@ -81,9 +82,7 @@ def film_by_collocation(slip: float, log_eta: float) -> tuple[float, float]:
     return float(solution.p[0]), float(solution.sol(0.5)[0]) / BETA
 
 
-@pytest.mark.parametrize(
-    ("slip", "log_eta"), [(0.05, 0.0), (0.3, 1.0), (1.0, 2.25), (3.2, 2.25), (8.0, 0.5)]
-)
+@each(("slip", "log_eta"), [(0.05, 0.0), (0.3, 1.0), (1.0, 2.25), (3.2, 2.25), (8.0, 0.5)])
 def test_root_against_collocation_of_the_energy_equation(slip: float, log_eta: float) -> None:
     s, rise_centre = film_by_collocation(slip, log_eta)
     film = thermal_eyring_film(log_eta, BETA, K, TAU0, H, slip)
@@ -135,7 +134,7 @@ def film_by_differences(slip: float, nodes: int, beta_of_t: bool) -> float:
     raise AssertionError("finite differences did not converge")
 
 
-@pytest.mark.parametrize("slip", [0.2, 1.0, 3.2])
+@each("slip", [0.2, 1.0, 3.2])
 def test_root_against_finite_differences_with_second_order(slip: float) -> None:
     s = thermal_eyring_film(*FILM, slip).stress_ratio
     errors = [film_by_differences(slip, n, False) - s for n in (21, 41)]
@@ -154,7 +153,7 @@ def test_exponential_fall_of_viscosity_against_a_curved_law() -> None:
     assert closed == pytest.approx(curved, rel=0.03)
 
 
-@pytest.mark.parametrize("argument", [6.0, 8.0, 10.0, 12.0])
+@each("argument", [6.0, 8.0, 10.0, 12.0])
 def test_largest_traction_is_the_plateau_of_evans_and_johnson(argument: float) -> None:
     log_a_squared = math.log(2.0 * K / (BETA * TAU0**2 * H**2))
     log_eta = argument - log_a_squared

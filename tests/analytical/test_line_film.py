@@ -13,6 +13,7 @@ from gearlube_core.film.line_film import (
     line_film_thickness,
     minimum_line_film_thickness,
 )
+from tests.helpers.each import each
 
 Film = Callable[..., float]
 # R, eta0, alpha, u, w, E'
@@ -83,8 +84,8 @@ def grubin_line_film(
     return float(brentq(edge_pressure, 1e-9, 1e-4, rtol=1e-10))
 
 
-@pytest.mark.parametrize("speed", [0.5, 3.0, 15.0])
-@pytest.mark.parametrize("line_load", [5e4, 2e5, 6e5])
+@each("speed", [0.5, 3.0, 15.0])
+@each("line_load", [5e4, 2e5, 6e5])
 def test_central_film_agrees_with_the_inlet_integral(speed: float, line_load: float) -> None:
     arguments = (*BASE[:3], speed, line_load, BASE[5])
     ratio = line_film_thickness(*arguments) / grubin_line_film(*arguments)
@@ -103,8 +104,8 @@ def test_inlet_integral_has_the_known_closed_form() -> None:
     assert grubin_line_film(*BASE) == pytest.approx(fit, rel=0.05)
 
 
-@pytest.mark.parametrize("speed", [0.5, 3.0, 15.0])
-@pytest.mark.parametrize("line_load", [5e4, 2e5, 6e5])
+@each("speed", [0.5, 3.0, 15.0])
+@each("line_load", [5e4, 2e5, 6e5])
 def test_outlet_constriction_takes_a_tenth_to_a_third_of_the_film(
     speed: float, line_load: float
 ) -> None:
@@ -127,7 +128,7 @@ def test_checked_film_is_the_kernel_with_the_contact_modulus() -> None:
     assert film == line_film_thickness(*BASE)
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "value", "cure"),
     [("line_load", 0.0, "100 N/mm"), ("radius", -1.0, "metres"), ("viscosity", math.nan, "20 cP")],
 )

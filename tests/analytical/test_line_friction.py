@@ -13,6 +13,7 @@ from gearlube_core.friction.flank_data import CONSISTENT, FlankState, contact_ge
 from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LineState, line_friction
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from tests.helpers.each import each
 
 STEEL = STEEL_MOHAMMADPOUR_2015
 SOLID = solid_parameters(STEEL, STEEL)
@@ -58,8 +59,8 @@ def matching_flank(
     return flank, F, line(w, ROLLING, sliding, surface), w
 
 
-@pytest.mark.parametrize("surface", [SURFACE, SMOOTH])
-@pytest.mark.parametrize("sliding", [0.05, 0.8, -3.0])
+@each("surface", [SURFACE, SMOOTH])
+@each("sliding", [0.05, 0.8, -3.0])
 def test_line_and_slender_flank_differ_by_their_films_only(
     surface: SurfaceParameters, sliding: float
 ) -> None:

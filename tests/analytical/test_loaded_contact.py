@@ -59,7 +59,7 @@ def test_work_of_the_torques_is_stored_as_strain_energy():
     # T_p dphi_p = T_g dphi_g + dU around the mesh at constant pinion torque. Arms are taken before
     # the pinion closes by `rotation`, so each side may be off by rotation times the work done;
     # that drift is even. What is left is the step's second order: 5 % of the exchange.
-    pair, torque, count = shipped_pair("drive"), 60.0, 24
+    pair, torque, count = shipped_pair("drive"), 60.0, 16
     states = [
         MeshPosition.at(pair, k / count).load(torque, SOFT_TEETH, LoadedSettings())
         for k in range(count + 1)
@@ -111,7 +111,7 @@ def test_a_light_load_touches_where_the_unloaded_flanks_do():
 
 
 def test_contact_shares_rise_to_a_maximum_and_fall():
-    pair, phases = shipped_pair("coast"), np.arange(12) / 12
+    pair, phases = shipped_pair("coast"), np.arange(8) / 8
     share = {}
     for phase in phases:
         state = MeshPosition.at(pair, float(phase)).load(50.0, SOFT_TEETH, LoadedSettings())

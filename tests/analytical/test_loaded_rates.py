@@ -13,6 +13,7 @@ from gearlube_core.hypoid_contact.sensitivity.loaded_rates import QUANTITIES, lo
 from gearlube_core.hypoid_contact.sensitivity.parameter import Variations, usual_parameters
 from tests.helpers.contact_cases import shipped_file, shipped_pair
 from tests.helpers.differences import changed_pair, extrapolated
+from tests.helpers.each import each
 from tests.helpers.frozen_contact import PHASE, SOFT_TEETH, TORQUE, Frozen
 
 NAMES = (
@@ -53,7 +54,7 @@ def test_equilibrium_on_the_loaded_cells_is_that_of_the_iteration(frozen, rates)
     assert value.share == pytest.approx([p.torque / TORQUE for p in frozen.carrying], rel=1e-6)
 
 
-@pytest.mark.parametrize("k", range(len(NAMES)), ids=NAMES)
+@each("k", range(len(NAMES)))
 def test_rates_are_those_of_frozen_strips_cut_out_of_changed_flanks(frozen, rates, k):
     variations, found = rates
     parameter = variations.parameters[k]

@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.shear_flow import shear_flow
+from tests.helpers.each import each
 
 LAW = Eyring(1.0)
 Z, WEIGHTS = np.polynomial.legendre.leggauss(300)  # exact to rounding up to Sigma of 100
@@ -61,7 +62,7 @@ FILMS = [
 ]
 
 
-@pytest.mark.parametrize("film", FILMS, ids=str)
+@each("film", FILMS)
 def test_mid_film_stress_is_found_at_any_viscosity(film):
     size, angle, a, limit = film
     sigma = size * math.cos(angle), size * math.sin(angle)

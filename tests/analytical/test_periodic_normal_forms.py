@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.periodic import PeriodicProblem, follow, switch_branch
+from tests.helpers.each import each
 from tests.helpers.periodic_cases import (
     delayed_logistic_map,
     logistic_map,
@@ -140,8 +141,8 @@ def test_prescribed_speed_walks_past_the_folds_of_a_prescribed_load_and_tells_th
     assert [stable for _, stable in branch.runs()] == [True, False, True]
 
 
-@pytest.mark.parametrize("way", [1.0, -1.0])
-@pytest.mark.parametrize(("slope", "size"), [(0.3, 1.0), (1.0, 1.0), (3.0, 1.0), (3.0, 0.1)])
+@each("way", [1.0, -1.0])
+@each(("slope", "size"), [(0.3, 1.0), (1.0, 1.0), (3.0, 1.0), (3.0, 0.1)])
 def test_corner_of_a_piecewise_linear_branch_is_passed(slope, size, way):
     # way p = slope z up to the corner at 0, then -slope z: blunter and sharper than a right angle;
     # the size of the equation does not matter

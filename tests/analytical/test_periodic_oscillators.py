@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 from scipy.special import mathieu_a, mathieu_b
 
 from gearlube_core.periodic import ContinuationSettings, follow, solve_periodic
+from tests.helpers.each import each
 from tests.helpers.periodic_cases import Oscillator, oscillator_problem
 
 
@@ -41,7 +42,7 @@ def test_linear_resonance_curve_peaks_at_its_exact_frequency_and_stays_stable():
     assert branch.stable.all()
 
 
-@pytest.mark.parametrize(("force", "w"), [(0.0, 1.0), (0.3, 0.9), (0.5, 1.4)])
+@each(("force", "w"), [(0.0, 1.0), (0.3, 0.9), (0.5, 1.4)])
 def test_product_of_multipliers_is_the_integral_of_the_divergence(force, w):
     # Liouville: constant divergence -d here, whatever the nonlinear motion
     oscillator = Oscillator(damping=0.15, force=force, cubic=0.4, stop=3.0, gap=0.1)

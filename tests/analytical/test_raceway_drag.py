@@ -27,6 +27,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
 )
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from tests.helpers.each import each
 
 PRELOAD, SPEED, OIL_TEMPERATURE = 3000.0, 180.0, 343.15
 OIL = lubricant_state(Lubricant.named("mohammadpour_2015").parameters(), OIL_TEMPERATURE)
@@ -70,8 +71,8 @@ def test_preloaded_rollers_give_the_printed_sum():
     assert found == pytest.approx(expected, rel=1e-7)
 
 
-@pytest.mark.parametrize("film", ["off", "steady"])
-@pytest.mark.parametrize("law", ["zhou_hoeprich", "biboulet_houpert", "aihara"])
+@each("film", ["off", "steady"])
+@each("law", ["zhou_hoeprich", "biboulet_houpert", "aihara"])
 def test_every_roller_counts_with_its_own_load(law, film):
     made = bearing(film)
     p = made.parameters()._replace(loss=0.0, cage_ratio=0.0)  # rollers at rest: no rates
@@ -158,7 +159,7 @@ def test_drag_of_raceways_falls_as_the_axle_takes_rollers_out_of_contact():
     assert len({round(float(power[0]), 3) for power in powers.values()}) == 3
 
 
-@pytest.mark.parametrize(
+@each(
     ("law", "step"),
     [
         ("aihara_1987", 1e-4),

@@ -22,6 +22,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from tests.helpers.each import each
 
 FVA = Lubricant.named("fva_3")
 KELVIN, PRELOAD = 353.15, 5000.0
@@ -74,7 +75,7 @@ def test_the_contact_is_that_of_the_bearing_alone():
     assert rib == pytest.approx(alone.rib, rel=5e-3)
 
 
-@pytest.mark.parametrize("rpm", [10.0, 100.0, 2000.0])
+@each("rpm", [10.0, 100.0, 2000.0])
 def test_two_preloaded_bearings_lose_twice_what_one_does_alone(rpm):
     speed = rpm * math.pi / 30.0
     one = bearing_loss(

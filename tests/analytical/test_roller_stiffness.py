@@ -5,10 +5,11 @@ import math
 import pytest
 
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize("load", [300.0, 1000.0, 3000.0])  # N
-@pytest.mark.parametrize("length", [0.012, 0.022])  # m
+@each("load", [300.0, 1000.0, 3000.0])  # N
+@each("length", [0.012, 0.022])  # m
 def test_palmgrens_approach_is_near_that_of_elastic_cylinders(load, length):
     # A cylinder of radius R between two flats, each contact of half-width b, is squeezed by
     # 4 q (1 - nu^2)/(pi E) (ln(4 R/b) - 1/2) (Johnson, Contact Mechanics, 5.6); by how much the

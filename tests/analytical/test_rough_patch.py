@@ -22,6 +22,7 @@ from gearlube_core.rough_patch.table import (
     press_patch,
 )
 from gearlube_core.surface.heights import HeightMap
+from tests.helpers.each import each
 
 A = 3e-7  # m, amplitude of waves
 COSINE = np.cos(2.0 * math.pi * np.arange(64) / 64)
@@ -41,7 +42,7 @@ def turned(patch: HeightMap) -> HeightMap:
     )
 
 
-@pytest.mark.parametrize("ratio", [1.1, 1.5, 3.0])
+@each("ratio", [1.1, 1.5, 3.0])
 def test_waves_across_and_along_the_flow_have_their_closed_forms(ratio: float):
     # means of (H + a cos)^-2 and ^-3 over a period, H = ratio in units of a
     square = ratio**2 - 1.0
@@ -121,7 +122,7 @@ def test_films_thinner_than_peaks_are_counted_as_contact():
     assert found.mean_film == pytest.approx(expected, rel=2e-3)
 
 
-@pytest.mark.parametrize("half_width", [0.1, 0.2, 0.35])
+@each("half_width", [0.1, 0.2, 0.35])
 def test_wavy_half_space_has_the_contact_of_westergaard(half_width: float):
     # mean pressure pi E* A/wavelength sin^2(pi a/wavelength) for a half-width a of contact
     modulus, wavelength = 1.1e11, 5.12e-4
@@ -139,8 +140,8 @@ def test_wavy_half_space_has_the_contact_of_westergaard(half_width: float):
     assert found.gap.min() >= -1e-4 * A
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.parametrize("load", [0.02, 0.5, 2.0])
+@each("seed", [1, 2])
+@each("load", [0.02, 0.5, 2.0])
 def test_tolerance_bounds_the_error_of_the_pressure(seed: int, load: float):
     # self-affine waves of 4 to 32 a side, Hurst exponent 0.3; loads over E* times the rms slope
     waves = 64.0 * np.hypot(np.fft.fftfreq(64)[:, None], np.fft.fftfreq(64))
@@ -203,7 +204,7 @@ def test_fit_gives_back_the_law_that_made_a_table():
         greenwood_tripp_fit(table, 0.9, 1.1)
 
 
-@pytest.mark.parametrize(
+@each(
     ("wrong", "words"),
     [
         (lambda: flow_factors(along_x(), 0.0), "film must be above 0 m"),

@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
-import pytest
 
 from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
+from tests.helpers.each import each
 
 BACKLASH = 150e-6  # 2b [m]
 
@@ -16,7 +16,7 @@ def classify(mean, amplitude, backlash=BACKLASH):
     return separation_class(float(x.min()), float(x.max()), backlash)
 
 
-@pytest.mark.parametrize(
+@each(
     ("mean_um", "amplitude_um", "expected"),
     [
         (5.0, 4.9, NONE),
@@ -34,8 +34,8 @@ def test_an_oscillation_is_classed_by_the_flanks_it_reaches(mean_um, amplitude_u
     assert classify(1e-6 * mean_um, 1e-6 * amplitude_um) == expected
 
 
-@pytest.mark.parametrize("amplitude_um", [1.0, 80.0, 200.0])
-@pytest.mark.parametrize("mean_um", [3.0, -20.0, -75.0, -140.0, -153.0])
+@each("amplitude_um", [1.0, 80.0, 200.0])
+@each("mean_um", [3.0, -20.0, -75.0, -140.0, -153.0])
 def test_driving_and_coasting_are_mirror_images(mean_um, amplitude_um):
     """x -> -2b - x swaps the flanks."""
     mean, amplitude = 1e-6 * mean_um, 1e-6 * amplitude_um

@@ -7,6 +7,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.settings_fit import fit_settings, flank_deviation
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.measured.deviation_grid import DeviationGrid, GridPlaces
+from tests.helpers.each import each
 from tests.helpers.loaded_cases import FILE
 
 PLACES = GridPlaces(s=np.linspace(0.3, 0.92, 5), t=np.linspace(0.08, 0.92, 9))
@@ -58,7 +59,7 @@ def test_with_noise_they_come_back_within_what_is_said(grids):
     assert found.after == pytest.approx(np.sqrt(86 / 90) * 1e-6, rel=0.15, abs=0.0)
 
 
-@pytest.mark.parametrize(
+@each(
     ("fields", "words"),
     [
         (["gear.machine.horizontal_setting_mm"], "must be of pinion.machine or pinion.cutter"),

@@ -17,6 +17,7 @@ from gearlube_core.mesh_table.kernels import (
 )
 from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table, write_mesh_table
 from tests.helpers.axle_cases import OIL, conservative, output, record, running_axle
+from tests.helpers.each import each
 
 TABLE = shipped_mesh_table("mohammadpour_2015")
 LEVELS = TABLE.torque.size
@@ -130,7 +131,7 @@ def test_shaft_errors_go_through_the_file_and_an_older_gearlube_refuses_it(tmp_p
         assert dataset.attrs["gearlube_mesh_table"] == 2
 
 
-@pytest.mark.parametrize(
+@each(
     ("errors", "words"),
     [
         ({"wheel": np.zeros((LEVELS, 2, 2))}, "of pinion or gear, got 'wheel'"),

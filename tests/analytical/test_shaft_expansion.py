@@ -14,6 +14,7 @@ from gearlube_core.bearings.shaft_expansion import (
 )
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.bearings.tapered_roller_kernels import shaft_bearing_forces
+from tests.helpers.each import each
 
 OIL = (0.0171, 2.383e-8)  # Pa s, 1/Pa
 WET = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()
@@ -50,10 +51,10 @@ def slopes(function, steps):
     return np.array(rows)
 
 
-@pytest.mark.parametrize(
+@each(
     "p", [WET, DRY, CLIPPED, WET._replace(n=1.2), WET._replace(clip=0.0), WET._replace(squeeze=0.0)]
 )
-@pytest.mark.parametrize("angle", [0.0, ANGLE, 4.0])
+@each("angle", [0.0, ANGLE, 4.0])
 def test_at_its_base_the_expansion_is_exact(p, angle):
     found = expanded(BASE, angle, p, expansion(BASE, angle, p))
     # 24 loads of up to 1 kN that cancel, summed in another order: a few 1e-16 of 24 kN
@@ -94,7 +95,7 @@ def test_turning_of_the_cage_is_followed_exactly_on_a_linear_spring():
         )
 
 
-@pytest.mark.parametrize("place", range(6))
+@each("place", range(6))
 def test_power_lost_in_linear_dampers_is_followed_exactly(place):
     """With n = 1 a roller loses the same d g'^2 at any approach: a quadratic form of the rates."""
     p = DRY._replace(n=1.0, kn=5e7, clip=0.0)
@@ -167,7 +168,7 @@ def test_rollers_out_of_contact_have_neither_force_nor_slope():
     assert np.all(expanded(BASE, ANGLE, p, expansion(BASE, ANGLE, p)) == 0.0)
 
 
-@pytest.mark.parametrize("position", range(6))
+@each("position", range(6))
 def test_a_non_number_in_the_motion_is_not_hidden(position):
     q = BASE.copy()
     q[position] = math.nan

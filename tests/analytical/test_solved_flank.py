@@ -27,6 +27,7 @@ from gearlube_core.friction.flank_laws import (
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.axle_cases import OIL as AXLE_OIL
 from tests.helpers.axle_cases import operating_point
+from tests.helpers.each import each
 
 TEMPERATURE = 368.15
 OIL = lubricant_state(Lubricant.named("mohammadpour_2015").parameters(), TEMPERATURE)
@@ -172,7 +173,7 @@ def own_law(surface, solid):
     return Consistent()(surface, solid)
 
 
-@pytest.mark.parametrize("friction", ["as_printed", "printed_traction_circular", own_law])
+@each("friction", ["as_printed", "printed_traction_circular", own_law])
 def test_friction_laws_with_films_of_their_own_refuse_a_solved_film(friction):
     axle = replace(mohammadpour_2015_axle(), film="solved", friction=friction)
     with pytest.raises(ParameterError, match="must come with the friction law consistent"):
@@ -208,7 +209,7 @@ def test_where_the_formulas_stand_in_the_bound_reaches_an_isothermal_film_and_no
     assert bounded(smooth).friction_bound == 0.0
 
 
-@pytest.mark.parametrize("load", [1.0, 40.0, 2000.0])  # outside, on the border, inside
+@each("load", [1.0, 40.0, 2000.0])  # outside, on the border, inside
 def test_flank_and_bound_are_the_same_compiled_and_in_python(load):
     numbers = flank_film_model(MODEL)
     film = LAW.model_film(load, SPEED, SLIP, GEOMETRY, ELLIPSE, OIL, numbers)

@@ -35,6 +35,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_20
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.bearing_32216 import BEARING
+from tests.helpers.each import each
 
 SPEED, TEMPERATURE = 200.0, 353.15
 LAW = "solved_films"
@@ -121,8 +122,8 @@ def rollers(loads, speed, kept, centre=None, temperature=TEMPERATURE):
     return np.array([kept_roller_film(q, u, faster, races, nodes, model) for q in loads])
 
 
-@pytest.mark.parametrize("by", [0.975, 1.0, 1.025])
-@pytest.mark.parametrize("temperature", [333.15, 353.15, 383.15])
+@each("by", [0.975, 1.0, 1.025])
+@each("temperature", [333.15, 353.15, 383.15])
 def test_between_kept_loads_force_and_film_are_those_of_the_model(by, temperature):
     # from 0.22 GPa mean pressure on, within the domain by more than the distance of two nodes
     inside = np.geomspace(2e4, 2.4e5, 300)
@@ -154,7 +155,7 @@ def test_over_the_border_of_the_domain_force_and_bound_stay_smooth_and_near_the_
     assert kept[-1, 3] == pytest.approx(MODEL.friction_bound, rel=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     ("speed", "temperature", "holds"),
     [(1.02, 0.0, True), (0.96, 0.0, False), (1.0, 0.01, True), (1.0, 0.05, False)],
 )

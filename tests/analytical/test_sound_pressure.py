@@ -13,12 +13,13 @@ from gearlube.studies.sound.pressure import RATE, a_weighted, a_weighting, sound
 from gearlube.studies.sound.transfer_path import generic_path
 from gearlube.studies.sound.wav import write_wav
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 from tests.helpers.made_run import made_run, one_path
 
 TURN = 2.0 * np.pi
 
 
-@pytest.mark.parametrize("speed", [TURN * 10.0, TURN * 40.0, TURN * 200.0])  # 130 to 2600 Hz
+@each("speed", [TURN * 10.0, TURN * 40.0, TURN * 200.0])  # 130 to 2600 Hz
 def test_a_force_of_one_frequency_becomes_gain_times_force(speed):
     record = read_forces(made_run({13.0: 20.0}, start=speed, end=speed))
     pressure = sound_pressure(record, one_path(2e-3))
@@ -69,9 +70,7 @@ def test_the_generic_path_keeps_all_phases_apart_and_has_its_plateau():
 
 
 # IEC 61672-1, table 3, at exact base-ten frequencies; rounded there to 0.1 dB
-@pytest.mark.parametrize(
-    ("exponent", "level"), [(1.5, -39.4), (2.0, -19.1), (2.5, -6.6), (3.0, 0.0), (4.0, -2.5)]
-)
+@each(("exponent", "level"), [(1.5, -39.4), (2.0, -19.1), (2.5, -6.6), (3.0, 0.0), (4.0, -2.5)])
 def test_a_weighting_is_that_of_the_standard(exponent, level):
     frequency = 10.0**exponent
     assert 20.0 * np.log10(a_weighting(np.array([frequency])))[0] == pytest.approx(level, abs=0.06)

@@ -14,6 +14,7 @@ from gearlube_core.spectra import (
     resample,
     whole_revolutions,
 )
+from tests.helpers.each import each
 
 
 def drifting_record(seconds=0.7, rate=20000.0, speed=120.0, drift=6.0, ripple=0.4):
@@ -106,8 +107,8 @@ def test_extremes_between_samples_come_within_the_crest_of_a_coarsely_sampled_si
     assert refined.peak_to_peak == pytest.approx(2.0, abs=12e-3)
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize(("first", "counts"), [(5, False), (6, True), (12, True), (13, False)])
+@each("sign", [1.0, -1.0])
+@each(("first", "counts"), [(5, False), (6, True), (12, True), (13, False)])
 def test_extremes_between_samples_count_from_the_seventh_to_the_last_but_six(sign, first, counts):
     """The cubic spline through two equal samples among zeros, midway between them.
 

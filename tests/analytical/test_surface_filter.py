@@ -16,6 +16,7 @@ from gearlube_core.surface.spectrum import (
     wavelength_holding,
 )
 from gearlube_core.surface.statistics import map_statistics, profile_statistics
+from tests.helpers.each import each
 
 STEP, CUTOFF = 1e-6, 1e-4  # m
 ROUNDING = 1e-12
@@ -33,8 +34,8 @@ def test_half_of_a_wave_of_the_cut_off_is_mean_line():
     assert (kept.cutoff_long, kept.cutoff_short) == (CUTOFF, None)
 
 
-@pytest.mark.parametrize("periodic", [True, False])
-@pytest.mark.parametrize("ratio", [0.3, 0.5, 0.8, 1.0, 1.25, 2.0, 5.0])
+@each("periodic", [True, False])
+@each("ratio", [0.3, 0.5, 0.8, 1.0, 1.25, 2.0, 5.0])
 def test_the_whole_transmission_curve_is_that_of_iso_16610_21(ratio, periodic):
     wavelength = ratio * CUTOFF
     count = round(20 * wavelength / STEP)

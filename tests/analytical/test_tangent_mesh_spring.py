@@ -6,6 +6,7 @@ import pytest
 from gearlube_core.dynamics.packed_mesh import pack_mesh
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_P, E
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
+from tests.helpers.each import each
 
 TABLE = shipped_mesh_table("mohammadpour_2015")
 ANGLE = 2.0 * np.pi * np.arange(240) / 240  # of the mesh period
@@ -34,7 +35,7 @@ def cut(values):
     return np.fft.irfft(spectrum, values.size)
 
 
-@pytest.mark.parametrize("level", range(TABLE.torque.size))
+@each("level", range(TABLE.torque.size))
 def test_static_error_under_the_level_is_that_of_the_secant(level):
     """F/k_t + e of one spring and F/k_m + e of the other differ by a constant only."""
     force = TABLE.torque[level] / series("secant", level, R_P)
@@ -48,7 +49,7 @@ def test_static_error_under_the_level_is_that_of_the_secant(level):
     assert np.ptp(difference) < 1e-3 * swing
 
 
-@pytest.mark.parametrize("level", range(TABLE.torque.size))
+@each("level", range(TABLE.torque.size))
 def test_each_spring_has_its_own_stiffness_and_the_mean_error_of_the_table(level):
     for stiffness, key in (("tangent", "k_t"), ("secant", "k_m")):
         found = series(stiffness, level, K_M)

@@ -18,6 +18,7 @@ from gearlube_core.tooth_compliance.flank_compliance import (
 )
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
+from tests.helpers.each import each
 
 H, h, b = 16e-3, 1.2e-3, 8e-3  # height over the slot, thickness, face width
 SLOT = 0.1e-3
@@ -77,8 +78,8 @@ def balanced(x, ends):
     return forces
 
 
-@pytest.mark.parametrize("side", [0, 1])
-@pytest.mark.parametrize(("matrix", "tolerance"), [("elastic", 0.005), ("image", 0.015)])
+@each("side", [0, 1])
+@each(("matrix", "tolerance"), [("elastic", 0.005), ("image", 0.015)])
 def test_plate_tooth_bends_between_three_forces_as_a_timoshenko_beam(
     plate, side, matrix, tolerance
 ):

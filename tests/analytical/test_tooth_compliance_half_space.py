@@ -96,7 +96,7 @@ def deep_block(per_hat, layers):
     [
         # measured: 2.8 and 1.9 % with two quadratic elements to a hat, 1.7 and 0.7 % with
         # three; the part that stays is the block's size, of the order of 1/42
-        (2, 7, 0.035, 0.025),
+        (2, 5, 0.035, 0.025),
         pytest.param(3, 8, 0.02, 0.01, marks=pytest.mark.slow),
     ],
 )

@@ -5,6 +5,7 @@ import pytest
 
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import time_sweep
+from tests.helpers.each import each
 from tests.helpers.torsional_cases import periodic_orbit, reconstructed
 
 R_P0, TEETH, D = 21.1e-3, 13, 0.002
@@ -12,7 +13,7 @@ R_P0, TEETH, D = 21.1e-3, 13, 0.002
 ERROR = {"error_harmonics": ((0.96e-6, -R_P0 * D / TEETH),)}
 
 
-@pytest.mark.parametrize("ratio", [0.3, 0.5, 0.65])
+@each("ratio", [0.3, 0.5, 0.65])
 def test_a_radius_mismatch_is_an_error_of_its_integral(ratio):
     with_radii = periodic_orbit(reconstructed(D), ratio)
     with_error = periodic_orbit(reconstructed(radii="mean", mesh=ERROR), ratio)

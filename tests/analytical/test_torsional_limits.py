@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
+from tests.helpers.each import each
 from tests.helpers.torsional_cases import periodic_orbit, reconstructed, time_rates
 
 I_P, I_G, RATIO = 1734e-6, 5.81e-2, 36 / 13
@@ -64,7 +65,7 @@ def test_constant_radii_leave_one_degree_of_freedom(ratio):
     assert two == pytest.approx(one, rel=0.02)
 
 
-@pytest.mark.parametrize("x_middle", [90e-6, 75e-6, 20e-6, 0.0, -60e-6, -75e-6, -100e-6])
+@each("x_middle", [90e-6, 75e-6, 20e-6, 0.0, -60e-6, -75e-6, -100e-6])
 def test_backlash_is_that_of_the_paper_in_another_coordinate(x_middle):
     """Eq. (4) from the middle of the gap: f = x - b, 0, x + b; x_P2 = x_P1 - b."""
     b = 75e-6
@@ -92,14 +93,13 @@ def test_as_printed_damping_acts_across_the_gap():
 LOSSLESS = {"damping": 0.0, "hold_gain": 0.0, "radii": "paper"}
 
 
-@pytest.mark.parametrize(
+@each(
     "parameters",
     [
         reconstructed(**LOSSLESS),
         reconstructed(0.01, **LOSSLESS),
         replace(karagiannis_2012_pair(), **LOSSLESS),
     ],
-    ids=["contact", "impacts", "shipped"],
 )
 def test_energy_stays_without_damping_and_friction(parameters):
     """Kinetic and elastic energy change by the work of the two torques, through impacts."""

@@ -21,6 +21,7 @@ from gearlube_core.friction.traction_regime import (
     largest_stress_ratio,
     traction_regime,
 )
+from tests.helpers.each import each
 
 BETA, K, TAU0, H = 0.06, 0.112, 2e6, 0.5e-6
 FILM_NUMBER_OF_UNIT_VISCOSITY = math.log(2.0 * K / (BETA * (TAU0 * H) ** 2))
@@ -54,7 +55,7 @@ def test_largest_temperature_parameter() -> None:
     assert pytest.approx(-0.56356, abs=1e-5) == NEWTONIAN_LIMIT
 
 
-@pytest.mark.parametrize("map_number", [-6.0, -0.5, 2.0, 7.0, 15.0])
+@each("map_number", [-6.0, -0.5, 2.0, 7.0, 15.0])
 def test_largest_stress_is_the_maximum_over_sliding_speeds(map_number: float) -> None:
     # maximum of a smooth curve: error of the search squared
     assert largest_stress_ratio(map_number) * TAU0 == pytest.approx(
@@ -62,7 +63,7 @@ def test_largest_stress_is_the_maximum_over_sliding_speeds(map_number: float) ->
     )
 
 
-@pytest.mark.parametrize("over", [-30.0, -3.0, -1e-12, 0.0, 1e-12, 1e-3, 1.0, 4.0, 200.0])
+@each("over", [-30.0, -3.0, -1e-12, 0.0, 1e-12, 1e-3, 1.0, 4.0, 200.0])
 def test_largest_stress_solves_its_equation_on_the_boundary_too(over: float) -> None:
     # s sinh s = 4 X*^2 exp(L), which is 1 on the boundary
     s = largest_stress_ratio(NEWTONIAN_LIMIT + over)

@@ -10,6 +10,7 @@ from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.involute import facet_bounds, involute_flank, parabola_distance
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap, contact_line_gap
+from tests.helpers.each import each
 from tests.helpers.jamali_2015 import jamali_2015
 from tests.helpers.named_pairs import PAIRS, named_pair
 
@@ -43,8 +44,8 @@ def helicoid_point(pair, member, roll, z):
     return np.array([*plane_point, z])
 
 
-@pytest.mark.parametrize("name", PAIRS)
-@pytest.mark.parametrize("member", ["pinion", "gear"])
+@each("name", PAIRS)
+@each("member", ["pinion", "gear"])
 def test_gap_is_that_of_an_involute_helicoid_built_in_space(name, member):
     pair = named_pair(name)
     b = pair.base_helix_angle
@@ -65,8 +66,8 @@ def test_gap_is_that_of_an_involute_helicoid_built_in_space(name, member):
         assert depth >= 0.0
 
 
-@pytest.mark.parametrize("name", PAIRS)
-@pytest.mark.parametrize("form", ["involute", "parabola"])
+@each("name", PAIRS)
+@each("form", ["involute", "parabola"])
 def test_curvature_of_the_gap_is_the_relative_normal_curvature(name, form):
     pair = named_pair(name)
     plane, X, e = pair.plane, full_line(pair), 3e-6

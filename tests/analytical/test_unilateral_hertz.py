@@ -13,6 +13,7 @@ from gearlube_core.contact.unilateral_problem import (
     tangent_stiffness,
 )
 from gearlube_core.tooth_contact.coupled_strips import StripCompliance
+from tests.helpers.each import each
 from tests.references.hertz_reference import HertzContact
 
 E_STAR, LOAD = 115.4e9, 500.0
@@ -37,8 +38,8 @@ def pressed(
     return problem, solve_torque(problem, hertz.load, tolerance=1e-8), dx * dy
 
 
-@pytest.mark.parametrize("observed", ["centre", "mean"])
-@pytest.mark.parametrize(
+@each("observed", ["centre", "mean"])
+@each(
     ("R_y", "nx", "ny"),
     [(0.02, 48, 48), (0.02, 48, 24), (0.62, 48, 48), (0.62, 40, 20), (12.0, 48, 48)],
 )

@@ -15,6 +15,7 @@ from gearlube_core.hypoid_contact.unloaded_error import (
     unloaded_error,
 )
 from tests.helpers.contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
+from tests.helpers.each import each
 
 RATIO = 36.0 / 13.0
 MICRORADIAN = 1e-6
@@ -40,7 +41,7 @@ def test_flanks_touch_with_opposite_normals(side):
     np.testing.assert_allclose(pinion.normal, -gear.normal, rtol=0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize(
+@each(
     ("side", "displacement"),
     [
         ("drive", {}),
@@ -112,10 +113,8 @@ def test_radii_have_the_ratio_of_the_teeth_where_the_error_is_extreme(side):
     assert found.extreme_angle == pytest.approx(centre, abs=1e-4 * pair.gear_pitch)
 
 
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize(
-    "what", ["pinion_offset", "pinion_axial", "gear_axial", "shaft_angle", "all"]
-)
+@each("side", SIDES)
+@each("what", ["pinion_offset", "pinion_axial", "gear_axial", "shaft_angle", "all"])
 def test_small_displacements_turn_the_pinion_by_virtual_work(side, what):
     """First order: R_p dphi_p = -n . (displacement of the pinion - that of the gear) at rest."""
     size = 1e-7  # m or rad

@@ -19,6 +19,7 @@ from gearlube_core.hypoid_contact.sensitivity.unloaded_rates import ease_off_rat
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from tests.helpers.contact_cases import SIDES, angles_on_teeth, shipped_file, shipped_pair
 from tests.helpers.differences import apart, changed_pair, extrapolated
+from tests.helpers.each import each
 
 # each kind of number: displacement, lengths and angles of both machines, roll, blade edge
 NAMES = (
@@ -62,7 +63,7 @@ def rates_of_path(side):
 CASES = [("drive", k) for k in range(len(NAMES))] + [("coast", 0), ("coast", 4)]
 
 
-@pytest.mark.parametrize(("side", "k"), CASES)
+@each(("side", "k"), CASES)
 def test_path_and_error_move_as_those_of_changed_pairs(side, k):
     path = rates_of_path(side)
     pair, angles = path.path.pair, path.path.gear_angle
@@ -140,7 +141,7 @@ def test_usual_parameters_are_all_misalignments_and_settings_once():
         assert Parameter.named(name, shipped_file(), ALIGNED).step > 0.0
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "reason"),
     [
         ("misalignment.offset", "pinion_offset"),

@@ -9,11 +9,12 @@ from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from gearlube_core.oil.roelands_1966 import roelands_viscosity
 from gearlube_core.oil.walther_1931 import walther_coefficients, walther_viscosity
+from tests.helpers.each import each
 
 OILS = ("karagiannis_2012", "mohammadpour_2015")
 
 
-@pytest.mark.parametrize("temperature", [280.0, 313.15, 368.15, 420.0])
+@each("temperature", [280.0, 313.15, 368.15, 420.0])
 def test_temperature_slope_of_viscosity_is_its_complex_step_derivative(temperature: float) -> None:
     A, B = walther_coefficients(109.1e-6, 313.15, 16.7e-6, 373.15)
     step = 1e-30
@@ -30,8 +31,8 @@ def test_walther_line_passes_through_both_points_of_the_data_sheet() -> None:
     assert walther_viscosity(A, B, 373.15)[0] == pytest.approx(16.7e-6, rel=1e-12)
 
 
-@pytest.mark.parametrize("oil", OILS)
-@pytest.mark.parametrize("temperature", [293.15, 363.15])
+@each("oil", OILS)
+@each("temperature", [293.15, 363.15])
 def test_state_slope_is_the_central_difference_of_its_own_viscosity(
     oil: str, temperature: float
 ) -> None:
@@ -76,7 +77,7 @@ def test_eyring_stress_is_newtonian_at_small_and_logarithmic_at_large_rates() ->
     assert eyring_stress_ratio(1.0, math.log(1e4)) == pytest.approx(math.log(2e4), rel=1e-9)
 
 
-@pytest.mark.parametrize("x", [1e-6, 0.3, 5.0, 1e3, 0.99e8, 1.01e8])
+@each("x", [1e-6, 0.3, 5.0, 1e3, 0.99e8, 1.01e8])
 def test_eyring_stress_is_the_inverse_of_the_sinh_law(x: float) -> None:
     s = eyring_stress_ratio(x * math.exp(-3.0), 3.0)
     # an error of rounding in s is magnified by s in sinh s

@@ -24,6 +24,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     mesh_metric,
 )
 from gearlube_core.ehl.point.settings import AMBIENT
+from tests.helpers.each import each
 
 STEP = 1e-4  # of the differences that stand for derivatives of the smooth fields
 
@@ -83,8 +84,8 @@ def error(nodes: int, graded: bool, oblique: bool) -> float:
     return float(np.abs(residual[inner] - exact).mean() / np.abs(exact).mean())
 
 
-@pytest.mark.parametrize("graded", [False, True], ids=["uniform", "graded"])
-@pytest.mark.parametrize("oblique", [False, True], ids=["along x", "oblique"])
+@each("graded", [False, True])
+@each("oblique", [False, True])
 def test_cross_flow_through_faces_is_of_second_order(graded: bool, oblique: bool) -> None:
     errors = [error(nodes, graded, oblique) for nodes in (33, 65, 129)]
     orders = np.log2(np.divide(errors[:-1], errors[1:]))

@@ -37,6 +37,7 @@ from gearlube_core.oil.film_oil_data import film_oil
 CROSS = 0.4  # xy component of the flow factor tensor; xx 1, yy 0.7
 U, V, SQUEEZE = 0.9, 0.4, 0.3
 THICKENING, DENSENING = 1.5, 0.1  # eta = exp(1.5 p), rho = 1 + 0.1 p
+QUICK = PointSolverSettings(wedge="quick", estimate_error=False)
 
 
 def parameters(nx, ny, upwind=0.0):
@@ -365,7 +366,7 @@ def test_films_of_elements_and_differences_meet_at_refinement(radius_y, load, an
             nodes=(n, n),
         )
         differences, elements = (
-            solve_point_contact(problem, PointSolverSettings(wedge="quick", discretisation=one))
+            solve_point_contact(problem, replace(QUICK, discretisation=one))
             for one in ("differences", "elements")
         )
         loaded = differences.pressure > 0.3 * differences.maximum_pressure
@@ -386,7 +387,7 @@ def test_films_of_elements_and_differences_meet_at_refinement(radius_y, load, an
 
 def test_upwinding_removes_pressure_that_alternates_from_node_to_node():
     problem = replace(contact((65, 65)), load=80.0)
-    differences = solve_point_contact(problem, PointSolverSettings(wedge="quick"))
+    differences = solve_point_contact(problem, QUICK)
     pressure, _ = element_film(problem, differences)
     galerkin, _ = element_film(problem, differences, compliance=0.0)
     middle = np.abs(problem.x) < 0.5 * problem.hertz_contact[0]  # ahead of the spike

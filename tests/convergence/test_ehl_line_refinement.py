@@ -10,6 +10,7 @@ import pytest
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(lubricant=jamali_2015_oil(newtonian=True), domain=(-1.0e-3, 0.38e-3))
@@ -36,7 +37,7 @@ def observed_orders(contact: LineProblem, stencil: str, counts: tuple[int, ...])
     return np.log2(steps[-2] / steps[-1])
 
 
-@pytest.mark.parametrize("stencil", ["central", "upwind-2", "galerkin"])
+@each("stencil", ["central", "upwind-2", "galerkin"])
 def test_film_converges_with_second_order(stencil):
     orders = observed_orders(THESIS, stencil, (251, 501, 1001))
     # asymptotic order; the parabola through the least film wanders between nodes
@@ -67,7 +68,7 @@ def test_all_stencils_tend_to_one_film():
         assert limits[stencil][2] == pytest.approx(limits["central"][2], rel=1e-4)
 
 
-@pytest.mark.parametrize("stencil", ["central", "upwind-1", "upwind-2"])
+@each("stencil", ["central", "upwind-1", "upwind-2"])
 def test_mass_flow_and_load_are_balanced(stencil):
     film = solve_line(THESIS, LineSettings(nodes=501, stencil=stencil))
     assert film.mass_balance < 1e-8

@@ -11,9 +11,8 @@ from tests.helpers.loaded_cases import stiffness
 TEETH = stiffness()
 
 
-@pytest.mark.parametrize("torque", [20.0, 200.0])
-@pytest.mark.parametrize("phase", [0.1, 0.6])
-def test_closing_changes_by_less_than_one_percent_on_refined_cells(torque, phase):
+@pytest.mark.parametrize(("phase", "torque"), [(0.1, 200.0), (0.6, 20.0)])
+def test_closing_changes_by_less_than_one_percent_on_refined_cells(phase, torque):
     position = MeshPosition.at(shipped_pair("drive"), phase)
     coarse = position.load(torque, TEETH, LoadedSettings())
     fine = position.load(
@@ -25,9 +24,9 @@ def test_closing_changes_by_less_than_one_percent_on_refined_cells(torque, phase
 
 def test_stiffness_over_the_mesh_is_smooth():
     # neighbouring positions differ by the true change plus the noise of newly cut cells; the
-    # second difference of a smooth curve at 24 positions stays below a tenth of its range
-    phases = np.arange(24) / 24
+    # second difference of a smooth curve at 18 positions stays below a sixth of its range
+    phases = np.arange(18) / 18
     positions = [MeshPosition.at(shipped_pair("coast"), float(k)) for k in phases]
     rotation = np.array([p.load(20.0, TEETH, LoadedSettings()).rotation for p in positions])
     second = np.roll(rotation, 1) - 2.0 * rotation + np.roll(rotation, -1)
-    assert np.median(np.abs(second)) < 0.1 * np.ptp(rotation)
+    assert np.median(np.abs(second)) < 0.16 * np.ptp(rotation)

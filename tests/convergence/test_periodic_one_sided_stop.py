@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import solve_bvp, solve_ivp
 
 from gearlube_core.periodic import NewtonSettings, follow, solve_periodic
+from tests.helpers.each import each
 from tests.helpers.periodic_cases import Oscillator, oscillator_problem
 
 # stiffness steps from 1 to 5 at x = 0.5; at w = 2.2 the swing of 0.03 stays clear of the stop
@@ -45,7 +46,7 @@ def test_stop_hardens_the_resonance_into_two_folds():
     assert [stable for _, stable in branch().runs()] == [True, False, True]
 
 
-@pytest.mark.parametrize("w", [0.8, 1.1, 1.2, 2.0])
+@each("w", [0.8, 1.1, 1.2, 2.0])
 def test_stable_motions_are_those_of_time_integration(w):
     found = branch()
     rows = [row for row in found.at(w) if found.stable[row]]

@@ -13,6 +13,7 @@ from gearlube.cli.exit_codes import BAD_ARGUMENT, INTERRUPTED
 from gearlube.studies.films import results, run_hypoid
 from gearlube.studies.films.figures.catalogue import drawn_figures
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from tests.helpers.each import each
 
 TINY = ("--nodes-minor", 33, "--nodes-major", 25, "--steps", 6, "--steady", 3)
 
@@ -127,7 +128,7 @@ def test_the_example_is_the_shipped_case_and_can_be_read(tmp_path, asked):
     assert given["case"].oil == shipped.oil
 
 
-@pytest.mark.parametrize(
+@each(
     ("options", "says"),
     [
         (("nobody",), "No hypoid flank is called 'nobody'"),
@@ -143,6 +144,7 @@ def test_the_example_is_the_shipped_case_and_can_be_read(tmp_path, asked):
     ],
 )
 def test_what_makes_no_sense_is_refused(tmp_path, options, says, caplog):
+    caplog.clear()
     result = run(*options, "--out", tmp_path)
     assert result.exit_code == BAD_ARGUMENT, result.output
     assert says in caplog.text

@@ -29,6 +29,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh, read_line_mesh
+from tests.helpers.each import each
 from tests.helpers.helical_dynamics_cases import estimated_pair
 
 GEOMETRY = {"contact_plane", "contact_characteristics", "facet_gaps"}
@@ -229,7 +230,7 @@ def test_options_reach_the_settings_in_si_units(asked):
     assert (asked[0]["jobs"], str(asked[0]["folder"])) == (2, "here")
 
 
-@pytest.mark.parametrize(
+@each(
     ("options", "words"),
     [
         (("nothing",), ("nothing", "he_2007")),
@@ -259,6 +260,7 @@ def test_options_reach_the_settings_in_si_units(asked):
     ],
 )
 def test_bad_options_say_what_is_wrong_and_what_would_be_right(options, words, asked, caplog):
+    caplog.clear()
     with caplog.at_level(logging.ERROR, "gearlube"):
         result = run(*options)
     assert result.exit_code == BAD_ARGUMENT, result.output
@@ -289,17 +291,6 @@ def test_files_that_lack_something_are_refused(changes, word, asked, caplog, mon
         assert run(str(tmp_path / "own.toml")).exit_code == BAD_ARGUMENT
     assert word in caplog.text
     assert not asked
-
-
-@pytest.mark.parametrize("reason", [ConvergenceError("no motion"), OSError("disk full")])
-def test_a_failed_study_says_why_and_fails(reason, monkeypatch, caplog):
-    def fail(*_, **__):
-        raise reason
-
-    monkeypatch.setattr(helical_run, "run_helical", fail)
-    with caplog.at_level(logging.ERROR, "gearlube"):
-        assert run().exit_code == FAILED
-    assert str(reason) in caplog.text
 
 
 def test_a_stage_that_fails_leaves_the_others(small, tmp_path, monkeypatch, caplog):

@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from gearlube.command import app
 from gearlube_core.surface.files import read_surface
+from tests.helpers.each import each
 
 
 def run(*arguments):
@@ -73,7 +74,7 @@ def test_a_map_and_a_stand_in_are_written(tmp_path, caplog):
     assert statistics(tmp_path / "c" / "full_statistics.csv")["Ra"] == pytest.approx(0.31)
 
 
-@pytest.mark.parametrize(
+@each(
     ("arguments", "words"),
     [
         (("make",), "--ra-um or --rq-um"),
@@ -89,6 +90,7 @@ def test_a_map_and_a_stand_in_are_written(tmp_path, caplog):
 )
 def test_wrong_input_is_told_and_writes_nothing(arguments, words, tmp_path, caplog, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    caplog.clear()
     assert run(*arguments).exit_code == 2
     assert words in caplog.text
     assert not list(tmp_path.iterdir())

@@ -10,9 +10,10 @@ from scipy.stats import chi2
 
 from docs.bearing.make import LAWS, ratios, ratios_32008
 from gearlube_core.bearings.losses.loss import UNCALIBRATED
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize("law", LAWS)
+@each("law", LAWS)
 def test_the_error_bar_holds_95_percent_of_the_measured_torques(law):
     misfits = np.log(np.concatenate([ratios(law), ratios_32008(law)]))
     factor = UNCALIBRATED[law]

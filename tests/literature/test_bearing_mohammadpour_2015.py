@@ -17,6 +17,7 @@ from tests.helpers.bearing_statics import (
     static_displacement,
     stiffness,
 )
+from tests.helpers.each import each
 
 
 def test_cage_speed_is_that_of_table_a2():
@@ -89,7 +90,7 @@ PINION = (0.03213, 1.0, 19.1, 45.989, 29.056)
 GEAR = (0.06956, -1.0, 19.1, 27.601, 59.653)
 
 
-@pytest.mark.parametrize(
+@each(
     ("torque", "member", "threshold"),
     [(38.4, PINION, 926.0), (63.6, PINION, 1533.0), (176.0, GEAR, 824.0)],
 )
@@ -120,7 +121,7 @@ def dowson_toyoda_1979(w, u):
     return radius * 3.06 * U**0.69 * G**0.56 * W**-0.10
 
 
-@pytest.mark.parametrize("speed", [50.0, 145.0, 700.0])
+@each("speed", [50.0, 145.0, 700.0])
 def test_mean_speed_film_lies_below_the_line_contact_film(speed):
     u = speed * RI * RO / (RI + RO)
     line = dowson_toyoda_1979(500.0, u)

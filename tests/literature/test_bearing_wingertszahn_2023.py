@@ -10,6 +10,7 @@ import pytest
 from gearlube_core.bearings.losses.loss import UNCALIBRATED
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.bearing_32216 import MEASURED, loss_at
+from tests.helpers.each import each
 
 # Rolling torque of each law in the order of MEASURED [N m], computed apart from this package
 # from the printed equations. Three digits; the modulus of steel there is not known to 1 %.
@@ -27,7 +28,7 @@ POINTS = [
 ]
 
 
-@pytest.mark.parametrize("law", RECKONED)
+@each("law", RECKONED)
 def test_laws_give_the_torques_reckoned_from_the_printed_equations(law):
     for (temperature, radial, rpm, _), expected in zip(POINTS, RECKONED[law], strict=False):
         found = loss_at(rpm, temperature_degc=temperature, radial_load=radial, law=law)
@@ -43,7 +44,7 @@ def _ratios(law: str, **model: float) -> np.ndarray:
     ])  # fmt: skip
 
 
-@pytest.mark.parametrize("law", UNCALIBRATED)
+@each("law", UNCALIBRATED)
 def test_the_error_bar_covers_every_measured_torque(law):
     factor = UNCALIBRATED[law]
     assert factor >= 2.0  # a priori, whatever one bearing shows

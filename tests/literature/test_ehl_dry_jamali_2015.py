@@ -46,7 +46,7 @@ def largest(*args, **kwargs):
 @cache
 def over_the_cycle(design):
     """Return steps of a cycle and the largest pressure in each [GPa]."""
-    steps = np.arange(25, 575, 25)
+    steps = np.arange(50, 575, 50)
     return steps, np.array([largest(design, step, (101, 128)) for step in steps])
 
 
@@ -54,7 +54,7 @@ def over_the_cycle(design):
 def test_range_over_the_cycle(design, low, high):
     # printed from a figure to two digits; dry 1.05..1.26 (A), 0.83..1.12 (B)
     _, pressures = over_the_cycle(design)
-    assert pressures[3:-3].min() == pytest.approx(low, rel=0.05)
+    assert pressures[1:-1].min() == pytest.approx(low, rel=0.05)
     assert pressures.max() == pytest.approx(high, rel=0.05)
 
 
@@ -88,8 +88,8 @@ def test_crowned_line_without_relief_fills_093_of_the_face_at_the_largest_load()
     crowned = FlankModification(crown=Crown(amount=8e-6, start=0.0))
     gap = UndeformedGap(modified=ModifiedPair(pair=pair, pinion=crowned, gear=crowned))
     width = pair.face_width / math.cos(pair.base_helix_angle)
-    x = np.linspace(-2.0 * HALF_WIDTH, 2.0 * HALF_WIDTH, 101)
-    y = ((np.arange(400) + 0.5) / 400 - 0.5) * width
+    x = np.linspace(-2.0 * HALF_WIDTH, 2.0 * HALF_WIDTH, 61)
+    y = ((np.arange(200) + 0.5) / 200 - 0.5) * width
     contact = dry_contact_of_gap(
         gap.heights(x[:, None], y[None, :], X), x[1] - x[0], y[1] - y[0], MODULUS, 14.4e3
     )
@@ -97,5 +97,5 @@ def test_crowned_line_without_relief_fills_093_of_the_face_at_the_largest_load()
 
 
 def test_pressure_is_that_of_the_refined_grid():
-    coarse, fine = largest("a", 300, (81, 107)), largest("a", 300, (161, 428))
+    coarse, fine = largest("a", 300, (81, 107)), largest("a", 300, (161, 214))
     assert coarse == pytest.approx(fine, rel=0.01)

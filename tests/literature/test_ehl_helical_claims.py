@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from docs.ehl import claims_cycle, measures
-from docs.ehl.cases import CYCLE, LAYER, FilmCase, facet_case, parabola_case, relief_starts
+from docs.ehl.cases import CYCLE, LAYER, FilmCase, facet_case, parabola_case
 from docs.ehl.claims import verdicts
 from docs.ehl.claims_cycle import CYCLES
 from docs.ehl.claims_facets import FACETED_FLANKS, facet_gaps
@@ -18,8 +18,9 @@ from docs.ehl.lines import COLUMNS, GivenUpError, Lines, March, write_arrays
 from docs.ehl.runs import Run, all_runs
 from docs.ehl.sections import section
 from docs.ehl.store import Steady, Store
-from docs.page import FAILS, HOLDS, PARTLY, judge_parts
+from docs.page import FAILS, HOLDS, PARTLY
 from gearlube_core.ehl.transient.solution import FilmSolution
+from tests.helpers.each import each
 
 CLAIMS = {**CYCLES, **RELIEFS, **MOTIONS, **FACETED_FLANKS}
 
@@ -73,14 +74,6 @@ class Given:
         return self.moving(case)
 
 
-def test_words_of_verdicts():
-    assert [judge_parts(True, True), judge_parts(True, False), judge_parts(False, False)] == [
-        HOLDS,
-        PARTLY,
-        FAILS,
-    ]
-
-
 def test_measures_on_curves_known_in_closed_form():
     steps = np.arange(10.0)
     assert measures.off_range(np.array([0.9, 1.1, 2.2]), 1.0, 2.0) == pytest.approx(0.1)
@@ -95,9 +88,7 @@ def test_measures_on_curves_known_in_closed_form():
     assert measures.peaks(arch + 1e-2 * np.sin(26.0 * np.pi * phase), 0.2) == 1
 
 
-@pytest.mark.parametrize(
-    ("power", "rise", "verdict"), [(0.68, 1.0, HOLDS), (0.5, 1.0, PARTLY), (0.5, 1.1, FAILS)]
-)
+@each(("power", "rise", "verdict"), [(0.68, 1.0, HOLDS), (0.5, 1.0, PARTLY), (0.5, 1.1, FAILS)])
 def test_speed_claim_follows_the_exponent_and_the_pressure(power, rise, verdict):
     def pressure(case):
         return 1e9 * (rise if case.speed == 10.0 else 1.0)
@@ -138,7 +129,7 @@ def test_place_of_the_largest_pressure(first, verdict):
     assert CLAIMS["J8"](Given(moving=moving)).verdict == verdict
 
 
-@pytest.mark.parametrize(
+@each(
     ("error", "converged", "verdict"), [(4e-3, 1.0, HOLDS), (6e-3, 1.0, FAILS), (0.0, 0.0, FAILS)]
 )
 def test_load_claim_wants_the_load_and_convergence(error, converged, verdict):
@@ -160,16 +151,6 @@ def test_facets_sink_into_the_arc_by_the_square_of_their_length():
     # a chord leaves its arc by c^2/(8 R): half the facets, four times the gap
     gaps = facet_gaps((40, 80))
     assert gaps[0] / gaps[1] == pytest.approx(4.0, rel=0.05)
-
-
-def test_relief_begins_where_the_thesis_reads_it():
-    # sec. 5.2: y = 6.4 mm at step 75, to half a digit and a node; the others are read from a
-    # figure to a millimetre
-    assert relief_starts(FilmCase(), 75)[0] == pytest.approx(6.4e-3, abs=6e-5)
-    low, high = relief_starts(FilmCase(), 300)
-    assert low == pytest.approx(-21.5e-3, abs=1e-3)
-    assert high == pytest.approx(18.5e-3, abs=1e-3)
-    assert relief_starts(FilmCase(), 500)[1] == pytest.approx(-6.3e-3, abs=1e-3)
 
 
 def test_cases_have_names_of_their_own_and_positions_of_the_thesis():

@@ -66,13 +66,16 @@ def _smallest_films(
     return 1e6 * march["minimum_film"][1:], float(march["time_error"][1:].max())
 
 
-@pytest.mark.parametrize("claim", [*CLAIMS, "J6"])
+# one design, and the crown that begins late; lines at rest are in the default run for all claims
+@pytest.mark.parametrize(
+    "claim", ["J3", *(pytest.param(one, marks=pytest.mark.slow) for one in ("J4", "J5")), "J6"]
+)
 def test_films_in_motion_are_known_to_the_estimated_error_of_the_time_step(claim: str) -> None:
     if claim == "J6":
         design, crown_start, first, nodes, count = "a", 0.45, 297, (33, 97), 3
     else:
         design, crown_start, _, films, first = CLAIMS[claim]
-        nodes, count = NODES, 6
+        nodes, count = NODES, 4
     whole, told = _smallest_films(design, crown_start, nodes, first, count, 1)
     quarters, _ = _smallest_films(design, crown_start, nodes, first, count, 4)
     true = float(np.abs(whole / quarters - 1.0).max())

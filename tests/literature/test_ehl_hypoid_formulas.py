@@ -18,7 +18,7 @@ OIL = (0.0171, 2.383e-8)
 @pytest.fixture(scope="module")
 def solved():
     """Film and instants at the beginning, the middle and the end of the loaded engagement."""
-    film = hypoid_film(flank_cycle(), (97, 65))
+    film = hypoid_film(flank_cycle(), (81, 49))
     times = film.cycle.time[[6, 16, 26]]
     return [film.cycle.at(float(t)) for t in times], steady_films(film, times, BETA)
 

@@ -10,6 +10,7 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.film.line_film import LOAD_RANGE, MATERIAL_RANGE, central_line_film
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 
 VISCOSITY, MODULUS, RADIUS = 0.04, 227.5e9, 0.014
 TYPICAL, THIN = 2e-8, 1.2e-8  # pressure-viscosity coefficients of oils [1/Pa]
@@ -43,7 +44,7 @@ def over_solved(M: float, L: float, alpha: float = TYPICAL) -> float:
     return formula / (fine + (fine - coarse) / 3.0)
 
 
-@pytest.mark.parametrize(
+@each(
     ("M", "L"),
     [
         (M_LOW, L_LOW),

@@ -13,6 +13,7 @@ from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.film.line_film import line_film_thickness, minimum_line_film_thickness
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
 
 MODULUS = 2.2e11
@@ -54,8 +55,8 @@ def test_least_film_of_dowson_and_higginson():
     assert film.minimum_film == pytest.approx(formula, rel=0.10)
 
 
-@pytest.mark.parametrize("U", [3e-12, 1e-11, 4e-11])
-@pytest.mark.parametrize("W", [5e-5, 2e-4])
+@each("U", [3e-12, 1e-11, 4e-11])
+@each("W", [5e-5, 2e-4])
 def test_central_film_of_dowson_and_toyoda_is_that_of_an_incompressible_oil(U, W):
     films = {}
     for law in ("incompressible", "dowson_higginson"):

@@ -23,6 +23,7 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import (
 )
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 from tests.helpers.pressure_angle import pressure_angle_mismatch
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
@@ -101,7 +102,7 @@ def test_eleven_blade_groups_give_the_printed_spiral_angles():
         assert abs(pinion[n]) > 0.8
 
 
-@pytest.mark.parametrize(("groups", "angle"), [(10, 26.47), (11, 27.85), (12, 29.19)])
+@each(("groups", "angle"), [(10, 26.47), (11, 27.85), (12, 29.19)])
 def test_gear_slot_has_the_spiral_angle_found_before(groups, angle):
     """From an independent evaluation of the same table; its cone distance is given to 0.01 mm."""
     assert printed_slot_spiral_angle(groups, "gear") == pytest.approx(angle, abs=0.02)

@@ -31,7 +31,7 @@ SPUR_CELLS = LoadedSettings(strips=StripSettings(cells_along=16))
 
 @cache
 def he_dataset():
-    settings = CycleSettings(torques=(TORQUE,), positions=24, stations=8)
+    settings = CycleSettings(torques=(TORQUE,), positions=16, stations=8)
     modified = ModifiedPair(pair=HE_2007)
     cycle = run_cycle(modified, coarse_stiffness(HE_2007), settings, jobs=1)
     return contact_dataset(modified, settings, cycle).isel(torque=0)
@@ -77,8 +77,8 @@ def test_stiffness_functions_are_trapezoidal_and_follow_the_contact_length():
     full = length > 0.999 * length.max()
     assert one[full].min() > 0.97 * one.max()
     assert full[one.argmax()]
-    assert np.all(np.diff(one[:24]) > 0.0)
-    assert np.all(np.diff(one[40:66]) < 0.0)
+    assert np.all(np.diff(one[:16]) > 0.0)
+    assert np.all(np.diff(one[27:44]) < 0.0)
 
 
 def test_corner_contact_extends_the_engagement_with_a_step():
@@ -106,7 +106,7 @@ def test_load_share_is_not_length_share():
 
 
 def harris_map(modified, torques):
-    settings = CycleSettings(torques=torques, positions=16, stations=2, loaded=SPUR_CELLS)
+    settings = CycleSettings(torques=torques, positions=12, stations=2, loaded=SPUR_CELLS)
     cycle = run_cycle(modified, coarse_stiffness(SPUR), settings, jobs=1)
     return contact_dataset(modified, settings, cycle)
 

@@ -7,6 +7,7 @@ import pytest
 
 from gearlube.studies.helical.geometry_dataset import gear_file_geometry, geometry_dataset
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers.each import each
 from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 
 DATASETS = {d: gear_file_geometry(HelicalGearFile.named(f"jamali_2015_{d}")) for d in "ab"}
@@ -33,8 +34,8 @@ def test_largest_load_is_14_4_kn_where_the_line_reaches_minus_7_5_mm(design):
     assert normal / thesis.max() == pytest.approx(1.0 / math.cos(base_helix()), rel=1e-12)
 
 
-@pytest.mark.parametrize("state", ["unmodified", "with tip relief"])
-@pytest.mark.parametrize("design", ["a", "b"])
+@each("state", ["unmodified", "with tip relief"])
+@each("design", ["a", "b"])
 def test_loads_one_pitch_apart_carry_the_torque_together(design, state):
     # 1060 N.m on m_n N/(2 cos(beta)) cos(alpha_t) = 73.520 mm. Between stored positions loads
     # bend where another line enters: 1e-3 of the load.

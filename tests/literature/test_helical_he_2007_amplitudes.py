@@ -18,6 +18,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
 )
+from tests.helpers.each import each
 from tests.helpers.helical_balance import SPEED, amplitudes
 from tests.helpers.helical_dynamics_cases import estimated_pair
 
@@ -42,15 +43,15 @@ def _same(found: Array, expected: Array) -> None:
     assert found == pytest.approx(expected, rel=5e-4, abs=1e-5 * expected.max())
 
 
-@pytest.mark.parametrize("mu", [0.01, 0.1])
-@pytest.mark.parametrize("name", MOTIONS)
+@each("mu", [0.01, 0.1])
+@each("name", MOTIONS)
 def test_amplitudes_of_motion_are_those_of_a_harmonic_balance(name: str, mu: float) -> None:
     """Transmission error delta_z, tilts and bodies along, off and across the line of action."""
     _same(harmonics(_response(mu).signal(name), ORDERS), _expected(mu)[name])
 
 
-@pytest.mark.parametrize("mu", [0.01, 0.1])
-@pytest.mark.parametrize("name", FORCES)
+@each("mu", [0.01, 0.1])
+@each("name", FORCES)
 def test_amplitudes_of_bearing_forces_are_those_of_a_harmonic_balance(name: str, mu: float) -> None:
     _same(harmonics(_response(mu).bearing_force, ORDERS)[:, FORCES[name]], _expected(mu)[name])
 

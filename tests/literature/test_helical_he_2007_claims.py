@@ -50,12 +50,12 @@ def test_contact_ratio_and_length_variation() -> None:
     """H1, H3: "~2.7"; trapezoid of swing 13.6 percent about eps_alpha W/cos b (digest)."""
     pair = he_2007_pair(0.0).pair
     assert pair.total_contact_ratio == pytest.approx(2.7426, abs=1e-4)
-    phase = (np.arange(500) + 0.5) / 500
+    phase = (np.arange(100) + 0.5) / 100
     points = [loaded_points(he_2007_pair(0.0), float(p), np.zeros(12))[0] for p in phase]
     length = np.array([table[:, LENGTH].sum() for table in points])
     # midpoint rule over a trapezoid's kinks
-    assert length.mean() == pytest.approx(pair.mean_contact_length, rel=1e-5)
-    assert np.ptp(length) / length.mean() == pytest.approx(0.136, abs=1e-3)
+    assert length.mean() == pytest.approx(pair.mean_contact_length, rel=2.5e-4)
+    assert np.ptp(length) / length.mean() == pytest.approx(0.136, abs=2e-3)
     assert {len(np.unique(table[:, 6])) for table in points} == {2, 3}
 
 

@@ -15,6 +15,7 @@ from gearlube_core.helical_geometry.contact_line import (
 )
 from gearlube_core.helical_geometry.load_sharing import positions_at, shared_load
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from tests.helpers.each import each
 from tests.helpers.named_pairs import named_pair
 
 PAIR = named_pair("he_2007")
@@ -98,7 +99,7 @@ def zone_limits(number, x):
     return None  # zone 8
 
 
-@pytest.mark.parametrize("number", [0, 1, 2])
+@each("number", [0, 1, 2])
 def test_clipping_gives_the_eight_zones_of_eq_24(number):
     """Phases are dense enough to meet zone 6, a two-hundredth of the mesh."""
     met = set()

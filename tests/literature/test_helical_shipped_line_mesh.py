@@ -9,6 +9,7 @@ from benchmarks.shipped_meshes import analysed_line_mesh
 from gearlube_core.errors import TableError
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position, segment_length
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.each import each
 from tests.helpers.helical_contact_cases import HE_2007
 
 SHIPPED = named_line_mesh("he_2007")
@@ -43,7 +44,7 @@ def test_mean_density_exceeds_that_of_iso_6336_by_less_than_the_reduction_it_lea
     assert 13.16e9 < mean < 13.16e9 / 0.8 * 1.10
 
 
-@pytest.mark.parametrize("level", range(SHIPPED.torque.size))
+@each("level", range(SHIPPED.torque.size))
 def test_its_lines_balance_each_torque_at_every_phase(level):
     # the closing is the answer: rising until the springs carry the torque
     arm = HE_2007.pinion_base_radius * math.cos(HE_2007.base_helix_angle)

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from gearlube_core.contact.hertz import hertz_ellipse
+from tests.helpers.each import each
 
 # theta [deg], m, n with a = m L, b = n L, L^3 = 3 P/(4 E* (A + B)), cos theta = (B - A)/(B + A)
 TABLE = [
@@ -24,7 +25,7 @@ TABLE = [
 ]
 
 
-@pytest.mark.parametrize(("theta_deg", "m", "n"), TABLE)
+@each(("theta_deg", "m", "n"), TABLE)
 def test_semi_axes_agree_with_the_textbook_table(theta_deg: float, m: float, n: float) -> None:
     A_plus_B, P, E_star = 30.0, 400.0, 1.1e11
     difference = A_plus_B * math.cos(math.radians(theta_deg))

@@ -14,6 +14,7 @@ from gearlube_core.oil.houpert_1985 import (
 )
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.roelands_1966 import roelands_viscosity
+from tests.helpers.each import each
 
 TABLE_2 = (0.09483, 313.15, 0.0145, 373.15, 1.44e-8, 313.15)
 LAW = fit_houpert(*TABLE_2)
@@ -43,7 +44,7 @@ def test_temperature_coefficient_of_table_2(temperature: float, beta: float) -> 
     assert houpert_temperature_coefficient(LAW, log, temperature) == pytest.approx(beta, rel=3e-3)
 
 
-@pytest.mark.parametrize("pressure", [0.0, 0.3e9, 0.8e9])
+@each("pressure", [0.0, 0.3e9, 0.8e9])
 def test_temperature_coefficient_is_the_slope_of_the_law(pressure: float) -> None:
     T, step = 330.0, 1e-3
     hot, cold = (houpert_log_viscosity(LAW, pressure, T + d) for d in (step, -step))
@@ -77,7 +78,7 @@ def test_oils_of_the_library_follow_the_law_between_the_fitted_temperatures(name
     assert alpha == pytest.approx(oil.alpha, rel=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     ("position", "value", "message"),
     [
         (0, 94830.0, "94.8 mPa s is 0.0948 Pa s"),

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 
 BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 PINION_CONE = math.radians(29.056)
@@ -66,7 +67,7 @@ def test_pitch_plane_of_the_gear_passes_the_pinion_apex():
     assert distance < math.radians(0.05) * 66.16
 
 
-@pytest.mark.parametrize(
+@each(
     ("length", "printed"),
     [
         (BLANK.gear.addendum, (10.948 - 8.987) * math.sin(math.radians(59.653))),

@@ -22,6 +22,7 @@ from gearlube_core.hypoid_geometry.blank.iso_23509 import (
     method_3,
 )
 from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones
+from tests.helpers.each import each
 from tests.helpers.member_profile import MemberProfile
 
 RAD = math.radians
@@ -128,26 +129,30 @@ def values(cones):
     }
 
 
+def check_printed(cones, quantities, degrees, millimetres):
+    found = values(cones)
+    for quantity, printed in quantities.items():
+        tolerance = degrees if quantity in ANGLES else millimetres
+        assert found[quantity] == pytest.approx(printed, abs=tolerance), quantity
+
+
 # F.3: the last trial ends 0.002 deg short of the 50 deg asked for, which is 0.0024 mm of R_m1.
 # F.4: the misfit left of 0.3 % (limit 1 %) is 0.18 mm of R_m1 or, at 2.4 mm/deg, 0.075 deg of
 #      delta_2; the apexes move by the same 0.18 mm. To this comes its open 0.012 deg (see below).
 # F.5: 1e-4 R_m1 = 0.016 mm or, at 11 mm/deg, 0.0015 deg, and half a unit of the last digit.
-@pytest.mark.parametrize(
+@each(
     ("name", "degrees", "millimetres"),
     [("F.3", 0.0025, 0.003), ("F.4", 0.09, 0.2), ("F.5", 0.002, 0.0165)],
 )
 def test_solved_pitch_cones_meet_the_sample_within_its_stopping_tolerance(
     name, degrees, millimetres
 ):
-    found = values(SAMPLES[name].solve())
-    for quantity, printed in SAMPLES[name].printed.items():
-        tolerance = degrees if quantity in ANGLES else millimetres
-        assert found[quantity] == pytest.approx(printed, abs=tolerance), quantity
+    check_printed(SAMPLES[name].solve(), SAMPLES[name].printed, degrees, millimetres)
 
 
 # F.3, F.5: as above. F.4: printed beta_m1 - beta_m2 is 0.012 deg off its own zeta_mp, which is
 # 0.011 mm of d_m1, 0.022 mm of R_m1 and of the pinion's apex.
-@pytest.mark.parametrize(
+@each(
     ("name", "degrees", "millimetres"),
     [("F.3", 0.0025, 0.003), ("F.4", 0.0125, 0.022), ("F.5", 0.002, 0.0165)],
 )
@@ -158,15 +163,12 @@ def test_cones_that_touch_the_printed_gear_cone_are_the_printed_ones(name, degre
         0.5e-3 * sample.printed["d_m2"],
         gear_spiral_angle=RAD(sample.printed["beta_m2"]),
     )
-    found = values(cones)
-    for quantity, printed in sample.printed.items():
-        tolerance = degrees if quantity in ANGLES else millimetres
-        assert found[quantity] == pytest.approx(printed, abs=tolerance), quantity
+    check_printed(cones, sample.printed, degrees, millimetres)
 
 
 # Rounded inputs: 0.0005 deg of the cones moves no length by more than 0.0016 mm. In F.5 outer cone
 # distance less outer face width, 191.947 - 32.860 = 159.087, is 0.013 mm off the R_m1 printed.
-@pytest.mark.parametrize(("name", "millimetres"), [("F.3", 0.002), ("F.4", 0.004), ("F.5", 0.0135)])
+@each(("name", "millimetres"), [("F.3", 0.002), ("F.4", 0.004), ("F.5", 0.0135)])
 def test_printed_cones_give_the_printed_apexes_and_limit_pressure_angle(name, millimetres):
     found, printed = values(SAMPLES[name].cones), SAMPLES[name].printed
     for quantity in ("zeta_m", "zeta_mp", "alpha_lim"):
@@ -177,7 +179,7 @@ def test_printed_cones_give_the_printed_apexes_and_limit_pressure_angle(name, mi
     assert found["m_mn"] == pytest.approx(printed["m_mn"], abs=5e-4)
 
 
-@pytest.mark.parametrize("name", SAMPLES)
+@each("name", SAMPLES)
 def test_printed_cones_close_the_cutter_condition_within_the_standards_tolerance(name):
     sample = SAMPLES[name]
     assert abs(sample.misfit(sample.design, sample.cones)) < sample.stop
@@ -203,7 +205,7 @@ def test_method_2_of_the_standard_leaves_the_cones_open_by_a_hundredth_of_a_degr
     assert left == pytest.approx(0.0, abs=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "lead", "base", "spirals"),
     [
         # (cone distance, spiral angle): gear heel and toe, heel and toe of the pinion on the gear
@@ -294,7 +296,7 @@ def test_completed_clearance_and_dedenda_are_those_of_the_samples(name):
     )
 
 
-@pytest.mark.parametrize(("name", "member"), CORNERS)
+@each(("name", "member"), CORNERS)
 def test_corners_of_the_blank_are_the_printed_diameters_and_crown_distances(name, member):
     body = blank(name)
     profile = MemberProfile.of_pinion(body) if member == 1 else MemberProfile.of_gear(body)

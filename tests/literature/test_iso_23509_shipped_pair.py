@@ -13,6 +13,7 @@ import pytest
 from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, curvature_misfit, method_1
 from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 
 BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 RAD = math.radians
@@ -97,7 +98,7 @@ def test_method_1_puts_the_calculation_point_where_the_spiral_angles_belong():
     assert 1e3 * BLANK.gear.mean_cone_distance - cone_distance == pytest.approx(0.95, abs=0.03)
 
 
-@pytest.mark.parametrize("groups", [9, 10, 12, 13])
+@each("groups", [9, 10, 12, 13])
 def test_no_other_number_of_blade_groups_gives_the_printed_apexes(groups):
     cones = designed(groups)
     # fifty times the print's last digit and ten times what is left with 11
@@ -105,8 +106,8 @@ def test_no_other_number_of_blade_groups_gives_the_printed_apexes(groups):
     assert abs(1e3 * cones.gear_apex - 8.987) > 0.4
 
 
-@pytest.mark.parametrize("radius", [NOMINAL_RADIUS, PRINTED_POINT_RADIUS])
-@pytest.mark.parametrize("groups", [9, 10, 11, 12, 13])
+@each("radius", [NOMINAL_RADIUS, PRINTED_POINT_RADIUS])
+@each("groups", [9, 10, 11, 12, 13])
 def test_only_eleven_blade_groups_close_the_limit_curvature_of_the_printed_cones(groups, radius):
     """The standard's stop is 1 %; neighbours of 11 miss by 1.4 to 1.9 %."""
     cones = PitchCones(
@@ -129,7 +130,7 @@ def test_only_eleven_blade_groups_close_the_limit_curvature_of_the_printed_cones
         assert misfit < 0.003
 
 
-@pytest.mark.parametrize(("groups", "spiral"), [(10, 26.50), (11, 27.87), (12, 29.21)])
+@each(("groups", "spiral"), [(10, 26.50), (11, 27.87), (12, 29.21)])
 def test_lead_angle_at_the_gear_machine_gives_the_spiral_angle(groups, spiral):
     """Settings 66.650, 62.642 and 7.026 mm: the triangle of machine centre, cutter and point.
 

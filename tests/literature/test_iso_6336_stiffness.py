@@ -14,6 +14,7 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import (
     virtual_teeth,
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
+from tests.helpers.each import each
 from tests.helpers.named_pairs import named_pair
 
 PER_MM_UM = 1e9
@@ -146,7 +147,7 @@ def test_limits_of_the_fit_that_a_pair_exceeds_are_named():
     assert iso_stiffness(swapped, line_load=LOAD).outside == ("x1 >= x2, got 0.045 and 0.100",)
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"line_load": 0.0}, "line_load must be above 0 N/m, got 0 N/m. 100 N/mm is 1e5 N/m"),

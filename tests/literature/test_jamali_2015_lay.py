@@ -17,6 +17,7 @@ from gearlube_core.surface.extrusion import (
 from gearlube_core.surface.heights import Profile
 from gearlube_core.surface.stand_ins import SEEDS, stand_in
 from gearlube_core.surface.statistics import profile_statistics
+from tests.helpers.each import each
 
 MICRO, DEGREE = 1e-6, math.pi / 180.0
 WIDTH = 1e-3  # m
@@ -28,16 +29,14 @@ def waves(period: float, count: int = 200) -> Profile:
     return Profile(height=height, spacing=period / count, periodic=True)
 
 
-@pytest.mark.parametrize(
-    ("period_um", "angle_deg"), [(149, 8.475), (100, 5.711), (114, 6.504), (131, 7.463)]
-)
+@each(("period_um", "angle_deg"), [(149, 8.475), (100, 5.711), (114, 6.504), (131, 7.463)])
 def test_periods_of_the_thesis_have_its_angles(period_um, angle_deg):
     lay = Lay(period=period_um * MICRO, width=WIDTH, turns=1)
     assert lay.angle / DEGREE == pytest.approx(angle_deg, abs=5.1e-4)  # digits
 
 
-@pytest.mark.parametrize("measured", ["along_x", "across_lay"])
-@pytest.mark.parametrize("turns", [-3, 0, 1, 2])
+@each("measured", ["along_x", "across_lay"])
+@each("turns", [-3, 0, 1, 2])
 def test_an_extruded_profile_repeats_over_the_width_and_its_period(measured, turns):
     profile = waves(149 * MICRO)
     lay = Lay(period=profile.length, width=WIDTH, turns=turns, measured=measured)
@@ -87,7 +86,7 @@ def test_a_lay_that_does_not_close_is_refused_with_the_nearest():
     assert Lay.nearest(149 * MICRO, WIDTH, 1.2, "across_lay").turns == 6
 
 
-@pytest.mark.parametrize(
+@each(
     ("make", "words"),
     [
         (lambda: check_divides("L_y", WIDTH, 149 * MICRO), "1043 um, or a period of 142.857 um"),
@@ -147,9 +146,7 @@ def test_a_cut_part_closes_where_the_profile_nearly_does():
     assert np.delete(np.abs(np.fft.rfft(part.height)), 2).max() < 1e-6 * 0.3 * MICRO * 70
 
 
-@pytest.mark.parametrize(
-    ("case", "angles_deg"), [("A", (8.475, 5.711)), ("B", (8.475, 5.711)), ("C", (6.504, 7.463))]
-)
+@each(("case", "angles_deg"), [("A", (8.475, 5.711)), ("B", (8.475, 5.711)), ("C", (6.504, 7.463))])
 def test_stand_ins_have_the_published_numbers(case, angles_deg):
     made = stand_in(case)
     of = profile_statistics(made.full.surface)

@@ -13,6 +13,7 @@ from gearlube_core.helical_geometry.lay_angle import (
 )
 from gearlube_core.helical_geometry.meshing_steps import line_at_position, meshing_steps
 from gearlube_core.helical_geometry.undeformed_gap import contact_line_gap
+from tests.helpers.each import each
 from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 from tests.helpers.named_pairs import named_pair
 
@@ -21,14 +22,7 @@ def half_length(pair):
     return 0.5 * pair.face_width / math.cos(pair.base_helix_angle)
 
 
-def relief_starts(design, step):
-    """y of the starts of relief at a time step [mm]: pinion's, wheel's."""
-    modified = jamali_2015(design, k=0.0)
-    gap = contact_line_gap(modified, float(jamali_2015_steps(design).line(step)), [0.0])
-    return 1e3 * gap.pinion_relief_start, 1e3 * gap.gear_relief_start
-
-
-@pytest.mark.parametrize(("k", "c_e"), [(0.1, 3.684), (0.5, 23.333), (1.0, 70.0)])
+@each(("k", "c_e"), [(0.1, 3.684), (0.5, 23.333), (1.0, 70.0)])
 def test_parabola_of_the_relief_ends_at_equation_5_5(k, c_e):
     # (5.5) with 70 um: 70 k/(2 - k), to the last digit written
     relief = jamali_2015("a", k=k).pinion.tip_relief
@@ -53,19 +47,6 @@ def test_crown_of_one_tooth_has_a_radius_of_35_m():
     m = jamali_2015("a")
     R_y = m.pinion.crown.curvature_radius(m.pair.face_width, m.pair.base_helix_angle)
     assert R_y == pytest.approx(35.392, abs=5e-4)  # digits of the closed form
-
-
-def test_wheel_relief_ends_contact_at_6_4_mm_in_position_1():
-    assert relief_starts("a", 75)[1] == pytest.approx(6.4, abs=0.05)  # last printed digit
-
-
-def test_relief_starts_of_positions_2_and_3_are_met_to_1_mm():
-    # sec. 5.2: 18.5, -21.5 and -6.3 mm, read where relief becomes apparent; computed 18.2, -22.1
-    # and -7.2. Step 0.28 mm and the printed z_p, z_w (fig. 4.6) move a start by 0.5 mm each.
-    pinion, wheel = relief_starts("a", 300)
-    assert pinion == pytest.approx(18.5, abs=1.0)
-    assert wheel == pytest.approx(-21.5, abs=1.0)
-    assert relief_starts("a", 500)[0] == pytest.approx(-6.3, abs=1.0)
 
 
 @pytest.mark.parametrize("design", ["a", "b"])
@@ -101,7 +82,7 @@ def test_steps_are_those_in_which_the_line_exceeds_its_share():
     assert steps.duration(235.62) == pytest.approx(0.04e-3 / (0.073520 * 235.62), rel=1e-5)
 
 
-@pytest.mark.parametrize(
+@each(
     ("count", "length", "sagitta", "slope"),
     [(20, 0.415, 0.72, 0.0140), (40, 0.207, 0.18, 0.0070), (100, 0.083, 0.029, 0.0028)],
 )

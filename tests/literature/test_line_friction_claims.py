@@ -20,6 +20,7 @@ from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_al
 from gearlube_core.friction.line_points import line_points, uniform_line_load
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.each import each
 from tests.helpers.named_pairs import named_pair
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
@@ -109,7 +110,7 @@ def mean_of(
     return float((values * weight).sum() / weight.sum())
 
 
-@pytest.mark.parametrize("temperature", [313.15, 333.15, 353.15, 373.15])
+@each("temperature", [313.15, 333.15, 353.15, 373.15])
 def test_a_mineral_oil_gives_the_pair_of_he_a_friction_of_gear_practice(temperature: float) -> None:
     # what ground, oil-lubricated steel gears show; He et al. 2007 vary a constant from 0.01 to 0.3
     assert 0.02 < our_mean(temperature=temperature) < 0.06
@@ -139,7 +140,7 @@ TRENDS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "values", "sign"), TRENDS)
+@each(("name", "values", "sign"), TRENDS)
 def test_friction_changes_with_speed_load_and_roughness_as_the_formulas_say(
     name: str, values: list[float], sign: int
 ) -> None:
@@ -202,7 +203,7 @@ def test_largest_pressure_of_the_smooth_line_of_chapter_7_is_hertz() -> None:
     assert p_0 == pytest.approx(0.95e9, rel=0.02)
 
 
-@pytest.mark.parametrize("factor", [2.0, 5.0, 10.0])
+@each("factor", [2.0, 5.0, 10.0])
 def test_film_grows_with_speed_as_in_the_ehl_solutions(factor: float) -> None:
     arguments = (0.0148, *ESTER, 6.7, 3.3e5, THESIS_E)
     faster = (0.0148, *ESTER, 6.7 * factor, 3.3e5, THESIS_E)

@@ -6,6 +6,7 @@ import pytest
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from tests.helpers.each import each
 
 
 @pytest.mark.parametrize(
@@ -66,7 +67,7 @@ def test_gear_steel_of_table_a4_has_115_gpa_contact_modulus() -> None:
     assert contact_modulus(steel, steel) == pytest.approx(115.4e9, rel=5e-4)
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "nu_40", "nu_100", "a_1", "a_2", "limit", "hot_tolerance"),
     [
         # nu of Table 2, slope at ambient pressure of Table 3; at 100 degC the library's law of

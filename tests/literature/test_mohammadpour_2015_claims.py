@@ -7,33 +7,32 @@ import pytest
 from docs.page import FAILS, HOLDS, PARTLY
 from docs.validation.claims import CLAIMS
 from docs.validation.efficiency import INPUTS, Reading
-from fmu_src.build import build_hypoid_axle
-from gearlube.studies.sweep.run import run_sweep
+from drivetrain.axle_file.read_axle import read_axle
+from gearlube.studies.sweep.axle_in_fmu import car_axle_at
+from gearlube.studies.sweep.datasets import merge
+from gearlube.studies.sweep.natural_frequencies import natural_frequencies
+from gearlube.studies.sweep.point import march
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
 
 SPEEDS = [30.0, 80.0]  # km/h: the printed equations are stable at the first only
 PRELOADS = [2500.0, 6000.0]  # N
+PRINTED = {"equations": "as_printed", "friction": "as_printed"}
 
 
-@pytest.fixture(scope="module")
-def fmu(tmp_path_factory):
-    return build_hypoid_axle(tmp_path_factory.mktemp("fmu"))
-
-
-def sweep(fmu, folder, **changes):
+def sweep(speeds=SPEEDS, **changes):
+    """Return the points of a sweep without an FMU; tests/fmu hold it to the same axle."""
+    car = read_axle("mohammadpour_2015")
     settings = replace(quick_sweep_settings(SweepSettings(driver="hold")), **changes)
-    return run_sweep(settings, speeds_kmh=SPEEDS, preloads=PRELOADS, fmu=fmu, out=folder, jobs=1)
+    points = {
+        (v, p): march(car_axle_at(car, settings, p), v, settings) for v in speeds for p in PRELOADS
+    }
+    modes = natural_frequencies(PRELOADS, speeds[-1], settings, car)
+    return merge(PRELOADS, speeds, points).assign(mode_frequency=modes)
 
 
 @pytest.fixture(scope="module")
-def consistent(fmu, tmp_path_factory):
-    return sweep(fmu, tmp_path_factory.mktemp("consistent"))
-
-
-@pytest.fixture(scope="module")
-def as_printed(fmu, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("printed")
-    return sweep(fmu, folder, equations="as_printed", friction="as_printed")
+def consistent():
+    return sweep()
 
 
 def verdicts(data, numbers):
@@ -47,7 +46,8 @@ def test_consistent_equations_confirm_what_the_mechanics_demands(consistent):
 
 
 @pytest.mark.slow  # the printed signs' antisymmetry is in the default run
-def test_bearing_lines_appear_with_the_printed_signs_only(consistent, as_printed):
+def test_bearing_lines_appear_with_the_printed_signs_only(consistent):
+    as_printed = sweep(**PRINTED)
     assert verdicts(consistent, {37, 38}) == {37: FAILS, 38: FAILS}
     assert verdicts(as_printed, {37}) == {37: PARTLY}
     # the limit cycle separates the teeth at 80 km/h, the consistent equations never do
@@ -55,10 +55,9 @@ def test_bearing_lines_appear_with_the_printed_signs_only(consistent, as_printed
     assert not consistent["separation"].values.any()
 
 
-def test_printed_friction_loses_less_because_it_lacks_the_temperature_coefficient(
-    consistent, as_printed
-):
+def test_printed_friction_loses_less_because_it_lacks_the_temperature_coefficient(consistent):
     # at 30 km/h both motions are smooth, so that only the friction differs
+    as_printed = sweep(SPEEDS[:1], **PRINTED)
     ours, theirs = (1.0 - d["efficiency_mesh"].values[:, 0] for d in (consistent, as_printed))
     assert (theirs < ours).all()
     # beta = 1 1/K instead of 0.025 1/K takes ln(40)/2 = 1.8 from an argument of 6 to 12; counting

@@ -15,6 +15,7 @@ from gearlube_core.oil.sheet_values import (
     viscosity_index,
 )
 from gearlube_core.oil.walther_1931 import walther_coefficients, walther_kinematic_viscosity
+from tests.helpers.each import each
 
 # [arana_2019 Tables 2 and 3]: nu at 40 degC [mm2/s]; a1, a2, b1, b2 of p/(A + B p) [Pa, Pa/K]
 MEASURED = {
@@ -33,18 +34,16 @@ def test_oils_of_index_0_and_100_have_the_standard_s_viscosities():
     assert viscosity_at_40(10e-6, 100.0) == pytest.approx(82.87e-6, rel=1e-3, abs=0.0)
 
 
-@pytest.mark.parametrize(
-    "nu_100", [3.8, 4.4, 5.0, 6.4, 7.0, 7.7, 9.0, 12.0, 18.0, 28.0, 55.0, 70.0]
-)
-@pytest.mark.parametrize("index", [0.0, 100.0])
+@each("nu_100", [3.8, 4.4, 5.0, 6.4, 7.0, 7.7, 9.0, 12.0, 18.0, 28.0, 55.0, 70.0])
+@each("index", [0.0, 100.0])
 def test_the_forms_of_the_standard_meet(nu_100, index):
     """A wrong digit of a coefficient would part them: they are fits within 0.1 % each."""
     below = viscosity_at_40(nu_100 * (1.0 - 1e-9) * 1e-6, index)
     assert viscosity_at_40(nu_100 * 1e-6, index) == pytest.approx(below, rel=2e-3, abs=0.0)
 
 
-@pytest.mark.parametrize("index", [20.0, 95.0, 100.0, 105.0, 160.0, 250.0])
-@pytest.mark.parametrize("nu_100", [3e-6, 8e-6, 20e-6, 80e-6])
+@each("index", [20.0, 95.0, 100.0, 105.0, 160.0, 250.0])
+@each("nu_100", [3e-6, 8e-6, 20e-6, 80e-6])
 def test_the_index_goes_back_and_forth(nu_100, index):
     nu_40 = viscosity_at_40(nu_100, index)
     assert viscosity_index(nu_40, nu_100) == pytest.approx(index, abs=1e-6)

@@ -14,9 +14,10 @@ from gearlube_core.rough_patch.flow import (
     shear_flow_factor,
 )
 from gearlube_core.rough_patch.table import gaussian_patches, patch_table
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize("peklenik", PEKLENIK)
+@each("peklenik", PEKLENIK)
 def test_both_forms_of_the_shear_factor_meet(peklenik: float):
     # printed to three or four digits: the forms meet at h/sigma = 5 within 1 %
     near, far = shear_flow_factor(np.array([5.0, 5.0 + 1e-9]), peklenik)

@@ -12,6 +12,7 @@ from drivetrain.road_load import (
     mohammadpour_2015_vehicle,
 )
 from gearlube_core.units import kmh_to_ms
+from tests.helpers.each import each
 
 # Vehicle speed [km/h], ring gear torque [N m], pinion torque [N m]; worked out by hand from
 # eq. (7)-(9) with r_t = 0.318 m and the tooth ratio 36/13.
@@ -34,7 +35,7 @@ def test_road_torques_of_the_paper_car_at_the_965_per_mille_radius(
     assert shorter_radius.pinion_torque(speed) == pytest.approx(pinion, rel=1e-2)
 
 
-@pytest.mark.parametrize(("speed_kmh", "ring_gear", "pinion"), BY_HAND)
+@each(("speed_kmh", "ring_gear", "pinion"), BY_HAND)
 def test_road_torques_scale_with_the_rolling_radius(
     speed_kmh: float, ring_gear: float, pinion: float
 ) -> None:

@@ -16,7 +16,7 @@ from tests.helpers.torsional_cases import periodic_orbit, reconstructed
 
 NATURAL = HypoidTorsional(reconstructed()).natural_frequency
 MISMATCHES = (0.002, 0.003, 0.004)
-RATIOS = np.round(np.arange(0.3, 1.4001, 0.025), 4)
+RATIOS = np.round(np.arange(0.3, 1.4001, 0.05), 4)
 
 
 def swept(direction, mismatch=None):
