@@ -41,10 +41,14 @@ def solve(law, x):
 """,
     "package/caller.py": """
 from gearlube_core.kernels.jit import kernel
-from package.inner import inner
-@kernel
-def outer(x):
-    return inner(x)
+def made(inside):
+    @kernel
+    def between(x):
+        return inside(x)
+    @kernel
+    def outer(x):
+        return between(x)
+    return outer
 """,
     "package/inner.py": """
 from gearlube_core.kernels.jit import kernel
@@ -54,9 +58,11 @@ def inner(x):
     return constants.GAIN * x
 """,
     "run.py": """
-from package.caller import outer
+from package.caller import made
+from package.inner import inner
 from package.law import Law
 from package.solver import solve
+outer = made(inner)
 print(outer(1.0), solve(Law(10.0), 1.0))
 for one in (outer, solve):
     print(sum(one.stats.cache_hits.values()), sum(one.stats.cache_misses.values()))
