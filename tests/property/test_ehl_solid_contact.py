@@ -90,7 +90,7 @@ def test_oil_and_load_are_balanced_between_touching_solids() -> None:
     assert f"carry {100.0 * touch.share:.2g} % of the load" in solution.outcome.sentence
 
 
-@pytest.mark.parametrize("thickness", [3e-9, 30e-9])
+@pytest.mark.parametrize("thickness", [pytest.param(3e-9, marks=pytest.mark.slow), 30e-9])
 def test_without_speed_the_solids_carry_the_dry_contact(thickness: float) -> None:
     problem = _contact(1e-4, thickness)
     solution = solve_point_contact(problem)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import sys
+from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
@@ -91,6 +92,7 @@ def test_a_trace_that_is_not_the_regulations_is_refused(monkeypatch):
 
 
 STEADY = np.full(20, 10.0)
+COARSE = gl.LossGrid(torques=8, speeds=6, temperature_step=45.0)
 
 
 def test_the_hardest_braking_and_gaining_that_tyres_hold_are_taken():
@@ -291,12 +293,12 @@ def test_the_figure_says_what_is_not_modelled(out):
 
 
 def test_assumed_heat_makes_a_band_and_given_heat_none():
-    cycle = trace(speed=STEADY)
-    assumed = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=cycle, draws=0))
+    settings = gl.DriveCycleSettings(car=CAR, cycle=trace(speed=STEADY), draws=0, grid=COARSE)
+    assumed = gl.run_cycle(settings)
     width = assumed["oil_temperature_high"] - assumed["oil_temperature_low"]
     assert float(width[-1]) > 0.0
     heat = gl.SumpHeat(capacity=17e3, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
-    given = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=cycle, heat=heat, draws=0))
+    given = gl.run_cycle(replace(settings, heat=heat))
     assert (
         given["oil_temperature_high"].values.tolist()
         == given["oil_temperature_low"].values.tolist()
@@ -315,12 +317,10 @@ def test_the_command_refuses_an_unknown_cycle_and_leaves_no_folder(tmp_path, cap
 
 def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
     """Each draw computed again: the axle changed, its map anew, its sources scaled."""
-    from dataclasses import replace
-
     from gearlube.studies.drive_cycle.loss_field import at_temperatures, demand_of, losses_along
     from gearlube.studies.drive_cycle.spread import uncertain_inputs
 
-    draws = 24
+    draws = 12
     heat = gl.SumpHeat(capacity=1e7, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
     settings = gl.DriveCycleSettings(
         car=CAR,
@@ -328,7 +328,7 @@ def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
         heat=heat,  # given, and so large that the oil stays at 60 degC
         start_temperature=333.15,
         air_temperature=333.15,
-        grid=gl.LossGrid(torques=8, speeds=6, temperature_step=45.0),
+        grid=COARSE,
         draws=draws,
         seed=3,
     )
@@ -358,7 +358,8 @@ def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
 
 
 def test_without_draws_there_is_no_error_bar_of_the_efficiency():
-    found = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=trace(speed=STEADY[:5]), draws=0))
+    short = trace(speed=STEADY[:5])
+    found = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=short, draws=0, grid=COARSE))
     assert "efficiency_low" not in found
 
 

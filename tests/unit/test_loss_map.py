@@ -32,6 +32,8 @@ from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 from tests.helpers.units import without_units
 
+pytestmark = pytest.mark.usefixtures("small_pictures")
+
 AXLE = replace(
     mohammadpour_2015_axle(),
     churning="changenet_velex_2007",
