@@ -12,8 +12,8 @@ import pytest
 def each(names: str | tuple[str, ...], cases: Iterable[Any]) -> Callable[[Any], Any]:
     """Run a test with every case, as `pytest.mark.parametrize` does, but as one test.
 
-    A hundred cases that take a millisecond each take a second as tests of their own. All cases share
-    the fixtures: `caplog` and `monkeypatch` keep what the cases before have left.
+    A hundred cases of a millisecond take a second as tests of their own. All cases share the
+    fixtures: `caplog` and `monkeypatch` keep what the cases before have left.
 
     >>> @each("value", [1, -2, -3])
     ... def test_positive(value):

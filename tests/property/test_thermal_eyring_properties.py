@@ -32,6 +32,7 @@ from gearlube_core.friction.thermal_eyring_data import (
 )
 from gearlube_core.oil import houpert_1985
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.each import each
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 E_STAR = SOLID.contact_modulus
@@ -59,8 +60,8 @@ def flank(
     )
 
 
-@pytest.mark.parametrize("options", OPTIONS)
-@pytest.mark.parametrize("temperature", OILS)
+@each("options", OPTIONS)
+@each("temperature", OILS)
 def test_every_operating_point_converges_to_bounded_friction(
     options: ThermalEyringOptions, temperature: float
 ) -> None:
@@ -79,7 +80,7 @@ def test_every_operating_point_converges_to_bounded_friction(
         assert state.shear_stress <= isothermal * (1.0 + 1e-12)
 
 
-@pytest.mark.parametrize("options", OPTIONS)
+@each("options", OPTIONS)
 def test_reported_temperatures_are_a_solution(options: ThermalEyringOptions) -> None:
     state = flank(2000.0, 5.0, 3.2, options)
     oil = OILS[313.15]
@@ -132,7 +133,7 @@ def test_heat_thins_films_and_lowers_traction() -> None:
     assert sheared.film_thickness < inlet.film_thickness
 
 
-@pytest.mark.parametrize("options", OPTIONS)
+@each("options", OPTIONS)
 def test_smooth_in_speed_and_load(options: ThermalEyringOptions) -> None:
     # differences of differences show steps left by iterations
     for position, start, step in ((0, 1500.0, 1.0), (1, 5.0, 1e-3), (2, 3.0, 1e-3)):
@@ -260,9 +261,7 @@ for _options in OPTIONS:
     )
 
 
-@pytest.mark.parametrize(
-    ("function", "arguments"), KERNELS, ids=[f"{k[0].__name__}-{i}" for i, k in enumerate(KERNELS)]
-)
+@each(("function", "arguments"), KERNELS)
 def test_compiled_kernel_equals_its_python_function(function: Any, arguments: Any) -> None:
     # roundings, magnified by the logarithms of the root
     np.testing.assert_allclose(function(*arguments), function.py_func(*arguments), rtol=1e-12)

@@ -20,6 +20,7 @@ from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from tests.helpers.axle_files import BARE, MESH, car_axle
+from tests.helpers.each import each
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "my_axle.toml"
 
@@ -190,7 +191,7 @@ def test_every_field_has_an_expectation_here():
     assert NUMBERS.keys() | GROUPS | WORDS == field_notes(AxleFile).keys()
 
 
-@pytest.mark.parametrize("field", NUMBERS)
+@each("field", NUMBERS)
 def test_a_field_sets_its_number_of_the_model_and_reaches_the_kernels(field):
     value, place, expected = NUMBERS[field]
     # a loss factor acts with modal damping alone

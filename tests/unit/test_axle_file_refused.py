@@ -8,6 +8,7 @@ from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.cli.axle_gears import bring_gears_up_to_date
 from gearlube_core.errors import ParameterError
 from tests.helpers.axle_files import car_axle
+from tests.helpers.each import each
 
 
 def refusal(changes):
@@ -16,7 +17,7 @@ def refusal(changes):
     return str(error.value)
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "parts"),
     [
         (

@@ -10,6 +10,7 @@ from scipy.integrate import quad
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.bearing_section import stacked_frusta
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 STEEL = 7850.0  # kg/m3, of the paper
 SHAFT = {
@@ -79,7 +80,7 @@ def test_a_given_mass_goes_before_the_frusta_and_the_density_is_that_of_the_stee
     assert made.pinion_inertia == pytest.approx(heavier.pinion_inertia * 7700.0 / STEEL, rel=1e-13)
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"frusta_last_diameters_mm": [85.0]}, "same number of entries, got 2, 2, 1"),

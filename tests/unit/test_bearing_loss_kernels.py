@@ -14,12 +14,13 @@ from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.bearing_32216 import BEARING, DEG, loss_at
+from tests.helpers.each import each
 
 OIL = lubricant_state(Lubricant.named("fva_3").parameters(), 323.15)
 CONTACT = (9.8e-3, 6e4, 2.3e11, 0.05, 2.1e-8, 1.4)
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"n_rollers": 21}, ["overlap", "21 rollers", "at most 19 fit"]),
@@ -40,7 +41,7 @@ def test_wrong_geometry_is_refused_with_its_cure(changes, words):
     assert all(word in str(refusal.value) for word in words), str(refusal.value)
 
 
-@pytest.mark.parametrize(
+@each(
     ("condition", "words"),
     [
         ({"temperature_degc": 130.0}, ["temperature", "393.15 K", "fva_3"]),

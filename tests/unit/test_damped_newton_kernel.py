@@ -15,6 +15,7 @@ from gearlube_core.kernels.damped_newton import (
     newton_work_size,
 )
 from gearlube_core.kernels.linear_solve import factorise, solve_factorised
+from tests.helpers.each import each
 from tests.helpers.source_of import interpret
 
 
@@ -66,8 +67,8 @@ def springs(n, seed):
     return (half @ half.T + np.eye(n)).ravel(), 10.0 * rng.normal(size=n)
 
 
-@pytest.mark.parametrize("jacobian", [None, cubic_stiffness])
-@pytest.mark.parametrize("n", [1, 6, 11])
+@each("jacobian", [None, cubic_stiffness])
+@each("n", [1, 6, 11])
 def test_hardening_springs_settle_where_scipy_finds_them(n, jacobian):
     problem = springs(n, n)
 
@@ -106,8 +107,8 @@ def two_stops(u, problem, out):
     out[1] = 1e3 * (u[1] + 0.5 * u[0])
 
 
-@pytest.mark.parametrize("load", [-7.0, -0.5, 0.0, 0.3, 40.0, 4e4])
-@pytest.mark.parametrize("weak", [0.3, 1.0])
+@each("load", [-7.0, -0.5, 0.0, 0.3, 40.0, 4e4])
+@each("weak", [0.3, 1.0])
 def test_one_sided_stops_are_found_across_their_kinks(load, weak):
     # with u1 = -u0/2 the effective weak spring is weak - 1/4
     gap, spring = 5.0, weak - 0.25

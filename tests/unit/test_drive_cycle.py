@@ -16,6 +16,7 @@ import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.studies.drive_cycle.traces import EXTRA_URBAN, URBAN
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 from tests.helpers.units import without_units
 
 CAR = gl.read_axle("mohammadpour_2015")
@@ -106,7 +107,7 @@ def changed(row, value, values=STEADY):
     return new
 
 
-@pytest.mark.parametrize(
+@each(
     ("columns", "words"),
     [
         ({"speed": changed(4, np.nan)}, r"speed of mine must be finite, got nan in row 5"),
@@ -208,7 +209,7 @@ def test_columns_carry_their_units(tmp_path, text, quantity, expected):
     assert cycle.name == "trace"
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "words"),
     [
         ("time_s,speed\n0,1\n1,1\n", "got 'speed'. Rename or remove"),
@@ -411,7 +412,7 @@ def test_a_cycle_of_vecto_over_distance_is_driven_within_the_limits_of_its_drive
     assert "over distance" in cycle.notes[0]
 
 
-@pytest.mark.parametrize(
+@each(
     ("last", "words"),
     [
         ("2,-5", "got -5 km/h in line 6 of its file, and 1 such"),
@@ -428,7 +429,7 @@ def test_a_refused_trace_names_the_line_of_its_file(last, words, tmp_path):
         gl.DriveCycle.read(path)
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "words"),
     [
         ("<t>,<Pwheel>\n0,1\n1,2\n", "must have the column <v>.*Cycles of engine or wheel power"),

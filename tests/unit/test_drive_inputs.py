@@ -12,6 +12,7 @@ from drivetrain.engine import Engine, Gearbox, TorqueOrder
 from drivetrain.road_load import FinalDrive, Tyre, Vehicle, mohammadpour_2015_road_load
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.units import rpm_to_rads
+from tests.helpers.each import each
 
 LOAD = mohammadpour_2015_road_load()
 CAR = DrivelineParameters(road_load=LOAD)
@@ -26,7 +27,7 @@ def test_195_65_r16_has_an_unladen_radius_of_329_95_mm() -> None:
     assert other.rolling_radius == pytest.approx(0.965 * 0.32995, rel=1e-12)
 
 
-@pytest.mark.parametrize("size", ["195-65-16", "", "R16", "195/65R", None])
+@each("size", ["195-65-16", "", "R16", "195/65R", None])
 def test_an_unreadable_tyre_size_is_refused_with_an_example(size: str) -> None:
     with pytest.raises(ParameterError, match=r"got .*195/65R16"):
         Tyre.from_size(size)
@@ -72,7 +73,7 @@ def test_a_speed_beyond_the_gears_names_the_range_and_the_other_driver(speed: fl
         CoupledVehicle(CAR, speed)
 
 
-@pytest.mark.parametrize(("speed_kmh", "gear"), [(20, 1), (40, 2), (60, 3), (80, 5), (100, 5)])
+@each(("speed_kmh", "gear"), [(20, 1), (40, 2), (60, 3), (80, 5), (100, 5)])
 def test_the_highest_gear_that_keeps_the_engine_lively_is_used(speed_kmh: int, gear: int) -> None:
     propshaft = LOAD.pinion_speed(speed_kmh / 3.6)
     engine, gearbox = Engine(), Gearbox()

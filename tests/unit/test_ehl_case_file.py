@@ -9,6 +9,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import thermal_viscosity
 from gearlube_core.oil.film_oil_data import check_warms
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.each import each
 
 OIL = {"viscosity_pa_s": 0.02, "pressure_viscosity_per_gpa": 18.0}
 SHARED = {"name": "own", "source": "test", "speed_1_m_s": 3.0, "speed_2_m_s": 1.0, "oil": OIL}
@@ -142,7 +143,7 @@ def test_a_ratio_needs_a_mean_speed():
         line(speed_2_m_s=-3.0).moved(None, 0.5)
 
 
-@pytest.mark.parametrize(
+@each(
     ("build", "changes", "words"),
     [
         (line, {"radius_mm": -3.0}, ["radius_mm", "-3", "mm"]),

@@ -9,6 +9,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import check_cavitation, refuse_rupture
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import moes_contact
 
 EYRING = film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6)
@@ -27,9 +28,7 @@ def test_eyring_oil_that_is_sheared_askew_is_refused(sliding):
     check_cavitation(replace(CONTACT, sliding=sliding), REYNOLDS)
 
 
-@pytest.mark.parametrize(
-    "sliding", [(2.0, 0.0), (0.0, -2.0), (0.0, 0.0), (3.0, 1e-13), (300.0, 1e-10), None]
-)
+@each("sliding", [(2.0, 0.0), (0.0, -2.0), (0.0, 0.0), (3.0, 1e-13), (300.0, 1e-10), None])
 def test_sliding_along_an_axis_is_allowed(sliding):
     assert check_cavitation(replace(CONTACT, sliding=sliding), CONSERVING) is None  # no refusal
 

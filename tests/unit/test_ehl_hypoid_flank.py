@@ -13,12 +13,13 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.sliding_direction import sliding_direction
+from tests.helpers.each import each
 from tests.helpers.hypoid_film_cases import flank_cycle, hypoid_film
 
 TABLE = shipped_mesh_table("mohammadpour_2015")
 
 
-@pytest.mark.parametrize("true", np.radians([20.0, 80.0, 100.0, 170.0, -15.0, -120.0]))
+@each("true", np.radians([20.0, 80.0, 100.0, 170.0, -15.0, -120.0]))
 def test_a_folded_angle_of_sliding_finds_its_quadrant(true):
     psi = np.radians([50.0])
     folded = np.arccos(np.abs(np.cos([true])))

@@ -13,6 +13,7 @@ from gearlube_core.ehl.point.problem import EllipticParaboloid, expected_film
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.solver import _hertz_start
 from gearlube_core.ehl.point.start import zero_border
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import ALPHA, RADIUS, REDUCED_MODULUS, moes_contact, moes_film
 
 
@@ -29,8 +30,8 @@ def widened(problem):
     return math.sqrt(a_x**2 + RADIUS * film), math.sqrt(a_y**2 + 3.0 * RADIUS * film)
 
 
-@pytest.mark.parametrize("nodes", [(33, 33), (9, 33), (33, 9)])
-@pytest.mark.parametrize("load", [3.0, 300.0])
+@each("nodes", [(33, 33), (9, 33), (33, 9)])
+@each("load", [3.0, 300.0])
 def test_start_is_an_ellipse_of_pressure_that_carries_the_load(load, nodes):
     """As wide as a rigid film asks for, and as the grid can show."""
     problem = moes_contact(load, 5.0, nodes=(33, 33), radius_ratio=3.0)
@@ -85,8 +86,8 @@ def _expected_group(M, ratio):
     return max(rigid, min(soft, 1.8 / lam))
 
 
-@pytest.mark.parametrize("ratio", [1.0, 3.0])
-@pytest.mark.parametrize("M", [1.0, 5.0, 20.0, 300.0])
+@each("ratio", [1.0, 3.0])
+@each("M", [1.0, 5.0, 20.0, 300.0])
 def test_expected_film_of_a_constant_viscosity_is_that_of_rigid_or_soft_solids(M, ratio):
     # Kapitza; Nijenbanning, Venner and Moes
     problem = moes_contact(M, 0.0, nodes=(33, 33), radius_ratio=ratio)
@@ -95,8 +96,8 @@ def test_expected_film_of_a_constant_viscosity_is_that_of_rigid_or_soft_solids(M
     )
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.4, 0.5 * math.pi])
-@pytest.mark.parametrize("turned", [False, True])
+@each("angle", [0.0, 0.4, 0.5 * math.pi])
+@each("turned", [False, True])
 def test_expected_film_of_a_piezoviscous_oil_is_that_of_chittenden(angle, turned):
     problem = moes_contact(100.0, 12.0, nodes=(33, 33), radius_ratio=2.0, angle=angle)
     if turned:  # the same contact with its axes exchanged

@@ -15,6 +15,7 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.transient import rows
 from gearlube_core.ehl.transient.rows import RowInverses, row_shapes, subtract_rows
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.row_operators import dense_row, operator_of, some_entries
 from tests.helpers.source_of import interpret, source_of
 
@@ -174,7 +175,7 @@ def test_columns_at_the_borders_and_none_at_all_are_held():
     assert inverses(np.ones(SMALL)) == pytest.approx(0.45, rel=1e-6)
 
 
-@pytest.mark.parametrize(
+@each(
     ("shape", "coarser"),
     [
         ((17, 100), []),  # 1700 nodes are solved directly

@@ -10,6 +10,7 @@ import pytest
 from gearlube.studies.films.run_steady import run_point
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 SMALL = {"solver.nodes_x": 97, "solver.nodes_y": 16 + 2}
 
@@ -53,7 +54,7 @@ def test_waves_that_repeat_over_the_length_are_taken_and_others_refused():
         section(waviness=waves | {"wavelength_mm": 0.6}, **grid)
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"length_mm": None}, "length_mm must be given and radius_y_mm left out"),

@@ -20,6 +20,7 @@ from gearlube.output.exports import tables, uff58
 from gearlube.output.units import unit_text
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 from tests.helpers.small_results import small_results
 
 DATASET = small_results()
@@ -281,7 +282,7 @@ def test_a_folder_needs_one_dataset(run, tmp_path):
         gl.export_results(run / "broken.nc", "csv", tmp_path / "out")
 
 
-@pytest.mark.parametrize(
+@each(
     ("stated", "shown"),
     [
         ("N m", "N m"),

@@ -11,6 +11,7 @@ from gearlube_core.oil import factor_slopes as slopes_module
 from gearlube_core.oil.eyring_1936 import Eyring, eyring_flow_factor
 from gearlube_core.oil.factor_slopes import factor_slopes
 from gearlube_core.oil.shear_flow import shear_factors
+from tests.helpers.each import each
 from tests.helpers.source_of import interpret
 
 LAW = Eyring(1.0)
@@ -26,7 +27,7 @@ POINTS = [
 ]
 
 
-@pytest.mark.parametrize("point", POINTS)
+@each("point", POINTS)
 def test_slopes_are_those_of_differences(point):
     found = factor_slopes(LAW, *point)
     assert (found.along, found.across) == shear_factors(LAW, *point)

@@ -3,22 +3,21 @@
 import re
 from pathlib import Path
 
-import pytest
-
 from docs.field_pages import PAGES, refreshed
 from docs.page import DOCS, Page
 from gearlube_core.input_file.field_notes import field_notes
+from tests.helpers.each import each
 
 FILES = [name for name in PAGES if name.endswith("_file")]
 
 
-@pytest.mark.parametrize("name", PAGES)
+@each("name", PAGES)
 def test_page_is_up_to_date(name):
     """If not: python -m docs.field_pages."""
     assert refreshed(name).text == Page(name).text
 
 
-@pytest.mark.parametrize("name", PAGES)
+@each("name", PAGES)
 def test_every_field_stands_on_the_page(name):
     text = Page(name).text
     for model in PAGES[name]:
@@ -27,7 +26,7 @@ def test_every_field_stands_on_the_page(name):
             assert re.search(rf"\| `{field}` \|.*{re.escape(note.meaning)} \|", text), dotted
 
 
-@pytest.mark.parametrize("name", FILES)
+@each("name", FILES)
 def test_what_the_page_points_to_exists(name):
     text = Page(name).text
     links = re.findall(r"\]\(([^)#]+)", text)

@@ -21,6 +21,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
 from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.storage.file_names import Name, as_name, file_stem, pair_stem
+from tests.helpers.each import each
 
 NAMED = (
     AxleFile,
@@ -47,7 +48,7 @@ HOSTILE = {
 }
 
 
-@pytest.mark.parametrize("text", HOSTILE)
+@each("text", HOSTILE)
 def test_a_name_is_no_path_no_device_and_no_control_character(text):
     with pytest.raises(ValidationError) as refused:
         TypeAdapter(Name).validate_python(text)
@@ -57,19 +58,19 @@ def test_a_name_is_no_path_no_device_and_no_control_character(text):
     assert TypeAdapter(Name).validate_python(as_name(text)) == as_name(text)
 
 
-@pytest.mark.parametrize("text", ["small_van", "müll 10-41", "ISO 17, 5.8", "console", "x" * 100])
+@each("text", ["small_van", "müll 10-41", "ISO 17, 5.8", "console", "x" * 100])
 def test_ordinary_names_stay(text):
     assert TypeAdapter(Name).validate_python(text) == text == as_name(text)
 
 
-@pytest.mark.parametrize("kind", NAMED)
+@each("kind", NAMED)
 def test_every_file_whose_name_becomes_one_refuses_a_path(kind):
     field = kind.model_fields["name"]
     checks = TypeAdapter(tuple[Name]).core_schema["items_schema"][0]["function"]["function"]
     assert checks in [getattr(one, "func", None) for one in field.metadata]
 
 
-@pytest.mark.parametrize("name", ["contact", "Axle", "problem", "design", "flanks", "optimise"])
+@each("name", ["contact", "Axle", "problem", "design", "flanks", "optimise"])
 def test_a_pair_called_as_a_file_of_a_study_has_a_file_of_its_own(name):
     assert pair_stem(name) == f"{name}_2"
     assert f'gear_file = "{name}_2.toml"' in axle_stub(pair_stem(name))

@@ -11,6 +11,7 @@ from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, doubled, estima
 from gearlube_core.ehl.time_error import SAFETY_IN_TIME, TimeError
 from gearlube_core.ehl.transient.curves import FilmCurves, NumberedSteps, with_time_errors
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 
 @pytest.mark.parametrize("order", [1.0, 1.5, 2.0])
@@ -184,7 +185,7 @@ def test_a_film_error_is_a_share_or_per_cent(text, share):
     assert film_error_of(None) is None
 
 
-@pytest.mark.parametrize("text", ["", "small", "nan%", "inf", "200%", "-1%", "0"])
+@each("text", ["", "small", "nan%", "inf", "200%", "-1%", "0"])
 def test_a_film_error_that_is_none_is_refused(text):
     with pytest.raises(ParameterError, match="--film-error"):
         film_error_of(text)

@@ -14,6 +14,7 @@ from gearlube_core.periodic.floquet import (
     torus_pair,
     torus_test,
 )
+from tests.helpers.each import each
 
 
 def multipliers(*values):
@@ -62,7 +63,7 @@ def test_what_has_no_multipliers_is_refused():
     assert floquet_multipliers(np.eye(2), trivial=2).size == 0
 
 
-@pytest.mark.parametrize(
+@each(
     ("mu", "margin", "loss"),
     [
         (multipliers(0.5, -0.8), 0.2, "none"),

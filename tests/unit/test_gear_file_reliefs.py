@@ -6,6 +6,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.flank.correction import EdgeRelief
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 
@@ -29,7 +30,7 @@ def test_fields_become_metres_on_their_own_flank_alone():
     assert file.correction("gear", "coast").is_none
 
 
-@pytest.mark.parametrize(
+@each(
     ("fields", "parts"),
     [
         ({"tip_relief_um": -5.0}, ["tip_relief_um must be a number, 0 to 500 um, got -5"]),

@@ -11,6 +11,7 @@ from scipy.integrate import dblquad
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.errors import ParameterError
 from gearlube_core.tooth_contact.coupled_strips import StripCompliance
+from tests.helpers.each import each
 
 E_STAR = 115.4e9
 DX, DY = 3e-5, 5e-4
@@ -32,7 +33,7 @@ def potential_of_a_cell(x: float, y: float) -> float:
     return total / (math.pi * E_STAR * DX * DY)
 
 
-@pytest.mark.parametrize(("i", "j"), [(0, 0), (1, 0), (0, 1), (3, 2), (11, 0), (2, 7)])
+@each(("i", "j"), [(0, 0), (1, 0), (0, 1), (3, 2), (11, 0), (2, 7)])
 def test_centre_coefficient_is_the_integral_of_boussinesq(i: int, j: int) -> None:
     coefficients = love_coefficients(DX, DY, 12, 8, E_STAR)
     # the quadrature's tolerance, spoilt by the logarithm at the observer
@@ -40,7 +41,7 @@ def test_centre_coefficient_is_the_integral_of_boussinesq(i: int, j: int) -> Non
 
 
 # midpoint rule, second order in DX/40: cells that touch bend the field within DX of their edges
-@pytest.mark.parametrize(
+@each(
     ("i", "j", "tolerance"),
     [
         (0, 0, 1e-4),
@@ -96,7 +97,7 @@ def test_operator_is_positive_definite_for_long_cells(observed: str) -> None:
     assert np.linalg.eigvalsh(dense).min() > 0.0
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (7, 1), (13, 11), (40, 48)])
+@each("shape", [(1, 1), (1, 7), (7, 1), (13, 11), (40, 48)])
 def test_convolution_is_the_direct_sum(shape: tuple[int, int]) -> None:
     nx, ny = shape
     C = love_coefficients(DX, DY, nx, ny, E_STAR)

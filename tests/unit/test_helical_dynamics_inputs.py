@@ -22,13 +22,14 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain, wr
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
 from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_dynamics_cases import SPEED, random_state
 from tests.helpers.helical_mesh_points import line_loads, load_sums
 from tests.helpers.named_pairs import named_pair
 
 
-@pytest.mark.parametrize(
+@each(
     ("field", "value", "message"),
     [
         ("pinion_mass", 0.0, "pinion_mass must be above 0 kg"),

@@ -32,6 +32,7 @@ from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.each import each
 from tests.helpers.helical_march_cases import (
     OIL,
     SPEED,
@@ -80,8 +81,8 @@ def case(settings: dict[str, Any], torque: float, speed: float = SPEED) -> Helic
     return started(he_march(**settings), torque=torque, speed=speed)
 
 
-@pytest.mark.parametrize("torque", [TORQUE, -0.5 * TORQUE, 0.05])
-@pytest.mark.parametrize("settings", CASES)
+@each("torque", [TORQUE, -0.5 * TORQUE, 0.05])
+@each("settings", CASES)
 def test_the_start_is_the_equilibrium_that_scipy_finds(
     settings: dict[str, Any], torque: float
 ) -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from gearlube_core.dynamics.helical_pair.march.line_points import point_load
 from gearlube_core.dynamics.helical_pair.march.mesh_data import STATIONS_AT, density_at
+from tests.helpers.each import each
 
 PHASES, LINES, STATIONS = 5, 2, 4
 
@@ -21,8 +22,8 @@ class Sizes(NamedTuple):
     stations: float = STATIONS
 
 
-@pytest.mark.parametrize("line", range(LINES))
-@pytest.mark.parametrize("phase", [0.0, 0.37, 0.95, 1.1, -0.3])
+@each("line", range(LINES))
+@each("phase", [0.0, 0.37, 0.95, 1.1, -0.3])
 def test_load_lies_between_stations_and_phases_and_a_line_goes_on_as_the_next(phase, line):
     rng = np.random.default_rng(1)
     station = np.array([0.0, 0.2, 0.7, 1.0])

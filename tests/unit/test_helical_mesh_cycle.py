@@ -10,6 +10,7 @@ from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.storage import resumable
+from tests.helpers.each import each
 from tests.helpers.helical_contact_cases import HE_2007, relieved, stiff_teeth
 from tests.helpers.reports import Reports
 
@@ -72,7 +73,7 @@ def test_two_processes_find_what_one_finds(store):
         np.testing.assert_allclose(parallel[name], values, rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     "bad",
     [
         {"torques": ()},

@@ -36,6 +36,7 @@ from gearlube_core.dynamics.helical_pair.separation.system import (
     separating_sums,
 )
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 from tests.helpers.helical_accelerations import pair_accelerations
 from tests.helpers.helical_mesh_points import line_loads
 from tests.helpers.separation_cases import crowned_mesh, separating_pair
@@ -77,7 +78,7 @@ def test_derivatives_are_those_of_the_map():
             assert np.abs(numeric - slope).max() < 1e-6 * max(1.0, np.abs(slope).max())
 
 
-@pytest.mark.parametrize("torque", [20.0, 95.0, 105.0, 290.0, 300.0])
+@each("torque", [20.0, 95.0, 105.0, 290.0, 300.0])
 def test_points_near_a_level_of_the_mesh_follow_the_torque_on_their_side_of_it(torque):
     """Slopes of stiffness and offset with the torque are those between the levels around it."""
     pair = separating_pair().pair

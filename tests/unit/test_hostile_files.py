@@ -26,6 +26,7 @@ from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.rexs.exchange import read_rexs
 from gearlube_core.storage.atomic_file import open_dataset, read_arrays
 from gearlube_core.surface.files import read_surface
+from tests.helpers.each import each
 
 TOML = {
     "key": (b".".join([b"a"] * 50_000) + b" = 1\n", "a key has more than 20 parts"),
@@ -41,7 +42,7 @@ TOML = {
 }
 
 
-@pytest.mark.parametrize("case", TOML)
+@each("case", TOML)
 def test_toml_beyond_the_limits_is_refused_in_a_sentence(case):
     content, said = TOML[case]
     with pytest.raises(ParameterError, match=said) as refused:
@@ -140,7 +141,7 @@ def test_devices_folders_and_nul_in_paths_end_in_a_sentence(kind, tmp_path):
         READERS[kind](link)
 
 
-@pytest.mark.parametrize("kind", ["toml", "csv", "nc", "json", "rexs", "npz", "x3p"])
+@each("kind", ["toml", "csv", "nc", "json", "rexs", "npz", "x3p"])
 def test_a_file_that_is_far_too_large_is_not_read(kind, tmp_path):
     path = tmp_path / f"large.{kind}"
     with path.open("wb") as stream:
@@ -171,7 +172,7 @@ NPZ = {
 }
 
 
-@pytest.mark.parametrize("case", NPZ)
+@each("case", NPZ)
 def test_npz_files_that_claim_or_break_are_refused(case, tmp_path):
     path = tmp_path / "map.npz"
     path.write_bytes(NPZ[case])
@@ -200,7 +201,7 @@ FMUS = {
 }
 
 
-@pytest.mark.parametrize("case", FMUS)
+@each("case", FMUS)
 def test_broken_fmus_are_refused_in_words(case, tmp_path):
     path = tmp_path / "axle.fmu"
     content, said = FMUS[case]
@@ -235,9 +236,7 @@ def test_an_fmu_that_is_no_axle_is_refused_before_anything_is_computed(case, tmp
         run_sweep(speeds_kmh=[50.0], preloads=[4500.0], fmu=tmp_path)
 
 
-@pytest.mark.parametrize(
-    "text", ["0:1e308:1e-308", "-1e308:1e308:1", "0:1:1e-300", "0:1e300:1", "nan:1:1"]
-)
+@each("text", ["0:1e308:1e-308", "-1e308:1e308:1", "0:1:1e-300", "0:1e300:1", "nan:1:1"])
 def test_ranges_beyond_all_numbers_are_refused(text):
     with pytest.raises(ParameterError, match="--x must"):
         numbers_from("--x", [text], "", -1e308, 1e308, example="0:1:0.1")

@@ -8,6 +8,7 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 
 BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 
@@ -20,8 +21,8 @@ def test_a_file_of_millimetres_and_degrees_becomes_metres_and_radians():
     assert (BLANK.pinion.teeth, BLANK.gear.teeth) == (13, 36)
 
 
-@pytest.mark.parametrize("field", ["face_width", "outer_cone_distance", "pitch_apex", "face_apex"])
-@pytest.mark.parametrize("member", ["pinion", "gear"])
+@each("field", ["face_width", "outer_cone_distance", "pitch_apex", "face_apex"])
+@each("member", ["pinion", "gear"])
 def test_millimetres_given_as_metres_are_refused_by_name(member, field):
     body = getattr(BLANK, member)
     with pytest.raises(ParameterError, match=rf"{field} must be .* m, got .* m\. Give metres"):
@@ -39,7 +40,7 @@ def test_degrees_given_as_radians_are_refused_by_name(field):
         replace(BLANK.gear, **{field: math.degrees(getattr(BLANK.gear, field))})
 
 
-@pytest.mark.parametrize(
+@each(
     "field",
     ["face_width", "outer_cone_distance", "pitch_angle", "spiral_angle", "pitch_apex", "face_apex"],
 )

@@ -12,14 +12,15 @@ from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.friction.line_points import line_points
 from gearlube_core.friction.thermal_eyring_flank import bracketed_secant_step
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position
+from tests.helpers.each import each
 from tests.helpers.named_pairs import named_pair
 from tests.helpers.source_of import interpret, source_of
 
 RNG = np.random.default_rng(13)
 
 
-@pytest.mark.parametrize("count", [1, 2, 4])
-@pytest.mark.parametrize("torque", [-5.0, 10.0, 13.0, 30.0, 44.0, 61.0, 75.0, 900.0])
+@each("count", [1, 2, 4])
+@each("torque", [-5.0, 10.0, 13.0, 30.0, 44.0, 61.0, 75.0, 900.0])
 def test_mesh_is_linear_in_torque_between_levels_and_constant_beyond(count: int, torque: float):
     levels = np.array([10.0, 30.0, 60.0, 75.0])[:count]
     densities, offsets = RNG.random((2, count, 6))

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.kernels.linear_solve import factorise, solve_factorised
+from tests.helpers.each import each
 from tests.helpers.source_of import source_of
 
 
@@ -16,8 +17,8 @@ def solved(matrix, right):
     return x, raised, factors.reshape(n, n), order
 
 
-@pytest.mark.parametrize("n", [1, 2, 3, 6, 10])
-@pytest.mark.parametrize("seed", range(4))
+@each("n", [1, 2, 3, 6, 10])
+@each("seed", range(4))
 def test_any_system_is_solved_with_its_factors(n, seed):
     rng = np.random.default_rng(10 * n + seed)
     matrix, right = rng.standard_normal((n, n)), rng.standard_normal(n)

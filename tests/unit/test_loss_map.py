@@ -30,6 +30,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
 )
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 from tests.helpers.units import without_units
 
 pytestmark = pytest.mark.usefixtures("small_pictures")
@@ -159,7 +160,7 @@ def drag_of(law, **options):
 
 
 # docs/bearing.md: 2 a priori, more from two measured bearings
-@pytest.mark.parametrize(
+@each(
     ("law", "factor"),
     [
         ("palmgren", 3.0),

@@ -18,13 +18,14 @@ from gearlube_core.helical_geometry.modification import (
     TipRelief,
 )
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+from tests.helpers.each import each
 from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_steps
 from tests.helpers.named_pairs import named_pair
 
 PAIR = named_pair("jamali_2015_a")
 
 
-@pytest.mark.parametrize(
+@each(
     ("make", "named"),
     [
         (lambda: TipRelief(amount=70.0, extent=2e-3, k=1.0), "amount"),

@@ -19,6 +19,7 @@ from gearlube_core.surface.moving import (
 from gearlube_core.surface.moving_kernels import Moved, add_moved_heights, spline_coefficients
 from gearlube_core.surface.schedule import RoughSchedule
 from gearlube_core.surface.stand_ins import stand_in
+from tests.helpers.each import each
 
 WIDTH, HEIGHT = 1e-3, 2e-7  # m
 A = 2.377e-4  # m, half-width of the thesis' contact
@@ -190,7 +191,7 @@ SPIKE = np.where(np.arange(40) < 20, np.linspace(0.0, 1e-6, 40), 0.0)
 STEEP = 1e-6 * np.cos(2.0 * math.pi * np.arange(40) / 10)
 
 
-@pytest.mark.parametrize(
+@each(
     ("wrong", "words"),
     [
         (lambda: rough(moving(waves(period=1.1e-4)), y=1.1 * Y), "1 mm over 128 rows"),

@@ -7,6 +7,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.hypoid_contact.placement import Misalignment
+from tests.helpers.each import each
 
 CROWN = {"pinion.flank.crown_um": {"low": 0.0, "high": 9.0}}
 TWIST = {"pinion.drive_flank.twist_um": {"low": -9.0, "high": 9.0, "start": 0.0}}
@@ -58,7 +59,7 @@ def test_amounts_that_a_gear_file_does_not_take_are_tried_but_not_written():
     assert found.rounded(np.array([-3.123456789])).tolist() == [-3.12346]
 
 
-@pytest.mark.parametrize(
+@each(
     ("gear", "more", "said"),
     [
         ("he_2007", {"torques_n_m": [5.0, 5.0]}, "torques_n_m must rise"),

@@ -16,6 +16,7 @@ from gearlube_core.hypoid_geometry.flank.machine_check import edge_misfits, refe
 from gearlube_core.hypoid_geometry.flank.machine_frames import pinion_cut
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
+from tests.helpers.each import each
 from tests.helpers.pressure_angle import pressure_angle
 
 GEARS = Path(__file__).parents[2] / "examples" / "gears"
@@ -113,7 +114,7 @@ def test_teeth_of_the_other_hand_are_said():
     assert "basic_cradle_angle_deg from -64.433 to 64.433 deg (the sign)" in said
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "check", "cure"),
     [
         ({"gear.teeth": 41}, "tooth pitches", "gear.teeth from 41 to 36 (a miscount)"),

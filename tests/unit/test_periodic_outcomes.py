@@ -16,6 +16,7 @@ from gearlube_core.periodic import (
     stability_margin,
     switch_branch,
 )
+from tests.helpers.each import each
 from tests.helpers.periodic_cases import (
     Oscillator,
     acceleration,
@@ -169,7 +170,7 @@ def stated(unknown_scale, parameter_scale, **others):
     )
 
 
-@pytest.mark.parametrize(
+@each(
     ("build", "message"),
     [
         (lambda: stated(np.zeros(1), 1.0), "above zero"),

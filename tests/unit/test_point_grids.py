@@ -17,11 +17,12 @@ from gearlube_core.ehl.point.settings import AMBIENT
 from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.kernels.row_workers import ALONE
+from tests.helpers.each import each
 from tests.helpers.row_operators import dense_row, operator_of, some_entries
 from tests.helpers.source_of import interpret
 
 
-@pytest.mark.parametrize(
+@each(
     ("nodes", "steps", "coarser"),
     [
         # up to 1300 nodes are solved directly

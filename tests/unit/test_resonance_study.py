@@ -15,6 +15,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import DE, R_G, R
 from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 
 def dry(**changes):
@@ -212,7 +213,7 @@ def test_harmonics_of_a_known_series():
     np.testing.assert_allclose(mesh_harmonics(x, 2, 3), [2.0, 0.5, 0.0], atol=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     "changes",
     [
         {"first": 0.01},

@@ -13,6 +13,7 @@ from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface.files import write_surface
 from gearlube_core.surface.heights import Profile
+from tests.helpers.each import each
 
 WAVE = {"amplitude_um": 0.1, "period_um": 100.0, "turns": 1}
 CASE: dict[str, Any] = {
@@ -161,7 +162,7 @@ def test_a_march_stores_oil_by_the_scheme_of_its_case(scheme, monkeypatch):
     assert given == [scheme]
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"surface_1": None}, "surface_1 and surface_2 are both missing"),

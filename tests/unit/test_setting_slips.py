@@ -4,6 +4,7 @@ import pytest
 
 from gearlube_core.hypoid_contact.refusal import Change, setting, slips
 from tests.helpers.contact_cases import shipped_file
+from tests.helpers.each import each
 
 FILE = shipped_file()
 GROUPS = ("pinion.cutter.blade_groups", "gear.cutter.blade_groups")
@@ -92,7 +93,7 @@ def exchanges(file, *fields):
     return [change for change in slips(file, fields) if change.slip == "exchanged"]
 
 
-@pytest.mark.parametrize(
+@each(
     ("first", "second", "values"),
     [
         ("pinion.teeth", "gear.teeth", (13, 36)),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from gearlube_core.ehl.point.contact_domain import line_section
 from gearlube_core.ehl.point.equations.grid import PointGrid, ShortDeflection
@@ -11,6 +10,7 @@ from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_point_cases import moes_contact
 
 
@@ -34,8 +34,8 @@ def open_grid() -> PointGrid:
     return PointGrid(contact, PointScales.of(contact), (49, 65))
 
 
-@pytest.mark.parametrize("halved", [(False, True), (True, True)])
-@pytest.mark.parametrize("grid", [closed_grid("cyclic"), closed_grid("no_flow"), open_grid()])
+@each("halved", [(False, True), (True, True)])
+@each("grid", [closed_grid("cyclic"), closed_grid("no_flow"), open_grid()])
 def test_short_waves_deflect_as_the_whole_transform_says(grid, halved):
     ny, nx = grid.y.size, grid.x.size
     smaller = grid.sides.halved(ny) if halved[0] else ny, (nx - 1) // 2 + 1 if halved[1] else nx

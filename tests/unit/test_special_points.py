@@ -11,6 +11,7 @@ import pytest
 
 from gearlube_core.periodic.newton import Node
 from gearlube_core.periodic.special_points import crossings, locate
+from tests.helpers.each import each
 
 TOLERANCE = 1e-7
 
@@ -58,8 +59,8 @@ def search(branch: Branch, first: float = 0.0, last: float = 1.0):
     return locate(branch, branch.at(first), branch.at(last), determinant, TOLERANCE)
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize(
+@each("sign", [1.0, -1.0])
+@each(
     ("function", "root", "most"),
     [
         (lambda t: t - 0.37, 0.37, 2),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.kernels.spectral_radius import spectral_radius
+from tests.helpers.each import each
 
 
 def from_kernel(matrix, function=spectral_radius):
@@ -11,7 +12,7 @@ def from_kernel(matrix, function=spectral_radius):
     return function(np.array(matrix, dtype=float).ravel(), n, np.zeros(n * n))
 
 
-@pytest.mark.parametrize("n", [1, 2, 3, 8, 12, 24])
+@each("n", [1, 2, 3, 8, 12, 24])
 def test_random_matrices_have_the_radius_that_lapack_finds(n):
     rng = np.random.default_rng(n)
     for _ in range(20):

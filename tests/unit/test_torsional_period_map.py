@@ -10,6 +10,7 @@ from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import time_sweep
 from gearlube_core.errors import ParameterError
 from gearlube_core.periodic.shooting import solve_periodic
+from tests.helpers.each import each
 from tests.helpers.torsional_cases import reconstructed
 
 # speed over natural frequency; x0 off static deflection [um]; 13 periods cost time, not insight
@@ -44,7 +45,7 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", CASES)
+@each("case", CASES)
 def test_derivatives_are_those_of_the_map(case):
     problem, ratio, off = CASES[case]
     speed = problem.model.pinion_speed(ratio * problem.model.natural_frequency)

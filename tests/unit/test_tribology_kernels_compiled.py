@@ -18,6 +18,7 @@ from gearlube_core.friction import (
 )
 from gearlube_core.oil import eyring_1936, roelands_1966, walther_1931
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from tests.helpers.each import each
 
 OIL = Lubricant.named("mohammadpour_2015").parameters()
 STATE = lubricant_state(OIL, 363.15)
@@ -104,11 +105,7 @@ for _line in (
     CASES.append((line_points.line_friction, (*_line, STATE, SURFACE, SOLID)))
 
 
-@pytest.mark.parametrize(
-    ("function", "arguments"),
-    CASES,
-    ids=[f"{case[0].__name__}-{i}" for i, case in enumerate(CASES)],
-)
+@each(("function", "arguments"), CASES)
 def test_compiled_kernel_equals_its_python_function(
     function: Any, arguments: tuple[Any, ...]
 ) -> None:

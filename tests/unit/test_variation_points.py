@@ -20,6 +20,7 @@ from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
 )
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.oil.oil_file import read_oil
+from tests.helpers.each import each
 
 PAPER = AxleVariants.read("mohammadpour_2015")
 
@@ -74,7 +75,7 @@ def test_a_bearing_at_a_point_is_that_of_the_law():
     assert numbers(study, point)["torque"] == pytest.approx(direct.torque, rel=1e-9)
 
 
-@pytest.mark.parametrize(
+@each(
     ("study", "point", "said"),
     [
         ("map", {"pinion.torque_n_m": 5000.0}, "pinion.torque_n_m must be within -600 to 600 N.m"),
