@@ -16,6 +16,7 @@ from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.losses import catalogue, laws, physical_loss, race_rolling
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, integrate
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise
@@ -32,6 +33,7 @@ from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.errors import StepError
 from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.axle_cases import (
     OIL,
@@ -41,6 +43,8 @@ from tests.helpers.axle_cases import (
     with_shaft_errors,
 )
 from tests.helpers.bearing_32216 import BEARING
+from tests.helpers.helical_march_cases import TORQUE, he_march, started
+from tests.helpers.separation_cases import crowned_mesh, separating_pair
 from tests.helpers.torsional_cases import reconstructed
 
 H = 1e-5  # s: two or three steps of the axle
@@ -188,26 +192,27 @@ def torsional_entries(record):
         p, rows = model.kernel_parameters, model.rows(16)
         start = model.initial_state(speed)
         for x in (None, 3.0, 0.2, -20.0, -153.0, 2e5):  # um; the last diverges
-            place = f"{name} {x}"
-            y, orbits, waves = start.copy(), np.zeros((32, 5)), np.zeros((2, 16, 5))
+            place, here, orbits = f"{name} {x}", start.copy(), np.zeros((32, 5))
             if x is not None:
-                y[0] = x
+                here[0] = x
+            y = here.copy()
             record.call(
                 f"{place} march", mode_march.march, y, 1, 2, load, speed, rows, p, orbits, work,
                 written=[y, orbits],
             )  # fmt: skip
-            y, by_start = start.copy(), np.zeros((4, 5))
+            if x not in (None, 2e5):
+                continue
+            y, by_start = here.copy(), np.zeros((4, 5))
             record.call(
                 f"{place} map", period_map.period_map, y, by_start, load, speed, 1, rows, p,
                 np.zeros(period_map.WORK), written=[y, by_start],
             )  # fmt: skip
-            if x not in (None, 2e5):
-                continue
-            y, speeds = start.copy(), np.array([speed, 910.0])
+            y, speeds, waves = here.copy(), np.array([speed, 910.0]), np.zeros((2, 16, 5))
             record.call(
                 f"{place} sweep", time_sweep.sweep_kernel, y, speeds, 1, 1, 1, load, rows, p,
                 waves, *per_speed, work, written=[y, waves, *per_speed],
             )  # fmt: skip
+            y = here.copy()
             record.call(f"{place} load", time_sweep.settle_load, y, 2, load, speed, rows, p, work)
 
 
@@ -253,7 +258,36 @@ def loss_entries(record):
     record.call("timken", catalogue.timken_torque, 60.0, 200.0, 6000.0, 0.05)
 
 
+def helical_entries(record):
+    """Start, steps and outputs of the marching helical pair; its linear and separating motions."""
+    mesh = named_line_mesh("he_2007")
+    for name, settings in {
+        "film": {"friction": "film"},
+        "lines": {"friction": "film", "line_mesh": mesh, "bearing_distance": 0.03},
+        "six": {"form": "six_dof", "friction_coefficient": 0.1},
+        "printed": {"equations": "he_2007", "friction_coefficient": 0.1},
+    }.items():
+        model = started(he_march(**settings))
+        record.keep(f"{name} start", model.get_state(), model.step_control)
+        for torque in (TORQUE, -0.5 * TORQUE):
+            model.step(H, torque, torque, OIL)
+            record.keep(f"{name} {torque:g}", model.get_state(), model.outputs)
+    loose = replace(separating_pair().pair, backlash=8e-6)
+    both = separating_pair(
+        mu=0.08, zeta=0.05, pair=loose, line_divisions=3,
+        mesh=crowned_mesh(loose, crown=4e-6, torque=(20.0, 300.0)),
+    )  # fmt: skip
+    problem = SeparationProblem(both, steps_per_mesh_period=16)
+    random = np.random.default_rng(3).standard_normal((2, problem.size))
+    for i, z in enumerate(problem.initial_guess() + 0.6 * problem.scales * random):
+        flow = problem.flow(z, 0.7 * problem.natural_speed, 90.0)
+        record.keep(f"map {i}", *(np.asarray(part) for part in flow))
+        orbit = problem.orbit(z, problem.natural_speed)
+        record.keep(f"orbit {i}", orbit.displacement)
+
+
 FAMILIES = {
+    "helical": helical_entries,
     "axle": axle_entries,
     "loss map": loss_map_entries,
     "torsional": torsional_entries,

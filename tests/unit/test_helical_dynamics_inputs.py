@@ -12,20 +12,12 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
 )
-from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
-    N_COLUMNS,
-    constant_friction,
-    contact_points,
-    point_capacity,
-)
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain, wrench_of_sums
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
 from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
 from tests.helpers.each import each
 from tests.helpers.he_2007 import he_2007_pair
-from tests.helpers.helical_dynamics_cases import SPEED, random_state
-from tests.helpers.helical_mesh_points import line_loads, load_sums
+from tests.helpers.helical_dynamics_cases import SPEED
 from tests.helpers.named_pairs import named_pair
 
 
@@ -97,30 +89,3 @@ def test_grid_holds_the_single_responses() -> None:
     assert grid.friction_torque[1, 1] == response.friction_torque
     assert grid.stability_margin.shape == (2, 2)
     assert (grid.stability_margin > 0.0).all()
-
-
-def test_compiled_kernels_equal_their_python() -> None:
-    parameters = he_2007_pair(0.1)
-    c, mesh = parameters.kernel_parameters(), parameters.mesh_arrays()
-    q = random_state(np.random.default_rng(2))
-    results = []
-    for compiled in (True, False):
-        points = np.zeros((point_capacity(mesh), N_COLUMNS))
-        sums, wrench = np.zeros(5), np.zeros(12)
-        kernels = [
-            contact_points,
-            mesh_strain,
-            line_loads,
-            constant_friction,
-            load_sums,
-            wrench_of_sums,
-        ]
-        place, strain, load, rub, add, act = (k if compiled else k.py_func for k in kernels)
-        n = place(0.62, SPEED, c.plane, mesh, points)
-        load(*strain(q, c.plane), c, points, n)
-        rub(0.1, points, n)
-        add(c, points, n, sums)
-        act(sums, c.plane, wrench)
-        results.append((points, wrench))
-    for one, other in zip(*results, strict=True):
-        assert np.allclose(one, other, rtol=1e-13, atol=1e-13 * np.abs(other).max())

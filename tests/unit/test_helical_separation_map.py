@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
-    add_product,
-    linear_system,
     relative_rows,
 )
 from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
@@ -17,11 +15,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     point_capacity,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain
-from gearlube_core.dynamics.helical_pair.separation import march as separation_march
 from gearlube_core.dynamics.helical_pair.separation.march import (
-    N_EXTRA,
-    march_separating,
-    march_work,
     separating_rates,
 )
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
@@ -33,7 +27,6 @@ from gearlube_core.dynamics.helical_pair.separation.system import (
     STIFFNESS,
     STIFFNESS_RATE,
     StagePoints,
-    separating_sums,
 )
 from gearlube_core.errors import ParameterError
 from tests.helpers.each import each
@@ -135,44 +128,6 @@ def test_accelerations_are_those_of_the_twelve_coordinates():
         expected = rows @ acceleration
         assert a[:, 0] == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())
         assert touching * c.plane.cos_b**2 == pytest.approx(k_m, rel=1e-12)
-
-
-def test_compiled_sums_are_the_python_sums():
-    problem, states = _loaded_on_both_flanks()
-    n, table = problem.size // 2, problem.table
-    strains = linear_system(problem.parameters).E
-    for z in states:
-        compiled, python = np.empty((2, N_ROWS, N_BY))
-        inputs = *(strains @ z[:n]), table.points[3, 1], table.used[3, 1], 8e-6, 5e-7
-        touching = separating_sums(*inputs, compiled)
-        assert separating_sums.py_func(*inputs, python) == pytest.approx(touching, rel=1e-14)
-        # additions may be contracted or reordered by the compiler
-        size = np.abs(python).max()
-        assert compiled == pytest.approx(python, rel=1e-10, abs=1e-14 * size)
-
-
-def test_compiled_march_is_the_python_march(monkeypatch):
-    problem, states = _loaded_on_both_flanks()
-    n, m = problem.size // 2, problem.size
-    period = 1.0 / problem.parameters.pair.mesh_frequency(problem.natural_speed)
-    ends = []
-    for compiled in (True, False):
-        if not compiled:
-            monkeypatch.setattr(separation_march, "separating_rates", separating_rates.py_func)
-            monkeypatch.setattr(separation_march, "add_product", add_product.py_func)
-        q, v = np.zeros((2, n, m + 3))
-        q[:, -1], v[:, -1] = states[0][:n], states[0][n:]
-        record = np.zeros((problem.table.width.size, m + N_EXTRA))
-        march = march_separating if compiled else march_separating.py_func
-        march(
-            q, v, 1, 100.0, problem.natural_speed, period, problem.table, problem.system,
-            march_work(n, m + 3), np.zeros((N_ROWS, N_BY)), record,
-        )  # fmt: skip
-        ends.append(np.concatenate((q, v)) / problem.scales[:, None])
-    # rounding grows over the 16 steps and at 1e-14 may choose another side of a kink
-    assert ends[0] == pytest.approx(ends[1], rel=1e-9, abs=1e-9)
-    orbit = problem.orbit(states[0], problem.natural_speed)
-    assert record[0, :n] == pytest.approx(orbit.displacement[0], rel=1e-14)
 
 
 def test_no_step_spans_a_kink_and_all_steps_make_a_period():
