@@ -29,7 +29,7 @@ def oblique_problem(psi, sliding=None):
             eta0=0.0171, alpha=2.38e-8, eyring_stress=None if sliding is None else 2e6
         ),
         sliding=sliding,
-        nodes=(49, 33),
+        nodes=(33, 25),
     )
 
 

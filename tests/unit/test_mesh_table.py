@@ -394,5 +394,5 @@ def test_tables_can_be_read_by_several_threads_at_once():
 
     # eight at a time, often: a library that must not be entered twice crashes the process
     with ThreadPoolExecutor(8) as pool:
-        ratios = list(pool.map(read, range(200)))
+        ratios = list(pool.map(read, range(80)))
     assert set(ratios) == {TABLE.contact_ratio}

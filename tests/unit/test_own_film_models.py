@@ -15,7 +15,7 @@ from fmu_src.identity import guid_of
 from fmu_src.native.hypoid_axle import native_model
 from gearlube.studies.drive_cycle.report import findings as cycle_findings
 from gearlube.studies.drive_cycle.run import run_cycle
-from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+from gearlube.studies.drive_cycle.settings import DriveCycleSettings, LossGrid
 from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube.studies.loss_map.findings import findings
 from gearlube.studies.loss_map.run import run_loss_map
@@ -28,6 +28,7 @@ from gearlube_core.film_model.model import FilmModel
 from gearlube_core.friction.flank_film import flank_film_model
 from tests.helpers.own_film_models import OIL_FILE, altered, copy_of
 
+COARSE = LossGrid(torques=8, speeds=6, temperature_step=45.0)
 VISCOUS = LOSS_SOURCES.index("friction_viscous")
 BOTH = (
     '[film]\nmodel = "solved"\nflank_model = "models/flank.json"\nroller_model = "roller.json"\n'
@@ -122,7 +123,7 @@ def test_a_cycle_has_the_bounds_of_flanks_and_rollers(copies):
     time, speed = np.array([0.0, 5.0, 10.0]), np.full(3, 10.0)  # s, m/s
     trace = DriveCycle(name="even", time=time, speed=speed)
     warm = {"start_temperature": 353.15, "air_temperature": 343.15}  # K, within the domains
-    found = run_cycle(DriveCycleSettings(car=car, cycle=trace, draws=0, **warm))
+    found = run_cycle(DriveCycleSettings(car=car, cycle=trace, draws=0, grid=COARSE, **warm))
     seconds = found["duration"].values
     for name, source in (("drag", "bearing_torque"), ("friction", "friction_viscous")):
         bound, loss = found[f"{name}_bound"].values, found["loss"].sel(source=source).values
