@@ -1,4 +1,6 @@
-"""The same variation on a real Dask cluster of two worker processes, one of which is killed."""
+"""Studies on a Dask cluster."""
+
+from __future__ import annotations
 
 import signal
 import threading
@@ -7,16 +9,106 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from importlib import metadata
 
 import pytest
+import xarray as xr
 
+from gearlube.studies.film_model.plan import FilmPlan
+from gearlube.studies.film_model.train import pool_of, train
+from gearlube.studies.sweep.run import SweepModel, run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube.variation.design import Axis, Design
 from gearlube.variation.run import run_variation
 from gearlube.variation.store import open_variation
-from gearlube_core.errors import GearLubeError
+from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.storage import dask_pool
 from gearlube_core.storage.result_store import ARRAYS, ResultStore
 from gearlube_core.storage.resumable import resumable_results
+from tests.helpers import sweep_stand_in as stand_in
 from tests.helpers.dask_cluster import dask_cluster
 from tests.helpers.variation_stand_in import AreaStudy
+
+# six films; rollers are the cheapest
+PLAN = FilmPlan(
+    contact="roller", box=2, visited=1, edge=1, calibration=1, fresh=1,
+    fine_box=0, fine_visited=0, fine_edge=0, fine_fresh=0,
+)  # fmt: skip
+
+
+@pytest.mark.slow
+def test_films_of_a_cluster_are_those_of_this_machine(tmp_path):
+    with dask_cluster(tmp_path) as (address, _):
+        far = train(PLAN, tmp_path / "far", pool=pool_of(None, address))
+    here = train(PLAN, tmp_path / "here", pool=pool_of(1, None))
+    assert len(here.rows) == PLAN.solves == 6
+    assert far.rows.keys() == here.rows.keys()
+    for key, row in here.rows.items():
+        other = far.rows[key]
+        assert row.solved.converged
+        assert (other.task, other.failure) == (row.task, row.failure)
+        for one, two, name in zip(other.solved, row.solved, row.solved._fields, strict=True):
+            if name != "seconds":
+                # sums in another order, in a process with other threads
+                assert one == pytest.approx(two, rel=1e-9, nan_ok=True), name
+    # a second run has nothing left to solve: no cluster is asked
+    again = train(PLAN, tmp_path / "far", pool=pool_of(1, None))
+    took = {key: row.solved.seconds for key, row in far.rows.items()}
+    assert {key: row.solved.seconds for key, row in again.rows.items()} == took
+
+
+def test_processors_of_this_machine_and_a_cluster_are_not_mixed():
+    with pytest.raises(ParameterError, match="--jobs must be left out beside --scheduler"):
+        pool_of(2, "tcp://127.0.0.1:8786")
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """Scheduler address and the worker processes by name."""
+    with dask_cluster(tmp_path) as found:
+        yield found
+
+
+def model_of(point):
+    return SweepModel(point=point, compile_first=None, natural_frequencies=None)
+
+
+@pytest.mark.slow  # local processes that die are in the default run
+def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(cluster, tmp_path):
+    address, workers = cluster
+    fmu = stand_in.write_fmu(tmp_path / "axle.fmu")
+    grid = {
+        "speeds_kmh": [20.0, 30.0, 40.0, 50.0, 60.0, 70.0],
+        "preloads": [2500.0, 6000.0],
+    }
+    killed = threading.Event()
+
+    def kill_one_worker_after_two_points(share, sentence):
+        if share >= 2 / 12 and not killed.is_set():
+            workers["first"].send_signal(signal.SIGKILL)
+            killed.set()
+
+    settings = SweepSettings()
+    remote = run_sweep(
+        settings,
+        fmu=fmu,
+        out=tmp_path / "remote",
+        scheduler=address,
+        progress=kill_one_worker_after_two_points,
+        model=model_of(stand_in.slow_point),
+        **grid,
+    )
+    assert killed.is_set()
+    assert workers["first"].wait(timeout=10.0) == -signal.SIGKILL
+    assert int(remote["status"].sum()) == 12
+
+    local = run_sweep(
+        settings,
+        fmu=fmu,
+        out=tmp_path / "local",
+        jobs=1,
+        model=model_of(stand_in.small_point),
+        **grid,
+    )
+    xr.testing.assert_identical(remote.drop_attrs(), local.drop_attrs())
+
 
 WIDTHS = tuple(float(w) for w in range(1, 25))
 DESIGN = Design(axes=(Axis("width_mm", WIDTHS),))

@@ -1,27 +1,93 @@
-"""Names from users and from files of others: what becomes of them on disk."""
+"""Notes of fields, names of files and pages of fields."""
 
 import csv
+import re
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 import pytest
 import xarray as xr
-from pydantic import TypeAdapter, ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 from typer.testing import CliRunner
 
+from docs.field_pages import PAGES, refreshed
+from docs.page import DOCS, Page
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.command import app
 from gearlube.output.csv_text import csv_text
 from gearlube.output.exports.tables import write_tables
 from gearlube.studies.design.run import axle_stub
 from gearlube_core.ehl.case.grids import FilmCase
+from gearlube_core.errors import ParameterError
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
+from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.storage.file_names import Name, as_name, file_stem, pair_stem
 from tests.helpers.each import each
+
+
+class Sample(InputFile):
+    """A file with one field of each kind."""
+
+    package: ClassVar[str] = "gearlube_core.ehl"
+
+    smooth: bool = Field(default=False, description="Smooth or not")
+    speed_m_s: float = Field(default=1.5, description="Of the surface")
+    load_n_per_mm: Annotated[float, Field(gt=0.0, le=10.0)] = Field(description="Of the line")
+    load_n: float = Field(default=1.0, description="Load")
+    modulus_gpa: float = Field(default=1.0, description="Modulus")
+    slope_per_gpa: float = Field(default=1.0, description="Slope")
+    oil_temperature_degc: float = Field(default=1.0, description="Of the oil")
+    angle_deg: float = Field(default=1.0, description="Angle")
+    conductivity_w_m_k: float = Field(default=1.0, description="Of heat")
+    nodes: list[int] = Field(default=[], description="Of the grids")
+    form: Literal["only"] = Field(default="only", description="One form")
+
+
+NOTES = field_notes(Sample)
+
+
+def test_the_longest_ending_of_a_name_is_its_unit():
+    units = {name: note.unit for name, note in NOTES.items() if note.unit}
+    assert units == {
+        "speed_m_s": "m/s",
+        "load_n_per_mm": "N/mm",
+        "load_n": "N",
+        "modulus_gpa": "GPa",
+        "slope_per_gpa": "1/GPa",
+        "oil_temperature_degc": "degC",
+        "angle_deg": "deg",
+        "conductivity_w_m_k": "W/(m.K)",
+    }
+
+
+def test_kinds_limits_and_defaults_are_words():
+    assert (NOTES["smooth"].kind, NOTES["smooth"].default) == ("true or false", "false")
+    assert (NOTES["nodes"].kind, NOTES["nodes"].default) == ("list of whole numbers", "none")
+    assert (NOTES["form"].kind, NOTES["form"].limits) == ("text", "only")
+    assert NOTES["load_n_per_mm"].limits == "above 0 to 10"
+    assert NOTES["speed_m_s"].default == "1.5"
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"smooth": "yes"}, "smooth must be true or false, got 'yes'"),
+        ({"load_n_per_mm": 11.0}, "must be a number, above 0 to 10 N/mm, got 11.0"),
+        ({"form": "other"}, "form must be a text, only, got 'other'"),
+    ],
+)
+def test_what_is_wrong_is_said_in_the_same_words(changes, words):
+    with pytest.raises(ParameterError) as refusal:
+        Sample.from_data({"load_n_per_mm": 1.0, **changes}, "sample")
+    assert words in str(refusal.value)
+
 
 NAMED = (
     AxleFile,
@@ -130,3 +196,32 @@ def test_no_processes_and_no_folder_are_refused_at_once(command, tmp_path, monke
         assert CliRunner().invoke(app, [*arguments, "--jobs", "0"]).exit_code == 2
         assert "--jobs must be within 1 to 1024, got 0" in caplog.text
     assert not list(tmp_path.iterdir())
+
+
+FILES = [name for name in PAGES if name.endswith("_file")]
+
+
+@each("name", PAGES)
+def test_page_is_up_to_date(name):
+    """If not: python -m docs.field_pages."""
+    assert refreshed(name).text == Page(name).text
+
+
+@each("name", PAGES)
+def test_every_field_stands_on_the_page(name):
+    text = Page(name).text
+    for model in PAGES[name]:
+        for dotted, note in field_notes(model).items():
+            field = dotted.rpartition(".")[2]
+            assert re.search(rf"\| `{field}` \|.*{re.escape(note.meaning)} \|", text), dotted
+
+
+@each("name", FILES)
+def test_what_the_page_points_to_exists(name):
+    text = Page(name).text
+    links = re.findall(r"\]\(([^)#]+)", text)
+    assert links
+    for link in links:
+        assert (DOCS / link).is_file(), link
+    for path in re.findall(r"`((?:examples|tests|gearlube_core|drivetrain)/[\w./]+)`", text):
+        assert (Path(DOCS).parent / path).exists(), path

@@ -1,11 +1,13 @@
-"""Panels with one scale: it ends above the largest curve of all of them."""
+"""Figures: folders, scales that are shared."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
+from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.studies.bearing.figures import torque_of_laws
 from gearlube.studies.helical.figures.catalogue import pair_losses
 from gearlube.studies.sound.figures import heard_orders
@@ -60,3 +62,18 @@ def test_the_common_scale_holds_the_largest_curve(draw):
     for panel in (first, second):
         assert panel.get_ylim()[0] == 0.0
         assert 6.0 < panel.get_ylim()[1] < 7.0
+
+
+def test_figures_of_an_earlier_run_do_not_stay(tmp_path):
+    folder = tmp_path / "figures"
+    save_figure_folder({"lines": Figure(figsize=(1, 1)), "bars": Figure(figsize=(1, 1))}, folder)
+    assert save_figure_folder({"bars": Figure(figsize=(1, 1))}, folder) == [folder / "bars.png"]
+    assert [path.name for path in folder.iterdir()] == ["bars.png"]
+    assert save_figure_folder({}, folder) == []
+    assert not folder.exists()
+
+
+def test_what_no_study_drew_stays(tmp_path):
+    (tmp_path / "mine.txt").write_text("a note")
+    save_figure_folder({}, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
