@@ -33,7 +33,7 @@ from gearlube_core.oil.lubricant import Lubricant
 COARSE, FINE = HYPOID_FLANK.nodes, HYPOID_FLANK.second
 
 SMALL = FilmPlan(
-    box=140,
+    box=110,
     visited=30,
     edge=10,
     calibration=60,
@@ -204,7 +204,7 @@ def test_a_fit_finds_a_smooth_film_at_the_limit_of_the_grid(rows):
     film = fitted.predicted["fresh"][:, 0] / np.array([one.central_film for one in true]) - 1.0
     assert np.sqrt((film**2).mean()) < 0.007
     assert fitted.model.provenance["solves"] == {
-        "box": 140, "axle": 30, "edge": 10, "calibration": 60, "fresh": 40
+        "box": 110, "axle": 30, "edge": 10, "calibration": 60, "fresh": 40
     }  # fmt: skip
     bounds = (fitted.model.film_bound, fitted.model.friction_bound)
     over = fitted.calibration.violations(bounds)
