@@ -33,11 +33,7 @@ from fmu_src.native.model import Operation
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
 from gearlube.studies.sweep import run as sweep_run
-from gearlube.studies.sweep.axle_in_fmu import (
-    assumed_inputs,
-    car_axle_of,
-    settings_of,
-)
+from gearlube.studies.sweep.axle_in_fmu import assumed_inputs, car_axle_of, settings_of
 from gearlube.studies.sweep.point import run_point
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle

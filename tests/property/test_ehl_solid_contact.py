@@ -110,9 +110,7 @@ def test_a_thin_film_of_a_helical_pair_touches_and_goes_on() -> None:
     for thickness in (3e-9, 10e-9, 30e-9):
         film = jamali_2015_film("a", newtonian=True, nodes=(33, 49))
         film = dataclasses.replace(
-            film,
-            pinion_speed=0.01 * film.pinion_speed,
-            solids=SolidContact(thickness=thickness),
+            film, pinion_speed=0.01 * film.pinion_speed, solids=SolidContact(thickness=thickness)
         )
         cycle = march_helical_cycle(film, first=498, last=500)
         assert cycle.failures == 0

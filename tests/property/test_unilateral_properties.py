@@ -126,9 +126,7 @@ def test_two_spur_lines_with_equal_cells_let_go_of_many_cells_at_once() -> None:
     x = (np.arange(n_x) - n_x // 2) * cell[0]
     problem = UnilateralProblem(
         compliance=StripCompliance(
-            [line, line],
-            np.kron(np.eye(2), np.tile(hats, (n_x, 1))),
-            np.kron(np.eye(2), bending),
+            [line, line], np.kron(np.eye(2), np.tile(hats, (n_x, 1))), np.kron(np.eye(2), bending)
         ),
         gap=np.concatenate([np.repeat(x**2 / (2.0 * R), n_y) for R in (8e-3, 6e-3)]),
         arm=np.full(2 * n_x * n_y, arm),

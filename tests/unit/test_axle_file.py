@@ -148,11 +148,7 @@ BEARING = {
     "exponent": (1.1, "exponent", 1.1),
     "preload_n": (3333.0, "preload", 3333.0),
     # F = N kn d^n sin L, Mohammadpour et al. 2015
-    "interference_um": (
-        10.0,
-        "preload",
-        12 * 5e8 * 1e-5 ** (10 / 9) * math.sin(math.pi / 12),
-    ),
+    "interference_um": (10.0, "preload", 12 * 5e8 * 1e-5 ** (10 / 9) * math.sin(math.pi / 12)),
     "loss": (0.02, "loss", 0.02),
     "film": ("steady", "film", "steady"),
     "f0": (3.0, "f0", 3.0),

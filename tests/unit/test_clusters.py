@@ -74,10 +74,7 @@ def model_of(point):
 def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(cluster, tmp_path):
     address, workers = cluster
     fmu = stand_in.write_fmu(tmp_path / "axle.fmu")
-    grid = {
-        "speeds_kmh": [20.0, 30.0, 40.0, 50.0, 60.0, 70.0],
-        "preloads": [2500.0, 6000.0],
-    }
+    grid = {"speeds_kmh": [20.0, 30.0, 40.0, 50.0, 60.0, 70.0], "preloads": [2500.0, 6000.0]}
     killed = threading.Event()
 
     def kill_one_worker_after_two_points(share, sentence):

@@ -153,10 +153,7 @@ def test_coarse_derivatives_are_products_of_matrices(sides):
     cycle = ColumnCycle(hierarchy, linear)
     operator = sparse_operator(linear)
     for transfer, whole, level in zip(
-        hierarchy.transfers[::-1],
-        cycle.grids.whole[-2::-1],
-        hierarchy.levels[-2::-1],
-        strict=True,
+        hierarchy.transfers[::-1], cycle.grids.whole[-2::-1], hierarchy.levels[-2::-1], strict=True
     ):
         operator = coarse_operator(operator, transfer)
         found = whole.operator(Sides(sides))

@@ -129,10 +129,7 @@ def changed(row, value, values=STEADY):
         ),
         ({"speed": STEADY, "time": 1000.0 * np.arange(20)}, "at most 5 s, got 1000 s.*in seconds"),
         (
-            {
-                "speed": STEADY,
-                "time": 0.1 * np.arange(20) + np.where(np.arange(20) > 5, 3.0, 0.0),
-            },
+            {"speed": STEADY, "time": 0.1 * np.arange(20) + np.where(np.arange(20) > 5, 3.0, 0.0)},
             "at most 2 s, got 3.1 s",
         ),
         ({"speed": STEADY, "grade": np.full(20, 5.0)}, r"grade of mine.*got 5 in row 1\. 5 % is"),
@@ -148,10 +145,7 @@ def changed(row, value, values=STEADY):
             "Give one kind of trace",
         ),
         ({"grade": STEADY}, "got none of them"),
-        (
-            {"pinion_speed": STEADY, "pinion_torque": STEADY, "grade": STEADY},
-            "but got a grade too",
-        ),
+        ({"pinion_speed": STEADY, "pinion_torque": STEADY, "grade": STEADY}, "but got a grade too"),
         (
             {"pinion_speed": changed(2, -5.0), "pinion_torque": STEADY},
             "pinion_speed of mine must be at least -15.3 rpm, got -47.7 rpm in row 3",

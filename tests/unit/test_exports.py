@@ -192,11 +192,7 @@ def test_vtk_lays_the_pressure_on_the_gear_flank(tmp_path):
     cells = np.arange(12.0).reshape(1, 3, 4)
     contact = xr.Dataset(
         {"pressure_map": (("side", "map_s", "map_t"), cells, {"units": "Pa"})},
-        {
-            "side": ["drive"],
-            "map_s": (np.arange(3) + 0.5) / 3,
-            "map_t": (np.arange(4) + 0.5) / 4,
-        },
+        {"side": ["drive"], "map_s": (np.arange(3) + 0.5) / 3, "map_t": (np.arange(4) + 0.5) / 4},
         {"gear_file": file.model_dump_json(exclude_none=True)},
     )
     contact.to_netcdf(tmp_path / "contact.nc")

@@ -210,10 +210,7 @@ def test_variables_of_a_helical_film_are_known(monkeypatch):
     }  # fmt: skip
     assert_attributes(made, known)
     rest = named(pressure=2.0 * film.pressure, film=3.0 * film.film, converged=True, outcome="so")
-    beside = {
-        "steady_pressure": ("Pa", 2.0 * film.pressure),
-        "steady_film": ("m", 3.0 * film.film),
-    }
+    beside = {"steady_pressure": ("Pa", 2.0 * film.pressure), "steady_film": ("m", 3.0 * film.film)}
     assert_variables(with_steady_film(made, rest), expected | beside)
 
 

@@ -10,14 +10,7 @@ import pytest
 from scipy.optimize import root
 
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.state import (
-    N_ODE,
-    PSI,
-    U_P,
-    V_P,
-    W_G,
-    W_P,
-)
+from gearlube_core.dynamics.helical_pair.march.state import N_ODE, PSI, U_P, V_P, W_G, W_P
 from gearlube_core.dynamics.helical_pair.supports import support_damping
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile

@@ -192,10 +192,7 @@ def test_a_study_has_its_known_findings():
     ]  # fmt: skip
     assert_findings(findings(everything()), said)
     own = everything()["sweep"].assign(film_share_outside=("speed", [0.0, 0.3, 0.2]))
-    said = [
-        said[2],
-        (WARNING, "in part, are by formulas", "2, 3, 2000, 3000 rpm, 70, 80 %, 95 %"),
-    ]
+    said = [said[2], (WARNING, "in part, are by formulas", "2, 3, 2000, 3000 rpm, 70, 80 %, 95 %")]
     assert_findings(findings({"sweep": own}), said)
 
 

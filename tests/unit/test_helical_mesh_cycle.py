@@ -37,14 +37,7 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
 
     with pytest.raises(KeyboardInterrupt):
         run_cycle(PLAIN, TEETH, SMALL, store=tmp_path, jobs=1, progress=stop)
-    resumed = run_cycle(
-        PLAIN,
-        TEETH,
-        SMALL,
-        store=tmp_path,
-        jobs=1,
-        progress=rest,
-    )
+    resumed = run_cycle(PLAIN, TEETH, SMALL, store=tmp_path, jobs=1, progress=rest)
     assert sorted(seen + rest) == [f"loaded contact, mesh phase {k:.2f}" for k in SMALL.phases]
     whole = run_cycle(PLAIN, TEETH, SMALL, store=store, jobs=1)
     for name, values in whole.items():

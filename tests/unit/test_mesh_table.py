@@ -19,12 +19,7 @@ from gearlube_core.mesh_table.kernels import (
     transmission_error,
 )
 from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table, write_mesh_table
-from gearlube_core.mesh_table.table import (
-    SERIES_UNITS,
-    TOOTH_UNITS,
-    WINDOW_UNITS,
-    Provenance,
-)
+from gearlube_core.mesh_table.table import SERIES_UNITS, TOOTH_UNITS, WINDOW_UNITS, Provenance
 from tests.helpers.axle_cases import drive_only, with_coast_flanks
 from tests.helpers.each import each
 

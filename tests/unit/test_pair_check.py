@@ -324,11 +324,7 @@ def exchanges(file, *fields):
             "pinion.cutter.convex_flank_blade_angle_deg",
             (21.529, 16.743),
         ),
-        (
-            "gear.machine.horizontal_setting_mm",
-            "gear.machine.vertical_setting_mm",
-            (66.65, 62.642),
-        ),
+        ("gear.machine.horizontal_setting_mm", "gear.machine.vertical_setting_mm", (66.65, 62.642)),
         (
             "pinion.machine.sliding_base_mm",
             "pinion.machine.machine_center_to_back_mm",

@@ -395,8 +395,6 @@ def test_exchange_is_looked_for_where_there_are_more_unknowns_than_multipliers()
     # as far as a thousandth of the test's size, or a thousand tolerances
     for beside, count in ((0.6e-3, 1), (0.9e-3, 2)):
         near = Branch(
-            multipliers=multipliers,
-            tangent=lambda t, beside=beside: 0.3 + beside - t,
-            count=3,
+            multipliers=multipliers, tangent=lambda t, beside=beside: 0.3 + beside - t, count=3
         )
         assert len(near.listed()) == count

@@ -85,11 +85,7 @@ def test_interrupted_branch_is_handed_back():
 
 def test_point_limit_ends_a_branch():
     branch = follow(
-        LINE,
-        np.zeros(1),
-        0.0,
-        limits=(0.0, 1e3),
-        settings=ContinuationSettings(max_points=7),
+        LINE, np.zeros(1), 0.0, limits=(0.0, 1e3), settings=ContinuationSettings(max_points=7)
     )
     assert branch.ending == "point limit"
     assert branch.parameter.size == 7

@@ -54,8 +54,7 @@ def parts(monkeypatch):
     fine = type(fine)(fine.matrix, free, RNG.random(FINE))
     coarse = operator_of(some_entries(free[::2]), free[::2])
     transfer = SimpleNamespace(
-        down=lambda values: values[::2],
-        up=lambda values: np.repeat(values, 2, axis=0)[: FINE[0]],
+        down=lambda values: values[::2], up=lambda values: np.repeat(values, 2, axis=0)[: FINE[0]]
     )
     levels = [SimpleNamespace(grid="coarse", load=1.5), SimpleNamespace(grid="fine", load=2.5)]
     grids = SimpleNamespace(levels=levels, transfers=[transfer])

@@ -15,9 +15,7 @@ from gearlube.variation.studies import point_study
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import LossModel, bearing_loss
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
-from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
-    mohammadpour_2015_axle,
-)
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.oil.oil_file import read_oil
 from tests.helpers.each import each
