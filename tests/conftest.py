@@ -31,11 +31,11 @@ _compare_one_by_one = _ApproxArray.__eq__
 
 
 def _equal_arrays(wanted: Any, found: Any) -> bool:
-    expected = wanted.expected
-    if isinstance(found, np.ndarray) and found.shape == expected.shape and not wanted.nan_ok:
-        relative = wanted.rel if wanted.rel is not None or wanted.abs is not None else 1e-6
+    expected, size = wanted.expected, getattr(found, "shape", None)
+    if size == expected.shape and {found.dtype.kind, expected.dtype.kind} <= {"f", "i"}:
+        relative = wanted.rel if wanted.rel is not None else 1e-6 if wanted.abs is None else 0.0
         with np.errstate(invalid="ignore"):
-            limit = np.maximum((relative or 0.0) * np.abs(expected), wanted.abs or 0.0)
+            limit = np.maximum(relative * np.abs(expected), wanted.abs or 0.0)
             near = (np.abs(found - expected) <= limit) & np.isfinite(expected)
         if (near | (found == expected)).all():
             return True
