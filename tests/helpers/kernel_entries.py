@@ -159,9 +159,9 @@ def fmu_entries(record, name, axle, start):
 def loss_map_entries(record):
     """Mean losses of the axle over a mesh cycle, driving and coasting."""
     speed, torque, _ = operating_point(60)
-    for name, parameters in axles().items():
+    for name in ("plain", "printed", "solved", "rolling"):
         found = axle_losses(
-            parameters,
+            axles()[name],
             torques=np.array([torque, -torque]),
             speeds=np.array([speed]),
             temperatures=np.array([OIL]),
@@ -264,8 +264,7 @@ def helical_entries(record):
     for name, settings in {
         "film": {"friction": "film"},
         "lines": {"friction": "film", "line_mesh": mesh, "bearing_distance": 0.03},
-        "six": {"form": "six_dof", "friction_coefficient": 0.1},
-        "printed": {"equations": "he_2007", "friction_coefficient": 0.1},
+        "printed": {"equations": "he_2007", "form": "six_dof", "friction_coefficient": 0.1},
     }.items():
         model = started(he_march(**settings))
         record.keep(f"{name} start", model.get_state(), model.step_control)
