@@ -129,7 +129,7 @@ def pack_mesh(
             )
     windows[:, nodes] = windows[:, 0]
     return PackedMesh(
-        np.ascontiguousarray(table.torque),
+        np.array(table.torque),  # writable like the others: kernels are compiled for either kind
         pack_series(table, radii, stiffness),
         windows.ravel(),
         table.orders,

@@ -29,6 +29,7 @@ from numba.core.caching import (
     NullCache,
 )
 from numba.core.dispatcher import Dispatcher
+from numba.core.serialize import dumps
 from numba.core.typing import Signature
 
 from gearlube_core.kernels.linked_code import rebuild_linked_code
@@ -128,10 +129,11 @@ class SourceCache(FunctionCache):  # type: ignore[misc]
         return self._impl.locator.get_source_stamp(), stamps
 
     def _index_key(self, sig: Any, codegen: Any) -> Any:
-        cells = [cell.cell_contents for cell in self._py_func.__closure__ or ()]
-        found = list(_found((sig, *cells)))
+        found = list(_found((sig, *_cells(self._py_func))))
         stamps = sorted({source_stamp(path) for path in _paths(found)})
-        key = super()._index_key(sig, codegen)
+        signature, machine, (code, _) = super()._index_key(sig, codegen)
+        closure = hashlib.sha256(dumps(_cell_keys(self._py_func))).hexdigest()
+        key: tuple[Any, ...] = (signature, machine, (code, closure))
         if all(map(_is_importable, found)):
             # as text, because an index of classes is unreadable where one of them is missing
             names = sorted(f"{one.__module__}.{one.__qualname__}" for one in found)
@@ -165,11 +167,33 @@ def _say_not_kept(why: str) -> None:
         )
 
 
+def _cell_keys(function: FunctionType) -> list[Any]:
+    """Return what tells the values in the closure of a function from others, in any process.
+
+    numba names a kernel among them by a number drawn in each process, so that no code was found.
+    """
+    keys: list[Any] = []
+    for cell in _cells(function):
+        inner = getattr(cell, "py_func", None)
+        if inner is None or not os.path.isfile(inner.__code__.co_filename):
+            keys.append(cell)
+        else:  # the rest of its file is in the stamps
+            code = inner.__code__
+            place = inner.__module__, inner.__qualname__, code.co_firstlineno, code.co_code
+            keys.append((*place, _cell_keys(inner)))
+    return keys
+
+
+def _cells(function: FunctionType) -> list[Any]:
+    return [cell.cell_contents for cell in function.__closure__ or ()]
+
+
 def _found(parts: Iterable[Any]) -> Iterator[Any]:
-    """Yield the classes and Python functions in numba types and in values."""
+    """Yield the classes and Python functions in numba types, in values and in closures."""
     for part in {id(part): part for part in parts}.values():
         if isinstance(part, Dispatcher):
             yield part.py_func
+            yield from _found(_cells(part.py_func))
         elif isinstance(part, types.Dispatcher):
             yield part.dispatcher.py_func
         elif hasattr(part, "instance_class"):

@@ -7,14 +7,7 @@ import pytest
 
 from docs import equations as page
 from docs.page import Page
-from docs.source_tags import (
-    PACKAGES,
-    ROOT,
-    bibliography_keys,
-    equations,
-    package_tags,
-    prose,
-)
+from docs.source_tags import PACKAGES, ROOT, bibliography_keys, equations, package_tags, prose
 
 FORMS = {"printed", "corrected", "other form", "not implemented"}
 BIBLIOGRAPHY = (ROOT / "docs" / "bibliography.bib").read_text(encoding="utf-8")

@@ -80,6 +80,8 @@ def host(new_host: Callable[[], Host]) -> Host:
 _ONE_MODEL_BY_DEFAULT = {
     "test_a_state_saved_in_one_process_continues_in_another",
     "test_ecos_gives_the_numbers_of_the_model",
+    "test_the_check_reports_an_output_missing_from_the_structure",
+    "test_the_check_reports_an_output_without_unit",
     "test_ecos_runs_the_fmu_and_ends_well",
     "test_libcosim_gives_the_numbers_of_the_model",
     "test_every_output_is_finite_after_a_wild_ride",

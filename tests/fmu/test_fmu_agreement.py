@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 from tests.helpers.fmu_cases import CASES, Case, H
 from tests.helpers.fmu_host import OK, Host
 
@@ -44,7 +45,7 @@ def test_each_literal_of_an_option_selects_the_option_of_the_model(
             assert host.outputs() == case.direct(1, **{case.arguments[variable]: literal})
 
 
-@pytest.mark.parametrize(
+@each(
     ("case", "variable"),
     [
         (case, v.name)

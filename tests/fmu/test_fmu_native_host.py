@@ -63,6 +63,7 @@ def run(command: list[str], environment: dict[str, str], **named: object) -> str
     return done.stdout
 
 
+@(pytest.mark.slow if COMPILER else lambda test: test)  # the host below ends in all ways
 def test_ecos_runs_the_fmu_and_ends_well(case: Case, fmu_path: Path, tmp_path: Path) -> None:
     # A native program that comes with a Python package: it needs no compiler here.
     ecos = Path(shutil.copy(located("ecospy", "binaries/ecos"), tmp_path))

@@ -10,7 +10,6 @@ from typing import Annotated
 from xml.etree import ElementTree
 
 import numpy as np
-import pytest
 
 from fmu_src.definition import Definition, Model
 from fmu_src.hypoid_axle import DEFINITION
@@ -19,6 +18,7 @@ from fmu_src.values import Values
 from fmu_src.variable import declared_in, output, parameter
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.number import Number
+from tests.helpers.each import each
 
 FLOOR = parameter("mesh.frequency_floor", "Hz", "Lowest frequency of the mesh damping", start=50.0,
                   minimum=1.0, maximum=1e4, nominal=100.0, argument="frequency_floor")  # fmt: skip
@@ -108,7 +108,7 @@ def naming(text: str, *folders: str) -> set[str]:
     return {path.relative_to(ROOT).as_posix() for path in files if text in path.read_text()}
 
 
-@pytest.mark.parametrize(
+@each(
     ("folder", "table", "name", "kernel"),
     [
         (AXLE, "variables", '"mesh.stiffness"', "output_names"),

@@ -11,18 +11,8 @@ import pytest
 
 from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import axle_parameters
-from fmu_src.hypoid_axle import (
-    DEFINITION,
-    definition_with_axle,
-    definition_with_table,
-    start_axle,
-)
-from fmu_src.native.hypoid_axle import (
-    MODAL_WITHOUT_LOSS,
-    PRINTED_FILM,
-    REFUSALS,
-    native_model,
-)
+from fmu_src.hypoid_axle import DEFINITION, definition_with_axle, definition_with_table, start_axle
+from fmu_src.native.hypoid_axle import MODAL_WITHOUT_LOSS, PRINTED_FILM, REFUSALS, native_model
 from fmu_src.native.model import OK, Operation
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle.integrate import MAX_STEPS, TOO_MANY_STEPS
@@ -38,13 +28,7 @@ from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table, write_mesh_table
 from tests.helpers.axle_cases import with_coast_flanks, with_shaft_errors
-from tests.helpers.object_code import (
-    FREESTANDING,
-    LIBM,
-    LoadedModel,
-    symbols,
-    undefined_in_object,
-)
+from tests.helpers.object_code import FREESTANDING, LIBM, LoadedModel, symbols, undefined_in_object
 from tests.helpers.own_film_models import altered
 
 KINDS = (TaperedRollerParameters, MixedFlankFriction)
@@ -276,10 +260,7 @@ def test_film_models_of_ones_own_are_constants_and_change_the_films_as_in_python
     run = loaded.instance({"pinion_speed": 150.0}, CURRENT)
     assert run(Operation.START) == OK
     # at the start, before friction has moved anything
-    for name, factor in (
-        ("flank[2].film_thickness", 1.1),
-        ("bearing[1].film_thickness", 1.3),
-    ):
+    for name, factor in (("flank[2].film_thickness", 1.1), ("bearing[1].film_thickness", 1.3)):
         assert axle.output(name) == pytest.approx(factor * shipped.output(name), rel=1e-9)
     for _ in range(5):
         assert run.step(1e-3) == OK

@@ -268,10 +268,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("settings", "changed", "status"), REFUSED)
 def test_what_python_refuses_is_refused_with_the_same_meaning(
-    shipped: LoadedModel,
-    settings: dict[str, float | str],
-    changed: dict[int, float],
-    status: int,
+    shipped: LoadedModel, settings: dict[str, float | str], changed: dict[int, float], status: int
 ) -> None:
     values = values_of(**settings)
     inputs = [changed.get(place, value) for place, value in enumerate(INPUTS)]

@@ -17,11 +17,7 @@ WHEEL_TORQUE = {20: 72.0, 40: 85.0, 60: 106.0, 80: 137.0, 100: 176.0}
 def operating_point(speed_kmh, efficiency=0.96):
     """Pinion speed [rad/s], pinion torque and wheel torque [N.m] at a vehicle speed."""
     wheel_torque = WHEEL_TORQUE[speed_kmh]
-    return (
-        speed_kmh / 3.6 / TYRE_RADIUS * RATIO,
-        wheel_torque / RATIO / efficiency,
-        wheel_torque,
-    )
+    return (speed_kmh / 3.6 / TYRE_RADIUS * RATIO, wheel_torque / RATIO / efficiency, wheel_torque)
 
 
 def running_axle(speed_kmh, parameters=None, efficiency=0.96):
@@ -48,11 +44,7 @@ def conservative(parameters, **changes):
     """The same axle without damping, friction, drag and roller films."""
     bearing = replace(parameters.bearing, loss=0.0, film="off")
     stripped = replace(
-        parameters,
-        bearing=bearing,
-        hysteretic_loss=0.0,
-        friction="off",
-        bearing_torque_loss="none",
+        parameters, bearing=bearing, hysteretic_loss=0.0, friction="off", bearing_torque_loss="none"
     )
     return replace(stripped, **changes)
 

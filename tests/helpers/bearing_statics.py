@@ -7,11 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, BearingParameters
-from gearlube_core.bearings.roller_contact import (
-    approach_with_film,
-    film_amplitude,
-    film_and_slope,
-)
+from gearlube_core.bearings.roller_contact import approach_with_film, film_amplitude, film_and_slope
 from gearlube_core.errors import ConvergenceError
 
 _CAGE_ANGLES = 32  # cage positions within one roller pitch for an average
@@ -54,11 +50,7 @@ def forces_and_stiffness(
     for side in (1.0, -1.0):
         for angle in cage_angle + 2.0 * np.pi * np.arange(count) / count:
             direction = np.array(
-                [
-                    np.cos(angle) * p.cos_contact,
-                    np.sin(angle) * p.cos_contact,
-                    side * p.sin_contact,
-                ]
+                [np.cos(angle) * p.cos_contact, np.sin(angle) * p.cos_contact, side * p.sin_contact]
             )
             g = p.interference + p.approach_factor * float(direction @ u)
             x = approach_with_film(g / FILM_FLOOR_APPROACH, film, p.n)

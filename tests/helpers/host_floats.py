@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import gc
 from typing import Any
 
 from tests.helpers.native_library import NativeLibrary
@@ -52,6 +53,8 @@ class _Function:
 
     def __call__(self, *arguments: Any) -> Any:
         own = Environment.now()
+        collected = gc.isenabled()
+        gc.disable()  # what hypothesis computes with each collection would trap
         self.environment.set()
         before = Environment.now()
         try:
@@ -59,6 +62,8 @@ class _Function:
             after = Environment.now()
         finally:
             own.set()
+            if collected:
+                gc.enable()
         assert before.settings()[:2] == (self.environment.sse, self.environment.x87[0])
         assert after.settings() == before.settings()
         return result

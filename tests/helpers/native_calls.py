@@ -29,14 +29,7 @@ from tests.helpers.native_call_arguments import (
     Arguments,
 )
 from tests.helpers.native_exchange_calls import ExchangeCalls
-from tests.helpers.native_library import (
-    DISCARD,
-    ERROR,
-    OK,
-    WARNING,
-    NativeInstance,
-    NativeLibrary,
-)
+from tests.helpers.native_library import DISCARD, ERROR, OK, WARNING, NativeInstance, NativeLibrary
 from tests.helpers.small_native_model import HIDDEN_OIL, SINGULAR_OIL
 
 
@@ -374,11 +367,7 @@ def run_calls(
 
 
 def run_random(
-    library: NativeLibrary,
-    sequences: int,
-    seed: int,
-    longest: int = 40,
-    exchange: bool = False,
+    library: NativeLibrary, sequences: int, seed: int, longest: int = 40, exchange: bool = False
 ) -> None:
     """Run sequences that a seed decides."""
     names = OF_EXCHANGE if exchange else NAMES

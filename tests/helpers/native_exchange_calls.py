@@ -17,14 +17,7 @@ from tests.helpers.native_call_arguments import (
     STEPPING,
     Arguments,
 )
-from tests.helpers.native_library import (
-    DISCARD,
-    ERROR,
-    OK,
-    WARNING,
-    NativeInstance,
-    NativeLibrary,
-)
+from tests.helpers.native_library import DISCARD, ERROR, OK, WARNING, NativeInstance, NativeLibrary
 from tests.helpers.small_native_model import FASTEST, HIDDEN_OIL, SINGULAR_OIL
 
 

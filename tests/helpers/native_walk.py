@@ -40,13 +40,7 @@ from fmu_src.native.platforms import PLATFORMS, platform_of_this_machine
 from tests.helpers.fmu_cases import CASES, Case
 from tests.helpers.native_exchange_walk import FINITE, REALS, ExchangeWalk
 from tests.helpers.native_fmus import native_fmus
-from tests.helpers.native_library import (
-    DISCARD,
-    ERROR,
-    OK,
-    NativeInstance,
-    NativeLibrary,
-)
+from tests.helpers.native_library import DISCARD, ERROR, OK, NativeInstance, NativeLibrary
 from tests.helpers.watching_library import (
     COMPILER,
     NO_COMPILER,

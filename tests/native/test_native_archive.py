@@ -314,9 +314,7 @@ def test_the_universal_library_holds_both_slices(all_libraries: dict[str, bytes]
 
 
 @pytest.mark.slow
-def test_the_archives_hold_a_library_for_every_platform(
-    all_libraries: dict[str, bytes],
-) -> None:
+def test_the_archives_hold_a_library_for_every_platform(all_libraries: dict[str, bytes]) -> None:
     two = {n for n in fmi2_content(MODEL, all_libraries) if n.startswith("binaries/")}
     three = {n for n in fmi3_content(MODEL, all_libraries) if n.startswith("binaries/")}
     assert two == {f"binaries/{one}" for one in (

@@ -8,6 +8,7 @@ import pytest
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, linearise, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, U_G, U_P, V_G, V_P, W_G, W_P
 from tests.helpers.axle_cases import OIL, axle_with, conservative, output, record, running_axle
+from tests.helpers.each import each
 
 ENERGIES = ["energy.pinion_work", "energy.wheel_work", "energy.stored"]
 LOSSES = [
@@ -56,8 +57,8 @@ def test_losses_account_for_all_energy_with_friction_and_damping_on(speed_kmh):
     assert np.max(np.abs(imbalance)) < 1e-6 * put_in[-1]
 
 
-@pytest.mark.parametrize("speed_kmh", [20, 60, 100])
-@pytest.mark.parametrize("friction", ["consistent", "as_printed"])
+@each("speed_kmh", [20, 60, 100])
+@each("friction", ["consistent", "as_printed"])
 def test_no_loss_is_ever_negative(speed_kmh, friction):
     axle, *torques = running_axle(speed_kmh, axle_with(friction=friction))
     data = record(axle, torques, LOSSES, 0.1)

@@ -13,13 +13,14 @@ from gearlube_core.ehl.line.rows import fill_jacobian
 from gearlube_core.ehl.line.solver import hertz_start, solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
+from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
 
 
-@pytest.mark.parametrize("stencil", ["central", "upwind-1", "upwind-2", "galerkin"])
-@pytest.mark.parametrize("speed", [1.0, -1.0])
+@each("stencil", ["central", "upwind-1", "upwind-2", "galerkin"])
+@each("speed", [1.0, -1.0])
 def test_jacobian_is_the_derivative_of_the_balance(stencil, speed):
     contact = replace(THESIS, speed_1=speed * THESIS.speed_1, speed_2=speed * THESIS.speed_2)
     n = 41

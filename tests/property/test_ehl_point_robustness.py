@@ -96,7 +96,7 @@ def test_limits_act_where_the_film_halves_in_a_cell_and_nowhere_else() -> None:
     [
         (0.5, 20.0, 5.0, 0.01),
         pytest.param(1.0, 20.0, 5.0, 0.01, marks=pytest.mark.slow),
-        (1.0, 200.0, 10.0, 0.01),
+        pytest.param(1.0, 200.0, 10.0, 0.01, marks=pytest.mark.slow),
         pytest.param(5.0, 200.0, 10.0, 0.01, marks=pytest.mark.slow),
         (5.0, 5.0, 5.0, 0.01),  # rigid: oil goes on beyond the border
     ],

@@ -90,7 +90,7 @@ def test_oil_and_load_are_balanced_between_touching_solids() -> None:
     assert f"carry {100.0 * touch.share:.2g} % of the load" in solution.outcome.sentence
 
 
-@pytest.mark.parametrize("thickness", [3e-9, 30e-9])
+@pytest.mark.parametrize("thickness", [pytest.param(3e-9, marks=pytest.mark.slow), 30e-9])
 def test_without_speed_the_solids_carry_the_dry_contact(thickness: float) -> None:
     problem = _contact(1e-4, thickness)
     solution = solve_point_contact(problem)
@@ -110,9 +110,7 @@ def test_a_thin_film_of_a_helical_pair_touches_and_goes_on() -> None:
     for thickness in (3e-9, 10e-9, 30e-9):
         film = jamali_2015_film("a", newtonian=True, nodes=(33, 49))
         film = dataclasses.replace(
-            film,
-            pinion_speed=0.01 * film.pinion_speed,
-            solids=SolidContact(thickness=thickness),
+            film, pinion_speed=0.01 * film.pinion_speed, solids=SolidContact(thickness=thickness)
         )
         cycle = march_helical_cycle(film, first=498, last=500)
         assert cycle.failures == 0

@@ -63,10 +63,7 @@ def test_the_basic_cradle_angle_is_a_phase_only(phase):
 
 
 @settings(max_examples=5, deadline=None)
-@given(
-    correction=st.floats(-1.0, 1.0),
-    side=st.sampled_from(["drive", "coast"]),
-)
+@given(correction=st.floats(-1.0, 1.0), side=st.sampled_from(["drive", "coast"]))
 def test_points_stay_on_the_flank_whatever_the_blade_angle(correction, side):
     """Places are asked for in the axial section; the cut point must stand in it."""
     file = FILE.varied(

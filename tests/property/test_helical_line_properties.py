@@ -75,11 +75,7 @@ def test_lines_repeat_every_mesh_period_and_age_by_one_pitch(pair, phase):
 
 
 @FEW
-@given(
-    pair=pairs(helix_from=8.0),
-    phase=st.floats(0.0, 0.999),
-    depth=st.floats(0.0, 0.3),
-)
+@given(pair=pairs(helix_from=8.0), phase=st.floats(0.0, 0.999), depth=st.floats(0.0, 0.3))
 def test_loads_of_all_lines_balance_the_torque(pair, phase, depth):
     """Normal forces times cos(b) and the base radius; the thesis' loads lack the cosine."""
     relief = TipRelief(amount=1e-5, extent=(depth + 1e-6) * pair.normal_module, k=1.0)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from tests.helpers.each import each
 from tests.helpers.helical_march_cases import (
     PERIOD,
     SPEED,
@@ -21,7 +22,7 @@ from tests.helpers.helical_march_cases import (
 )
 
 
-@pytest.mark.parametrize(
+@each(
     ("settings", "mesh"),
     [
         ({"friction": "off"}, "plain"),

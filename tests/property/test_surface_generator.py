@@ -18,6 +18,7 @@ from gearlube_core.surface.generator_request import (
 )
 from gearlube_core.surface.spectrum import map_autocorrelation, profile_spectrum
 from gearlube_core.surface.statistics import map_statistics, profile_statistics
+from tests.helpers.each import each
 
 MICRO = 1e-6
 ASKED = RoughnessRequest(
@@ -30,8 +31,8 @@ ASKED = RoughnessRequest(
 MOMENT = 1.001e-3
 
 
-@pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize(("skewness", "kurtosis"), [(0.0, 3.0), (-0.7, 4.0), (0.8, 3.5)])
+@each("seed", range(3))
+@each(("skewness", "kurtosis"), [(0.0, 3.0), (-0.7, 4.0), (0.8, 3.5)])
 def test_a_profile_has_the_statistics_asked_of_every_seed(seed, skewness, kurtosis):
     asked = replace(ASKED, skewness=skewness, kurtosis=kurtosis)
     made = generated_profile(asked, 2e-3, 2000, np.random.default_rng(seed))
@@ -111,7 +112,7 @@ def test_a_map_repeats_at_both_seams():
     assert map_autocorrelation(made.surface)[0, 0] == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(
+@each(
     ("skewness", "kurtosis"),
     [(0.0, 3.0), (0.0, 1.8), (0.0, 6.0), (1.0, 5.0), (-2.0, 9.0), (0.5, 1.6), (-1.0, 3.0)],
 )
@@ -138,7 +139,7 @@ def test_the_lognormal_line_is_that_of_exp():
     assert normal_scores(3) == pytest.approx([-0.967422, 0.0, 0.967422], abs=1e-6)
 
 
-@pytest.mark.parametrize(
+@each(
     ("change", "words"),
     [
         ({"kurtosis": 1.2, "skewness": 0.5}, "above skewness^2 + 1 = 1.25"),
@@ -158,7 +159,7 @@ def test_what_cannot_be_asked_is_refused(change, words):
     assert words in str(refused.value)
 
 
-@pytest.mark.parametrize(
+@each(
     ("change", "count", "words"),
     [
         ({"shortest_wave": 1.5e-6}, 1000, "at least 2 spacings, 2 um"),

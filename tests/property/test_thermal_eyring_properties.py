@@ -1,9 +1,7 @@
 """What must hold of a flank with a thermal Eyring film at every load, speed and option."""
 
 import math
-from collections.abc import Callable
 from itertools import product
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +16,6 @@ from gearlube_core.friction import (
     johnson_greenwood_1980,
     thermal_eyring_data,
     thermal_eyring_flank,
-    traction_regime,
 )
 from gearlube_core.friction.thermal_eyring_data import (
     CIRCULAR,
@@ -32,6 +29,7 @@ from gearlube_core.friction.thermal_eyring_data import (
 )
 from gearlube_core.oil import houpert_1985
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.each import each
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 E_STAR = SOLID.contact_modulus
@@ -59,8 +57,8 @@ def flank(
     )
 
 
-@pytest.mark.parametrize("options", OPTIONS)
-@pytest.mark.parametrize("temperature", OILS)
+@each("options", OPTIONS)
+@each("temperature", OILS)
 def test_every_operating_point_converges_to_bounded_friction(
     options: ThermalEyringOptions, temperature: float
 ) -> None:
@@ -79,7 +77,7 @@ def test_every_operating_point_converges_to_bounded_friction(
         assert state.shear_stress <= isothermal * (1.0 + 1e-12)
 
 
-@pytest.mark.parametrize("options", OPTIONS)
+@each("options", OPTIONS)
 def test_reported_temperatures_are_a_solution(options: ThermalEyringOptions) -> None:
     state = flank(2000.0, 5.0, 3.2, options)
     oil = OILS[313.15]
@@ -132,7 +130,7 @@ def test_heat_thins_films_and_lowers_traction() -> None:
     assert sheared.film_thickness < inlet.film_thickness
 
 
-@pytest.mark.parametrize("options", OPTIONS)
+@each("options", OPTIONS)
 def test_smooth_in_speed_and_load(options: ThermalEyringOptions) -> None:
     # differences of differences show steps left by iterations
     for position, start, step in ((0, 1500.0, 1.0), (1, 5.0, 1e-3), (2, 3.0, 1e-3)):
@@ -225,47 +223,14 @@ def test_unknown_film_temperature_is_refused() -> None:
         thermal_eyring_options(E_STAR, film_temperature="outlet")
 
 
-OIL = OILS[313.15]
-STATE = flank(1000.0, 5.0, 3.0)
-KERNELS: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
-    (houpert_1985.houpert_log_viscosity, (LAW, 5e8, 350.0)),
-    (houpert_1985.houpert_viscosity, (LAW, 5e8, 350.0)),
-    (houpert_1985.houpert_temperature_coefficient, (LAW, 12.0, 350.0)),
-    (grubin_1949.grubin_geometry, (0.01, 0.5, 0.4)),
-    (grubin_1949.grubin_film_thickness, (0.01, 0.9, 0.09, 1.4e-8, 5.0, 900.0, CONVENTION)),
-    (grubin_1949.inlet_heating_factor, (0.09, 0.04, 0.11, 5.0, 3.0, 9e8, 2.3e11)),
-    (johnson_greenwood_1980.thermal_eyring_film, (2.0, 0.06, 0.11, 2e6, 5e-7, 3.0)),
-    (johnson_greenwood_1980.thermal_eyring_film, (2.0, 0.06, 0.11, 2e6, 5e-7, 1e-6)),
-    (johnson_greenwood_1980.thermal_eyring_film, (2.0, 0.06, 0.11, 2e6, 5e-7, 300.0)),
-    (johnson_greenwood_1980.thermal_newtonian_stress, (2.0, 0.06, 0.11, 5e-7, 3.0)),
-    (thermal_eyring_data.thermal_eyring_oil, (LAW, LUBRICANT.parameters(), 350.0)),
-    (thermal_eyring_data.grubin_contact_geometry, (0.01, 0.5, 0.4, E_STAR, ELLIPTICAL)),
-    (thermal_eyring_data.grubin_contact_geometry, (0.01, 0.5, 0.4, E_STAR, CIRCULAR)),
-    (thermal_eyring_data.circular_pressure_coefficient, (0.01, 0.5, E_STAR)),
-    (thermal_eyring_flank.bracketed_secant_step, (1.0, 0.1, 0.9, -0.2, 0.9, 1.0)),
-    (thermal_eyring_flank.bracketed_secant_step, (1.0, 0.1, 0.9, 0.1, 0.9, 1.0)),
-    (thermal_eyring_flank.film_traction, (5e-7, 5e8, 3.0, 1e-7, 0.0, 0.0, OIL, SURFACE, E_STAR)),
-    (thermal_eyring_flank.film_traction, (5e-7, 5e8, 3.0, 0.0, 5.0, 0.9, OIL, SURFACE, E_STAR)),
-    (friction_torques.flank_speeds, (276.0, 99.7, 0.022, 0.03)),
-    (friction_torques.friction_torques, (20.0, -3.0, 0.022, 0.03)),
-    (traction_regime.largest_stress_ratio, (7.0,)),
-    (traction_regime.flank_regime, (STATE, OIL, 4e7, 1e9, 2e-4)),
-]
-for _options in OPTIONS:
-    KERNELS.append(
-        (
-            thermal_eyring_flank.thermal_eyring_flank,
-            (1000.0, 5.0, 3.0, GEOMETRY, OIL, SURFACE, SOLID, _options),
-        )
-    )
-
-
-@pytest.mark.parametrize(
-    ("function", "arguments"), KERNELS, ids=[f"{k[0].__name__}-{i}" for i, k in enumerate(KERNELS)]
-)
-def test_compiled_kernel_equals_its_python_function(function: Any, arguments: Any) -> None:
-    # roundings, magnified by the logarithms of the root
-    np.testing.assert_allclose(function(*arguments), function.py_func(*arguments), rtol=1e-12)
+def test_compiled_kernel_equals_its_python_function() -> None:
+    """For all options; those of the torsional pair are interpreted to the last call elsewhere."""
+    for options in OPTIONS:
+        arguments = (1000.0, 5.0, 3.0, GEOMETRY, OILS[313.15], SURFACE, SOLID, options)
+        compiled = thermal_eyring_flank.thermal_eyring_flank(*arguments)
+        source = thermal_eyring_flank.thermal_eyring_flank.py_func(*arguments)
+        # roundings, magnified by the logarithms of the root
+        np.testing.assert_allclose(compiled, source, rtol=1e-12)
 
 
 @pytest.mark.parametrize("position", [0, 1, 2])

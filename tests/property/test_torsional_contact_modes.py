@@ -9,11 +9,7 @@ from hypothesis import strategies as st
 from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import N_ROW, PAIRS_AT, rows_between
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
-from gearlube_core.dynamics.hypoid_torsional.rates import (
-    contact_mode,
-    force_in_mode,
-    mode_margin,
-)
+from gearlube_core.dynamics.hypoid_torsional.rates import contact_mode, force_in_mode, mode_margin
 from tests.helpers.torsional_cases import reconstructed
 
 P = HypoidTorsional(reconstructed()).kernel_parameters

@@ -22,10 +22,7 @@ from tests.helpers.named_pairs import PAIRS, named_pair
 reliefs = st.one_of(
     st.none(),
     st.builds(
-        TipRelief,
-        amount=st.floats(0.0, 1e-4),
-        extent=st.floats(2e-4, 2e-3),
-        k=st.floats(0.0, 1.0),
+        TipRelief, amount=st.floats(0.0, 1e-4), extent=st.floats(2e-4, 2e-3), k=st.floats(0.0, 1.0)
     ),
     st.builds(
         PowerTipRelief,
@@ -72,8 +69,7 @@ def test_gap_of_two_equal_gears_is_symmetric_about_the_pitch_line(crown):
         centre_distance=0.158,
     )
     flank = FlankModification(
-        tip_relief=TipRelief(amount=70e-6, extent=2e-3, k=0.5),
-        crown=Crown(amount=crown, start=0.0),
+        tip_relief=TipRelief(amount=70e-6, extent=2e-3, k=0.5), crown=Crown(amount=crown, start=0.0)
     )
     gap = UndeformedGap(modified=ModifiedPair(pair=pair, pinion=flank, gear=flank))
     x = np.linspace(-4e-4, 4e-4, 33)[:, None]

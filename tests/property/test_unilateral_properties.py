@@ -10,6 +10,7 @@ from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coeffici
 from gearlube_core.contact.unilateral import solve_rotation, solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem
 from gearlube_core.tooth_contact.coupled_strips import StripCompliance
+from tests.helpers.each import each
 
 E_STAR, DX, DY, NX, NY = 115.4e9, 3e-5, 5e-4, 9, 8
 STRIP = HalfSpaceConvolution(love_coefficients(DX, DY, NX, NY, E_STAR, "mean"))
@@ -96,7 +97,7 @@ def test_more_torque_means_more_rotation_and_energy(
     assert torque * turned < work < factor * torque * turned
 
 
-@pytest.mark.parametrize("seed", range(6))
+@each("seed", range(6))
 def test_energy_never_rises_from_one_iteration_to_the_next(seed: int) -> None:
     """Runs cut after n iterations are prefixes of each other: equal input gives equal bits."""
     problem, dense = random_problem(seed, 1e-6)
@@ -125,9 +126,7 @@ def test_two_spur_lines_with_equal_cells_let_go_of_many_cells_at_once() -> None:
     x = (np.arange(n_x) - n_x // 2) * cell[0]
     problem = UnilateralProblem(
         compliance=StripCompliance(
-            [line, line],
-            np.kron(np.eye(2), np.tile(hats, (n_x, 1))),
-            np.kron(np.eye(2), bending),
+            [line, line], np.kron(np.eye(2), np.tile(hats, (n_x, 1))), np.kron(np.eye(2), bending)
         ),
         gap=np.concatenate([np.repeat(x**2 / (2.0 * R), n_y) for R in (8e-3, 6e-3)]),
         arm=np.full(2 * n_x * n_y, arm),

@@ -20,6 +20,7 @@ from tests.helpers.contact_cases import (
     shipped_file,
     shipped_pair,
 )
+from tests.helpers.each import each
 
 
 @cache
@@ -95,7 +96,7 @@ MOVES = {
 }
 
 
-@pytest.mark.parametrize(("side", "what"), MOVES)
+@each(("side", "what"), MOVES)
 def test_contact_moves_steadily_with_displacement(side, what):
     """Towards the tip on both flanks, towards opposite ends of the face on drive and coast."""
     places = []

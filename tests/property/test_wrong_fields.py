@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -95,13 +94,13 @@ def fields(data: dict[str, Any], prefix: str = "") -> Iterator[str]:
 
 
 def with_field(data: dict[str, Any], name: str, value: Any) -> dict[str, Any]:
-    changed = copy.deepcopy(data)
     *sections, key = name.split(".")
-    section: Any = changed
+    section: Any = (changed := dict(data))
     for part in sections:
-        section = section.setdefault(part, {})
-        if not isinstance(section, dict):
+        inner = section.get(part, {})
+        if not isinstance(inner, dict):
             return changed
+        section[part] = section = dict(inner)
     if value is None:
         section.pop(key, None)
     else:

@@ -88,9 +88,23 @@ HARMLESS = {
 }
 
 
+load = command.LazyCommand.load
+commands: dict[int, Any] = {}
+
+
+def load_once(lazy: command.LazyCommand) -> Any:
+    """Return the command; typer would read its options in every call."""
+    if id(lazy) not in commands:
+        commands[id(lazy)] = load(lazy)
+    return commands[id(lazy)]
+
+
 @pytest.fixture(autouse=True)
 def nothing_computes(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(command.LazyCommand, "load", load_once)
+    # in a process of its own, which would compile
+    monkeypatch.setattr("gearlube.studies.sweep.run._modes_aside", lambda *_: lambda: None)
     # a folder of the user that is in the way must stay as it is
     (tmp_path / "notes.txt").write_text("mine")
 

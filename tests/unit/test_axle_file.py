@@ -20,6 +20,7 @@ from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from tests.helpers.axle_files import BARE, MESH, car_axle
+from tests.helpers.each import each
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "my_axle.toml"
 
@@ -147,11 +148,7 @@ BEARING = {
     "exponent": (1.1, "exponent", 1.1),
     "preload_n": (3333.0, "preload", 3333.0),
     # F = N kn d^n sin L, Mohammadpour et al. 2015
-    "interference_um": (
-        10.0,
-        "preload",
-        12 * 5e8 * 1e-5 ** (10 / 9) * math.sin(math.pi / 12),
-    ),
+    "interference_um": (10.0, "preload", 12 * 5e8 * 1e-5 ** (10 / 9) * math.sin(math.pi / 12)),
     "loss": (0.02, "loss", 0.02),
     "film": ("steady", "film", "steady"),
     "f0": (3.0, "f0", 3.0),
@@ -190,7 +187,7 @@ def test_every_field_has_an_expectation_here():
     assert NUMBERS.keys() | GROUPS | WORDS == field_notes(AxleFile).keys()
 
 
-@pytest.mark.parametrize("field", NUMBERS)
+@each("field", NUMBERS)
 def test_a_field_sets_its_number_of_the_model_and_reaches_the_kernels(field):
     value, place, expected = NUMBERS[field]
     # a loss factor acts with modal damping alone

@@ -3,12 +3,12 @@
 from types import SimpleNamespace
 
 import numpy as np
-import pytest
 
 from gearlube_core.dynamics.hypoid_axle import force_derivatives as module
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshLevels
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, U_G, U_P, V_G, V_P, W_G, W_P, X
 from gearlube_core.mesh_table.kernels import N_SERIES, N_X, R_P
+from tests.helpers.each import each
 from tests.helpers.source_of import interpret, source_of
 
 PLACES = (W_P, W_G, *range(V_P, V_P + 3), *range(V_G, V_G + 3))
@@ -73,7 +73,7 @@ def test_damping_is_that_of_the_speeds(monkeypatch):
     )
 
 
-@pytest.mark.parametrize(("j", "place"), list(enumerate(PLACES)))
+@each(("j", "place"), list(enumerate(PLACES)))
 def test_coordinates_have_their_speeds_and_masses(j, place):
     axle = SimpleNamespace(I_p=0.006, I_g=0.09, m_p=5.0, m_g=28.0)
     assert source_of(module._rate_place)(j) == place

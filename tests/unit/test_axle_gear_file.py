@@ -149,10 +149,7 @@ def test_where_nothing_can_be_written_the_cache_keeps_the_table(tmp_path, analys
             'gear_file = "gears.toml"\ncontact_torques_n_m = [50.0, 5.0]',
             r"contact_torques_n_m must rise, got \[50\.0, 5\.0\] N\.m",
         ),
-        (
-            'gear_file = "none.toml"',
-            r"none\.toml was not found in .*axle\.toml names it in gear",
-        ),
+        ('gear_file = "none.toml"', r"none\.toml was not found in .*axle\.toml names it in gear"),
     ],
 )
 def test_gears_that_cannot_be_are_refused(tmp_path, analysed, gears, words):

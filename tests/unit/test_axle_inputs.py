@@ -13,6 +13,7 @@ from gearlube_core.dynamics.hypoid_axle import (
 )
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 from tests.helpers.axle_cases import OIL, axle_with, running_axle
+from tests.helpers.each import each
 
 START = {
     "pinion_speed": 145.0,
@@ -32,7 +33,7 @@ def axle(shared):
     return shared[0]
 
 
-@pytest.mark.parametrize(
+@each(
     ("change", "message"),
     [
         ({"bearing_preload": -1.0}, r"bearing_preload must be .* got -1 N\. Preload cannot pull"),
@@ -58,7 +59,7 @@ def test_a_parameter_out_of_range_says_what_limit_and_cure(change, message):
         axle_with(**change)
 
 
-@pytest.mark.parametrize(
+@each(
     ("option", "choices"),
     [
         ("equations", "consistent, as_printed"),

@@ -17,6 +17,7 @@ from gearlube_core.errors import ConvergenceError
 from gearlube_core.mesh_table.kernels import N_SERIES, N_X, R_P
 from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import axle_with
+from tests.helpers.each import each
 
 OIL = 350.0  # K
 
@@ -63,9 +64,9 @@ def with_scipy(axle, torque):
     return root(forces, np.zeros(6), method="hybr", options={"xtol": 1e-12}).x
 
 
-@pytest.mark.parametrize("equations", ["consistent", "as_printed"])
-@pytest.mark.parametrize("torque", [-350.0, 0.0, 5.0, 600.0])
-@pytest.mark.parametrize("preload", [0.0, 2500.0])
+@each("equations", ["consistent", "as_printed"])
+@each("torque", [-350.0, 0.0, 5.0, 600.0])
+@each("preload", [0.0, 2500.0])
 def test_displacements_at_rest_are_those_that_scipy_finds(equations, torque, preload):
     axle = started(torque, equations=equations, bearing_preload=preload)
     found = np.r_[axle.state_view[U_P : U_P + 3], axle.state_view[U_G : U_G + 3]]
@@ -75,8 +76,8 @@ def test_displacements_at_rest_are_those_that_scipy_finds(equations, torque, pre
     )
 
 
-@pytest.mark.parametrize("equations", ["consistent", "as_printed"])
-@pytest.mark.parametrize("torque", [-200.0, 60.0, 400.0])
+@each("equations", ["consistent", "as_printed"])
+@each("torque", [-200.0, 60.0, 400.0])
 def test_the_step_is_tied_to_the_highest_mode_that_lapack_finds(equations, torque):
     axle = started(torque, equations=equations)
     linear = linearise(axle, OIL, torque)
@@ -97,8 +98,8 @@ def test_rollers_without_contact_angle_carry_no_axial_force():
     np.testing.assert_array_equal(axle.get_state(), before)
 
 
-@pytest.mark.parametrize("clearance", [0.0, 1e-6, 20e-6, 100e-6])
-@pytest.mark.parametrize("torque", [-1.0, 60.0])
+@each("clearance", [0.0, 1e-6, 20e-6, 100e-6])
+@each("torque", [-1.0, 60.0])
 def test_shafts_with_clearance_settle_on_the_loaded_rollers(clearance, torque):
     parameters = axle_with()
     bearing = replace(parameters.bearing, preload=None, interference=-clearance)

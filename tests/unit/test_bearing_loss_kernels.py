@@ -1,87 +1,26 @@
-"""Kernels of bearing friction: compiled as in Python, and what the geometry refuses."""
+"""Laws of bearing friction by their table, and what geometry and conditions refuse."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from gearlube.studies.bearing.figures import LAW_NAMES
-from gearlube_core.bearings import roller_loads
-from gearlube_core.bearings.losses import catalogue, laws, physical_loss, race_rolling, rib, rolling
+from gearlube_core.bearings.losses import laws
 from gearlube_core.bearings.losses.geometry import Rib
 from gearlube_core.bearings.losses.loss import UNCALIBRATED, LossModel
-from gearlube_core.contact import greenwood_tripp_1971
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.errors import ParameterError
-from gearlube_core.film import biboulet_houpert_2010, groups, zhu_cheng_1989
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.bearing_32216 import BEARING, DEG, loss_at
+from tests.helpers.each import each
 
 OIL = lubricant_state(Lubricant.named("fva_3").parameters(), 323.15)
-P = BEARING.parameters()
-LOADS = np.linspace(2000.0, 0.0, 16)
-MODEL = race_rolling.roller_film_model("solved_films")
-INLET = race_rolling.roller_inlet(OIL, P.solid)
 CONTACT = (9.8e-3, 6e4, 2.3e11, 0.05, 2.1e-8, 1.4)
-CASES = [
-    (biboulet_houpert_2010.biboulet_houpert_force, CONTACT),
-    (biboulet_houpert_2010.biboulet_houpert_starvation, (1e-5, 1e-6)),
-    (laws.zhou_hoeprich_force, CONTACT),
-    (greenwood_tripp_1971.asperity_share, (0.5, 1.9, 0.99)),
-    (laws.goksem_hargreaves_force, CONTACT),
-    (laws.aihara_force, CONTACT),
-    (laws.aihara_heating, (0.5,)),
-    (zhu_cheng_1989.zhu_cheng_heating, (0.5, 0.004, 0.3)),
-    (rolling.rolling_power, (75.0, 1.4, 0.02)),
-    (groups.inlet_heating_number, (0.05, 0.04, 1.4, 0.13)),
-    (rolling.hysteresis_power, (1400.0, 6e4, 9.8e-3, 2.3e11, 1.4)),
-    (rolling.liebrecht_drag, (870.0, 6e-5, 0.02, 0.017, 0.1, 20.0)),
-    (catalogue.skf_torque, (BEARING.skf(), 200.0, 6000.0, 3000.0, 6e-5)),
-    (catalogue.timken_torque, (60.0, 200.0, 6000.0, 0.05)),
-    (rib.rib_friction, (P.rib, 100.0, 30.0, OIL)),
-    (rib.rib_friction, (P.rib, 0.0, 30.0, OIL)),
-    (laws.heating_factor, (laws.AIHARA_HEATING, 0.5, 0.004)),
-    *((laws.rolling_force, (law, *CONTACT)) for law in laws.ROLLING_LAWS.values()),
-    *(
-        (
-            physical_loss.physical_loss,
-            (P, physical_loss.LossSettings(*chosen), LOADS, w, OIL, numbers),
-        )
-        for chosen, numbers in (
-            ((0, 1, 0.0), race_rolling.NO_ROLLER_MODEL),
-            ((laws.SOLVED_FILMS, 0, 5e-6), MODEL),
-        )
-        for w in (0.0, 200.0)
-    ),
-    (race_rolling.roller_inlet, (OIL, P.solid)),
-    *(
-        (race_rolling.solved_race, (9.8e-3, load, 1.4, OIL, P.solid, INLET, MODEL))
-        for load in (6e4, 500.0)
-    ),
-    *(
-        (race_rolling.race_rolling, (law, 1, 9.8e-3, 6e4, 1.4, OIL, P.solid, INLET, MODEL))
-        for law in laws.RACE_LAWS.values()
-    ),
-]
 
 
-@pytest.mark.parametrize(("kernel", "args"), CASES, ids=lambda x: getattr(x, "__name__", ""))
-def test_compiled_kernels_agree_with_python(kernel, args):
-    # fused multiply-add and libm round differently
-    assert kernel(*args) == pytest.approx(kernel.py_func(*args), rel=1e-12)
-
-
-def test_compiled_loads_of_rollers_agree_with_python():
-    compiled, plain = np.zeros(16), np.zeros(16)
-    rollers = BEARING.dry_rollers()
-    assert roller_loads.ring_loads(6000.0, 6500.0, rollers, compiled) == 0
-    assert roller_loads.ring_loads.py_func(6000.0, 6500.0, rollers, plain) == 0
-    assert compiled == pytest.approx(plain, rel=1e-9)
-
-
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"n_rollers": 21}, ["overlap", "21 rollers", "at most 19 fit"]),
@@ -102,7 +41,7 @@ def test_wrong_geometry_is_refused_with_its_cure(changes, words):
     assert all(word in str(refusal.value) for word in words), str(refusal.value)
 
 
-@pytest.mark.parametrize(
+@each(
     ("condition", "words"),
     [
         ({"temperature_degc": 130.0}, ["temperature", "393.15 K", "fva_3"]),

@@ -4,6 +4,7 @@ import pytest
 
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 BEARING = TaperedRollerBearing.mohammadpour_2015()
 
@@ -37,7 +38,7 @@ def test_preload_can_be_changed():
     assert BEARING.with_preload(2500.0).with_preload(6000.0).preload_force() == 6000.0
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "value", "message"),
     [
         ("n_rollers", 41, "within 3 to 40"),

@@ -18,7 +18,10 @@ from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import LossModel
 from gearlube_core.errors import ParameterError
 from tests.helpers.bearing_32216 import BEARING, DEG, RPM
+from tests.helpers.each import each
 from tests.helpers.units import without_units
+
+pytestmark = pytest.mark.usefixtures("small_pictures")
 
 FILE = BearingFile.named("wingertszahn_2023")
 SMALL = BearingSettings(
@@ -43,7 +46,7 @@ def test_an_inner_angle_that_is_left_out_closes_the_apex():
     assert radius == pytest.approx(8.5e-3, rel=1e-9)
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"bearing.rollers": 20}, ["The rollers overlap", "at most 19 fit"]),

@@ -8,6 +8,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.blank_limits import check_blank, section_tooth
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
+from tests.helpers.each import each
 
 SAMPLE = BlankFile.named("hypoid_13_42")
 
@@ -43,7 +44,7 @@ def test_every_number_says_where_it_is_from():
     assert {note.origin for note in results} == {"inferred"}
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "said"),
     [
         ({"method": 0}, "method 0 is for bevel gears"),
@@ -130,7 +131,7 @@ def test_a_tooth_without_height_has_the_pitch_thickness_as_topland():
     assert section_tooth(one, "gear").topland == pytest.approx(one.gear_thickness, rel=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     ("field", "words"),
     [
         ("cutter.duplex", "cut in one set-up.*helical motion"),

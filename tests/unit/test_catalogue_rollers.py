@@ -10,6 +10,7 @@ from gearlube_core.bearings.bearing_fields import (
     usual_roller_count,
     usual_roller_diameter,
 )
+from tests.helpers.each import each
 
 # f_c of radial roller bearings, ISO 281:2007, as remembered from its table
 TABLE = [
@@ -23,7 +24,7 @@ TABLE = [
 ]
 
 
-@pytest.mark.parametrize(("gamma", "factor"), TABLE)
+@each(("gamma", "factor"), TABLE)
 def test_the_factor_is_that_of_the_standards_table(gamma, factor):
     assert rating_factor(gamma) == pytest.approx(factor, abs=0.06)  # printed to 0.1
 

@@ -13,6 +13,7 @@ from gearlube.cli.exit_codes import FAILED, exit_on_error
 from gearlube.command import COMMANDS, LazyCommand, command_line
 from gearlube_core.errors import FileError
 from gearlube_core.storage.atomic_file import write_text
+from tests.helpers.each import each
 
 STUDY = '''
 import typer
@@ -88,7 +89,7 @@ def test_the_list_of_commands_shows_the_summary_and_imports_no_study(app):
     assert "spring_study" not in sys.modules
 
 
-@pytest.mark.parametrize("command", [entry.name for entry in COMMANDS])
+@each("command", [entry.name for entry in COMMANDS])
 def test_every_line_of_the_table_leads_to_a_command(command):
     result = CliRunner().invoke(command_line(COMMANDS), [command, "--help"])
     assert result.exit_code == 0, result.output

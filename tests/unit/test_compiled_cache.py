@@ -1,18 +1,22 @@
-"""Compiled code is loaded from disk while its sources are unchanged, and compiled anew after."""
+"""Compiled code on disk: when it is loaded, linked and compiled again, by which sources."""
 
 from __future__ import annotations
 
+import ast
 import os
 import random
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import gearlube_core
 from gearlube_core.kernels.compiled_cache import _CheckedFiles
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.source_code import code_of
 from gearlube_core.kernels.source_files import source_files, source_stamp
 
 ROOT = Path(str(gearlube_core.__file__)).parents[1]
@@ -41,10 +45,14 @@ def solve(law, x):
 """,
     "package/caller.py": """
 from gearlube_core.kernels.jit import kernel
-from package.inner import inner
-@kernel
-def outer(x):
-    return inner(x)
+def made(inside):
+    @kernel
+    def between(x):
+        return inside(x)
+    @kernel
+    def outer(x):
+        return between(x)
+    return outer
 """,
     "package/inner.py": """
 from gearlube_core.kernels.jit import kernel
@@ -54,9 +62,11 @@ def inner(x):
     return constants.GAIN * x
 """,
     "run.py": """
-from package.caller import outer
+from package.caller import made
+from package.inner import inner
 from package.law import Law
 from package.solver import solve
+outer = made(inner)
 print(outer(1.0), solve(Law(10.0), 1.0))
 for one in (outer, solve):
     print(sum(one.stats.cache_hits.values()), sum(one.stats.cache_misses.values()))
@@ -199,3 +209,141 @@ def test_the_stamp_of_a_file_follows_its_contents(tmp_path: Path) -> None:
     assert source_stamp(str(file)) != before
     file.write_text("A = 1\n")
     assert source_stamp(str(file)) == before
+
+
+SCRIPT = """
+from gearlube_core.kernels.jit import kernel
+
+@kernel
+def half(x):
+    return 0.5 * x
+
+@kernel
+def quarter(x):
+    return half(half(x))
+
+print(quarter(8.0), *half._linked.stats.cache_hits.values(), half.overloads == {})
+"""
+
+
+@kernel
+def _cube(x: float) -> float:
+    return x * x * x
+
+
+@kernel
+def _sum_of_cubes(x: float, y: float) -> float:
+    return _cube(x) + _cube(y)
+
+
+def test_a_kernel_is_called_by_python_and_by_kernels() -> None:
+    assert _sum_of_cubes(2.0, 3.0) == 35.0
+    assert _cube(2.0) == 8.0
+    assert _sum_of_cubes(1.0, 2.0) == 9.0
+
+
+def test_a_called_kernel_has_no_machine_code() -> None:
+    def called(x: float) -> float:
+        return x + 1.0
+
+    inner: Any = kernel(called)
+    outer: Any = kernel(lambda x: inner(x))
+    assert outer(1.0) == 2.0
+    assert inner.overloads == {}
+    library = next(iter(inner._linked.overloads.values())).library
+    assert library.get_pointer_to_function(next(library.get_defined_functions()).name) == 0
+
+
+def test_linked_code_is_read_from_disk_when_its_caller_is_compiled_anew(
+    tmp_path: Path, monkeypatch: Any
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT)
+
+    def output() -> list[str]:
+        command = [sys.executable, str(script)]
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
+
+    assert output() == ["2.0", "True"]
+    for caller in (tmp_path / "cache").rglob("*quarter*"):
+        caller.unlink()
+    assert output() == ["2.0", "1", "True"]
+
+
+WITH_WORDS = '''
+"""About the module."""  # and a comment
+NAMES = [
+    "one",  # kept, it is an element
+    "two # not a comment"
+]
+JOINED = \\
+    "kept"
+
+
+class A:  # a comment
+    r"""Text with "quotes" and \\\\ in it.
+
+    More."""
+
+    x = 1
+    """What x is."""
+
+    def f(self, text='a"b'):
+        """Return f."""
+        return f"{text}#" + ("a"
+            "b")
+'''
+WITHOUT = """NAMES = [
+    "one",
+    "two # not a comment"
+]
+JOINED = \\
+    "kept"
+class A:
+    x = 1
+    def f(self, text='a"b'):
+        return f"{text}#" + ("a"
+            "b")"""
+
+
+def test_only_words_are_left_out() -> None:
+    assert code_of(WITH_WORDS) == WITHOUT
+    assert code_of(WITH_WORDS.replace("\n", "\r\n")) == WITHOUT
+
+
+def _statements(text: str) -> str:
+    """Return the syntax tree without docstrings, by Python's own parser."""
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        for name, value in ast.iter_fields(node):
+            if isinstance(value, list) and name != "values":
+                value[:] = [one for one in value if not _is_text(one)] or [ast.Pass()] * (
+                    name == "body"
+                )
+    return ast.dump(tree)
+
+
+def _is_text(node: object) -> bool:
+    is_text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    return is_text and isinstance(node.value.value, str)  # type: ignore[attr-defined]
+
+
+def _with_pass(code: str) -> str:
+    """Give bodies that were only a docstring a `pass`, so that the text can be parsed."""
+    lines = code.split("\n")
+    kept = []
+    for line, after in zip(lines, [*lines[1:], ""], strict=True):
+        kept.append(line)
+        indent = len(line) - len(line.lstrip())
+        opens = line.endswith(":") and line.lstrip().startswith(("class ", "def ", ")"))
+        if opens and len(after) - len(after.lstrip()) <= indent:
+            kept.append(" " * (indent + 4) + "pass")
+    return "\n".join(kept)
+
+
+def test_the_code_of_the_core_is_complete() -> None:
+    folder = Path(str(gearlube_core.__file__)).parent
+    for path in [*folder.glob("kernels/*.py"), *folder.glob("*/h*.py"), *folder.glob("oil/*.py")]:
+        text = path.read_text(encoding="utf-8")
+        assert _statements(_with_pass(code_of(text))) == _statements(text), path

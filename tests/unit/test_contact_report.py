@@ -1,4 +1,6 @@
-"""Findings and key numbers of a tooth contact analysis, from datasets with known answers."""
+"""Report of a tooth contact analysis, and settings that meet."""
+
+import re
 
 import numpy as np
 import pytest
@@ -10,12 +12,10 @@ from gearlube.studies.contact.figures.charts import stiffness_chart
 from gearlube.studies.contact.findings import edge_torque, findings, numbers, transmission_orders
 from gearlube.studies.contact.run import _table
 from gearlube.studies.contact.summary import contact_summary
-from tests.helpers.known_answers import (
-    assert_cells,
-    assert_findings,
-    assert_numbers,
-    assert_tables,
-)
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
+from tests.helpers.contact_cases import shipped_file
+from tests.helpers.known_answers import assert_cells, assert_findings, assert_numbers, assert_tables
 
 TORQUES, PHASES, ARM = (10.0, 80.0), 16, 0.02
 AMPLITUDE = (0.3, 0.9)  # um, first mesh order of the loaded error
@@ -210,3 +210,13 @@ def test_figures_show_numbers_in_the_units_of_their_labels():
     seven = dataset.isel(torque=[0] * 7).assign_coords(torque=np.arange(1.0, 8.0))
     catalogue._loaded(loaded := catalogue.new_figure(3.0, 3.0).subplots(), seven.sel(side="drive"))
     assert [line.get_label()[0] for line in loaded.lines] == ["1", "2", "4", "5", "7"]
+
+
+def test_a_wrong_sliding_base_is_refused_with_the_one_that_meshes(tmp_path):
+    wrong = shipped_file().varied({"pinion.machine.sliding_base_mm": 10.647})
+    with pytest.raises(ParameterError, match="The flanks cannot mesh") as refusal:
+        analyse_contact(wrong, ContactSettings(), store=tmp_path, cache=tmp_path)
+    found = re.search(r"sliding_base_mm from 10\.647 to ([\d.]+) mm", str(refusal.value))
+    # printed 20.647 mm, with which the reference planes miss each other by 1.6 um
+    assert float(found[1]) == pytest.approx(20.647, abs=5e-3)
+    assert not list(tmp_path.iterdir())

@@ -12,6 +12,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.kernels import mesh_series, pair_channels, transmission_error
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.table import PAIRS, fourier
+from tests.helpers.each import each
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 Z_P = 13
@@ -155,7 +156,7 @@ def test_orders_that_positions_do_not_resolve_are_zero():
 CENTRES = (0.0, -5.0 / POSITIONS, 1.0, -11.0 / POSITIONS, 0.75)
 
 
-@pytest.mark.parametrize("centre", CENTRES)
+@each("centre", CENTRES)
 def test_a_pair_is_found_at_its_own_phase_wherever_the_window_begins(centre):
     table = contact_table(FILE, dataset(centre=centre))
     window = flat_window(table, level(table, "drive", 50.0))
@@ -178,7 +179,7 @@ def test_a_pair_is_found_at_its_own_phase_wherever_the_window_begins(centre):
         assert total == pytest.approx(1.0, abs=1e-9)
 
 
-@pytest.mark.parametrize("centre", CENTRES)
+@each("centre", CENTRES)
 def test_nodes_without_load_hold_the_nearest_loaded_value(centre):
     table = contact_table(FILE, dataset(centre=centre))
     share = table.windows["share"][-1]

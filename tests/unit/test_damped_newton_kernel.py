@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
+from gearlube_core.kernels import damped_newton as module
 from gearlube_core.kernels.damped_newton import (
     NOT_CONVERGED,
     NOT_FINITE,
@@ -13,8 +14,16 @@ from gearlube_core.kernels.damped_newton import (
     damped_newton,
     newton_work_size,
 )
-from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.linear_solve import factorise, solve_factorised
+from tests.helpers.each import each
+from tests.helpers.source_of import interpret
+
+
+@pytest.fixture(autouse=True)
+def interpreted(monkeypatch):
+    """Compiled for a function it is at the start of every axle, see test_compiled_entries.py."""
+    interpret(monkeypatch, module)
+    monkeypatch.setattr(module, "kernel", lambda function: function)
 
 
 def solved(residual, start, scale, problem, jacobian=None):
@@ -22,11 +31,10 @@ def solved(residual, start, scale, problem, jacobian=None):
     u = np.array(start, dtype=float)
     work = np.zeros(newton_work_size(u.size))
     scales = np.broadcast_to(np.asarray(scale, dtype=float), u.shape).copy()
-    status, step = damped_newton(residual, jacobian)(u, scales, problem, work)
+    status, step = damped_newton.__wrapped__(residual, jacobian)(u, scales, problem, work)
     return u, status, step
 
 
-@kernel
 def cubic_springs(u, problem, out):
     stiffness, load = problem
     n = u.size
@@ -36,7 +44,6 @@ def cubic_springs(u, problem, out):
             out[i] += stiffness[i * n + j] * u[j]
 
 
-@kernel
 def cubic_stiffness(u, problem, matrix):
     n = u.size
     for i in range(n * n):
@@ -45,7 +52,6 @@ def cubic_stiffness(u, problem, matrix):
         matrix[i * n + i] += 0.3 * u[i] ** 2
 
 
-@kernel
 def scaled_springs(u, problem, out):
     springs, columns, rows, scratch = problem
     for j in range(u.size):
@@ -61,8 +67,8 @@ def springs(n, seed):
     return (half @ half.T + np.eye(n)).ravel(), 10.0 * rng.normal(size=n)
 
 
-@pytest.mark.parametrize("jacobian", [None, cubic_stiffness])
-@pytest.mark.parametrize("n", [1, 6, 11])
+@each("jacobian", [None, cubic_stiffness])
+@each("n", [1, 6, 11])
 def test_hardening_springs_settle_where_scipy_finds_them(n, jacobian):
     problem = springs(n, n)
 
@@ -92,7 +98,6 @@ def test_units_of_unknowns_and_residuals_do_not_change_the_root():
     assert scaled / columns == pytest.approx(plain, rel=1e-11)
 
 
-@kernel
 def two_stops(u, problem, out):
     """A body between two stops with gaps, on a weak spring, under a load."""
     load, gap, weak = problem
@@ -102,8 +107,8 @@ def two_stops(u, problem, out):
     out[1] = 1e3 * (u[1] + 0.5 * u[0])
 
 
-@pytest.mark.parametrize("load", [-7.0, -0.5, 0.0, 0.3, 40.0, 4e4])
-@pytest.mark.parametrize("weak", [0.3, 1.0])
+@each("load", [-7.0, -0.5, 0.0, 0.3, 40.0, 4e4])
+@each("weak", [0.3, 1.0])
 def test_one_sided_stops_are_found_across_their_kinks(load, weak):
     # with u1 = -u0/2 the effective weak spring is weak - 1/4
     gap, spring = 5.0, weak - 0.25
@@ -116,7 +121,6 @@ def test_one_sided_stops_are_found_across_their_kinks(load, weak):
     assert found == pytest.approx([expected, -0.5 * expected], rel=1e-12, abs=1e-14)
 
 
-@kernel
 def rollers(u, problem, out):
     """A ring of one-sided rollers with q = k d^(10/9), which has no stiffness without contact."""
     load_x, load_y, clearance = problem
@@ -142,7 +146,6 @@ def test_a_shaft_among_rollers_settles_under_the_load_also_from_within_the_clear
     assert found @ np.array([4000.0, -2500.0]) > 0.0
 
 
-@kernel
 def one_unknown(u, problem, out):
     kind, a = problem
     if kind == 0.0:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import sys
+from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
@@ -15,6 +16,7 @@ import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.studies.drive_cycle.traces import EXTRA_URBAN, URBAN
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 from tests.helpers.units import without_units
 
 CAR = gl.read_axle("mohammadpour_2015")
@@ -91,6 +93,7 @@ def test_a_trace_that_is_not_the_regulations_is_refused(monkeypatch):
 
 
 STEADY = np.full(20, 10.0)
+COARSE = gl.LossGrid(torques=8, speeds=6, temperature_step=45.0)
 
 
 def test_the_hardest_braking_and_gaining_that_tyres_hold_are_taken():
@@ -104,7 +107,7 @@ def changed(row, value, values=STEADY):
     return new
 
 
-@pytest.mark.parametrize(
+@each(
     ("columns", "words"),
     [
         ({"speed": changed(4, np.nan)}, r"speed of mine must be finite, got nan in row 5"),
@@ -126,10 +129,7 @@ def changed(row, value, values=STEADY):
         ),
         ({"speed": STEADY, "time": 1000.0 * np.arange(20)}, "at most 5 s, got 1000 s.*in seconds"),
         (
-            {
-                "speed": STEADY,
-                "time": 0.1 * np.arange(20) + np.where(np.arange(20) > 5, 3.0, 0.0),
-            },
+            {"speed": STEADY, "time": 0.1 * np.arange(20) + np.where(np.arange(20) > 5, 3.0, 0.0)},
             "at most 2 s, got 3.1 s",
         ),
         ({"speed": STEADY, "grade": np.full(20, 5.0)}, r"grade of mine.*got 5 in row 1\. 5 % is"),
@@ -145,10 +145,7 @@ def changed(row, value, values=STEADY):
             "Give one kind of trace",
         ),
         ({"grade": STEADY}, "got none of them"),
-        (
-            {"pinion_speed": STEADY, "pinion_torque": STEADY, "grade": STEADY},
-            "but got a grade too",
-        ),
+        ({"pinion_speed": STEADY, "pinion_torque": STEADY, "grade": STEADY}, "but got a grade too"),
         (
             {"pinion_speed": changed(2, -5.0), "pinion_torque": STEADY},
             "pinion_speed of mine must be at least -15.3 rpm, got -47.7 rpm in row 3",
@@ -206,7 +203,7 @@ def test_columns_carry_their_units(tmp_path, text, quantity, expected):
     assert cycle.name == "trace"
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "words"),
     [
         ("time_s,speed\n0,1\n1,1\n", "got 'speed'. Rename or remove"),
@@ -291,12 +288,12 @@ def test_the_figure_says_what_is_not_modelled(out):
 
 
 def test_assumed_heat_makes_a_band_and_given_heat_none():
-    cycle = trace(speed=STEADY)
-    assumed = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=cycle, draws=0))
+    settings = gl.DriveCycleSettings(car=CAR, cycle=trace(speed=STEADY), draws=0, grid=COARSE)
+    assumed = gl.run_cycle(settings)
     width = assumed["oil_temperature_high"] - assumed["oil_temperature_low"]
     assert float(width[-1]) > 0.0
     heat = gl.SumpHeat(capacity=17e3, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
-    given = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=cycle, heat=heat, draws=0))
+    given = gl.run_cycle(replace(settings, heat=heat))
     assert (
         given["oil_temperature_high"].values.tolist()
         == given["oil_temperature_low"].values.tolist()
@@ -315,12 +312,10 @@ def test_the_command_refuses_an_unknown_cycle_and_leaves_no_folder(tmp_path, cap
 
 def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
     """Each draw computed again: the axle changed, its map anew, its sources scaled."""
-    from dataclasses import replace
-
     from gearlube.studies.drive_cycle.loss_field import at_temperatures, demand_of, losses_along
     from gearlube.studies.drive_cycle.spread import uncertain_inputs
 
-    draws = 24
+    draws = 12
     heat = gl.SumpHeat(capacity=1e7, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
     settings = gl.DriveCycleSettings(
         car=CAR,
@@ -328,7 +323,7 @@ def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
         heat=heat,  # given, and so large that the oil stays at 60 degC
         start_temperature=333.15,
         air_temperature=333.15,
-        grid=gl.LossGrid(torques=8, speeds=6, temperature_step=45.0),
+        grid=COARSE,
         draws=draws,
         seed=3,
     )
@@ -358,7 +353,8 @@ def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
 
 
 def test_without_draws_there_is_no_error_bar_of_the_efficiency():
-    found = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=trace(speed=STEADY[:5]), draws=0))
+    short = trace(speed=STEADY[:5])
+    found = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=short, draws=0, grid=COARSE))
     assert "efficiency_low" not in found
 
 
@@ -410,7 +406,7 @@ def test_a_cycle_of_vecto_over_distance_is_driven_within_the_limits_of_its_drive
     assert "over distance" in cycle.notes[0]
 
 
-@pytest.mark.parametrize(
+@each(
     ("last", "words"),
     [
         ("2,-5", "got -5 km/h in line 6 of its file, and 1 such"),
@@ -427,7 +423,7 @@ def test_a_refused_trace_names_the_line_of_its_file(last, words, tmp_path):
         gl.DriveCycle.read(path)
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "words"),
     [
         ("<t>,<Pwheel>\n0,1\n1,2\n", "must have the column <v>.*Cycles of engine or wheel power"),

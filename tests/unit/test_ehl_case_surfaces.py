@@ -6,6 +6,7 @@ import xarray as xr
 
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 OIL = {"viscosity_pa_s": 0.02, "pressure_viscosity_per_gpa": 18.0}
 SHARED = {"name": "own", "source": "test", "speed_1_m_s": 3.0, "speed_2_m_s": 0.0, "oil": OIL}
@@ -64,7 +65,7 @@ def test_a_file_is_looked_for_beside_its_case(tmp_path):
     assert gap[0] == pytest.approx(-0.1e-6)
 
 
-@pytest.mark.parametrize(
+@each(
     ("given", "words"),
     [
         ({"text": "x,z\n0,1\n"}, ["x_mm, height_um", "x, z"]),

@@ -7,6 +7,7 @@ import pytest
 
 from gearlube_core.ehl.line import newton as module
 from gearlube_core.ehl.line.system import LineState
+from tests.helpers.each import each
 
 
 def system(**given):
@@ -70,7 +71,7 @@ def test_rounding_is_that_of_carried_and_pumped_flow():
     assert module.rounding_floor(given, STATE) == pytest.approx(expected, rel=1e-13, abs=0.0)
 
 
-@pytest.mark.parametrize(
+@each(
     ("dP", "dH0", "least", "expected"),
     [
         (0.1, 0.0, 0.0, 1.0),

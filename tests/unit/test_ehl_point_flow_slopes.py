@@ -23,6 +23,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     mean_fluidity,
 )
 from gearlube_core.ehl.point.settings import AMBIENT
+from tests.helpers.each import each
 from tests.helpers.source_of import interpret, source_of
 
 SHAPE = (6, 7)
@@ -119,7 +120,7 @@ def test_derivatives_of_a_sheared_film_are_those_of_the_residual(monkeypatch) ->
         assert np.abs(expected).max() > 1.0
 
 
-@pytest.mark.parametrize("rise", [9e-4, -9e-4, 0.0, 2e-3, -1.5])
+@each("rise", [9e-4, -9e-4, 0.0, 2e-3, -1.5])
 def test_logarithmic_mean_and_its_slopes(rise) -> None:
     here = 1.7
     mean, by_here, by_there = source_of(mean_fluidity)(here, here * math.exp(rise), rise, True)

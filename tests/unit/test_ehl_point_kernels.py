@@ -97,12 +97,7 @@ def test_compiled_stencils_equal_their_python() -> None:
     level, pressure = _bumpy_level("upwind-2")
     state = level.state(pressure, 1.0)
     residual = np.empty_like(pressure)
-    fields = (
-        state.pressure,
-        state.mass,
-        state.film_flow,
-        level.terms.storage.source,
-    )
+    fields = (state.pressure, state.mass, state.film_flow, level.terms.storage.source)
     reynolds_residual.py_func(level.stencil, level.grid.metric, *fields, residual)
     # same operations in the same order; contraction to fused products only
     assert np.abs(residual - state.residual).max() < 1e-12 * np.abs(residual).max()

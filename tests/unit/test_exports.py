@@ -20,6 +20,7 @@ from gearlube.output.exports import tables, uff58
 from gearlube.output.units import unit_text
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 from tests.helpers.small_results import small_results
 
 DATASET = small_results()
@@ -191,11 +192,7 @@ def test_vtk_lays_the_pressure_on_the_gear_flank(tmp_path):
     cells = np.arange(12.0).reshape(1, 3, 4)
     contact = xr.Dataset(
         {"pressure_map": (("side", "map_s", "map_t"), cells, {"units": "Pa"})},
-        {
-            "side": ["drive"],
-            "map_s": (np.arange(3) + 0.5) / 3,
-            "map_t": (np.arange(4) + 0.5) / 4,
-        },
+        {"side": ["drive"], "map_s": (np.arange(3) + 0.5) / 3, "map_t": (np.arange(4) + 0.5) / 4},
         {"gear_file": file.model_dump_json(exclude_none=True)},
     )
     contact.to_netcdf(tmp_path / "contact.nc")
@@ -281,7 +278,7 @@ def test_a_folder_needs_one_dataset(run, tmp_path):
         gl.export_results(run / "broken.nc", "csv", tmp_path / "out")
 
 
-@pytest.mark.parametrize(
+@each(
     ("stated", "shown"),
     [
         ("N m", "N m"),

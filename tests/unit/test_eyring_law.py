@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 from gearlube_core.oil.eyring_1936 import NEWTONIAN, Eyring, eyring_stress_ratio
+from tests.helpers.each import each
 from tests.helpers.source_of import source_of
 
 TAU0 = 5e6  # Pa
@@ -21,9 +22,9 @@ def sliding_of(stress, eta, slope, tau0=TAU0):
     return FILM * np.trapezoid(rate, z)
 
 
-@pytest.mark.parametrize("sliding", [-2.0, 0.0, 0.3, 5.0])
-@pytest.mark.parametrize("slope", [-6e13, 0.0, 2e13])
-@pytest.mark.parametrize("layers", [2, 3, 12])
+@each("sliding", [-2.0, 0.0, 0.3, 5.0])
+@each("slope", [-6e13, 0.0, 2e13])
+@each("layers", [2, 3, 12])
 def test_layers_shear_by_the_sliding_together(layers, slope, sliding):
     eta = 30.0 * np.exp(np.cos(np.linspace(0.3, 4.0, layers)))
     expected = brentq(lambda t: sliding_of(t, eta, slope) - sliding, -1e9, 1e9, xtol=1e-6)
@@ -49,7 +50,7 @@ def test_all_flow_in_a_thin_wall_layer_has_a_finite_stress(slope):
     assert other == pytest.approx(-one, rel=1e-12)
 
 
-@pytest.mark.parametrize("t", [1e-3, 0.3, 0.499, 0.501, 2.0, 30.0])
+@each("t", [1e-3, 0.3, 0.499, 0.501, 2.0, 30.0])
 def test_rate_ratio_is_sinh_over_its_argument_with_its_slope(t):
     ratio, slope = source_of(Eyring.rate_ratio)(LAW, t * t)
     assert ratio == pytest.approx(math.sinh(t) / t, rel=1e-14)
@@ -59,9 +60,7 @@ def test_rate_ratio_is_sinh_over_its_argument_with_its_slope(t):
     assert slope == pytest.approx(series, rel=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("x", "y"), [(1e-3, 0.0), (2.0, 3.0), (5.0, -4.0), (3.0, 17.0), (2.0, 19.0)]
-)
+@each(("x", "y"), [(1e-3, 0.0), (2.0, 3.0), (5.0, -4.0), (3.0, 17.0), (2.0, 19.0)])
 def test_stress_ratio_is_the_inverse_of_sinh(x, y):
     found = source_of(eyring_stress_ratio)(x, y)
     assert math.sinh(found) == pytest.approx(x * math.exp(y), rel=1e-11)

@@ -11,12 +11,7 @@ from gearlube.studies.films.hypoid.summary import ratio_rows
 from gearlube.studies.films.report import _tables, film_inputs, film_report
 from gearlube.studies.films.summary import summary_csv, summary_rows
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from tests.helpers.known_answers import (
-    assert_cells,
-    assert_findings,
-    assert_numbers,
-    quantities,
-)
+from tests.helpers.known_answers import assert_cells, assert_findings, assert_numbers, quantities
 
 
 def test_a_formula_whose_film_is_too_thick_for_its_radius_is_a_warning():

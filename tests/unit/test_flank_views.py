@@ -21,6 +21,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     FlankView,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from tests.helpers.each import each
 from tests.helpers.source_of import interpret
 
 HELIX, TILT = 0.35, 0.6  # base helix angle, line of centres against y [rad]
@@ -118,8 +119,8 @@ def test_coast_flanks_that_are_not_near_cannot_touch():
     assert far > 20
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize("at", [U_P, U_P + 1, U_P + 2, U_G, U_G + 1, U_G + 2])
+@each("sign", [1.0, -1.0])
+@each("at", [U_P, U_P + 1, U_P + 2, U_G, U_G + 1, U_G + 2])
 def test_a_displacement_alone_brings_the_coast_flanks_near_before_they_touch(at: int, sign: float):
     s = np.zeros(N_STATE)
     s[at] = sign * 1.01 * CONSTANTS.backlash  # no direction counts less than its size

@@ -9,6 +9,7 @@ import pytest
 from fmu_src.model_description import UNITS, units_of
 from fmu_src.variable import Variable
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 # of the SI, in base units
 _NEWTON = {"kg": 1, "m": 1, "s": -2}
@@ -32,12 +33,12 @@ def exponents_of(name):
     return {base: power for base, power in found.items() if power}
 
 
-@pytest.mark.parametrize("name", UNITS)
+@each("name", UNITS)
 def test_exponents_are_those_of_the_name(name):
     assert exponents_of(name) == {b: e for b, e in UNITS[name].exponents.items() if e}
 
 
-@pytest.mark.parametrize(
+@each(
     ("unit", "shown", "value", "expected"),
     [
         ("m", "um", 2e-6, 2.0), ("m", "mm", 2e-3, 2.0), ("rad", "deg", math.pi, 180.0),

@@ -9,29 +9,13 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from gearlube_core.dynamics.helical_pair.march.equilibrium import (
-    EQUILIBRIUM_WORK,
-    highest_frequency,
-    rest,
-)
-from gearlube_core.dynamics.helical_pair.march.equilibrium import OK as EQUILIBRIUM_FOUND
-from gearlube_core.dynamics.helical_pair.march.given_pair import replace_bearings, write_constants
-from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.state import (
-    N_ODE,
-    N_STATE,
-    PSI,
-    U_P,
-    V_P,
-    W_G,
-    W_P,
-)
+from gearlube_core.dynamics.helical_pair.march.state import N_ODE, PSI, U_P, V_P, W_G, W_P
 from gearlube_core.dynamics.helical_pair.supports import support_damping
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.each import each
 from tests.helpers.helical_march_cases import (
     OIL,
     SPEED,
@@ -80,8 +64,8 @@ def case(settings: dict[str, Any], torque: float, speed: float = SPEED) -> Helic
     return started(he_march(**settings), torque=torque, speed=speed)
 
 
-@pytest.mark.parametrize("torque", [TORQUE, -0.5 * TORQUE, 0.05])
-@pytest.mark.parametrize("settings", CASES)
+@each("torque", [TORQUE, -0.5 * TORQUE, 0.05])
+@each("settings", CASES)
 def test_the_start_is_the_equilibrium_that_scipy_finds(
     settings: dict[str, Any], torque: float
 ) -> None:
@@ -183,32 +167,3 @@ def test_bearings_share_a_members_support_and_damping() -> None:
         assert both[:5] == pytest.approx([total, 0.0, total, 0.0, total], abs=1e-6)
         damping = support_damping(body.support, body.mass, body.inertia, 0.1, False)
         np.testing.assert_allclose(both[5:], damping[:3], rtol=1e-14)
-
-
-def test_kernels_of_the_start_equal_their_source() -> None:
-    parameters = he_march(friction="film")
-    given, oil = flatten(parameters.given()), flatten(parameters.given_oil())
-    choices, constants = flatten(parameters.choices()), flatten(parameters.constants())
-    model = HelicalPairModel(parameters)
-    mesh, data = (
-        tuple(model.mesh),
-        pair_data(parameters.constants(), parameters.mesh, parameters.film_model()),
-    )
-
-    def packed(compiled: bool) -> np.ndarray:
-        source = [f if compiled else f.py_func for f in (write_constants, replace_bearings)]
-        floats, replaced = np.zeros(constants.size), np.zeros(given.size)
-        source[0](given, oil, choices, floats)
-        assert source[1](given, 1e9, 0.0, 0.07, replaced)
-        return np.concatenate([floats, replaced])
-
-    def found(compiled: bool) -> np.ndarray:
-        source = [f if compiled else f.py_func for f in (rest, highest_frequency)]
-        s, work = np.zeros(N_STATE), np.zeros(EQUILIBRIUM_WORK)
-        status, _ = source[0](s, TORQUE, SPEED, OIL, mesh, data.copy(), work)
-        control, frequency = source[1](s.copy(), 1.0, OIL, mesh, data.copy(), work)
-        assert status == control == EQUILIBRIUM_FOUND
-        return np.append(s, frequency)
-
-    np.testing.assert_array_equal(packed(True), packed(False))
-    np.testing.assert_allclose(found(True), found(False), rtol=1e-12, atol=1e-20)

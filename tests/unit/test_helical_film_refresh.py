@@ -9,6 +9,8 @@ import pytest
 
 from gearlube_core.dynamics.helical_pair.march.line_points import point_load
 from gearlube_core.dynamics.helical_pair.march.mesh_data import STATIONS_AT, density_at
+from tests.helpers.each import each
+from tests.helpers.source_of import source_of
 
 PHASES, LINES, STATIONS = 5, 2, 4
 
@@ -21,8 +23,8 @@ class Sizes(NamedTuple):
     stations: float = STATIONS
 
 
-@pytest.mark.parametrize("line", range(LINES))
-@pytest.mark.parametrize("phase", [0.0, 0.37, 0.95, 1.1, -0.3])
+@each("line", range(LINES))
+@each("phase", [0.0, 0.37, 0.95, 1.1, -0.3])
 def test_load_lies_between_stations_and_phases_and_a_line_goes_on_as_the_next(phase, line):
     rng = np.random.default_rng(1)
     station = np.array([0.0, 0.2, 0.7, 1.0])
@@ -39,6 +41,6 @@ def test_load_lies_between_stations_and_phases_and_a_line_goes_on_as_the_next(ph
 
     for at_line in (0.0, 0.1, 0.5, 0.7, 0.9, 1.0):
         wanted = between(density, at_line) * (5.0 - between(offset, at_line))
-        found = point_load(5.0, at_line, phase, line, data, Sizes())
+        found = source_of(point_load)(5.0, at_line, phase, line, data, Sizes())
         assert found == pytest.approx(wanted, rel=1e-13)
-    assert point_load(1.0, 0.5, phase, line, data, Sizes()) == 0.0  # apart
+    assert source_of(point_load)(1.0, 0.5, phase, line, data, Sizes()) == 0.0  # apart

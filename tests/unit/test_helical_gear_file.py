@@ -12,6 +12,7 @@ from gearlube_core.flank_optimisation.problem import read_gear_file
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.modification import PowerTipRelief, TipRelief
 from gearlube_core.input_file.field_notes import field_notes
+from tests.helpers.each import each
 from tests.helpers.named_pairs import PAIRS, named_pair
 
 HE = HelicalGearFile.named("he_2007")
@@ -51,7 +52,7 @@ def test_every_number_has_a_unit_or_needs_none_and_a_meaning():
         assert len(NOTES[name].meaning) > 5, name
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"pair.normal_module_mm": 3.0}, "pair: exactly one of normal_module_mm and .* got both"),
@@ -247,7 +248,7 @@ def test_bearing_terms_keep_their_places():
     assert tuple(got) == pytest.approx((-0.08, 1e8, 2e8, 3e8, 4e3, 5e3, 6e3, -7e3))
 
 
-@pytest.mark.parametrize(
+@each(
     ("file", "field", "origin", "words"),
     [
         (HE, "pinion.teeth", "table", ""),
@@ -375,7 +376,7 @@ def test_a_shift_left_out_follows_from_the_other_and_both_are_guessed_aloud():
     assert bare.helical_pair().gear_root_radius == pytest.approx(56.25e-3)
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"pinion.profile_shift_coefficient": 0.9}, r"at least 0 mm .* got -0\.1201 mm: .* jam"),

@@ -17,6 +17,7 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE
 from gearlube_core.kernels.places import place_below
 from gearlube_core.mesh_table import kernels
+from tests.helpers.each import each
 from tests.helpers.helical_march_cases import he_march, wavy_mesh
 from tests.helpers.source_of import interpret, source_of
 
@@ -209,7 +210,7 @@ def test_every_phase_has_a_place_in_the_arrays(phase):
             assert (found.N, found.stiffness) == pytest.approx((expected.N, expected.stiffness))
 
 
-@pytest.mark.parametrize(
+@each(
     ("position", "place"),
     [(-1e300, 0), (-0.5, 0), (0.999, 0), (1.0, 1), (2.9, 2), (6.999, 6), (7.0, 6), (2.0**63, 6),
      (1e308, 6), (math.inf, 6), (-math.inf, 0), (math.nan, 0)],

@@ -17,6 +17,7 @@ from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, LOAD_TORQ
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.each import each
 from tests.helpers.helical_march_cases import (
     OIL,
     PERIOD,
@@ -36,8 +37,8 @@ NAN = float("nan")
 LINES = [f"line[{i}].load" for i in range(1, LINES_MAX + 1)]
 
 
-@pytest.mark.parametrize("friction", ["film", "constant", "off"])
-@pytest.mark.parametrize("name", ["he_2007", "jamali_2015_a", "jamali_2015_b"])
+@each("friction", ["film", "constant", "off"])
+@each("name", ["he_2007", "jamali_2015_a", "jamali_2015_b"])
 def test_every_shipped_pair_runs_steadily_in_contact(name: str, friction: str) -> None:
     gear = HelicalGearFile.named(name)
     parameters = replace(helical_march_parameters(gear), friction=friction)
@@ -102,7 +103,7 @@ def test_a_state_that_is_none_is_refused_and_nothing_changes(spoil: object) -> N
     np.testing.assert_array_equal(model.get_state(), before)
 
 
-@pytest.mark.parametrize(
+@each(
     ("arguments", "error", "message"),
     [
         ((0.0, 1.0, 1.0, OIL), StepError, "above 0 and at most 0.1 s"),
@@ -137,7 +138,7 @@ def test_a_step_too_long_for_its_resolution_is_refused() -> None:
         model.step(0.1, TORQUE, TORQUE * RATIO, OIL)
 
 
-@pytest.mark.parametrize(
+@each(
     ("settings", "message"),
     [
         ({"friction": "wet"}, "friction must be one of film, constant, off"),

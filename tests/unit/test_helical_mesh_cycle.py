@@ -10,6 +10,7 @@ from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.storage import resumable
+from tests.helpers.each import each
 from tests.helpers.helical_contact_cases import HE_2007, relieved, stiff_teeth
 from tests.helpers.reports import Reports
 
@@ -36,14 +37,7 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
 
     with pytest.raises(KeyboardInterrupt):
         run_cycle(PLAIN, TEETH, SMALL, store=tmp_path, jobs=1, progress=stop)
-    resumed = run_cycle(
-        PLAIN,
-        TEETH,
-        SMALL,
-        store=tmp_path,
-        jobs=1,
-        progress=rest,
-    )
+    resumed = run_cycle(PLAIN, TEETH, SMALL, store=tmp_path, jobs=1, progress=rest)
     assert sorted(seen + rest) == [f"loaded contact, mesh phase {k:.2f}" for k in SMALL.phases]
     whole = run_cycle(PLAIN, TEETH, SMALL, store=store, jobs=1)
     for name, values in whole.items():
@@ -72,7 +66,7 @@ def test_two_processes_find_what_one_finds(store):
         np.testing.assert_allclose(parallel[name], values, rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     "bad",
     [
         {"torques": ()},

@@ -15,12 +15,13 @@ from gearlube_core.helical_geometry.load_sharing import (
 )
 from gearlube_core.helical_geometry.meshing_steps import line_at_position
 from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair, TipRelief
+from tests.helpers.each import each
 from tests.helpers.named_pairs import named_pair
 
 HE = named_pair("he_2007")
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"pinion_teeth": 3}, "pinion_teeth must be within 5 to 1000, got 3"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,19 +30,26 @@ def settings(**changes):
     return HelicalSettings(file=FILE, **{**given, **changes})
 
 
-SOLVED, FORMULA = settings(film_model="solved"), settings()
+@cache
+def with_films():
+    return settings(film_model="solved")
+
+
+@cache
+def with_formulas():
+    return settings()
 
 
 def test_loss_of_the_study_is_that_of_the_model_with_its_bound():
-    solved = film_dataset(SOLVED, SOLVED.constant_mesh())
-    formula = film_dataset(FORMULA, FORMULA.constant_mesh())
+    solved = film_dataset(with_films(), with_films().constant_mesh())
+    formula = film_dataset(with_formulas(), with_formulas().constant_mesh())
     loss, bound = solved.attrs["operating_power_loss"], solved.attrs["operating_power_loss_bound"]
     # of the page: the formula loses 1.2 to 2.5 times as much
     assert 0.4 < loss / formula.attrs["operating_power_loss"] < 0.9
     # boundary friction is not the film's, but a thinner film makes more of it
     assert 0.3 * MODEL.friction_bound < bound / loss < 2.0 * MODEL.friction_bound
     assert solved.attrs["operating_share_outside"] == 0.0
-    power = SOLVED.pinion_torque * SOLVED.pinion_speed
+    power = with_films().pinion_torque * with_films().pinion_speed
     assert solved.attrs["operating_efficiency_bound"] == pytest.approx(bound / power)
     assert formula.attrs["operating_power_loss_bound"] == 0.0
 
@@ -52,12 +60,14 @@ def test_findings_and_summary_tell_the_bound_of_solved_films_alone():
         words = [finding.headline for finding in findings({"film": data})]
         return any("solved films" in sentence for sentence in words), len(_film(data))
 
-    assert told(SOLVED) == (True, 6)
-    assert told(FORMULA) == (False, 3)
+    assert told(with_films()) == (True, 6)
+    assert told(with_formulas()) == (False, 3)
 
 
 def test_losses_have_a_bound_and_the_share_outside():
-    one = replace(SOLVED, torques=(20.0, 226.0), speeds=(104.7,), oil_temperatures=(313.15, 353.15))
+    one = replace(
+        with_films(), torques=(20.0, 226.0), speeds=(104.7,), oil_temperatures=(313.15, 353.15)
+    )
     found = losses_dataset(one, one.constant_mesh())
     bound, outside = found["loss_bound"].values, found["share_outside"].values
     by_formulas = outside > 0.05
@@ -73,7 +83,7 @@ def test_losses_have_a_bound_and_the_share_outside():
     share = found["share_outside"].values
     assert np.all(share[:, 0] >= share[:, 1])
     assert "loss_bound_w" in losses_csv(found)
-    assert "loss_bound" not in losses_dataset(FORMULA, FORMULA.constant_mesh())
+    assert "loss_bound" not in losses_dataset(with_formulas(), with_formulas().constant_mesh())
 
 
 def test_points_that_the_film_model_does_not_cover_are_those_of_the_formulas():
@@ -130,10 +140,10 @@ def test_periodic_response_has_the_friction_of_the_model():
 
     # motion off the line of action is driven by friction alone, nearly in proportion (claim H9);
     # along the cycle the two frictions differ by some percent in shape
-    ratio = rms(SOLVED, "film") / rms(FORMULA, "film")
+    ratio = rms(with_films(), "film") / rms(with_formulas(), "film")
     losses = [
         film_dataset(one, one.constant_mesh()).attrs["operating_mean_coefficient"]
-        for one in (SOLVED, FORMULA)
+        for one in (with_films(), with_formulas())
     ]
     assert ratio == pytest.approx(losses[0] / losses[1], rel=0.03)
 

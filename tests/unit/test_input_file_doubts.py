@@ -25,6 +25,7 @@ from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile, read_toml, toml_data
 from gearlube_core.oil.oil_file import OilFile
+from tests.helpers.each import each
 
 KINDS: tuple[type[InputFile], ...] = (
     AxleFile, BearingFile, BlankFile, HelicalGearFile, HypoidCase, HypoidGearFile, LineCase,
@@ -38,7 +39,7 @@ ANY_VALUE = (
 AXLE: dict[str, Any] = {"gear_set": {"mesh_table": "mohammadpour_2015"}}
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each("kind", KINDS)
 def test_every_number_with_a_unit_has_a_usual_range_within_its_limits(kind):
     for name, note in field_notes(kind).items():
         if not note.unit or not note.kind.startswith(("number", "list of number")):
@@ -53,7 +54,7 @@ def test_every_number_with_a_unit_has_a_usual_range_within_its_limits(kind):
         assert "is usual" in note.doubt(high + 0.01 * abs(high)), name
 
 
-@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind is not MeasuredFile])
+@each("kind", [kind for kind in KINDS if kind is not MeasuredFile])
 def test_no_shipped_file_is_doubtful(kind):
     found = {name: kind.named(name).doubts() for name in kind.shipped()}
     assert found == {name: {} for name in kind.shipped()}
@@ -150,7 +151,7 @@ def test_an_oil_beside_a_bearing_file_is_found_from_anywhere(tmp_path, monkeypat
         BearingFile.from_toml("cars/bearing.toml")
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each("kind", KINDS)
 def test_a_file_that_is_not_there_is_not_found(kind, tmp_path):
     with pytest.raises(ParameterError, match=rf"gone\.toml was not found in {tmp_path}\.") as told:
         kind.given(str(tmp_path / "gone.toml"))
@@ -182,7 +183,7 @@ CONTENTS = {
 }
 
 
-@pytest.mark.parametrize("name", CONTENTS)
+@each("name", CONTENTS)
 def test_text_of_windows_editors_is_read_or_refused_with_a_cure(name, tmp_path):
     content, refusal = CONTENTS[name]
     path = tmp_path / "given.toml"
@@ -208,7 +209,7 @@ WRONG = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("more", "said"), WRONG)
+@each(("more", "said"), WRONG)
 def test_a_value_of_the_wrong_type_is_refused_with_a_cure(more, said):
     with pytest.raises(ParameterError, match=said):
         AxleFile.from_data({**AXLE, **more}, "my.toml")

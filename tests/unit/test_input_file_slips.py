@@ -11,6 +11,7 @@ from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.input_file import read_toml
 from gearlube_core.oil.oil_file import OilFile
+from tests.helpers.each import each
 
 KINDS = {
     AxleFile: ("mohammadpour_2015", "an axle file"),
@@ -21,8 +22,8 @@ KINDS = {
 }
 
 
-@pytest.mark.parametrize("asked", KINDS)
-@pytest.mark.parametrize("given", KINDS)
+@each("asked", KINDS)
+@each("given", KINDS)
 def test_a_file_of_another_kind_is_called_by_its_name(asked, given, tmp_path):
     name, words = KINDS[given]
     path = tmp_path / "given.toml"
@@ -89,7 +90,7 @@ def test_kelvin_for_degc_is_asked_about():
     assert "in K" not in str(told.value)
 
 
-@pytest.mark.parametrize(
+@each(
     ("kind", "field", "meant"),
     [
         (HelicalGearFile, "pinion.profile_shift", "pinion.profile_shift_coefficient?"),

@@ -18,7 +18,6 @@ from gearlube.studies.film_model.solves import SolveRow, SolveTable
 from gearlube.studies.film_model.targets import own_steps
 from gearlube.studies.film_model.train import failed_row
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.line_film import central_film_group
 from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.film_model.line_contact import (
     LineContact,
@@ -155,18 +154,11 @@ def test_kernel_agrees_with_a_plain_evaluation(model):
     assert (found.film_bound, found.friction_bound) == (model.film_bound, model.friction_bound)
 
 
-def test_compiled_kernels_equal_their_python_functions(model):
-    one = contact()
-    place, inlet = line_parts(one)
-    for kernel, given in (
-        (central_film_group, (3.0, 9.0)),
-        (line_reference_film, (1.1e5, 5.0, 0.01, inlet)),
-        (line_reference_friction, (6e-7, 4e8, 5.0, 0.8, 1.2e-4, 0.01, inlet)),
-        (line_contact_groups, (one,)),
-        (solved_line_at, (model.copied_numbers(), 1.1e5, 5.0, 0.8, place, inlet)),
-    ):
-        # rounding: sums of the net in another order
-        np.testing.assert_allclose(kernel(*given), kernel.py_func(*given), rtol=1e-12)
+def test_a_compiled_line_is_that_of_its_python_function(model):
+    place, inlet = line_parts(contact())
+    given = model.copied_numbers(), 1.1e5, 5.0, 0.8, place, inlet
+    # rounding: sums of the net in another order
+    np.testing.assert_allclose(solved_line_at(*given), solved_line_at.py_func(*given), rtol=1e-12)
 
 
 def test_friction_near_pure_rolling_is_linear_in_sliding(model):

@@ -11,6 +11,7 @@ import pytest
 from gearlube_core.ehl.line import solution as module
 from gearlube_core.ehl.line.oil_beyond import NOTHING
 from gearlube_core.ehl.line.solution import LineSolution, build_solution, void_behind_ruptures
+from tests.helpers.each import each
 
 LOAD = 2e5  # N/m
 
@@ -27,9 +28,7 @@ def result(x: np.ndarray, **given) -> LineSolution:
     return LineSolution(**fields | {"x": x} | given)
 
 
-@pytest.mark.parametrize(
-    ("first", "last"), [(-4.0, 3.0), (0.0, 7.0), (-7.0, 0.0), (-6.0, 1.0), (-1.0, 6.0)]
-)
+@each(("first", "last"), [(-4.0, 3.0), (0.0, 7.0), (-7.0, 0.0), (-6.0, 1.0), (-1.0, 6.0)])
 def test_central_film_is_that_of_the_cubic_through_four_nodes_around_the_middle(first, last):
     x = np.linspace(first, last, 8) * 1.1e-4 + 3e-5 * (first < 0.0 < last)
     film = 5e-7 + 2e-3 * x - 7.0 * x**2 + 4e4 * x**3

@@ -10,9 +10,10 @@ import pytest
 from gearlube_core.ehl.line import newton
 from gearlube_core.ehl.line.solver import grid_nest, hertz_start, interpolate
 from gearlube_core.ehl.line.system import LineState
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize(
+@each(
     ("nodes", "coarsest", "expected"),
     [
         (257, 33, [33, 65, 129, 257]),
@@ -35,8 +36,8 @@ def system(speed: float, load: float = 0.5 * np.pi) -> SimpleNamespace:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("speed", [1.0, -1.0])
-@pytest.mark.parametrize(
+@each("speed", [1.0, -1.0])
+@each(
     ("load", "film", "width"),
     [
         (0.5 * np.pi, 1e-8, 1.0),

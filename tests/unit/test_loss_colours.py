@@ -13,6 +13,7 @@ from gearlube.studies.loss_map.report import split_chart
 from gearlube.studies.runup.figures.catalogue import overview
 from gearlube.studies.sweep.figures.charts import efficiency, efficiency_chart
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from tests.helpers.each import each
 
 # as results list them, and turned round with one that loses nothing: places must not decide
 SOURCES = LOSS_SOURCES
@@ -86,8 +87,8 @@ def traces(chart):
     return {one.name: one.marker.color if one.type == "bar" else one.fillcolor for one in filled}
 
 
-@pytest.mark.parametrize("sources", [SOURCES, FEWER])
-@pytest.mark.parametrize(
+@each("sources", [SOURCES, FEWER])
+@each(
     ("colours", "data", "draw"),
     [
         (legends, sweep, efficiency),
@@ -98,7 +99,6 @@ def traces(chart):
         (traces, loss_map, split_chart),
         (traces, cycle, loss_chart),
     ],
-    ids=lambda one: getattr(one, "__name__", None),
 )
 def test_a_source_has_its_colour(sources, colours, data, draw):
     found = colours(draw(data(sources)))

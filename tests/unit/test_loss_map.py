@@ -25,12 +25,13 @@ from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
-from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
-    mohammadpour_2015_axle,
-)
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 from tests.helpers.units import without_units
+
+pytestmark = pytest.mark.usefixtures("small_pictures")
 
 AXLE = replace(
     mohammadpour_2015_axle(),
@@ -52,11 +53,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def found(folder):
     settings = gl.LossMapSettings(
-        axle=AXLE,
-        torques=TORQUES,
-        speeds=SPEEDS,
-        temperatures=np.array(DEGC) + 273.15,
-        draws=4,
+        axle=AXLE, torques=TORQUES, speeds=SPEEDS, temperatures=np.array(DEGC) + 273.15, draws=4
     )
     return gl.run_loss_map(settings, folder=folder)
 
@@ -157,7 +154,7 @@ def drag_of(law, **options):
 
 
 # docs/bearing.md: 2 a priori, more from two measured bearings
-@pytest.mark.parametrize(
+@each(
     ("law", "factor"),
     [
         ("palmgren", 3.0),

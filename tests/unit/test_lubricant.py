@@ -7,6 +7,7 @@ import pytest
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.oil.library import LIBRARY_PATH, TAGS, read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
+from tests.helpers.each import each
 
 
 def library_with(old: str, new: str, directory: Path) -> Path:
@@ -37,7 +38,7 @@ def test_unknown_lubricant_is_answered_with_the_known_names() -> None:
         Lubricant.named("olive")
 
 
-@pytest.mark.parametrize(
+@each(
     ("old", "new", "message"),
     [
         ("kinematic_1_mm2_s = [109.1,", "kinematic_1_mm2_s = [-109.1,", "kinematic viscosity"),
@@ -90,7 +91,7 @@ def test_data_sheet_viscosities_replace_the_line_only() -> None:
     assert (thinner.name, thinner.alpha) == ("iso_68", base.alpha)
 
 
-@pytest.mark.parametrize(
+@each(
     ("points", "message"),
     [
         ((109.1, 313.15, 16.7, 373.15), r"109.1 mm2/s \(cSt\) is 1.091e-4 m2/s"),

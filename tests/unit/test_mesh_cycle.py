@@ -37,14 +37,7 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
     with pytest.raises(KeyboardInterrupt):
         run_cycle(FILE, TEETH, SMALL, store=tmp_path, jobs=1, progress=stop)
     rest = Reports()
-    resumed = run_cycle(
-        FILE,
-        TEETH,
-        SMALL,
-        store=tmp_path,
-        jobs=1,
-        progress=rest,
-    )
+    resumed = run_cycle(FILE, TEETH, SMALL, store=tmp_path, jobs=1, progress=rest)
     assert sorted(seen + rest) == sorted(
         f"{s} flanks, mesh phase {k:.2f}" for s in SIDES for k in SMALL.phases
     )

@@ -10,15 +10,11 @@ import pytest
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface.extrusion import Lay
 from gearlube_core.surface.heights import HeightMap, Profile
-from gearlube_core.surface.moving import (
-    FedFromInlet,
-    GrownInPlace,
-    MovingRoughness,
-    MovingSurface,
-)
+from gearlube_core.surface.moving import FedFromInlet, GrownInPlace, MovingRoughness, MovingSurface
 from gearlube_core.surface.moving_kernels import Moved, add_moved_heights, spline_coefficients
 from gearlube_core.surface.schedule import RoughSchedule
 from gearlube_core.surface.stand_ins import stand_in
+from tests.helpers.each import each
 
 WIDTH, HEIGHT = 1e-3, 2e-7  # m
 A = 2.377e-4  # m, half-width of the thesis' contact
@@ -167,10 +163,7 @@ def test_moved_heights_kernel_equals_its_source():
     x = np.linspace(-1.0, 2.0, 31)
     for rows in (1, 7):
         coefficients, turns = random.standard_normal((rows, 24)), random.standard_normal(7)
-        for moved in (
-            Moved(0.7, 12.3, 0.8, 1.1, 0.4),
-            Moved(0.7, -0.7 * 3.0, 1.0, math.inf, 1.0),
-        ):
+        for moved in (Moved(0.7, 12.3, 0.8, 1.1, 0.4), Moved(0.7, -0.7 * 3.0, 1.0, math.inf, 1.0)):
             found = [np.ones((31, 7)), np.ones((31, 7))]
             for kernel, height in zip(
                 (add_moved_heights, add_moved_heights.py_func), found, strict=True
@@ -190,7 +183,7 @@ SPIKE = np.where(np.arange(40) < 20, np.linspace(0.0, 1e-6, 40), 0.0)
 STEEP = 1e-6 * np.cos(2.0 * math.pi * np.arange(40) / 10)
 
 
-@pytest.mark.parametrize(
+@each(
     ("wrong", "words"),
     [
         (lambda: rough(moving(waves(period=1.1e-4)), y=1.1 * Y), "1 mm over 128 rows"),

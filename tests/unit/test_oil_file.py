@@ -20,6 +20,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table, write_mesh_table
 from gearlube_core.oil.base_oils import BASE_OILS
 from gearlube_core.oil.oil_file import FILE_IN_FMU, OilFile
+from tests.helpers.each import each
 
 SHEET = {
     "name": "my oil",
@@ -94,7 +95,7 @@ def test_the_index_stands_for_one_viscosity(tmp_path, known):
         )
 
 
-@pytest.mark.parametrize(
+@each(
     ("changes", "words"),
     [
         ({"viscosity_100_degc_mm2_s": 110.0}, "must fall with temperature, got 100 mm2/s"),

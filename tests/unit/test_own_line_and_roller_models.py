@@ -184,8 +184,7 @@ def test_a_line_model_of_another_oil_is_refused_and_what_differs_is_told(folder)
 
 def rolling(file: BearingFile, model: FilmModel | None):
     settings = replace(
-        BearingSettings.of_file(file),
-        models=(LossModel(law="solved_films", film_model=model),),
+        BearingSettings.of_file(file), models=(LossModel(law="solved_films", film_model=model),)
     )
     return run_bearing(file, settings)
 
@@ -222,8 +221,7 @@ def test_a_bearing_model_is_refused_where_it_cannot_be(folder):
     thin = replace(Lubricant.named("fva_3"), eyring_stress=60e6)
     file = BearingFile.named("wingertszahn_2023")
     settings = replace(
-        BearingSettings.of_file(file),
-        models=(LossModel(law="solved_films", film_model=ROLLERS),),
+        BearingSettings.of_file(file), models=(LossModel(law="solved_films", film_model=ROLLERS),)
     )
     with pytest.raises(ParameterError, match="Eyring stress 60 MPa"):
         settings.check(file.geometry(), thin)

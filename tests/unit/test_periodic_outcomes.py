@@ -16,6 +16,7 @@ from gearlube_core.periodic import (
     stability_margin,
     switch_branch,
 )
+from tests.helpers.each import each
 from tests.helpers.periodic_cases import (
     Oscillator,
     acceleration,
@@ -84,11 +85,7 @@ def test_interrupted_branch_is_handed_back():
 
 def test_point_limit_ends_a_branch():
     branch = follow(
-        LINE,
-        np.zeros(1),
-        0.0,
-        limits=(0.0, 1e3),
-        settings=ContinuationSettings(max_points=7),
+        LINE, np.zeros(1), 0.0, limits=(0.0, 1e3), settings=ContinuationSettings(max_points=7)
     )
     assert branch.ending == "point limit"
     assert branch.parameter.size == 7
@@ -169,7 +166,7 @@ def stated(unknown_scale, parameter_scale, **others):
     )
 
 
-@pytest.mark.parametrize(
+@each(
     ("build", "message"),
     [
         (lambda: stated(np.zeros(1), 1.0), "above zero"),

@@ -10,6 +10,7 @@ import pytest
 
 import gearlube
 from docs import api
+from tests.helpers.each import each
 
 ROOT = Path(__file__).parents[2]
 SCRIPTS = (
@@ -22,7 +23,7 @@ SCRIPTS = (
 )
 
 
-@pytest.mark.parametrize("name", gearlube.__all__)
+@each("name", gearlube.__all__)
 def test_every_public_name_has_words_and_an_example(name):
     assert inspect.getdoc(getattr(gearlube, name))
     assert api.example(name)
@@ -44,7 +45,7 @@ def test_an_unknown_name_says_where_the_names_are():
         gearlube.no_such_name  # noqa: B018
 
 
-@pytest.mark.parametrize("script", SCRIPTS)
+@each("script", SCRIPTS)
 def test_library_scripts_are_short_and_use_public_names_alone(script):
     text = (ROOT / "examples" / f"{script}.py").read_text(encoding="utf-8")
     tree = ast.parse(text)

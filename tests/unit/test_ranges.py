@@ -1,4 +1,4 @@
-"""Every table and formula of a running model knows its range."""
+"""Ranges that a model leaves, and mean powers of a step."""
 
 from __future__ import annotations
 
@@ -28,6 +28,7 @@ from gearlube_core.film.groups import (
 from gearlube_core.friction.evans_johnson_1986 import MAP_RANGE, plateau_stress_ratio
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.fmu_cases import CASES
 from tests.helpers.helical_march_cases import he_march, march_of
 
 HOT = 368.15  # K
@@ -186,3 +187,33 @@ def test_the_traction_formula_is_as_low_at_the_ends_of_its_range_as_it_says(end,
     formula = plateau_stress_ratio(h, 0.0, math.exp(end) * 1e-6, 0.0, 2.0, 1e3, 1.0, 0.0)
     assert formula == pytest.approx(1.74 * (math.log(1.2) + 0.5 * end), rel=1e-12)
     assert 1.0 - formula / s == pytest.approx(low, abs=5e-4)
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_a_step_too_short_for_a_mean_leaves_the_last_one(case):
+    """A step of 1e-15 s changes no energy by what its rounding shows."""
+    model = case.model(case.parameters())
+    pinion, wheel = case.torques
+    model.initialise(pinion_speed=150.0, pinion_torque=pinion, wheel_torque=wheel,
+                     oil_temperature=333.15)  # fmt: skip
+    powers = [name for name in model.output_names if "power_loss" in name or "efficiency" in name]
+
+    def found() -> np.ndarray:
+        assert np.isfinite(model.outputs).all()
+        return np.array([model.output(name) for name in powers])
+
+    at_start = found()
+    for h in (1e-15, 5e-324, 2e-308):  # without a mean before: the present rates
+        model.step(h, pinion, wheel, 333.15)
+        assert found() == pytest.approx(at_start, rel=1e-6, abs=1e-9)  # W
+    for _ in range(3):
+        model.step(2.0**-10, pinion, wheel, 333.15)
+    last = found()
+    assert last[powers.index("efficiency")] > 0.9
+    for h in (1e-15, 5e-324, 2e-308, 1e-12, 0.99e-7, *20 * (1e-10,)):
+        model.step(h, pinion, wheel, 333.15)
+        assert found() == pytest.approx(last, rel=1e-9)  # marks move with energies of 10 J
+    model.step(1e-6, pinion, wheel, 333.15)
+    # the largest is that of the bearings or the flanks at that moment, not in a mesh period
+    assert found().max() == pytest.approx(last.max(), rel=0.5)
+    assert not np.array_equal(found(), last)

@@ -13,12 +13,12 @@ from gearlube.command import COMMANDS, command_line
 from gearlube.studies.loss_map.exports import write_regulation_map
 from gearlube.studies.loss_map.regulation import regulation_map, wheel_torques
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
-from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
-    mohammadpour_2015_axle,
-)
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 from tests.helpers.vecto_rules import VectoMap
+
+pytestmark = pytest.mark.usefixtures("small_pictures")
 
 AXLE = replace(mohammadpour_2015_axle(), pinion_seal_torque=0.15, wheel_seal_torque=0.3)
 RATIO = AXLE.mesh.ratio

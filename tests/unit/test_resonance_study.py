@@ -19,6 +19,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import DE, R_G, R
 from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 
 def dry(**changes):
@@ -101,10 +102,14 @@ def test_time_sweeps_lie_on_the_branches():
             assert np.min(np.abs(near / size - 1.0)) < 5e-3
 
 
-def test_datasets_state_units_and_survive_netcdf(tmp_path):
-    study = study_resonance(
-        dry(first=0.7, last=1.1, frequencies=5, sweep_frequencies=4, section_starts=3)
+@pytest.fixture(scope="module")
+def study():
+    return study_resonance(
+        dry(first=0.7, last=1.1, frequencies=12, sweep_frequencies=4, section_starts=3)
     )
+
+
+def test_datasets_state_units_and_survive_netcdf(study, tmp_path):
     for name, dataset in (("a", resonance_dataset(study)), ("b", cycle_dataset(study))):
         for variable in dataset.data_vars.values():
             assert variable.attrs["long_name"]
@@ -125,8 +130,8 @@ def test_datasets_state_units_and_survive_netcdf(tmp_path):
     assert np.all((part["multiplier"].values[rows] < 1.0) == (part["stable"].values[rows] == 1.0))
 
 
-def test_summary_of_a_softening_resonance():
-    dataset = resonance_dataset(study_resonance(dry(first=0.7, last=1.1, frequencies=12)))
+def test_summary_of_a_softening_resonance(study):
+    dataset = resonance_dataset(study)
     for summary in summaries(dataset):
         if summary.model == "two_dof_mean_radii":
             continue
@@ -194,8 +199,7 @@ def test_flank_contacts_share_the_mesh_force_and_brake_the_pinion():
     assert 0.15 < np.nanmedian(thinner) < 0.35
 
 
-def test_rate_is_the_kinematic_one():
-    study = study_resonance(dry(first=0.6, last=1.1, frequencies=3))
+def test_rate_is_the_kinematic_one(study):
     for motion in study.motions:
         if motion.model != "two_dof":
             continue
@@ -216,7 +220,7 @@ def test_harmonics_of_a_known_series():
     np.testing.assert_allclose(mesh_harmonics(x, 2, 3), [2.0, 0.5, 0.0], atol=1e-12)
 
 
-@pytest.mark.parametrize(
+@each(
     "changes",
     [
         {"first": 0.01},

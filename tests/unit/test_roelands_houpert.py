@@ -5,6 +5,7 @@ import math
 import pytest
 
 from gearlube_core.oil.film_laws import RoelandsHoupert, barus, roelands
+from tests.helpers.each import each
 from tests.helpers.source_of import source_of
 
 ETA0, ALPHA, S0, OIL = 0.05, 2.1e-8, 1.2, 350.0  # Pa s, 1/Pa, -, K
@@ -29,8 +30,8 @@ def cooling(T, law=LAW):
     return source_of(RoelandsHoupert.cooling_factor)(law, T, OIL)
 
 
-@pytest.mark.parametrize("T", [300.0, OIL, 420.0])
-@pytest.mark.parametrize("p", [0.0, 1e6, 4e8, 1.5e9])
+@each("T", [300.0, OIL, 420.0])
+@each("p", [0.0, 1e6, 4e8, 1.5e9])
 def test_viscosity_and_its_slopes_are_those_of_houpert(p, T):
     value, slope = log_viscosity(LAW, p, cooling(T))
     # kappa is kept to the digits of exp(-9.67)
@@ -44,8 +45,8 @@ def test_viscosity_and_its_slopes_are_those_of_houpert(p, T):
     assert decline == pytest.approx(change / 0.02, rel=1e-6)
 
 
-@pytest.mark.parametrize("T", [330.0, OIL, 390.0])
-@pytest.mark.parametrize("p", [0.0, 6e8])
+@each("T", [330.0, OIL, 390.0])
+@each("p", [0.0, 6e8])
 def test_cooling_is_found_back_from_the_viscosity(p, T):
     value, _ = log_viscosity(LAW, p, cooling(T))
     back = source_of(RoelandsHoupert.cooling_at)(LAW, p, value)

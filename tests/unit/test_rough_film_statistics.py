@@ -17,6 +17,7 @@ from gearlube_core.ehl.statistics.rough_film import (
 from gearlube_core.ehl.statistics.zone import Distribution, FilmZone, weighted_percentiles
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 
 A = 2e-4  # m
 X = np.linspace(-3e-4, 3e-4, 121)  # half-width at nodes 20 and 100: 81 nodes inside
@@ -166,7 +167,7 @@ def test_a_saved_run_gives_the_same_without_solving(tmp_path):
     xr.testing.assert_identical(pieces, direct)
 
 
-@pytest.mark.parametrize(
+@each(
     ("wrong", "words"),
     [
         (lambda: gathered((films()[:-1], films())), r"film must have the shape \(121, 16\)"),

@@ -20,10 +20,11 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.kernels import row_workers
 from gearlube_core.kernels.row_workers import RowWorkers
 from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.each import each
 
 
-@pytest.mark.parametrize("threads", [1, 2, 3, 7])
-@pytest.mark.parametrize("rows", [1, 2, 5, 64])
+@each("threads", [1, 2, 3, 7])
+@each("rows", [1, 2, 5, 64])
 def test_every_row_is_in_one_part(threads, rows):
     seen = np.zeros(rows, dtype=int)
 

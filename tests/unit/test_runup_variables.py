@@ -134,10 +134,7 @@ def test_every_track_loss_mode_and_shape_of_a_ramp_has_its_known_values_and_unit
         "block_speed": ("rad s-1", speed),
         "mesh_order": ("1", ORDERS),
         "bearing_force_track": ("N", force.reshape(count, 2, 3, 4)),
-        "bearing_force_overall": (
-            "N",
-            np.sqrt(0.5 * (force**2).sum(axis=-1)).reshape(count, 2, 3),
-        ),
+        "bearing_force_overall": ("N", np.sqrt(0.5 * (force**2).sum(axis=-1)).reshape(count, 2, 3)),
         "dte_track": ("m", np.tile(DTE, (count, 1))),
         "dte_overall": ("m", np.full(count, math.sqrt(0.5 * (DTE**2).sum()))),
         "mesh_force_track": ("N", np.tile(MESH, (count, 1))),

@@ -19,6 +19,7 @@ from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.factor_slopes import factor_slopes
 from gearlube_core.oil.shear_block import ShearBlock, balance_block, block_slopes, rate_ratios
 from gearlube_core.oil.shear_flow import REACHES, STARTS
+from tests.helpers.each import each
 from tests.helpers.source_of import interpret
 
 LAW = Eyring(1.0)
@@ -71,7 +72,7 @@ def test_interpreted_block_is_the_compiled_one(monkeypatch):
     assert b.across[:, :6] == pytest.approx(compiled.across[:, :6], rel=1e-9)
 
 
-@pytest.mark.parametrize("largest", [1e-8, 0.4, 3.0, 60.0, 4e4])
+@each("largest", [1e-8, 0.4, 3.0, 60.0, 4e4])
 def test_series_of_many_stresses_are_sinh_and_its_slope(largest):
     q = np.linspace(0.0, largest, 33)[1:]
     G, slope = np.empty((2, q.size))

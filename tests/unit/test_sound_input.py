@@ -12,6 +12,7 @@ from gearlube.studies.sound.run import read_transfer, run_sound
 from gearlube.studies.sound.settings import SoundSettings
 from gearlube.studies.sound.wav import wav_names, write_wav
 from gearlube_core.errors import FileError, ParameterError
+from tests.helpers.each import each
 from tests.helpers.made_run import made_run
 
 QUIET = SoundSettings(metrics=())
@@ -43,7 +44,7 @@ def changed(**how):
     return run
 
 
-@pytest.mark.parametrize(
+@each(
     ("how", "words"),
     [
         ({"drop": "bearing_force"}, ["must hold bearing_force", "pinion_speed", "gearlube runup"]),
@@ -122,7 +123,7 @@ def test_the_same_path_in_any_form_is_the_same(part, unit, tmp_path):
     assert np.abs(found.at("pinion.radial 1", at) - expected)[0] < 1e-8
 
 
-@pytest.mark.parametrize(
+@each(
     ("change", "words"),
     [
         (("frequency [Hz]", "frequency"), ["must contain its unit", "frequency [Hz]"]),
@@ -232,7 +233,7 @@ def test_without_a_package_of_loudness_all_metrics_are_left_out_and_a_named_one_
         run_sound(made_run({13.0: 2.0}), SoundSettings(metrics=("loudness",)))
 
 
-@pytest.mark.parametrize(
+@each(
     ("runs", "stems"),
     [
         (["müll", "möll"], ["müll", "möll"]),

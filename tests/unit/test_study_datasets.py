@@ -138,9 +138,7 @@ def test_whine_variables_are_known(monkeypatch):
     ]
     rotation = 1e-3 * np.arange(8.0)
     table = named(
-        parameters=parameters,
-        rotation=rotation,
-        rotation_rate=np.outer([3.0, 4.0], rotation),
+        parameters=parameters, rotation=rotation, rotation_rate=np.outer([3.0, 4.0], rotation)
     )
     settings = named(
         speeds=(100.0, 200.0), orders=(1, 2, 3), series=named(positions=8, torque=50.0)

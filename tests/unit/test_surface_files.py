@@ -23,6 +23,7 @@ from gearlube_core.surface.heights import (
 )
 from gearlube_core.surface.measured_heights import MeasuredProfile, filled
 from gearlube_core.surface.statistics import profile_statistics
+from tests.helpers.each import each
 
 HEIGHT = 1e-7 * np.random.default_rng(1).standard_normal((9, 6))  # (x, y)
 STEPS = (1e-6, 2e-6)
@@ -211,7 +212,7 @@ def test_gaps_of_a_profile_are_bridged_by_lines_and_too_many_are_refused():
         filled(given, "p")
 
 
-@pytest.mark.parametrize(
+@each(
     ("name", "content", "words"),
     [
         ("heights.xyz", "", "ends in one of .csv, .txt, .tsv, .npz, .nc, .sdf, .x3p, .sur, .al3d"),
@@ -255,7 +256,7 @@ def waves(amplitude, **more):
     return Profile(height=amplitude * np.sin(2.0 * np.pi * x / 4e-5), spacing=1e-6, **more)
 
 
-@pytest.mark.parametrize(
+@each(
     ("check", "words"),
     [
         (lambda: check_plausible(waves(3e-10)), "at least 1 nm, got 0.212 nm"),

@@ -118,10 +118,7 @@ def test_quick_run_is_short(calls):
         (["--speeds", "20:100:0"], ["above 0 km/h", "got 0 km/h"]),
         (["--speeds", "20:100:0.001"], ["at most 500 values", "got 80001", "larger step"]),
         (["--driver", "horse"], ["vehicle, hold", "'horse'"]),
-        (
-            ["--oil-temperature", "400"],
-            ["0 to 150 degC", "got 400 degC", "The data of"],
-        ),
+        (["--oil-temperature", "400"], ["0 to 150 degC", "got 400 degC", "The data of"]),
         (["--roughness-um", "500"], ["got 0.0005 m", "0.5 um"]),
         (["--air-temperature", "5"], ["--air-temperature works only with --steady-temperature"]),
         (

@@ -8,6 +8,7 @@ import pytest
 from gearlube.studies.sweep.recording import revolutions_to_record
 from gearlube.studies.sweep.separation import separation_class
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
+from tests.helpers.each import each
 from tests.helpers.sweep_stand_in import (
     CAGE_ORDER,
     INPUT_POWER,
@@ -125,7 +126,7 @@ def test_every_variable_carries_a_unit(dataset):
     assert not without
 
 
-@pytest.mark.parametrize(
+@each(
     ("low", "high", "expected"),
     [
         (1e-6, 5e-6, 0),

@@ -133,7 +133,7 @@ def test_a_point_whose_process_died_is_computed_by_another_process(fmu, tmp_path
     directory = tmp_path / "unzipped"
     directory.mkdir()
     (directory / "modelDescription.xml").write_text('<fmiModelDescription guid="{test}"/>')
-    dataset, _ = sweep(directory, tmp_path / "out", stand_in.dying_point, jobs=2)
+    dataset, _ = sweep(directory, tmp_path / "out", stand_in.dying_point)
     assert int(dataset["status"].sum()) == 6
 
 

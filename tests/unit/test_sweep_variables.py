@@ -176,10 +176,7 @@ def test_every_curve_of_a_point_has_its_known_values_and_unit(point):
         **flanks,
     }  # fmt: skip
     expected = {name: (unit, np.array(one)[None, None]) for name, (unit, one) in curves.items()}
-    axes = {
-        "pinion_angle": ("rad", angle),
-        "mesh_phase": ("1", phase),
-    }
+    axes = {"pinion_angle": ("rad", angle), "mesh_phase": ("1", phase)}
     # cubic interpolation over 34 samples a period
     shown = point[[*expected, *axes]].drop_vars(["preload", "speed", "speed_kmh", "flank"])
     assert_variables(shown, expected | axes, tolerance=1e-3, zero=("pinion_z_wave",))

@@ -15,6 +15,7 @@ from gearlube_core.friction.traction_measurements import read_traction
 from gearlube_core.hypoid_geometry.measured.measured_file import read_pitch, read_waves
 from gearlube_core.input_file import table
 from gearlube_core.surface.measured_heights import read_profile
+from tests.helpers.each import each
 
 GEAR = ("gear", "drive")
 
@@ -111,8 +112,8 @@ FORMS = {
 }
 
 
-@pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("command", READERS)
+@each("form", FORMS)
+@each("command", READERS)
 def test_every_command_reads_every_form_of_a_table(command, form, tmp_path):
     head, rows, read, expected = READERS[command]
     path = tmp_path / "table.csv"
@@ -183,8 +184,8 @@ FAULTS = {
 }
 
 
-@pytest.mark.parametrize("fault", FAULTS)
-@pytest.mark.parametrize("command", READERS)
+@each("fault", FAULTS)
+@each("command", READERS)
 def test_every_command_refuses_a_wrong_table_with_its_line(command, fault, tmp_path):
     head, rows, read, _ = READERS[command]
     content, words = FAULTS[fault]

@@ -19,6 +19,7 @@ from gearlube_core.tooth_compliance.tooth_mesh import (
     tooth_mesh,
 )
 from tests.helpers.compliance_cases import COARSE, spiral_tooth
+from tests.helpers.each import each
 
 TOOTH = spiral_tooth(neighbour_pitches=1.0, base_depth=12e-3)
 
@@ -62,7 +63,7 @@ def test_a_block_deeper_than_the_gear_is_refused():
         tooth_mesh(replace(TOOTH, base_depth=0.3), COARSE)
 
 
-@pytest.mark.parametrize(
+@each(
     ("change", "cure"),
     [
         ({"inward": np.zeros((25, 3))}, "zero vector"),

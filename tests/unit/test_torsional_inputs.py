@@ -10,12 +10,13 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import time_sweep
 from gearlube_core.errors import ParameterError, StepError
+from tests.helpers.each import each
 from tests.helpers.torsional_cases import reconstructed
 
 PAIR = karagiannis_2012_pair()
 
 
-@pytest.mark.parametrize(
+@each(
     ("change", "says"),
     [
         ({"pinion_torque": -50.0}, "driven by its pinion"),

@@ -21,6 +21,7 @@ from gearlube_core.friction.traction_measurements import (
     traction_coefficient,
 )
 from gearlube_core.oil.lubricant import lubricant_state
+from tests.helpers.each import each
 
 OIL = gl.read_oil("fva_3").lubricant
 RADIUS = 0.01  # m
@@ -57,8 +58,8 @@ def made(stress: float, limit: float = math.inf, noise: float = 0.0, seed: int =
     )
 
 
-@pytest.mark.parametrize("stress", [2e6, 4e6, 9e6])
-@pytest.mark.parametrize("limit", [math.inf, 0.03])
+@each("stress", [2e6, 4e6, 9e6])
+@each("limit", [math.inf, 0.03])
 def test_stresses_of_points_without_scatter_come_back(stress, limit):
     found = fit_traction(made(stress, limit), OIL, **PLACE)
     # the search ends at steps of 1e-10 of a logarithm of about 15
@@ -179,7 +180,7 @@ def test_braking_and_driving_are_alike(tmp_path):
     assert np.all(read.sliding_speed >= 0.0)
 
 
-@pytest.mark.parametrize(
+@each(
     ("head", "rows", "words"),
     [
         (HEAD, [r.rpartition(",")[0] for r in GOOD], r"must have the column.* traction_coeff"),

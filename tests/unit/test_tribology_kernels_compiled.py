@@ -1,4 +1,4 @@
-"""Every kernel of rheology, contact, film and friction runs the same compiled and in Python."""
+"""Kernels of films and friction that Python calls, and those that no entry of a model reaches."""
 
 from typing import Any
 
@@ -16,8 +16,9 @@ from gearlube_core.friction import (
     line_points,
     mixed_friction,
 )
-from gearlube_core.oil import eyring_1936, roelands_1966, walther_1931
+from gearlube_core.oil import eyring_1936
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from tests.helpers.each import each
 
 OIL = Lubricant.named("mohammadpour_2015").parameters()
 STATE = lubricant_state(OIL, 363.15)
@@ -29,57 +30,16 @@ LINE_FILM = (0.011, 0.02, 2e-8, 3.0, 1.4e5, 2.3e11)
 MIXED = (1000.0, 1000.0, 7e8, 4e-7, 3.0, 2.0, 0.011, 1.7e-6)
 
 CASES: list[tuple[Any, tuple[Any, ...]]] = [
-    (walther_1931.walther_viscosity, (7.4, 2.84, 350.0)),
-    (roelands_1966.pressure_viscosity_coefficient, (0.02, 0.6)),
-    (roelands_1966.roelands_viscosity, (0.02, 0.6, 5e8)),
-    (eyring_1936.eyring_stress_ratio, (0.3, 2.0)),
-    (eyring_1936.eyring_stress_ratio, (0.3, 700.0)),
-    (eyring_1936.eyring_stress_ratio, (0.0, 2.0)),
+    *((eyring_1936.eyring_stress_ratio, (x, 2.0)) for x in (0.0, 0.3, 700.0)),
     (lubricant_state, (OIL, 350.0)),
-    *(
-        (mixed_friction.asperity_contact, (9e2, 1e-6, 1.1, SURFACE, SOLID, form))
-        for form in range(4)
-    ),
-    (mixed_friction.boundary_friction, (40.0, 1e-8, 2e-3, STATE)),
-    (
-        mixed_friction.friction_with_asperities,
-        (0.03, 1e3, 1e3, 7e8, 4e-7, 2.0, 3e-6, 1.7e-6, STATE, SURFACE, SOLID, 0),
-    ),
-    (hertz.complete_elliptic_k_d, (0.3,)),
-    (hertz.log_curvature_ratio, (1.2,)),
-    (hertz.ellipticity, (7.0,)),
-    (hertz.hertz_coefficients, (0.01, 0.4, 1.15e11)),
-    (hertz.hertz_coefficients, (0.4, 0.01, 1.15e11)),
     (hertz.hertz_ellipse, (0.01, 0.4, 1.15e11, 900.0)),
-    (greenwood_tripp_1971.asperity_integrals, (1.234,)),
-    (greenwood_tripp_1971.asperity_integrals, (-1.0,)),
-    (greenwood_tripp_1971.asperity_integrals, (6.0,)),
-    (greenwood_tripp_1971.f_5_2, (0.7,)),
-    (greenwood_tripp_1971.f_2, (0.7,)),
-    (greenwood_tripp_1971.asperity_load_factor, (SURFACE,)),
-    (greenwood_tripp_1971.asperity_area_factor, (SURFACE,)),
-    (greenwood_tripp_1971.asperity_load, (0.7, 1e-6, 1.15e11, SURFACE)),
-    (greenwood_tripp_1971.asperity_area, (0.7, 1e-6, SURFACE)),
+    (hertz.hertz_ellipse, (0.4, 0.01, 1.15e11, 900.0)),
+    *((greenwood_tripp_1971.asperity_integrals, (x,)) for x in (1.234, -1.0, 6.0)),
     (greenwood_tripp_1971.f_5_2_as_printed, (2.5,)),
     (greenwood_tripp_1971.f_2_as_printed, (2.5,)),
-    (point_film.film_geometry, (0.011, 0.6, 0.4)),
-    (point_film.minimum_film_geometry, (0.011, 0.6, 0.4)),
-    (point_film.central_film_thickness, FILM),
     (point_film.minimum_film_thickness, FILM),
-    (line_film.line_film_thickness, LINE_FILM),
     (line_film.minimum_line_film_thickness, LINE_FILM),
-    (hertz.line_mean_pressure, (1.4e5, 0.011, 1.15e11)),
-    (evans_johnson_1986.solid_resistance, (0.011, 7e8, 3.0, 2.3e11, 1.7e8)),
-    (evans_johnson_1986.surface_heating_number, (4e-7, 0.14, 4.6e-7)),
-    (evans_johnson_1986.plateau_stress_ratio, (4e-7, 7e8, 0.02, 2e-8, 0.03, 2e6, 0.14, 0.1)),
-    (evans_johnson_1986.limited_stress_ratio, (9.0, 0.05, 14.0)),
-    (evans_johnson_1986.limited_stress_ratio, (9.0, 1e-6, 14.0)),
-    (
-        evans_johnson_1986.viscous_friction_coefficient,
-        (4e-7, 7e8, 2.0, 0.02, 2e-8, 0.03, 2e6, 0.14, 0.1),
-    ),
-    (flank_data.contact_geometry, (0.011, 0.6, 0.4, 1.15e11)),
-    (mixed_friction.contact_temperature_rise, (1e8, 4e-7, 1.7e-6, 4.6e-7, 0.14, 46.0)),
+    *((evans_johnson_1986.limited_stress_ratio, (9.0, x, 14.0)) for x in (0.05, 1e-6)),
 ]
 for _form in (
     flank_data.CONSISTENT,
@@ -104,11 +64,7 @@ for _line in (
     CASES.append((line_points.line_friction, (*_line, STATE, SURFACE, SOLID)))
 
 
-@pytest.mark.parametrize(
-    ("function", "arguments"),
-    CASES,
-    ids=[f"{case[0].__name__}-{i}" for i, case in enumerate(CASES)],
-)
+@each(("function", "arguments"), CASES)
 def test_compiled_kernel_equals_its_python_function(
     function: Any, arguments: tuple[Any, ...]
 ) -> None:

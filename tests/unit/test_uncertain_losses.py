@@ -108,10 +108,7 @@ def test_a_map_says_where_churning_changes_its_formula():
     power = np.array([2.0, 40.0])[None, :, None, None] * np.ones((2, 1, 3, 1))
     dims = ("temperature", "speed", "torque", "source")
     one = xr.Dataset(
-        {
-            "loss": (dims, power),
-            "churning_regime": (dims[:2], [[0.0, 0.0], [0.0, 1.0]]),
-        },
+        {"loss": (dims, power), "churning_regime": (dims[:2], [[0.0, 0.0], [0.0, 1.0]])},
         coords={"temperature": [40.0, 80.0], "speed": [1000.0, 2000.0], "source": ["churning"]},
     )
     (said,) = loss_map._churning(one)

@@ -15,6 +15,7 @@ from gearlube_core.contact.unilateral import _winkler_forces, solve_rotation, so
 from gearlube_core.contact.unilateral_problem import UnilateralProblem, tangent_stiffness
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.tooth_contact.coupled_strips import StripCompliance
+from tests.helpers.each import each
 
 E_STAR, DX, DY, NX, NY, ARM = 115.4e9, 3e-5, 5e-4, 24, 30, 0.022
 
@@ -40,7 +41,7 @@ def one_entry(values: np.ndarray, cell: int, entry: float) -> np.ndarray:
     return changed
 
 
-@pytest.mark.parametrize(
+@each(
     ("field", "change", "message"),
     [
         ("gap", lambda v: one_entry(v, 7, math.nan), "NaN or -inf in 1 cells, first in cell 7"),
@@ -144,7 +145,7 @@ def test_operations_count_calls_of_the_compliance() -> None:
     assert turned.outcome.operations == calls
 
 
-@pytest.mark.parametrize("start", ["other torque", "uniform", "random", "one cell", "zero"])
+@each("start", ["other torque", "uniform", "random", "one cell", "zero"])
 def test_answer_does_not_depend_on_the_start(start: str) -> None:
     problem = crowned_strip()
     cold = solve_torque(problem, 20.0, tolerance=1e-8)
@@ -240,7 +241,7 @@ def kernel_arguments(name: str) -> tuple[Any, ...]:
     }[name]
 
 
-@pytest.mark.parametrize(
+@each(
     "name",
     [
         "update_separation",

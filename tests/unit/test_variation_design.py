@@ -7,6 +7,7 @@ import pytest
 
 from gearlube.variation.design import Axis, Design, Sampling, Spread
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 A, B = Axis("a", (1.0, 2.0)), Axis("b", ("x", "y", "z"))
 U = Spread(key="u", low=-1.0, high=3.0)
@@ -69,7 +70,7 @@ def test_a_seed_repeats_the_samples_and_another_changes_them():
     assert columns[0] == columns[1] != columns[2]
 
 
-@pytest.mark.parametrize(
+@each(
     ("made", "said"),
     [
         (lambda: Design(), "got none. Give --vary"),

@@ -16,6 +16,7 @@ from gearlube_core.hypoid_contact.contact_dataset import analyse_contact
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from tests.helpers.each import each
 
 SHIFT = {"misalignment.pinion_offset_um": 40.0, "misalignment.shaft_angle_mrad": 0.2}
 SHIFTED = Misalignment(pinion_offset=40e-6, shaft_angle=0.2e-3)
@@ -82,7 +83,7 @@ def test_a_varied_helical_pair_is_that_of_the_helical_study():
         assert found[name] == pytest.approx(float(value), rel=1e-9, abs=0.0), name
 
 
-@pytest.mark.parametrize(
+@each(
     ("study", "point", "said"),
     [
         ("helical", {"operation.pinion_torque_n_m": -5.0}, "operation.pinion_torque_n_m must be"),

@@ -8,6 +8,7 @@ from gearlube.variation.keys import Key, understood
 from gearlube.variation.points.losses import _OPERANDS
 from gearlube.variation.vary_option import limits_from, sampling_from, varied_from
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 KEYS = {**axle_keys(), **_OPERANDS}
 
@@ -39,7 +40,7 @@ def test_a_width_is_three_standard_deviations(text):
     assert found.deviation == pytest.approx(10.0)
 
 
-@pytest.mark.parametrize(
+@each(
     ("text", "said"),
     [
         ("bering.preload=1", "Is it bearing.preload"),
@@ -74,7 +75,7 @@ def test_designs_and_limits_are_read():
     assert limits_from(["loss=5e2"], ["loss"]) == {"loss": 500.0}
 
 
-@pytest.mark.parametrize("text", ["lhs", "lhs:", "lhs:-3", "lhs:1.5", "grid:4", "", "lhs:1e9"])
+@each("text", ["lhs", "lhs:", "lhs:-3", "lhs:1.5", "grid:4", "", "lhs:1e9"])
 def test_a_wrong_design_text_is_refused(text):
     with pytest.raises(ParameterError, match="--design must be"):
         sampling_from(text, 1)

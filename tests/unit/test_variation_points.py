@@ -15,11 +15,10 @@ from gearlube.variation.studies import point_study
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import LossModel, bearing_loss
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
-from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
-    mohammadpour_2015_axle,
-)
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.oil.oil_file import read_oil
+from tests.helpers.each import each
 
 PAPER = AxleVariants.read("mohammadpour_2015")
 
@@ -74,7 +73,7 @@ def test_a_bearing_at_a_point_is_that_of_the_law():
     assert numbers(study, point)["torque"] == pytest.approx(direct.torque, rel=1e-9)
 
 
-@pytest.mark.parametrize(
+@each(
     ("study", "point", "said"),
     [
         ("map", {"pinion.torque_n_m": 5000.0}, "pinion.torque_n_m must be within -600 to 600 N.m"),

@@ -15,6 +15,7 @@ from gearlube.variation.points.losses import LossPoint
 from gearlube.variation.studies import point_study, scatter
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.errors import ParameterError
+from tests.helpers.each import each
 
 FILE = """
 name = "scattering"
@@ -67,7 +68,7 @@ def test_a_part_of_the_scatter_is_an_axle_without_tolerances(variants):
     assert varied.tolerances == {}
 
 
-@pytest.mark.parametrize(
+@each(
     ("tolerances", "said"),
     [
         ({"gear_set.backlash": {"plus_minus": 1.0}}, "is it gear_set.backlash_um"),
