@@ -153,16 +153,15 @@ def declared(model: type, argument: str, name: str = "", text: str = "", **shown
     name, text : str
         FMI name and description; by default those of the declaration.
     **shown
-        Nominal value and display unit; a start value where the field has no default.
+        Nominal value and display unit; a start value where the field has no default; other limits.
     """
     one = numbers_of(model)[argument]
     given: dict[str, Any] = {field.name: field.default for field in fields(model)}
-    given = {"start": given[argument]} | shown
+    given = {"start": given[argument], "minimum": one.low, "maximum": one.high} | shown
     real = get_type_hints(model)[argument] is not int
     return Variable(
         name=name or one.fmi, type="Real" if real else "Integer", causality="parameter",
-        description=text or one.text, unit=one.unit if real else "", argument=argument,
-        minimum=one.low, maximum=one.high, **given,
+        description=text or one.text, unit=one.unit if real else "", argument=argument, **given,
     )  # fmt: skip
 
 

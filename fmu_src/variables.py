@@ -8,7 +8,9 @@ declares an FMI name (`Number.fmi`) needs no line here: it stands behind the lis
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from fmu_src.variable import (
     MEMBERS,
@@ -30,6 +32,7 @@ from fmu_src.variable import (
     velocities,
 )
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
+from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.drag import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
@@ -45,6 +48,16 @@ FRICTION_VARIANTS = tuple(
     for name, law in friction_laws().items()
     if issubclass(law, MixedFriction) and law.__module__.startswith("gearlube_core.")
 )
+
+
+def _of_bearing(number: str, name: str, word: str, text: str, **shown: Any) -> Variable:
+    """Return a number of the tapered roller bearings of a shaft."""
+    return replace(
+        declared(TaperedRollerBearing, number, f"{name}.bearing.{number}", text, **shown),
+        argument=f"{word}_bearing_{number}",
+    )
+
+
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
 
 _INPUTS = (
@@ -179,16 +192,13 @@ _AXLE_NUMBERS = (
               "a negative value takes bearing.preload", display_unit="kN",
               start=SHARED_PRELOAD, minimum=SHARED_PRELOAD, maximum=1e5, nominal=1e3,
               argument="gear_bearing_preload"),
-    *(parameter(f"{name}.bearing.contact_angle", "rad", "Contact angle of the bearings of the "
-                f"{word} shaft, at the outer race", display_unit="deg",
-                start=math.radians(15.0), minimum=math.radians(5.0), maximum=math.radians(45.0),
-                nominal=0.1, argument=f"{word}_contact_angle")
+    *(_of_bearing("contact_angle", name, word, f"Contact angle of the bearings of the {word} "
+                  "shaft, at the outer race", display_unit="deg", start=math.radians(15.0),
+                  minimum=math.radians(5.0), nominal=0.1)
       for name, word in MEMBERS),
-    *(parameter(f"{name}.bearing.{factor}", "1", f"{words} of the bearing drag on the "
-                f"{word} shaft", start=start, minimum=0.0, maximum=most,
-                argument=f"{word}_{factor}")
-      for factor, words, start, most in (("f0", "Viscous factor", 6.0, 100.0),
-                                         ("f1", "Load factor", 4e-4, 0.1))
+    *(_of_bearing(factor, name, word, f"{words} of the bearing drag on the {word} shaft",
+                  start=start)
+      for factor, words, start in (("f0", "Viscous factor", 6.0), ("f1", "Load factor", 4e-4))
       for name, word in MEMBERS),
 )  # fmt: skip
 

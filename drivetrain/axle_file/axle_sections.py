@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
@@ -156,6 +157,42 @@ class Steel(ModelSection):
     heat_capacity_j_kg_k: HeatCapacity | None = Field(
         default=None, description="Specific heat capacity"
     )
+
+
+class SolidOfRevolution(NamedTuple):
+    """Mass [kg] and inertia about the axis [kg m2]."""
+
+    mass: float
+    inertia: float
+
+
+def stacked_frusta(
+    lengths: tuple[float, ...],
+    first: tuple[float, ...],
+    last: tuple[float, ...],
+    bores: tuple[float, ...],
+    density: float,
+) -> SolidOfRevolution:
+    """Return mass and inertia of frusta of cones on one axis, each with a bore.
+
+    m = rho pi l [(r1^2 + r1 r2 + r2^2)/3 - rb^2]
+    I = rho pi l [(r1^4 + r1^3 r2 + r1^2 r2^2 + r1 r2^3 + r2^4)/10 - rb^4/2]
+
+    Parameters
+    ----------
+    lengths, first, last, bores
+        Length along the axis, diameters of the two ends, and of the bore [m], shape (n,).
+    density
+        [kg/m3]
+    """
+    mass = inertia = 0.0
+    for length, one, two, bore in zip(lengths, first, last, bores, strict=True):
+        r1, r2, rb = 0.5 * one, 0.5 * two, 0.5 * bore
+        area = (r1**2 + r1 * r2 + r2**2) / 3.0 - rb**2
+        mass += density * math.pi * length * area
+        fourth = sum(r1 ** (4 - k) * r2**k for k in range(5)) / 10.0 - 0.5 * rb**4
+        inertia += density * math.pi * length * fourth
+    return SolidOfRevolution(mass, inertia)
 
 
 class OwnFilmModels(NamedTuple):

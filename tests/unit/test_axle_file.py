@@ -173,6 +173,7 @@ GROUPS |= {f"{role}.frusta_{one}_mm" for role in ("pinion", "gear")
            for one in ("lengths", "first_diameters", "last_diameters", "bores")}  # fmt: skip
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
 WORDS |= {"film.flank_model", "film.roller_model", "model.friction_numbers"}
+WORDS |= {f"{role}.bearing.type" for role in ("pinion", "gear")}
 WORDS |= {"seals.material", "tolerances", "gear_set.gear_file", "gear_set.contact_torques_n_m"}
 
 

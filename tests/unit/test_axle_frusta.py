@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 
 from drivetrain.axle_file.axle_file import AxleFile
-from drivetrain.axle_file.bearing_section import stacked_frusta
+from drivetrain.axle_file.axle_sections import stacked_frusta
 from gearlube_core.errors import ParameterError
 
 STEEL = 7850.0  # kg/m3, of the paper
