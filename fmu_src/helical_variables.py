@@ -1,7 +1,8 @@
 """The variables of HelicalPair.fmu: the one list that everything else is made from.
 
 The value reference of a variable is its place in `HELICAL_PAIR`. Released references never change:
-append new variables at the end, never insert, reorder or remove.
+append new variables at the end, never insert, reorder or remove. What the model's files declare
+stands behind, as in `variables`.
 """
 
 from __future__ import annotations
@@ -12,8 +13,11 @@ from fmu_src.variable import (
     MEMBERS,
     Variable,
     declared,
+    declared_in,
+    declared_outputs,
     displacements,
     energies,
+    in_order,
     input_,
     load_level,
     local,
@@ -28,6 +32,7 @@ from fmu_src.variable import (
     velocities,
 )
 from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
+from gearlube_core.dynamics.helical_pair.march.outputs import OWN_OUTPUTS
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.friction.flank_laws import FILM_MODELS
 
@@ -220,7 +225,7 @@ _FILM_OUTPUTS = (
     output("efficiency_bound", "1", "The same of efficiency", 0.001),
 )  # fmt: skip
 
-HELICAL_PAIR: tuple[Variable, ...] = (
+_LISTED: tuple[Variable, ...] = (
     *_FIRST,
     *_STATES,
     *rates([_BY_NAME[name] for name in STATE_NAMES]),
@@ -228,4 +233,12 @@ HELICAL_PAIR: tuple[Variable, ...] = (
     *_FILM,
     *options_by_number(_FILM),
     *_FILM_OUTPUTS,
+)
+
+# parameters and outputs that the model's files declare: names of the released ones, in their order
+_RELEASED: tuple[str, ...] = ()
+HELICAL_PAIR = _LISTED + in_order(
+    _RELEASED,
+    *declared_in(HelicalMarchParameters, {one.argument for one in _LISTED}),
+    *declared_outputs(OWN_OUTPUTS),
 )

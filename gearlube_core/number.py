@@ -40,6 +40,16 @@ class Number(NamedTuple):
     shown: str = ""  # unit in files, if it is another
 
 
+class Output(NamedTuple):
+    """A number that a model computes, as an output of its FMU."""
+
+    name: str
+    unit: str  # "1" for a pure number
+    text: str  # what it is, in a line
+    nominal: float = 1.0  # typical magnitude
+    shown: str = ""  # unit to show it in, if it is another
+
+
 class Positive(NamedTuple):
     """A finite number above zero."""
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import inspect
 import logging
 from abc import ABC
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatch
 from functools import cached_property
@@ -22,6 +22,7 @@ from pkgutil import iter_modules
 from typing import Any, ClassVar, Generic, TypeVar
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_file import InputNote
 from gearlube_core.number import check_fields, numbers_of
 
 logger = logging.getLogger(__name__)
@@ -126,6 +127,19 @@ class Part(ABC):
         """Values of the declared numbers by name, in SI units; without those that are None."""
         values = {name: getattr(self, name) for name in numbers_of(type(self))}
         return {name: float(value) for name, value in values.items() if value is not None}
+
+    def notes(self, prefix: str, given: Collection[str]) -> list[InputNote]:
+        """Return a note on each number, in SI units; `given` are the names that a file gives."""
+        numbers = numbers_of(type(self))
+        return [
+            InputNote(f"{prefix}{name}", value, numbers[name].unit, "given", "")
+            if name in given
+            else InputNote(
+                f"{prefix}{name}", value, numbers[name].unit, "assumed",
+                numbers[name].source or f"default of {self.name}",
+            )
+            for name, value in self.numbers.items()
+        ]  # fmt: skip
 
     @property
     def files(self) -> tuple[str, ...]:

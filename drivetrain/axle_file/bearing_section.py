@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Literal
+from functools import partial
+from typing import Annotated, Any, ClassVar
 
 from pydantic import ConfigDict, Field, SerializeAsAny, model_validator
 
 from drivetrain.axle_file.axle_sections import SolidOfRevolution, stacked_frusta
 from drivetrain.axle_file.section import (
+    Declared,
     ModelSection,
     field_value,
     part_notes,
@@ -21,7 +23,8 @@ from gearlube_core.bearings.bearing_fields import BearingFields, Diameter, add_c
 from gearlube_core.bearings.bearing_type import Bearing, bearing_types
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
-from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_bearing import Film, TaperedRollerBearing
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import OneOf, Usual
 from gearlube_core.input_file.input_file import InputNote, Origin
@@ -29,33 +32,30 @@ from gearlube_core.number import numbers_of
 
 LARGEST_PRELOAD = 1e5  # N
 
-Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False), Usual(1e7, 1e11)]
-Exponent = Annotated[float, Field(ge=1.0, le=2.0, allow_inf_nan=False)]
-Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+_axle, _bearing = partial(Declared, HypoidAxleParameters), partial(Declared, TaperedRollerBearing)
+Stiffness = Annotated[float, _bearing("stiffness_constant"), Usual(1e7, 1e11)]
+Exponent = Annotated[float, _bearing("exponent")]
+Share = Annotated[float, _bearing("loss")]
 Preload = Annotated[
     float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False), Usual(100.0, 50000.0)
 ]
 Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.5, 50.0)]
-
 RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.2, 20.0)]
-RibFriction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-RibRoughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False), Usual(0.02, 3.0)]
+RibFriction = Annotated[float, _bearing("rib_boundary_friction")]
+RibRoughness = Annotated[float, _bearing("rib_roughness_um"), Usual(0.02, 3.0)]
 
 _TAPERED = TaperedRollerBearing.name
 PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]
 _RACES = ("inner_race_diameter_mm", "outer_race_diameter_mm")
 _BOUNDARY = ("bore_diameter_mm", "outside_diameter_mm")
-Mass = Annotated[float, Field(ge=0.05, le=2000.0, allow_inf_nan=False), Usual(0.5, 500.0)]
-Inertia = Annotated[float, Field(ge=1e-6, le=500.0, allow_inf_nan=False), Usual(0.0001, 20.0)]
+Mass = Annotated[float, _axle("mass_kg", "pinion_mass"), Usual(0.5, 500.0)]
+Inertia = Annotated[float, _axle("inertia_kg_m2", "pinion_inertia"), Usual(0.0001, 20.0)]
 Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(1.0, 500.0)]
-FrustumDiameter = Annotated[
-    float, Field(gt=0.0, le=3000.0, allow_inf_nan=False), Usual(3.0, 1000.0)
-]
+Outside = Annotated[float, Field(gt=0.0, le=3000.0, allow_inf_nan=False), Usual(3.0, 1000.0)]
 Bore = Annotated[float, Field(ge=0.0, le=3000.0, allow_inf_nan=False), Usual(1.0, 500.0)]
 Frusta = Annotated[tuple[Length, ...], Field(strict=False, min_length=1, max_length=40)]
-Diameters = Annotated[tuple[FrustumDiameter, ...], Field(strict=False, min_length=1, max_length=40)]
+Diameters = Annotated[tuple[Outside, ...], Field(strict=False, min_length=1, max_length=40)]
 Bores = Annotated[tuple[Bore, ...], Field(strict=False, min_length=1, max_length=40)]
-
 _LISTS = ("frusta_lengths_mm", "frusta_first_diameters_mm", "frusta_last_diameters_mm")
 _KEYS = ("mass_kg", "inertia_kg_m2")
 
@@ -110,7 +110,7 @@ class BearingSection(ModelSection, BearingFields):
     loss: Share | None = Field(
         default=None, description="Hysteresis loss coefficient of the rollers"
     )
-    film: Literal["squeeze", "steady", "off"] | None = Field(
+    film: Film | None = Field(
         default=None,
         description="Oil film of the rollers: with squeeze factor, without it, or no film at all",
     )

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, dataclass, fields
 from decimal import Decimal
 from typing import Any, ClassVar, NamedTuple
+
+from pydantic_core import core_schema
 
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
@@ -137,14 +139,30 @@ def part_numbers(kind: type[Part], data: Mapping[str, Any]) -> dict[str, float]:
 
 def part_notes(prefix: str, part: Part, data: Mapping[str, Any]) -> list[InputNote]:
     """Return a note on every number of a part; `data` is what the file gives of them."""
+    known = part_fields(type(part))
+    fields_of = {one.name: (key, one.unit) for key, one in known.items()}
     notes = []
-    for key, one in part_fields(type(part)).items():
-        value = getattr(part, one.name)
-        if value is not None:
-            origin: Origin = "given" if key in data else "assumed"
-            why = "" if key in data else one.number.source or f"default of {part.name}"
-            notes.append(InputNote(prefix + key, _from_si(one.unit, value), one.unit, origin, why))
+    for note in part.notes("", [known[key].name for key in data]):
+        key, unit = fields_of[note.field]
+        value = _from_si(unit, note.value)
+        notes.append(note._replace(field=prefix + key, value=value, unit=unit))
     return notes
+
+
+@dataclass(frozen=True)
+class Declared:
+    """Mark of a field's type: its limits are those of a number that a model declares."""
+
+    model: type
+    field: str
+    number: str = ""  # name in the model, where it is not that of the field without its unit
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        number = numbers_of(self.model)[self.number or attribute_of(self.field)]
+        low, high = (field_value(self.field, end) for end in (number.low, number.high))
+        if source is int:
+            return core_schema.int_schema(ge=int(low), le=int(high))
+        return core_schema.float_schema(ge=low, le=high, allow_inf_nan=False)
 
 
 class ModelSection(Section):

@@ -12,7 +12,6 @@ from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import OneOf, Usual, field_unit
 from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, toml_data
-from gearlube_core.number import numbers_of
 from gearlube_core.oil.field_limits import (
     Conductivity,
     Density,
@@ -220,12 +219,7 @@ class OilFile(InputFile):
         values: SheetValues = sheet_values(given)
         notes = [InputNote(field, law.name, "", "given", "") for field, law in laws.items()]
         for law in laws.values():
-            for name, one in numbers_of(type(law)).items():
-                known = name in (self.law_numbers or {})
-                why = "" if known else one.source or f"default of {law.name}"
-                origin: Origin = "given" if known else "assumed"
-                value = law.numbers[name]
-                notes.append(InputNote(f"law_numbers.{name}", value, one.unit, origin, why))
+            notes += law.notes("law_numbers.", self.law_numbers or {})
         return DescribedOil(
             name=self.name,
             source=self.source or "",
