@@ -84,8 +84,7 @@ def film_oil(
     >>> oil = film_oil(eta0=0.00625, alpha=13.3e-9)
     >>> round(oil.viscosity.Z, 4)
     0.5676
-    >>> from gearlube_core.oil.named_laws import DensityLaw, Newtonian, ShearLaw, ViscosityLaw
-    from gearlube_core.oil.oil_heat import OilHeat
+    >>> from gearlube_core.oil.oil_heat import OilHeat
     >>> hot = film_oil(eta0=0.04, alpha=2e-8, law="houpert", temperature_exponent=1.1,
     ...                heat=OilHeat(expansion=6.5e-4))
     >>> hot.expansion, hot.conductivity
