@@ -211,10 +211,6 @@ def all_cases():
             for one in (p, printed)
         ),
         *raceway_cases(state, state_of_oil, p),
-        *(
-            (bearing_drag.loaded_drag, (p.bearing_p, rhs.pinion_motion(state), law, state_of_oil))
-            for law in (0, 1)
-        ),
         (
             integrate.inputs_with_drag,
             (state, 3.0, 5.0, bearing_drag.BearingDrag(0.2, 0.3), state_of_oil, p),

@@ -18,15 +18,18 @@ from gearlube_core.bearings import (
     standalone,
     tapered_roller_kernels,
 )
-from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.bearing_type import ShaftMotion, loaded_drag
 from gearlube_core.bearings.losses import catalogue
+from gearlube_core.bearings.losses.laws import PALMGREN, SKF
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.contact.solid import pi_contact_modulus
 from gearlube_core.film import mostofi_gohar_1983 as film
+from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 
 P = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()
 OIL = (0.0171, 2.383e-8)
 MOTION = ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
+OIL_STATE = lubricant_state(Lubricant.named("mohammadpour_2015").parameters(), 333.15)
 ROTOR = standalone.Rotor(50.0, 1500.0, 209.0, 159.0, *OIL, P)
 SHAFT = (MOTION, 300.0, *OIL, P)
 CASES = [
@@ -56,6 +59,7 @@ CASES = [
     (shaft_expansion.bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P, 1.0)),
     (shaft_expansion.shaft_bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P)),
     (catalogue.drag_torque, (150.0, 2500.0, 0.0, 19e-6, P)),
+    *((loaded_drag, (P, MOTION, law, OIL_STATE)) for law in (PALMGREN, SKF)),
 ]
 
 
