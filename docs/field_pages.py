@@ -76,7 +76,6 @@ _OIL_DEFAULTS = {
 # fields of the axle file that set an argument of the FMU's model under another name
 _ARGUMENTS = {
     "bearing_preload": "pinion.bearing.preload_n",
-    "gear_bearing_preload": "gear.bearing.preload_n",
     "oil": "oil",
     "pinion_seal_torque": "seals.pinion_torque_n_m",
     "wheel_seal_torque": "seals.wheel_torque_n_m",
@@ -139,7 +138,7 @@ def _run_time_parameters(page: Page) -> None:
     for one in HYPOID_AXLE:
         if one.argument in starts:
             role, _, rest = one.argument.partition("_")
-            names = (one.argument, f"{role}.bearing.{rest}", f"{role}.{rest}")
+            names = (one.argument, f"{role}.{rest.replace('bearing_', 'bearing.')}")
             field = _ARGUMENTS.get(one.argument) or next(fields[n] for n in names if n in fields)
             rows.append([f"`{one.name}`", f"`{field}`"])
     page.rows("Parameter | Input", rows)

@@ -8,6 +8,7 @@ from typing import Any
 
 from fmu_src.definition import Value
 from fmu_src.variables import HYPOID_AXLE, SHARED_PRELOAD
+from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
@@ -17,44 +18,42 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
     HypoidAxleParameters,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.number import numbers_of
 from gearlube_core.oil.lubricant import Lubricant
 
 CUSTOM_OIL = "custom"  # literal of oil.name where the axle file has an oil of its own
 _OILS = next(variable.literals for variable in HYPOID_AXLE if variable.argument == "oil")
 _VARIABLES = {variable.argument: variable for variable in HYPOID_AXLE if variable.argument}
-_OF_ONE_SHAFT = ("contact_angle", "f0", "f1")
 _ROLES = ("pinion", "gear")
+_SHARED = "bearing_preload"  # that of the gear's shaft has its prefix as all else of a shaft
+# arguments of bearings among the released variables, all of tapered roller bearings
+OF_BEARINGS = tuple(one for one in _VARIABLES if "_bearing_" in f"_{one}" and "_loss" not in one)
 
 
-def tapered_bearings(
-    axle: HypoidAxleParameters,
-) -> tuple[TaperedRollerBearing, TaperedRollerBearing]:
-    """Return the bearings of both shafts; raise ParameterError if they are of another class."""
-    of_pinion, of_gear = axle.bearings
-    if not (
-        isinstance(of_pinion, TaperedRollerBearing) and isinstance(of_gear, TaperedRollerBearing)
-    ):
-        raise ParameterError(
-            f"The bearings of an axle FMU must be a TaperedRollerBearing, got a "
-            f"{type(of_pinion).__name__}. Run other bearings in Python."
-        )
-    return of_pinion, of_gear
+def bearing_arguments(bearing: Bearing, role: str) -> dict[str, str]:
+    """Return the numbers of a bearing that its FMU has for the shaft of a role, by argument."""
+    kind: Any = type(bearing)
+    names = [name for name, one in numbers_of(kind).items() if one.fmi]
+    return {
+        _SHARED if (role, name) == ("pinion", "preload") else f"{role}_bearing_{name}": name
+        for name in names
+    }
 
 
 def start_arguments(axle: HypoidAxleParameters) -> dict[str, Value]:
     """Return the arguments with which `axle_parameters` leaves an axle as it is."""
-    of_pinion, of_gear = tapered_bearings(axle)
-    preload, gear_preload = of_pinion.preload_force(), of_gear.preload_force()
+    preload, gear_preload = (one.preload_force() for one in axle.bearings)
     special: dict[str, Value] = {
         "bearing_preload": preload,
         "gear_bearing_preload": SHARED_PRELOAD if gear_preload == preload else gear_preload,
-        "bearing_approach": of_pinion.approach,
+        "bearing_approach": getattr(axle.bearing, "approach", "full"),
         "oil": _oil_argument(axle.oil),
         "friction": axle.friction_law.name or axle.friction,  # type: ignore[dict-item]
         **{f"friction_{name}": value for name, value in axle.friction_law.numbers.items()},
     }
-    for role, bearing in zip(_ROLES, (of_pinion, of_gear), strict=True):
-        special |= {f"{role}_{name}": getattr(bearing, name) for name in _OF_ONE_SHAFT}
+    for role, bearing in zip(_ROLES, axle.bearings, strict=True):
+        names = bearing_arguments(bearing, role).items()
+        special = {argument: getattr(bearing, name) for argument, name in names} | special
     others = [v.argument for v in HYPOID_AXLE if v.is_model_parameter and hasattr(axle, v.argument)]
     return {name: getattr(axle, name) for name in others} | special
 
@@ -72,8 +71,8 @@ def axle_parameters(
     ----------
     arguments : mapping
         By name: fields of `HypoidAxleParameters`, and `bearing_preload`, `gear_bearing_preload`
-        (below 0: that of the pinion's shaft), `bearing_approach`, `oil`, and of either shaft
-        `pinion_contact_angle`, `pinion_f0`, `pinion_f1`, `gear_contact_angle` and so on.
+        (below 0: that of the pinion's shaft), `bearing_approach`, `oil`, and the numbers of the
+        bearings of either shaft, `pinion_bearing_contact_angle`, `gear_bearing_f0` and so on.
     base : HypoidAxleParameters, optional
         By default the paper's axle.
 
@@ -83,9 +82,13 @@ def axle_parameters(
         A value out of the range of its variable, or an option or oil that does not exist.
     """
     base = base or mohammadpour_2015_axle()
+    tapered = isinstance(base.bearing, TaperedRollerBearing)
+    if not tapered:
+        _check_left_alone(arguments, base)
     for name, value in arguments.items():
         variable = _VARIABLES.get(name)
-        if variable is not None and variable.type == "Real":
+        of_others = name in OF_BEARINGS and not tapered
+        if variable is not None and variable.type == "Real" and not of_others:
             # the model itself allows other bearings than its FMU
             check_within(variable.name, float(value), *variable.range, variable.unit)
     given: dict[str, Any] = start_arguments(base) | dict(arguments)
@@ -94,22 +97,37 @@ def axle_parameters(
     numbers = {name: given.pop(f"friction_{name}") for name in law.numbers}
     if numbers and given["friction"] == law.name:
         given["friction"] = replace(law, **numbers)
-    preload, gear_preload = given.pop("bearing_preload"), given.pop("gear_bearing_preload")
-    shared = {"approach": given.pop("bearing_approach"), "interference": None}
-    preloads = preload, preload if gear_preload < 0.0 else gear_preload
-    made = [
-        replace(
-            bearing,
-            preload=one,
-            **shared,
-            **{name: given.pop(f"{role}_{name}") for name in _OF_ONE_SHAFT},
-        )
-        for role, bearing, one in zip(_ROLES, tapered_bearings(base), preloads, strict=True)
-    ]
+    if given[f"gear_{_SHARED}"] < 0.0:
+        given[f"gear_{_SHARED}"] = given[_SHARED]
+    made = []
+    for role, bearing in zip(_ROLES, base.bearings, strict=True):
+        of_one = bearing_arguments(bearing, role).items()
+        changes = {name: given[argument] for argument, name in of_one}
+        if tapered:
+            changes |= {"interference": None, "approach": given["bearing_approach"]}
+        made.append(replace(bearing, **changes))
+    of_axle = {
+        name: value
+        for name, value in given.items()
+        if name not in OF_BEARINGS and "_bearing_" not in name
+    }
     return replace(
         base,
-        **given,
+        **of_axle,
         bearing=made[0],
         gear_bearing=None if made[1] == made[0] else made[1],
         oil=base.oil if oil == CUSTOM_OIL else Lubricant.named(oil),
     )
+
+
+def _check_left_alone(arguments: Mapping[str, Value], base: HypoidAxleParameters) -> None:
+    """Refuse a change of what only tapered roller bearings have, where the axle has others."""
+    starts = start_arguments(base)
+    own = bearing_arguments(base.bearing, "pinion") | bearing_arguments(base.bearing, "gear")
+    for name in OF_BEARINGS:
+        start = starts.get(name, 0.0)
+        if name not in own and arguments.get(name, start) != start:
+            raise ParameterError(
+                f"{_VARIABLES[name].name} must stay {start}, got {arguments[name]}: bearings of "
+                f"the type {base.bearing.name} do not have it. Leave it out."
+            )

@@ -25,7 +25,7 @@ _TITLES = {
 def _shown(variable: Variable, value: float) -> str:
     if variable.literals:
         return variable.literals[int(value) - 1]
-    for display in UNITS[variable.unit].display if variable.unit else ():
+    for display in UNITS[variable.unit].display if variable.unit in UNITS else ():
         if display.name == variable.display_unit:
             return f"{display.factor * value + display.offset:.6g} {display.name}"
     return f"{value:.6g}"

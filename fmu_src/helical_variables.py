@@ -1,7 +1,8 @@
 """The variables of HelicalPair.fmu: the one list that everything else is made from.
 
 The value reference of a variable is its place in `HELICAL_PAIR`. Released references never change:
-append new variables at the end, never insert, reorder or remove.
+append new variables at the end, never insert, reorder or remove. What the model's files declare
+stands behind, as in `variables`.
 """
 
 from __future__ import annotations
@@ -12,8 +13,11 @@ from fmu_src.variable import (
     MEMBERS,
     Variable,
     declared,
+    declared_in,
+    declared_outputs,
     displacements,
     energies,
+    in_order,
     input_,
     load_level,
     local,
@@ -28,10 +32,13 @@ from fmu_src.variable import (
     velocities,
 )
 from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import ReplacedBearings
+from gearlube_core.dynamics.helical_pair.march.outputs import OWN_OUTPUTS
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.friction.flank_laws import FILM_MODELS
 
 _number = partial(declared, HelicalMarchParameters)
+_support = partial(declared, ReplacedBearings)
 CUSTOM, LINE_MESH = "custom", "line_mesh"  # literals with a meaning to the model's start
 
 _INPUTS = (
@@ -68,20 +75,17 @@ _PARAMETERS = (
               "Stiffness per length of contact line, if uniform; 0 takes ISO 6336-1",
               display_unit="N/(mm.um)", start=0.0, minimum=0.0, maximum=1e12, nominal=1e10,
               argument="stiffness_density"),
-    parameter("mesh.damping_ratio", "1", "Damping ratio of the relative rotation",
-              start=0.05, minimum=0.0, maximum=1.0, nominal=0.1, argument="mesh_damping_ratio"),
-    parameter("support.damping_ratio", "1", "Damping ratio of all motions on the bearings",
-              start=0.05, minimum=0.0, maximum=1.0, nominal=0.1, argument="support_damping_ratio"),
-    parameter("support.radial_stiffness", "N/m",
-              "Radial stiffness of both bearings of a shaft together; 0 takes the gear data",
-              start=0.0, minimum=0.0, maximum=1e12, nominal=1e9, argument="radial_stiffness"),
-    parameter("support.axial_stiffness", "N/m",
-              "Axial stiffness of both bearings of a shaft together; 0 takes the gear data",
-              start=0.0, minimum=0.0, maximum=1e12, nominal=1e9, argument="axial_stiffness"),
-    parameter("support.bearing_distance", "m",
-              "Distance of each bearing from mid-face; 0 takes the gear data",
-              display_unit="mm", start=0.0, minimum=0.0, maximum=10.0, nominal=0.1,
-              argument="bearing_distance"),
+    _number("mesh_damping_ratio", "mesh.damping_ratio", "Damping ratio of the relative rotation",
+            nominal=0.1),
+    _number("support_damping_ratio", "support.damping_ratio",
+            "Damping ratio of all motions on the bearings", nominal=0.1),
+    *(_support(f"{along}_stiffness", f"support.{along}_stiffness", f"{along.capitalize()} "
+               "stiffness of both bearings of a shaft together; 0 takes the gear data",
+               nominal=1e9)
+      for along in ("radial", "axial")),
+    _support("bearing_distance", "support.bearing_distance",
+             "Distance of each bearing from mid-face; 0 takes the gear data", display_unit="mm",
+             nominal=0.1),
     option("model.form", "Degrees of freedom; six_dof has no axial motion and no tilt",
            "twelve_dof", "six_dof", start="twelve_dof", argument="form"),
     option("model.equations",
@@ -220,7 +224,7 @@ _FILM_OUTPUTS = (
     output("efficiency_bound", "1", "The same of efficiency", 0.001),
 )  # fmt: skip
 
-HELICAL_PAIR: tuple[Variable, ...] = (
+_LISTED: tuple[Variable, ...] = (
     *_FIRST,
     *_STATES,
     *rates([_BY_NAME[name] for name in STATE_NAMES]),
@@ -228,4 +232,12 @@ HELICAL_PAIR: tuple[Variable, ...] = (
     *_FILM,
     *options_by_number(_FILM),
     *_FILM_OUTPUTS,
+)
+
+# parameters and outputs that the model's files declare: names of the released ones, in their order
+_RELEASED: tuple[str, ...] = ()
+HELICAL_PAIR = _LISTED + in_order(
+    _RELEASED,
+    *declared_in(HelicalMarchParameters, {one.argument for one in _LISTED}),
+    *declared_outputs(OWN_OUTPUTS),
 )

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle, parsed_axle_file
 from drivetrain.axle_file.axle_sections import OwnFilmModels
-from fmu_src.axle_arguments import CUSTOM_OIL, axle_parameters, start_arguments
+from fmu_src.axle_arguments import (
+    CUSTOM_OIL,
+    OF_BEARINGS,
+    axle_parameters,
+    bearing_arguments,
+    start_arguments,
+)
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
-from fmu_src.variable import Variable, declared
-from fmu_src.variables import FRICTION_VARIANTS, HYPOID_AXLE
+from fmu_src.variable import MEMBERS, Variable, declared
+from fmu_src.variables import FRICTION_VARIANTS, HYPOID_AXLE, SHARED_PRELOAD
+from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics import hypoid_axle
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import file_of_model, model_in
 from gearlube_core.film_model.model import FLANK, ROLLER, read_model_content
-from gearlube_core.friction.flank_friction import FlankFriction
 from gearlube_core.mesh_table.netcdf import (
     FILE_IN_FMU,
     mesh_table_from_bytes,
@@ -29,6 +34,7 @@ from gearlube_core.mesh_table.netcdf import (
     shipped_mesh_table,
 )
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.number import numbers_of
 from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
 from gearlube_core.oil.oil_file import described_oil_of, read_oil_content
 from gearlube_core.rough_patch.asperity_file import FILE_IN_FMU as ASPERITIES_IN_FMU
@@ -215,11 +221,11 @@ def _definition_with(
         f"({mesh.pinion_teeth}/{mesh.gear_teeth} teeth){source}",
         variables=(
             *(_starting(variable, starts, base) for variable in HYPOID_AXLE),
-            *_law_numbers(base.friction_law),
+            *_own_numbers(base),
         ),
         start=partial(start_axle, base=base),
         resources=resources,
-        sources=_file_of(base.friction_law),
+        sources=(*base.friction_law.files, *base.bearing.files),
     )
 
 
@@ -237,6 +243,11 @@ def _starting(
         return replace(variable, literals=(str(starts["friction"]),), start=1)
     if variable.option_of == "friction.model" and starts["friction"] not in FRICTION_VARIANTS:
         return replace(variable, maximum=1.0)
+    if not isinstance(base.bearing, TaperedRollerBearing):
+        if variable.argument in OF_BEARINGS:
+            return _of_bearing(variable, base, starts.get(variable.argument, 0.0))
+        if variable.option_of == "bearing.approach":
+            return replace(variable, maximum=1.0)
     own_oil = starts["oil"] == CUSTOM_OIL
     if own_oil and variable.argument == "oil":
         variable = replace(variable, literals=(*variable.literals, CUSTOM_OIL))
@@ -250,22 +261,35 @@ def _starting(
     return replace(variable, start=float(value))
 
 
-def _file_of(law: FlankFriction) -> tuple[str, ...]:
-    """Return the file of a law; none of one that was typed into an interpreter."""
-    try:
-        return (inspect.getfile(type(law)),)
-    except (OSError, TypeError):
-        return ()
+def _of_bearing(variable: Variable, base: HypoidAxleParameters, start: Value) -> Variable:
+    """Return a released variable of bearings in the FMU of an axle with another type of them."""
+    for role, bearing in zip(("pinion", "gear"), base.bearings, strict=True):
+        name = bearing_arguments(bearing, role).get(variable.argument)
+        if name is not None:
+            one = numbers_of(type(bearing))[name]
+            low = SHARED_PRELOAD if variable.minimum == SHARED_PRELOAD else one.low
+            return replace(variable, start=float(start), minimum=low, maximum=one.high)
+    text = f"Without effect with bearings of the type {base.bearing.name}"
+    if variable.literals:
+        return replace(variable, description=text, literals=(str(start),), start=1)
+    fixed = float(start)
+    return replace(variable, description=text, start=fixed, minimum=fixed, maximum=fixed)
 
 
-def _law_numbers(law: FlankFriction) -> tuple[Variable, ...]:
-    """Return the parameters of a friction law with numbers of its own."""
-    return tuple(
-        replace(
-            declared(type(law), name, f"friction.{name}", start=value), argument=f"friction_{name}"
-        )
-        for name, value in law.numbers.items()
-    )
+def _own_numbers(base: HypoidAxleParameters) -> Iterator[Variable]:
+    """Yield the parameters of a friction law and of bearings that the released ones lack."""
+    law = base.friction_law
+    for name, value in law.numbers.items():
+        number = declared(type(law), name, f"friction.{name}", start=value)
+        yield replace(number, argument=f"friction_{name}")
+    for (member, role), bearing in zip(MEMBERS, base.bearings, strict=True):
+        kind = type(bearing)
+        for argument, name in bearing_arguments(bearing, role).items():
+            if argument not in OF_BEARINGS:
+                one, start = numbers_of(kind)[name], getattr(bearing, name)
+                text = f"{one.text}, bearings of the {role} shaft"
+                number = declared(kind, name, f"{member}.bearing.{one.fmi}", text, start=start)
+                yield replace(number, argument=argument)
 
 
 class HypoidAxle(CoSimulationSlave):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
 from importlib.metadata import version
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 from fmu_src.definition import Definition
@@ -27,8 +27,11 @@ LOG_CATEGORIES = {
 _TOLERANCE = 1e-6  # relative, for solvers of model exchange
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DisplayUnit:
+_BASE = ("kg", "m", "s", "K", "rad")
+_DERIVED = {"N": "kg.m/s2", "Pa": "kg/(m.s2)", "J": "kg.m2/s2", "W": "kg.m2/s3", "Hz": "1/s"}
+
+
+class DisplayUnit(NamedTuple):
     """A display unit: shown value = factor * value + offset."""
 
     name: str
@@ -36,70 +39,49 @@ class DisplayUnit:
     offset: float = 0.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Unit:
-    """A coherent SI unit as a product of powers of base units."""
+class Unit(NamedTuple):
+    """A coherent SI unit, and how it may be shown."""
 
     name: str
-    exponents: dict[str, int] = field(default_factory=dict)
     display: tuple[DisplayUnit, ...] = ()
 
+    @property
+    def exponents(self) -> dict[str, int]:
+        """Powers of the base units; raise KeyError where the name is no product of SI units."""
+        found = dict.fromkeys(_BASE, 0)
+        above, _, below = self.name.partition("/")
+        for factors, sign in ((above, 1), (below.strip("()"), -1)):
+            for symbol, power in _FACTOR.findall(factors.replace("1", "")):
+                parts = Unit(_DERIVED[symbol]).exponents if symbol in _DERIVED else {symbol: 1}
+                for base, exponent in parts.items():
+                    found[base] += sign * exponent * int(power or 1)
+        return {base: power for base, power in found.items() if power}
 
+
+_FACTOR = re.compile(r"([^.\d]+)(\d?)")
 _ALL = (
-    Unit(name="1"),
-    Unit(
-        name="m",
-        exponents={"m": 1},
-        display=(DisplayUnit(name="um", factor=1e6), DisplayUnit(name="mm", factor=1e3)),
-    ),
-    Unit(
-        name="m/s",
-        exponents={"m": 1, "s": -1},
-        display=(DisplayUnit(name="km/h", factor=3.6),),
-    ),
-    Unit(
-        name="rad",
-        exponents={"rad": 1},
-        display=(DisplayUnit(name="deg", factor=180.0 / math.pi),),
-    ),
-    Unit(
-        name="rad/s",
-        exponents={"s": -1, "rad": 1},
-        display=(DisplayUnit(name="rpm", factor=30.0 / math.pi),),
-    ),
-    Unit(name="rad/s2", exponents={"s": -2, "rad": 1}),
-    Unit(name="m/s2", exponents={"m": 1, "s": -2}),
-    Unit(name="Hz", exponents={"s": -1}),
-    Unit(name="m3", exponents={"m": 3}, display=(DisplayUnit(name="l", factor=1e3),)),
-    Unit(name="kg", exponents={"kg": 1}),
-    Unit(name="kg.m2", exponents={"kg": 1, "m": 2}),
-    Unit(
-        name="N",
-        exponents={"kg": 1, "m": 1, "s": -2},
-        display=(DisplayUnit(name="kN", factor=1e-3),),
-    ),
-    Unit(name="N/m", exponents={"kg": 1, "s": -2}),
-    Unit(
-        name="N/m2",
-        exponents={"kg": 1, "m": -1, "s": -2},
-        display=(DisplayUnit(name="N/(mm.um)", factor=1e-9),),
-    ),
-    Unit(
-        name="Pa",
-        exponents={"kg": 1, "m": -1, "s": -2},
-        display=(DisplayUnit(name="GPa", factor=1e-9),),
-    ),
-    Unit(name="N.m", exponents={"kg": 1, "m": 2, "s": -2}),
-    Unit(name="N.m/s", exponents={"kg": 1, "m": 2, "s": -3}),
-    Unit(name="J", exponents={"kg": 1, "m": 2, "s": -2}),
-    Unit(name="W", exponents={"kg": 1, "m": 2, "s": -3}),
-    Unit(
-        name="K",
-        exponents={"K": 1},
-        display=(DisplayUnit(name="degC", factor=1.0, offset=-ZERO_CELSIUS),),
-    ),
+    Unit("1"),
+    Unit("m", (DisplayUnit("um", 1e6), DisplayUnit("mm", 1e3))),
+    Unit("m/s", (DisplayUnit("km/h", 3.6),)),
+    Unit("rad", (DisplayUnit("deg", 180.0 / math.pi),)),
+    Unit("rad/s", (DisplayUnit("rpm", 30.0 / math.pi),)),
+    Unit("rad/s2"),
+    Unit("m/s2"),
+    Unit("Hz"),
+    Unit("m3", (DisplayUnit("l", 1e3),)),
+    Unit("kg"),
+    Unit("kg.m2"),
+    Unit("N", (DisplayUnit("kN", 1e-3),)),
+    Unit("N/m"),
+    Unit("N/m2", (DisplayUnit("N/(mm.um)", 1e-9),)),
+    Unit("Pa", (DisplayUnit("GPa", 1e-9),)),
+    Unit("N.m"),
+    Unit("N.m/s"),
+    Unit("J"),
+    Unit("W"),
+    Unit("K", (DisplayUnit("degC", 1.0, -ZERO_CELSIUS),)),
 )
-UNITS = {unit.name: unit for unit in _ALL}
+UNITS = {unit.name: unit for unit in _ALL}  # in the order of model descriptions, others behind
 
 
 def units_of(variables: Iterable[Variable]) -> tuple[Unit, ...]:
@@ -107,16 +89,20 @@ def units_of(variables: Iterable[Variable]) -> tuple[Unit, ...]:
     shown: dict[str, set[str]] = {}
     for variable in variables:
         if variable.unit:
-            if variable.unit not in UNITS:
+            try:
+                _ = Unit(variable.unit).exponents
+            except KeyError:
                 raise ParameterError(
-                    f"The unit of {variable.name} must be one of {', '.join(UNITS)}; "
-                    f"got {variable.unit!r}. Add it to the units of fmu_src/model_description.py."
-                )
+                    f"The unit of {variable.name} must be one of the SI, such as N.m or W/(m.K); "
+                    f"got {variable.unit!r}."
+                ) from None
             shown.setdefault(variable.unit, set()).add(variable.display_unit)
+    known = [name for name in UNITS if name in shown]
     return tuple(
-        replace(unit, display=tuple(d for d in unit.display if d.name in shown[unit.name]))
-        for unit in _ALL
-        if unit.name in shown
+        Unit(name, tuple(d for d in UNITS[name].display if d.name in shown[name]))
+        if name in UNITS
+        else Unit(name)
+        for name in (*known, *(name for name in shown if name not in UNITS))
     )
 
 

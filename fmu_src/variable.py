@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, Literal, get_args, get_type_hints
 
 from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
-from gearlube_core.number import numbers_of
+from gearlube_core.number import Output, numbers_of
 
 VariableType = Literal["Real", "Integer", "Boolean", "Enumeration"]
 Causality = Literal["parameter", "input", "output", "local"]
@@ -153,16 +153,15 @@ def declared(model: type, argument: str, name: str = "", text: str = "", **shown
     name, text : str
         FMI name and description; by default those of the declaration.
     **shown
-        Nominal value and display unit; a start value where the field has no default.
+        Nominal value and display unit; a start value where the field has no default; other limits.
     """
     one = numbers_of(model)[argument]
     given: dict[str, Any] = {field.name: field.default for field in fields(model)}
-    given = {"start": given[argument]} | shown
+    given = {"start": given[argument], "minimum": one.low, "maximum": one.high} | shown
     real = get_type_hints(model)[argument] is not int
     return Variable(
         name=name or one.fmi, type="Real" if real else "Integer", causality="parameter",
-        description=text or one.text, unit=one.unit if real else "", argument=argument,
-        minimum=one.low, maximum=one.high, **given,
+        description=text or one.text, unit=one.unit if real else "", argument=argument, **given,
     )  # fmt: skip
 
 
@@ -170,6 +169,17 @@ def declared_in(model: type, known: Collection[str]) -> tuple[Variable, ...]:
     """Return the parameters of all numbers with an FMI name, but those `known` by argument."""
     found = numbers_of(model).items()
     return tuple(declared(model, name) for name, one in found if one.fmi and name not in known)
+
+
+def declared_outputs(outputs: Iterable[Output]) -> tuple[Variable, ...]:
+    """Return the outputs that a model declares beside its kernels."""
+    return tuple(output(one.name, one.unit, one.text, one.nominal, one.shown) for one in outputs)
+
+
+def in_order(released: Sequence[str], *variables: Variable) -> tuple[Variable, ...]:
+    """Return variables that a model declares: the released names in their order, then new ones."""
+    place = {name: i for i, name in enumerate(released)}
+    return tuple(sorted(variables, key=lambda one: place.get(one.name, len(place))))
 
 
 def option(name: str, description: str, *literals: str, start: str, argument: str) -> Variable:

@@ -2,21 +2,26 @@
 
 The value reference of a variable is its place in `HYPOID_AXLE`. Released references never change:
 append new variables at the end, never insert, reorder or remove. A number of the model that
-declares an FMI name (`Number.fmi`) needs no line here: it stands behind the listed ones.
+declares an FMI name (`Number.fmi`), and an output that is declared beside its kernel, need no line
+here: they stand behind the listed ones. A release freezes their order in `_RELEASED`.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
+from typing import Any, get_args
 
 from fmu_src.variable import (
     MEMBERS,
     Variable,
     declared,
     declared_in,
+    declared_outputs,
     displacements,
     energies,
+    in_order,
     input_,
     load_level,
     local,
@@ -30,10 +35,18 @@ from fmu_src.variable import (
     velocities,
 )
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
+from gearlube_core.bearings.tapered_roller_bearing import Approach, TaperedRollerBearing
 from gearlube_core.drag import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.output_names import OWN_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.parameters import (
+    Equations,
+    HypoidAxleParameters,
+    MeshDamping,
+    MeshStiffness,
+    Radii,
+)
 from gearlube_core.friction.flank_friction import friction_laws
 from gearlube_core.friction.flank_laws import FILM_MODELS, MixedFriction
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS
@@ -45,6 +58,16 @@ FRICTION_VARIANTS = tuple(
     for name, law in friction_laws().items()
     if issubclass(law, MixedFriction) and law.__module__.startswith("gearlube_core.")
 )
+
+
+def _of_bearing(number: str, name: str, word: str, text: str, **shown: Any) -> Variable:
+    """Return a number of the tapered roller bearings of a shaft."""
+    return replace(
+        declared(TaperedRollerBearing, number, f"{name}.bearing.{number}", text, **shown),
+        argument=f"{word}_bearing_{number}",
+    )
+
+
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
 
 _INPUTS = (
@@ -72,15 +95,15 @@ _PARAMETERS = (
     _number("modal_loss_factor", "mesh.modal_loss_factor",
             "Loss factor of the mesh when mesh.damping = modal", nominal=0.1),
     option("model.equations", "Equations of motion: misprints corrected, or as printed",
-           "consistent", "as_printed", start="consistent", argument="equations"),
+           *get_args(Equations), start="consistent", argument="equations"),
     option("model.radii", "Lever arms of the mesh force",
-           "consistent", "paper", "mean", start="consistent", argument="radii"),
-    option("mesh.damping", "Law of the mesh damping", "hysteretic", "modal", start="hysteretic",
+           *get_args(Radii), start="consistent", argument="radii"),
+    option("mesh.damping", "Law of the mesh damping", *get_args(MeshDamping), start="hysteretic",
            argument="mesh_damping"),
     option("friction.model", "Model of the flank friction",
            *FRICTION_VARIANTS, start="consistent", argument="friction"),
     option("bearing.approach", "Formula of the roller deflection under shaft displacement",
-           "full", "as_printed", start="full", argument="bearing_approach"),
+           *get_args(Approach), start="full", argument="bearing_approach"),
     option("bearing.torque_loss", "Drag torque of the bearings",
            *TORQUE_LOSSES, start=DEFAULT_LAW, argument="bearing_torque_loss"),
     option("oil.name", "Lubricant",
@@ -164,7 +187,7 @@ _ENERGIES = energies(
 # parameters younger than the first release: appended, so that value references stay
 _LATER_PARAMETERS = (
     option("model.mesh_stiffness", "Mesh stiffness: tangent at the current load, or secant",
-           "tangent", "secant", start="tangent", argument="mesh_stiffness"),
+           *get_args(MeshStiffness), start="tangent", argument="mesh_stiffness"),
 )  # fmt: skip
 
 # ditto; those that an axle file gives too
@@ -179,16 +202,13 @@ _AXLE_NUMBERS = (
               "a negative value takes bearing.preload", display_unit="kN",
               start=SHARED_PRELOAD, minimum=SHARED_PRELOAD, maximum=1e5, nominal=1e3,
               argument="gear_bearing_preload"),
-    *(parameter(f"{name}.bearing.contact_angle", "rad", "Contact angle of the bearings of the "
-                f"{word} shaft, at the outer race", display_unit="deg",
-                start=math.radians(15.0), minimum=math.radians(5.0), maximum=math.radians(45.0),
-                nominal=0.1, argument=f"{word}_contact_angle")
+    *(_of_bearing("contact_angle", name, word, f"Contact angle of the bearings of the {word} "
+                  "shaft, at the outer race", display_unit="deg", start=math.radians(15.0),
+                  minimum=math.radians(5.0), nominal=0.1)
       for name, word in MEMBERS),
-    *(parameter(f"{name}.bearing.{factor}", "1", f"{words} of the bearing drag on the "
-                f"{word} shaft", start=start, minimum=0.0, maximum=most,
-                argument=f"{word}_{factor}")
-      for factor, words, start, most in (("f0", "Viscous factor", 6.0, 100.0),
-                                         ("f1", "Load factor", 4e-4, 0.1))
+    *(_of_bearing(factor, name, word, f"{words} of the bearing drag on the {word} shaft",
+                  start=start)
+      for factor, words, start in (("f0", "Viscous factor", 6.0), ("f1", "Load factor", 4e-4))
       for name, word in MEMBERS),
 )  # fmt: skip
 
@@ -320,5 +340,10 @@ _LISTED: tuple[Variable, ...] = (
     *_ROLLER_OUTPUTS,
 )
 
-# numbers that the model's files declare as parameters
-HYPOID_AXLE = _LISTED + declared_in(HypoidAxleParameters, {one.argument for one in _LISTED})
+# parameters and outputs that the model's files declare: names of the released ones, in their order
+_RELEASED: tuple[str, ...] = ()
+HYPOID_AXLE = _LISTED + in_order(
+    _RELEASED,
+    *declared_in(HypoidAxleParameters, {one.argument for one in _LISTED}),
+    *declared_outputs(OWN_OUTPUTS),
+)

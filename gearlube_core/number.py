@@ -37,6 +37,17 @@ class Number(NamedTuple):
     source: str = ""  # of its default and of its factor
     factor: float = 1.0  # the true value lies between value/factor and value * factor with 95 %
     fmi: str = ""  # name of its parameter of the FMU, if it is one
+    shown: str = ""  # unit in files, if it is another
+
+
+class Output(NamedTuple):
+    """A number that a model computes, as an output of its FMU."""
+
+    name: str
+    unit: str  # "1" for a pure number
+    text: str  # what it is, in a line
+    nominal: float = 1.0  # typical magnitude
+    shown: str = ""  # unit to show it in, if it is another
 
 
 class Positive(NamedTuple):
@@ -70,10 +81,13 @@ def check_fields(parameters: object) -> None:
     """Raise ParameterError when a field is not as its annotation says.
 
     A number must be within the limits of its `Number` or above zero, a `Literal` one of its texts.
+    A field whose default is None may be None, in a class without slots.
     """
     kind: Any = type(parameters)
     for name, declared in _declared(kind).items():
         value, one = getattr(parameters, name), declared[0]
+        if value is None and getattr(kind, name, 0) is None:
+            continue
         if isinstance(one, Number):
             check_within(name, value, one.low, one.high, one.unit, one.cure)
         elif isinstance(one, Positive):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from pydantic import Field, model_validator
 
@@ -26,8 +26,9 @@ from drivetrain.axle_file.car_sections import (
 from drivetrain.axle_file.oil_section import Housing, OilSection, Seals
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import FinalDrive, RoadLoad
+from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
-from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
@@ -52,6 +53,7 @@ from gearlube_core.storage.file_names import Name
 Text = Annotated[str, Field(min_length=1)]
 
 _STEEL = STEEL_MOHAMMADPOUR_2015
+_TAPERED = TaperedRollerBearing.name
 _PAPER = "Mohammadpour et al. 2015"
 _BEARING = "Mohammadpour et al. 2015, Table A2"
 _MODEL = "default of the model"
@@ -154,6 +156,16 @@ class AxleFile(InputFile):
             )
         return self
 
+    @model_validator(mode="after")
+    def _check_approach(self) -> AxleFile:
+        kind = self.pinion.bearing and self.pinion.bearing.type
+        if self.model.bearing_approach is not None and kind not in (None, _TAPERED):
+            raise ValueError(
+                f"model.bearing_approach is only for bearings of the type {_TAPERED}, got "
+                f"{self.model.bearing_approach!r} with {kind}; leave it out"
+            )
+        return self
+
     @property
     def has_own_table(self) -> bool:
         """Whether the mesh table is a file, not a shipped one."""
@@ -242,18 +254,18 @@ class AxleFile(InputFile):
             inputs=tuple(self._notes(axle, driveline, asperities, oil)) if notes else (),
         )
 
-    def _bearings(self) -> tuple[TaperedRollerBearing, TaperedRollerBearing | None]:
+    def _bearings(self, steel: Solid) -> tuple[Bearing, Bearing | None]:
         """Return the bearings of the pinion's shaft, and those of the gear's if they differ."""
-        common: dict[str, Any] = {"solid": replace(_STEEL, **self.steel.changes(_STEEL))}
-        if self.model.bearing_approach is not None:
-            common["approach"] = self.model.bearing_approach
         of_pinion = (self.pinion.bearing or BearingSection()).bearing()
         section = self.gear.bearing
-        of_gear = None if section is None else section.bearing(of_pinion.preload)
-        return (
-            replace(of_pinion, **common),
-            None if of_gear is None else replace(of_gear, **common),
-        )
+        of_gear = None if section is None else section.bearing(of_pinion.preload_force())
+        common = {"solid": steel, "approach": self.model.bearing_approach}
+
+        def completed(one: Bearing) -> Bearing:
+            has = {name: value for name, value in common.items() if value and hasattr(one, name)}
+            return replace(one, **has)
+
+        return completed(of_pinion), None if of_gear is None else completed(of_gear)
 
     def _axle(
         self,
@@ -270,8 +282,9 @@ class AxleFile(InputFile):
                 xi_beta_sigma=fit.surface.xi_beta_sigma,
                 sigma_over_beta=fit.surface.sigma_over_beta,
             )
-        bearing, gear_bearing = self._bearings()
-        density = float(bearing.solid.density)
+        steel = replace(_STEEL, **self.steel.changes(_STEEL))
+        bearing, gear_bearing = self._bearings(steel)
+        density = float(steel.density)
         given = self.gear_set.changes(base) | self.model.changes(base) | self.film.changes(base)
         given |= self.pinion.member_changes("pinion", density)
         given |= self.gear.member_changes("gear", density)
@@ -281,7 +294,7 @@ class AxleFile(InputFile):
             **given,
             bearing=bearing,
             gear_bearing=gear_bearing,
-            solid=bearing.solid,
+            solid=steel,
             oil=oil,
             flank_film_model=films.flank,
             roller_film_model=films.roller,
@@ -343,8 +356,8 @@ class AxleFile(InputFile):
         notes += self.film.notes("film.", axle, _MODEL) + self.film.model_notes(axle)
         if axle.film == "solved":
             notes += self.oil.rheology_notes("oil.", axle.oil)
-        if self.model.bearing_approach is None:
-            value = TaperedRollerBearing.mohammadpour_2015().approach
+        if self.model.bearing_approach is None and isinstance(axle.bearing, TaperedRollerBearing):
+            value = axle.bearing.approach
             notes.append(InputNote("model.bearing_approach", value, "", "assumed", _MODEL))
         road = car.road_load
         notes += self.vehicle.vehicle_notes("vehicle.", road.vehicle)

@@ -2,44 +2,56 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.section import ModelSection
+from drivetrain.axle_file.section import Declared, ModelSection
+from gearlube_core.bearings.tapered_roller_bearing import Approach
+from gearlube_core.contact.solid import Solid
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
-from gearlube_core.dynamics.hypoid_axle.parameters import Film, HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.parameters import (
+    Equations,
+    Film,
+    HypoidAxleParameters,
+    MeshDamping,
+    MeshStiffness,
+    Radii,
+)
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import FLANK, ROLLER, SHIPPED, FilmModel
 from gearlube_core.friction.flank_friction import friction_law, friction_laws
+from gearlube_core.friction.flank_rolling import FlankRolling
 from gearlube_core.input_file.field_notes import OneOf, Usual
-from gearlube_core.input_file.input_file import InputNote, Origin
-from gearlube_core.number import numbers_of
+from gearlube_core.input_file.input_file import InputNote
 
+_axle, _solid = partial(Declared, HypoidAxleParameters), partial(Declared, Solid)
 Text = Annotated[str, Field(min_length=1)]
 Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False), Usual(1.0, 20000.0)]
 Torques = Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)]
 # um; the runout of cut gears alone is more than 10 um, so that they would jam
-Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False), Usual(10.0, 1000.0)]
-Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False), Usual(0.02, 5.0)]
-LossFactor = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Hysteresis = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-Floor = Annotated[float, Field(ge=1.0, le=1e4, allow_inf_nan=False), Usual(1.0, 1000.0)]
+Backlash = Annotated[float, _axle("backlash_um"), Usual(10.0, 1000.0)]
+Roughness = Annotated[float, _axle("roughness_rms_um"), Usual(0.02, 5.0)]
+LossFactor = Annotated[float, _axle("modal_loss_factor")]
+Hysteresis = Annotated[float, _axle("hysteretic_loss")]
+Floor = Annotated[float, _axle("frequency_floor_hz"), Usual(1.0, 1000.0)]
 Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False), Usual(50.0, 700.0)]
-Poisson = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+Poisson = Annotated[float, _solid("poisson_ratio")]
 Density = Annotated[
     float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False), Usual(2000.0, 20000.0)
 ]
-Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False), Usual(5.0, 500.0)]
-BulkResistance = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False), Usual(0.001, 2.0)]
-LimitingSlope = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-HeatCapacity = Annotated[
-    float, Field(ge=50.0, le=5000.0, allow_inf_nan=False), Usual(100.0, 2000.0)
+Conductivity = Annotated[float, _solid("conductivity_w_m_k"), Usual(5.0, 500.0)]
+BulkResistance = Annotated[
+    float, _axle("bulk_resistance_k_w", "flank_bulk_resistance"), Usual(0.001, 2.0)
 ]
+LimitingSlope = Annotated[float, _axle("limiting_slope", "film_limiting_slope")]
+HeatCapacity = Annotated[float, _solid("heat_capacity_j_kg_k"), Usual(100.0, 2000.0)]
 
 
 class GearSet(ModelSection):
@@ -78,17 +90,13 @@ class GearSet(ModelSection):
         "to the axle file; Greenwood and Tripp's law is fitted to it; left out: finished gear "
         "flanks",
     )
-    radii: Literal["consistent", "paper", "mean"] | None = Field(
-        default=None, description="Radii at which the mesh force acts"
-    )
-    mesh_stiffness: Literal["tangent", "secant"] | None = Field(
+    radii: Radii | None = Field(default=None, description="Radii at which the mesh force acts")
+    mesh_stiffness: MeshStiffness | None = Field(
         default=None,
         description="Stiffness of the mesh under load: tangent or secant of its force over "
         "deflection",
     )
-    mesh_damping: Literal["hysteretic", "modal"] | None = Field(
-        default=None, description="Law of the mesh damping"
-    )
+    mesh_damping: MeshDamping | None = Field(default=None, description="Law of the mesh damping")
     modal_loss_factor: LossFactor | None = Field(
         default=None, description="Only for modal damping: twice the damping ratio of the mesh"
     )
@@ -156,6 +164,42 @@ class Steel(ModelSection):
     heat_capacity_j_kg_k: HeatCapacity | None = Field(
         default=None, description="Specific heat capacity"
     )
+
+
+class SolidOfRevolution(NamedTuple):
+    """Mass [kg] and inertia about the axis [kg m2]."""
+
+    mass: float
+    inertia: float
+
+
+def stacked_frusta(
+    lengths: tuple[float, ...],
+    first: tuple[float, ...],
+    last: tuple[float, ...],
+    bores: tuple[float, ...],
+    density: float,
+) -> SolidOfRevolution:
+    """Return mass and inertia of frusta of cones on one axis, each with a bore.
+
+    m = rho pi l [(r1^2 + r1 r2 + r2^2)/3 - rb^2]
+    I = rho pi l [(r1^4 + r1^3 r2 + r1^2 r2^2 + r1 r2^3 + r2^4)/10 - rb^4/2]
+
+    Parameters
+    ----------
+    lengths, first, last, bores
+        Length along the axis, diameters of the two ends, and of the bore [m], shape (n,).
+    density
+        [kg/m3]
+    """
+    mass = inertia = 0.0
+    for length, one, two, bore in zip(lengths, first, last, bores, strict=True):
+        r1, r2, rb = 0.5 * one, 0.5 * two, 0.5 * bore
+        area = (r1**2 + r1 * r2 + r2**2) / 3.0 - rb**2
+        mass += density * math.pi * length * area
+        fourth = sum(r1 ** (4 - k) * r2**k for k in range(5)) / 10.0 - 0.5 * rb**4
+        inertia += density * math.pi * length * fourth
+    return SolidOfRevolution(mass, inertia)
 
 
 class OwnFilmModels(NamedTuple):
@@ -244,7 +288,7 @@ class ModelOptions(ModelSection):
 
     renamed: ClassVar[Mapping[str, str]] = {"flank_rolling": "rolling"}
 
-    equations: Literal["consistent", "as_printed"] | None = Field(
+    equations: Equations | None = Field(
         default=None,
         description="Equations of motion: consistent with misprints of the paper corrected, or "
         "as printed in it",
@@ -257,7 +301,7 @@ class ModelOptions(ModelSection):
         default=None,
         description="Numbers of a friction law that has some, by name, in SI units",
     )
-    flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
+    flank_rolling: FlankRolling | None = Field(
         default=None, description="Rolling loss of the flanks"
     )
     bearing_torque_loss: Annotated[str, OneOf(lambda _: TORQUE_LOSSES)] | None = Field(
@@ -266,15 +310,15 @@ class ModelOptions(ModelSection):
         "skf_2013: under the forces on each bearing; others: raceways, ribs and oil, under the "
         "load of each roller; solved_films: the raceways by a model of solved films",
     )
-    bearing_approach: Literal["full", "as_printed"] | None = Field(
+    bearing_approach: Approach | None = Field(
         default=None,
         description="Approach of a roller to the races under a shaft displacement: all of it, "
         "or half",
     )
-    steps_per_mesh_period: Annotated[int, Field(ge=16, le=4096)] | None = Field(
+    steps_per_mesh_period: Annotated[int, _axle("steps_per_mesh_period")] | None = Field(
         default=None, description="Integration steps in one mesh period"
     )
-    steps_per_highest_period: Annotated[int, Field(ge=8, le=4096)] | None = Field(
+    steps_per_highest_period: Annotated[int, _axle("steps_per_highest_period")] | None = Field(
         default=None, description="Integration steps in one period of the highest natural frequency"
     )
 
@@ -302,9 +346,4 @@ class ModelOptions(ModelSection):
         notes = super().notes(prefix, model, why, inferred)
         notes = [one for one in notes if one.field != f"{prefix}friction_numbers"]
         law = friction_law(self.friction or "consistent", **given)
-        for name, number in numbers_of(type(law)).items():
-            origin: Origin = "given" if name in given else "assumed"
-            said = "" if name in given else number.source or f"default of the law {law.name}"
-            field = f"{prefix}friction_numbers.{name}"
-            notes.append(InputNote(field, law.numbers[name], number.unit, origin, said))
-        return notes
+        return notes + law.notes(f"{prefix}friction_numbers.", given)

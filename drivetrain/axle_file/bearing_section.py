@@ -5,53 +5,63 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+from functools import partial
+from typing import Annotated, Any, ClassVar
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, SerializeAsAny, model_validator
 
-from drivetrain.axle_file.section import ModelSection, field_value, unit_of
+from drivetrain.axle_file.axle_sections import SolidOfRevolution, stacked_frusta
+from drivetrain.axle_file.section import (
+    Declared,
+    ModelSection,
+    field_value,
+    part_notes,
+    part_numbers,
+    unit_of,
+)
 from gearlube_core.bearings.bearing_fields import BearingFields, Diameter, add_catalogue_rollers
+from gearlube_core.bearings.bearing_type import Bearing, bearing_types
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
-from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_bearing import Film, TaperedRollerBearing
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.field_notes import OneOf, Usual
 from gearlube_core.input_file.input_file import InputNote, Origin
+from gearlube_core.number import numbers_of
 
 LARGEST_PRELOAD = 1e5  # N
 
-Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False), Usual(1e7, 1e11)]
-Exponent = Annotated[float, Field(ge=1.0, le=2.0, allow_inf_nan=False)]
-Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+_axle, _bearing = partial(Declared, HypoidAxleParameters), partial(Declared, TaperedRollerBearing)
+Stiffness = Annotated[float, _bearing("stiffness_constant"), Usual(1e7, 1e11)]
+Exponent = Annotated[float, _bearing("exponent")]
+Share = Annotated[float, _bearing("loss")]
 Preload = Annotated[
     float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False), Usual(100.0, 50000.0)
 ]
 Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.5, 50.0)]
-
 RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.2, 20.0)]
-RibFriction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-RibRoughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False), Usual(0.02, 3.0)]
+RibFriction = Annotated[float, _bearing("rib_boundary_friction")]
+RibRoughness = Annotated[float, _bearing("rib_roughness_um"), Usual(0.02, 3.0)]
 
+_TAPERED = TaperedRollerBearing.name
 PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]
 _RACES = ("inner_race_diameter_mm", "outer_race_diameter_mm")
 _BOUNDARY = ("bore_diameter_mm", "outside_diameter_mm")
-Mass = Annotated[float, Field(ge=0.05, le=2000.0, allow_inf_nan=False), Usual(0.5, 500.0)]
-Inertia = Annotated[float, Field(ge=1e-6, le=500.0, allow_inf_nan=False), Usual(0.0001, 20.0)]
+Mass = Annotated[float, _axle("mass_kg", "pinion_mass"), Usual(0.5, 500.0)]
+Inertia = Annotated[float, _axle("inertia_kg_m2", "pinion_inertia"), Usual(0.0001, 20.0)]
 Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(1.0, 500.0)]
-FrustumDiameter = Annotated[
-    float, Field(gt=0.0, le=3000.0, allow_inf_nan=False), Usual(3.0, 1000.0)
-]
+Outside = Annotated[float, Field(gt=0.0, le=3000.0, allow_inf_nan=False), Usual(3.0, 1000.0)]
 Bore = Annotated[float, Field(ge=0.0, le=3000.0, allow_inf_nan=False), Usual(1.0, 500.0)]
 Frusta = Annotated[tuple[Length, ...], Field(strict=False, min_length=1, max_length=40)]
-Diameters = Annotated[tuple[FrustumDiameter, ...], Field(strict=False, min_length=1, max_length=40)]
+Diameters = Annotated[tuple[Outside, ...], Field(strict=False, min_length=1, max_length=40)]
 Bores = Annotated[tuple[Bore, ...], Field(strict=False, min_length=1, max_length=40)]
-
 _LISTS = ("frusta_lengths_mm", "frusta_first_diameters_mm", "frusta_last_diameters_mm")
 _KEYS = ("mass_kg", "inertia_kg_m2")
 
 
 class BearingSection(ModelSection, BearingFields):
-    """The two opposed tapered roller bearings of one shaft."""
+    """The two opposed bearings of one shaft; the fields are those of tapered roller bearings."""
 
     renamed: ClassVar[Mapping[str, str]] = {"rollers": "n_rollers"}
     sources: ClassVar[Mapping[str, str]] = {
@@ -66,6 +76,11 @@ class BearingSection(ModelSection, BearingFields):
         "rib_roughness_um": "default of `gearlube bearing`",
     }
 
+    type: Annotated[str, OneOf(bearing_types)] | None = Field(
+        default=None,
+        description="Type of the bearings, or the name of a type of your own with its numbers as "
+        "fields; all others are those of tapered_roller",
+    )
     inner_race_diameter_mm: Diameter | None = Field(
         default=None,
         description="Diameter of the inner race at the middle of the rollers; left out: pitch "
@@ -95,7 +110,7 @@ class BearingSection(ModelSection, BearingFields):
     loss: Share | None = Field(
         default=None, description="Hysteresis loss coefficient of the rollers"
     )
-    film: Literal["squeeze", "steady", "off"] | None = Field(
+    film: Film | None = Field(
         default=None,
         description="Oil film of the rollers: with squeeze factor, without it, or no film at all",
     )
@@ -111,6 +126,14 @@ class BearingSection(ModelSection, BearingFields):
     rib_roughness_um: RibRoughness | None = Field(
         default=None, description="Composite RMS roughness of roller ends and rib"
     )
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _of_type(cls, data: Any, handler: Any) -> Any:
+        name = data.get("type") if isinstance(data, Mapping) else None
+        if isinstance(name, str) and name != _TAPERED and name in bearing_types(name):
+            return OwnBearings.of(data)
+        return handler(data)
 
     @model_validator(mode="after")
     def _check_bearing(self) -> BearingSection:
@@ -131,7 +154,7 @@ class BearingSection(ModelSection, BearingFields):
             )
         if not problems:
             try:
-                problems = self._geometry_problems(self.bearing())
+                problems = self._geometry_problems(self._tapered())
             except ParameterError as reason:
                 problems = [f"In SI units: {str(reason).removesuffix('.')}"]
         if problems:
@@ -222,7 +245,7 @@ class BearingSection(ModelSection, BearingFields):
             inferred["preload_n"] = "interference"
         return changes, inferred
 
-    def bearing(self, preload: float | None = None) -> TaperedRollerBearing:
+    def bearing(self, preload: float | None = None) -> Bearing:
         """Return the bearing with its preload.
 
         Parameters
@@ -230,55 +253,55 @@ class BearingSection(ModelSection, BearingFields):
         preload : float, optional
             Taken where the file gives neither preload nor interference [N].
         """
+        return self._tapered(preload)
+
+    def _tapered(self, preload: float | None = None) -> TaperedRollerBearing:
         changes, _ = self._changes()
         if preload is not None and not (self.has("preload_n") or self.has("interference_um")):
             changes["preload"] = preload
         return replace(TaperedRollerBearing.mohammadpour_2015(), **changes)
 
-    def bearing_notes(self, prefix: str, made: object, why: str) -> list[InputNote]:
+    def bearing_notes(self, prefix: str, made: Bearing, why: str) -> list[InputNote]:
         """Return a note on every field; `made` is what `bearing` returned."""
         notes = self.notes(prefix, made, why, self._changes()[1])
         if not self.has("rib_height_mm"):
-            assumed = field_value("rib_height_mm", RIB_HEIGHT * self.bearing().roller_diameter)
+            assumed = field_value("rib_height_mm", RIB_HEIGHT * self._tapered().roller_diameter)
             why = f"{RIB_HEIGHT:g} roller diameters; no source"
             notes.append(InputNote(f"{prefix}rib_height_mm", assumed, "mm", "assumed", why))
         return notes
 
 
-class SolidOfRevolution(NamedTuple):
-    """Mass [kg] and inertia about the axis [kg m2]."""
+class OwnBearings(BearingSection):
+    """Bearings of a type that registers itself: the fields are its numbers."""
 
-    mass: float
-    inertia: float
+    model_config = ConfigDict(extra="allow")
 
+    @classmethod
+    def of(cls, data: Mapping[str, Any]) -> OwnBearings:
+        """Return the section with data of a file; raise ValueError where they are wrong."""
+        made = cls.model_construct(set(data), **data)
+        try:
+            made.bearing()
+        except ParameterError as reason:
+            raise ValueError(str(reason).removesuffix(".")) from None
+        return made
 
-def stacked_frusta(
-    lengths: tuple[float, ...],
-    first: tuple[float, ...],
-    last: tuple[float, ...],
-    bores: tuple[float, ...],
-    density: float,
-) -> SolidOfRevolution:
-    """Return mass and inertia of frusta of cones on one axis, each with a bore.
+    @property
+    def _data(self) -> dict[str, Any]:
+        return self.model_dump(exclude_unset=True, exclude={"type"})
 
-    m = rho pi l [(r1^2 + r1 r2 + r2^2)/3 - rb^2]
-    I = rho pi l [(r1^4 + r1^3 r2 + r1^2 r2^2 + r1 r2^3 + r2^4)/10 - rb^4/2]
+    def bearing(self, preload: float | None = None) -> Bearing:
+        """Return the bearing; `preload` [N] is taken where it has one and the file gives none."""
+        kind = bearing_types()[str(self.type)]
+        numbers = part_numbers(kind, self._data)
+        if preload is not None and "preload" in numbers_of(kind):
+            numbers = {"preload": preload} | numbers
+        return kind(**numbers)
 
-    Parameters
-    ----------
-    lengths, first, last, bores
-        Length along the axis, diameters of the two ends, and of the bore [m], shape (n,).
-    density
-        [kg/m3]
-    """
-    mass = inertia = 0.0
-    for length, one, two, bore in zip(lengths, first, last, bores, strict=True):
-        r1, r2, rb = 0.5 * one, 0.5 * two, 0.5 * bore
-        area = (r1**2 + r1 * r2 + r2**2) / 3.0 - rb**2
-        mass += density * math.pi * length * area
-        fourth = sum(r1 ** (4 - k) * r2**k for k in range(5)) / 10.0 - 0.5 * rb**4
-        inertia += density * math.pi * length * fourth
-    return SolidOfRevolution(mass, inertia)
+    def bearing_notes(self, prefix: str, made: Bearing, why: str) -> list[InputNote]:
+        """Return a note on the type and on every number of it."""
+        of_type = InputNote(f"{prefix}type", made.name, "", "given", "")
+        return [of_type, *part_notes(prefix, made, self._data)]
 
 
 class Member(ModelSection):
@@ -308,7 +331,7 @@ class Member(ModelSection):
     frusta_bores_mm: Bores | None = Field(
         default=None, description="Bore diameter of each frustum; left out: solid"
     )
-    bearing: BearingSection | None = None
+    bearing: SerializeAsAny[BearingSection] | None = None
 
     @model_validator(mode="after")
     def _check_frusta(self) -> Member:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Literal
+from functools import partial
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.section import ModelSection, field_value, unit_of
-from gearlube_core.drag import SealMaterial, seal_torque
+from drivetrain.axle_file.section import Declared, ModelSection, field_value, unit_of
+from gearlube_core.drag import ChurningLaw, SealMaterial, seal_torque
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Usual
@@ -31,19 +32,20 @@ from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.units import celsius_to_kelvin
 
-Size = Annotated[float, Field(ge=10.0, le=3000.0, allow_inf_nan=False), Usual(50.0, 1000.0)]
-Width = Annotated[float, Field(ge=1.0, le=1000.0, allow_inf_nan=False), Usual(5.0, 200.0)]
-Depth = Annotated[float, Field(ge=0.0, le=3000.0, allow_inf_nan=False), Usual(2.0, 500.0)]
-Litres = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False), Usual(0.2, 50.0)]
+_axle, _oil = partial(Declared, HypoidAxleParameters), partial(Declared, Lubricant)
+Size = Annotated[float, _axle("ring_diameter_mm"), Usual(50.0, 1000.0)]
+Width = Annotated[float, _axle("ring_width_mm"), Usual(5.0, 200.0)]
+Depth = Annotated[float, _axle("immersion_mm"), Usual(2.0, 500.0)]
+Litres = Annotated[float, _axle("oil_volume_l"), Usual(0.2, 50.0)]
 ShaftSize = Annotated[float, Field(ge=5.0, le=500.0, allow_inf_nan=False), Usual(10.0, 200.0)]
-Torque = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.01, 20.0)]
+Torque = Annotated[float, _axle("pinion_torque_n_m", "pinion_seal_torque"), Usual(0.01, 20.0)]
 
 DEFAULT_CHURNING = "changenet_velex_2007"
 _NO_SOURCE = "size found in passenger cars; no source"
 _WHEEL_SEALS = 2
-WaltherA = Annotated[float, Field(ge=1.0, le=30.0, allow_inf_nan=False)]
-WaltherB = Annotated[float, Field(ge=0.3, le=10.0, allow_inf_nan=False)]
-Slope = Annotated[float, Field(ge=-1e-2, le=1e-2, allow_inf_nan=False), Usual(-0.001, 0.001)]
+WaltherA = Annotated[float, _oil("walther_a")]
+WaltherB = Annotated[float, _oil("walther_b")]
+Slope = Annotated[float, _oil("conductivity_slope_w_m_k2"), Usual(-0.001, 0.001)]
 
 OIL = "mohammadpour_2015"
 _SHEET = ("viscosity_40_degc_mm2_s", "viscosity_100_degc_mm2_s")
@@ -63,12 +65,10 @@ class Housing(ModelSection):
         ("ring_diameter_mm", "ring_width_mm", "immersion_mm", "oil_volume_l"), _NO_SOURCE
     )
 
-    churning: Literal["none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"] | None = (
-        Field(
-            default=None,
-            description="Law of the gear's churning loss; left out: changenet_velex_2007 if this "
-            "section has any field, else none",
-        )
+    churning: ChurningLaw | None = Field(
+        default=None,
+        description="Law of the gear's churning loss; left out: changenet_velex_2007 if this "
+        "section has any field, else none",
     )
     ring_diameter_mm: Size | None = Field(default=None, description="Outside diameter of the gear")
     ring_width_mm: Width | None = Field(default=None, description="Face width of the gear")

@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
 from decimal import Decimal
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
-from gearlube_core.input_file.field_notes import field_unit
+from pydantic_core import core_schema
+
+from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import field_unit, likely_fields, unit_ending
 from gearlube_core.input_file.input_file import InputNote, Origin, Section
+from gearlube_core.number import Number, numbers_of
+from gearlube_core.part import Part
 from gearlube_core.units import ZERO_CELSIUS
 
 # power of ten from a unit to SI; what is absent is SI
@@ -19,6 +26,8 @@ _POWERS = {
     "kN": 3,
     "MPa": 6,
     "GPa": 9,
+    "N/mm": 3,
+    "N/um": 6,
     "1/GPa": -9,
 }
 _SI_WORDS = {"stiffness_constant": "N/m^n"}  # units that no ending writes
@@ -46,9 +55,12 @@ def _scaled(value: float, power: int) -> float:
 
 def si_value(key: str, value: Any) -> Any:
     """Return the value of a field in SI units; texts and whole numbers as they are."""
+    return _to_si(unit_of(key), value)
+
+
+def _to_si(unit: str, value: Any) -> Any:
     if isinstance(value, tuple | list):
-        return tuple(si_value(key, one) for one in value)
-    unit = unit_of(key)
+        return tuple(_to_si(unit, one) for one in value)
     if unit == "deg":
         return math.radians(value)
     if unit == "degC":
@@ -58,14 +70,99 @@ def si_value(key: str, value: Any) -> Any:
 
 def field_value(key: str, value: Any) -> Any:
     """Return a number of a model in the unit of a field; the inverse of `si_value`."""
+    return _from_si(unit_of(key), value)
+
+
+def _from_si(unit: str, value: Any) -> Any:
     if isinstance(value, tuple | list):
-        return tuple(field_value(key, one) for one in value)
-    unit = unit_of(key)
+        return tuple(_from_si(unit, one) for one in value)
     if unit == "deg":
         return float(f"{math.degrees(value):.12g}")
     if unit == "degC":
         return float(f"{value - ZERO_CELSIUS:.12g}")
     return _scaled(value, -_POWERS[unit]) if unit in _POWERS else value
+
+
+class PartField(NamedTuple):
+    """A number of a part as a field of a file, which has its name with the unit."""
+
+    name: str  # of the number
+    number: Number
+    unit: str  # in the file
+    default: Any  # in SI units; MISSING: it must be given
+
+    def problem(self, key: str, value: Any) -> str:
+        """Return what is wrong with a value in the file; "" for nothing."""
+        if isinstance(value, bool | str) or not isinstance(value, float | int):
+            return f"{key} must be a number, got {value!r}; {self.number.text}"
+        low, high = (_from_si(self.unit, end) for end in (self.number.low, self.number.high))
+        try:
+            check_within(key, value, low, high, self.unit, self.number.cure)
+        except ParameterError as reason:
+            return str(reason).removesuffix(".")
+        return ""
+
+
+def part_fields(kind: type[Part]) -> dict[str, PartField]:
+    """Return the numbers of a part as fields of a file, by name with unit."""
+    defaults = {one.name: one.default for one in fields(kind)}
+    found = {}
+    for name, number in numbers_of(kind).items():
+        unit = number.shown or number.unit
+        found[name + unit_ending(unit)] = PartField(name, number, unit, defaults[name])
+    return found
+
+
+def part_numbers(kind: type[Part], data: Mapping[str, Any]) -> dict[str, float]:
+    """Return the numbers that a file gives of a part, in SI units by their names.
+
+    Raises
+    ------
+    ParameterError
+        Names every field that is wrong, unknown or missing.
+    """
+    known = part_fields(kind)
+    wrong = [one.problem(key, data[key]) for key, one in known.items() if key in data]
+    for key in data:
+        if key not in known:
+            meant = " or ".join(likely_fields(key, known)) or f"one of {', '.join(known)}"
+            wrong.append(f"{key} is not a number of {kind.name}; is it {meant}?")
+    wrong += [
+        f"{key} is missing: {one.number.text}"
+        for key, one in known.items()
+        if one.default is MISSING and key not in data
+    ]
+    if any(wrong):
+        raise ParameterError(". ".join(one for one in wrong if one))
+    return {one.name: _to_si(one.unit, data[key]) for key, one in known.items() if key in data}
+
+
+def part_notes(prefix: str, part: Part, data: Mapping[str, Any]) -> list[InputNote]:
+    """Return a note on every number of a part; `data` is what the file gives of them."""
+    known = part_fields(type(part))
+    fields_of = {one.name: (key, one.unit) for key, one in known.items()}
+    notes = []
+    for note in part.notes("", [known[key].name for key in data]):
+        key, unit = fields_of[note.field]
+        value = _from_si(unit, note.value)
+        notes.append(note._replace(field=prefix + key, value=value, unit=unit))
+    return notes
+
+
+@dataclass(frozen=True)
+class Declared:
+    """Mark of a field's type: its limits are those of a number that a model declares."""
+
+    model: type
+    field: str
+    number: str = ""  # name in the model, where it is not that of the field without its unit
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        number = numbers_of(self.model)[self.number or attribute_of(self.field)]
+        low, high = (field_value(self.field, end) for end in (number.low, number.high))
+        if source is int:
+            return core_schema.int_schema(ge=int(low), le=int(high))
+        return core_schema.float_schema(ge=low, le=high, allow_inf_nan=False)
 
 
 class ModelSection(Section):

@@ -82,7 +82,7 @@ from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import SOLVED
-from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
+from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 
 _PARAMETERS = {v.argument: v for v in HELICAL_PAIR if v.is_model_parameter}
@@ -95,14 +95,9 @@ N_CONTROL = len(StepControl._fields)
 GEAR = _PLACE["gear_name"]
 SPEED = _PLACE["pinion_speed"]
 FRICTION = _PLACE["friction"]
-COEFFICIENT = _PLACE["friction_coefficient"]
 OIL = _PLACE["oil"]
-ROUGHNESS = _PLACE["roughness_rms"]
-BACKLASH = _PLACE["backlash"]
 STIFFNESS_MODEL = _PLACE["stiffness_model"]
 DENSITY = _PLACE["stiffness_density"]
-MESH_DAMPING = _PLACE["mesh_damping_ratio"]
-SUPPORT_DAMPING = _PLACE["support_damping_ratio"]
 RADIAL = _PLACE["radial_stiffness"]
 AXIAL = _PLACE["axial_stiffness"]
 DISTANCE = _PLACE["bearing_distance"]
@@ -110,9 +105,14 @@ FORM = _PLACE["form"]
 EQUATIONS = _PLACE["equations"]
 PER_MESH_PERIOD = _PLACE["steps_per_mesh_period"]
 PER_HIGHEST_PERIOD = _PLACE["steps_per_highest_period"]
-UPDATES = _PLACE["friction_updates_per_mesh_period"]
 FILM = _PLACE["film"]
-LIMITING_SLOPE = _PLACE["film_limiting_slope"]
+
+# places of the choices, of those that are parameters as they stand, and of these
+_FORM_AT, _HELD_AT, _WORK_AT, _FILM_CHOICE = (
+    MarchChoices._fields.index(name) for name in ("friction_form", "held", "line_work", "film")
+)
+_CHOSEN = np.array([i for i, name in enumerate(MarchChoices._fields) if name in _PLACE])
+_CHOSEN_FROM = np.array([_PLACE[name] for name in MarchChoices._fields if name in _PLACE])
 
 # numbers of the options, by their literals
 _GEARS = len(_PARAMETERS["gear_name"].literals)
@@ -186,22 +186,12 @@ def take_parameters(
     ):
         return COUPLING_TOO_LARGE
     choices = work[CHOICES_AT:DENSITY_AT]
-    tuple_to_array(
-        MarchChoices(
-            _FRICTIONS[int(parameters[FRICTION]) - 1],
-            parameters[COEFFICIENT],
-            parameters[ROUGHNESS],
-            parameters[BACKLASH],
-            parameters[MESH_DAMPING],
-            parameters[SUPPORT_DAMPING],
-            _HELD[int(parameters[FORM]) - 1],
-            _LINE_WORK[int(parameters[EQUATIONS]) - 1],
-            parameters[UPDATES],
-            parameters[FILM] - 1.0,
-            parameters[LIMITING_SLOPE],
-        ),
-        choices,
-    )
+    for i in range(_CHOSEN.size):
+        choices[_CHOSEN[i]] = parameters[_CHOSEN_FROM[i]]
+    choices[_FORM_AT] = _FRICTIONS[int(parameters[FRICTION]) - 1]
+    choices[_HELD_AT] = _HELD[int(parameters[FORM]) - 1]
+    choices[_WORK_AT] = _LINE_WORK[int(parameters[EQUATIONS]) - 1]
+    choices[_FILM_CHOICE] = parameters[FILM] - 1.0
     constants = work[DATA_AT:]
     write_constants(given, oil, choices, constants)
     solved = parameters[FILM] - 1.0 == SOLVED

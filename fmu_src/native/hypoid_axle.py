@@ -21,10 +21,9 @@ from fmu_src.native.parameter_map import (
 )
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import ShaftBearings, write_derived
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.bearings.roller_contact import contact_angle_terms, preload_approach
-from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import output_names
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels, state_status
@@ -98,17 +97,11 @@ class _Places(NamedTuple):
     roller_films: int
     scratch: int
     work_end: int
-    # packed floats that kernels derive
+    # packed floats that are written here or by the bearings
     preload_g: int
     modal_damping: int
-    interference_p: int
-    sin_contact_p: int
-    cos_contact_p: int
-    axial_factor_p: int
-    interference_g: int
-    sin_contact_g: int
-    cos_contact_g: int
-    axial_factor_g: int
+    bearing_p: int
+    bearing_g: int
     # sizes
     orders: int
     nodes: int
@@ -120,29 +113,39 @@ _N_SETTINGS = count_floats(AxleSettings)
 _STIFFNESSES = len(get_args(MeshStiffness))
 
 
-def _place_of_each(law: type[FlankLaw]) -> Any:
+class _Classes(NamedTuple):
+    """What the kernels of a model are compiled for."""
+
+    bearing: type[ShaftBearings]
+    law: type[FlankLaw]
+
+
+def _place_of_each(kinds: _Classes) -> Any:
     """Return `AxleParameters` with the place of each float among the packed ones."""
-    kinds = TaperedRollerParameters, law
     count = count_floats(AxleParameters, *kinds)
     return tuple_from_array(np.arange(float(count)), AxleParameters, *kinds)
 
 
-def _derived(place: Any) -> dict[str, int]:
-    """Return the places of the packed floats that kernels derive."""
-    return {
-        "preload_g": int(place.preload_g),
-        "modal_damping": int(place.mesh.modal_damping),
-        **{
-            f"{name}_{side}": int(getattr(bearing, name))
-            for side, bearing in (("p", place.bearing_p), ("g", place.bearing_g))
-            for name in ("interference", "sin_contact", "cos_contact", "axial_factor")
-        },
-    }
+def _derived(place: Any, p: AxleParameters) -> frozenset[int]:
+    """Return the places of the packed floats that are written here or by the bearings."""
+    found = {int(place.preload_g), int(place.mesh.modal_damping)}
+    pairs = (p.bearing_p, place.bearing_p, p.preload_p), (p.bearing_g, place.bearing_g, p.preload_g)
+    for bearing, places, preload in pairs:
+        places = flatten(places)
+        written = np.full(places.size, np.nan)
+        write_derived(bearing, preload, written)
+        found |= set(map(int, places[~np.isnan(written)]))
+    return frozenset(found)
 
 
 @kernel
 def _write_parameters(
-    parameters: Array, data: Array, at: _Places, law: type[FlankLaw], work: Array
+    parameters: Array,
+    data: Array,
+    at: _Places,
+    bearing: type[ShaftBearings],
+    law: type[FlankLaw],
+    work: Array,
 ) -> int:
     """Write everything that follows from the FMI parameters into `work`; return a status."""
     write_packed(
@@ -153,18 +156,12 @@ def _write_parameters(
         data[at.numbers : at.lossless],
         work,
     )
-    p: AxleParameters = tuple_from_array(work, AxleParameters, TaperedRollerParameters, law)
+    p: AxleParameters = tuple_from_array(work, AxleParameters, bearing, law)
     settings: AxleSettings = tuple_from_array(work[at.settings :], AxleSettings)
-    one: Any = p.bearing_p
-    sin, cos, axial = contact_angle_terms(settings.contact_angle_p)
-    work[at.sin_contact_p], work[at.cos_contact_p], work[at.axial_factor_p] = sin, cos, axial
-    work[at.interference_p] = preload_approach(p.preload_p, one.n_rollers, sin, one.kn, one.n)
-    other: Any = p.bearing_g
-    preload = settings.gear_preload if settings.gear_preload >= 0.0 else p.preload_p
-    sin, cos, axial = contact_angle_terms(settings.contact_angle_g)
+    preload = p.preload_g if p.preload_g >= 0.0 else p.preload_p
     work[at.preload_g] = preload
-    work[at.sin_contact_g], work[at.cos_contact_g], work[at.axial_factor_g] = sin, cos, axial
-    work[at.interference_g] = preload_approach(preload, other.n_rollers, sin, other.kn, other.n)
+    write_derived(p.bearing_p, p.preload_p, work[at.bearing_p :])
+    write_derived(p.bearing_g, preload, work[at.bearing_g :])
     work[at.modal_damping] = 0.0
     if settings.modal != 0.0:
         mass = equivalent_mass(settings.mean_pinion_radius, p.ratio, p.I_p, p.I_g)
@@ -201,11 +198,10 @@ def _chosen_mesh(data: Array, at: _Places, work: Array) -> MeshFields:
     )
 
 
-def _entry(
-    law: type[FlankLaw], at: _Places, n_parameters: int, at_speed: int
-) -> Callable[..., int]:
-    """Return the entry of a model with this law of friction, whose data and work lie so."""
-    kernels = axle_kernels(TaperedRollerParameters, law)
+def _entry(kinds: _Classes, at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
+    """Return the entry of a model with these bearings and flanks, whose data and work lie so."""
+    bearing, law = kinds
+    kernels = axle_kernels(bearing, law)
     static_state, step_control = kernels.static_state, kernels.step_control
     step_without_outputs, write_outputs = kernels.step_without_outputs, kernels.outputs
     motion_outputs, event = kernels.motion_outputs, kernels.event
@@ -229,7 +225,7 @@ def _entry(
         out = array_at(outputs, N_OUTPUTS)
         if operation in (_START, _RESUME):
             given_parameters = array_at(parameters, n_parameters)
-            status = _write_parameters(given_parameters, constants, at, law, values)
+            status = _write_parameters(given_parameters, constants, at, bearing, law, values)
             if status != OK or operation == _RESUME:
                 return status
         mesh = _chosen_mesh(constants, at, values)
@@ -341,7 +337,10 @@ def _places(found: ParameterMap, mesh: PackedMesh, place: Any) -> _Places:
         roller_films=roller_films,
         scratch=scratch,
         work_end=scratch + max(work_size(mesh.series_size, mesh.nodes), START_WORK),
-        **_derived(place),
+        preload_g=int(place.preload_g),
+        modal_damping=int(place.mesh.modal_damping),
+        bearing_p=int(flatten(place.bearing_p)[0]),
+        bearing_g=int(flatten(place.bearing_g)[0]),
         orders=mesh.orders,
         nodes=mesh.nodes,
         series_size=mesh.series.size,
@@ -362,17 +361,15 @@ def native_model(definition: Definition) -> NativeModel:
     def pack(arguments: Mapping[str, Value]) -> Array:
         given = {name: value for name, value in arguments.items() if name != "pinion_speed"}
         one = axle_parameters(given, by_default)
-        settings = axle_settings(one, float(arguments["gear_bearing_preload"]))
-        return np.concatenate([flatten(one.kernel_parameters()), flatten(settings)])
+        return np.concatenate([flatten(one.kernel_parameters()), flatten(axle_settings(one))])
 
-    law = type(by_default.kernel_parameters().flank_law)
-    place = _place_of_each(law)
-    found = parameter_map(definition.variables, pack, frozenset(_derived(place).values()))
+    p = by_default.kernel_parameters()
+    kinds = _Classes(type(p.bearing_p), type(p.flank_law))
+    place = _place_of_each(kinds)
+    found = parameter_map(definition.variables, pack, _derived(place, p))
     packed_mesh, series, windows = _mesh_data(by_default)
     at = _places(found, packed_mesh, place)
-    unknown = tuple_from_array(
-        np.full(at.settings, np.nan), AxleParameters, TaperedRollerParameters, law
-    )
+    unknown = tuple_from_array(np.full(at.settings, np.nan), AxleParameters, *kinds)
     data = np.concatenate(
         [
             *found.arrays,
@@ -388,7 +385,7 @@ def native_model(definition: Definition) -> NativeModel:
     parameters = [v.argument for v in definition.variables if v.is_model_parameter]
     return NativeModel(
         definition=definition,
-        entry=_entry(law, at, len(parameters), parameters.index("pinion_speed")),
+        entry=_entry(kinds, at, len(parameters), parameters.index("pinion_speed")),
         data=data,
         state_size=_STATE_SIZE,
         control_at=_CONTROL_AT,

@@ -14,7 +14,6 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 
-from fmu_src.axle_arguments import tapered_bearings
 from fmu_src.definition import Value
 from fmu_src.variable import Variable
 from gearlube_core.arrays import Array
@@ -49,17 +48,13 @@ class AxleSettings(NamedTuple):
     modal_loss_factor: float
     reference_stiffness: float  # N/m, of the modal damping
     mean_pinion_radius: float  # m, ditto
-    gear_preload: float  # N, as given: below 0 that of the pinion's shaft holds
-    contact_angle_p: float  # rad
-    contact_angle_g: float  # rad
     solved: float  # 1 with solved films of the flanks
     own_film: float  # 1 if the law of friction has a film that a solved one cannot replace
 
 
-def axle_settings(axle: HypoidAxleParameters, gear_preload: float) -> AxleSettings:
-    """Return the settings of an axle; a gear preload [N] below 0 is that of the pinion's shaft."""
+def axle_settings(axle: HypoidAxleParameters) -> AxleSettings:
+    """Return the settings of an axle."""
     torques = torque_limits(axle)
-    of_pinion, of_gear = tapered_bearings(axle)
     return AxleSettings(
         torques.pinion_low,
         torques.pinion_high,
@@ -76,9 +71,6 @@ def axle_settings(axle: HypoidAxleParameters, gear_preload: float) -> AxleSettin
         float(axle.modal_loss_factor),
         axle.reference_stiffness,
         axle.mean_pinion_radius,
-        gear_preload,
-        float(of_pinion.contact_angle),
-        float(of_gear.contact_angle),
         1.0 if axle.film == "solved" else 0.0,
         0.0 if axle.friction_law.solved_film else 1.0,
     )

@@ -1,21 +1,42 @@
-"""Interface of a bearing type for shaft models.
+"""Bearing types of shafts: each is one file, registers itself, and is taken by its name.
 
-A bearing type is a NamedTuple of floats with the methods of `ShaftBearings`. It describes the two
-opposed bearings of one shaft. A new type is one new file. The functions below the classes call
-the method of the type that is given; see `kernels.by_class`.
+A dataclass that derives from `Bearing` is the declaration of a type: name and numbers. It makes the
+NamedTuple of floats that describes the two opposed bearings of one shaft, whose kernels are those
+of `ShaftBearings`. It needs `cage_ratio`, `shaft_forces` and `shaft_energy`; the other kernels have
+defaults: no rollers, and the drag of `shaft_drag`, or none, by every law. In the package the file
+stands in this folder and its name ends in `_bearing`. Outside it is imported, or named as an entry
+point of the group `gearlube.bearings`::
 
-Coordinates are those of `parameters`.
+    @dataclass(frozen=True, kw_only=True)
+    class Springs(Bearing, name="springs", text="equal linear springs in all directions"):
+        stiffness: Annotated[float, Number("N/m", 1e5, 1e10, shown="N/um", fmi="stiffness")] = 3e8
+
+        def parameters(self):
+            return SpringsOfShaft(float(self.stiffness))
+
+Axle files select it by `type` in `[pinion.bearing]` and have its numbers as fields with the unit
+`shown`; FMUs have those with an `fmi` name as `pinion.bearing.NAME` and `wheel.bearing.NAME`; error
+bars vary those with a factor. Coordinates are those of `parameters`.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol, Self
+import math
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple, Protocol, Self
 
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.losses.laws import PALMGREN
 from gearlube_core.kernels.by_class import by_class
+from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.part import Kind, Part
 
 N_EXPANSION = 25  # largest number of floats in the expansion of the forces on one shaft
+_NO_HYSTERESIS = 1e12  # Hz, reference frequency beyond which rollers lose nothing
 
 
 class ShaftMotion(NamedTuple):
@@ -132,23 +153,136 @@ class ShaftBearings(Protocol):
     def without_loss(self) -> Self:
         """Return these bearings without hysteresis; called from Python only."""
 
+    def write_derived(self, preload: float, out: Array) -> None:
+        """Write the floats that follow from others into their places in `out`, others as they are.
 
-class Bearing(Protocol):
+        For a native FMU, where a parameter is set in the tuple as it stands. `out` has the tuple's
+        floats in their order; `preload` is that of `Bearing.preload_force` [N], and is written too
+        where the tuple holds it.
+        """
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bearing(Part):
     """A bearing in engineering words, one type for both shafts of an axle."""
 
+    kind: ClassVar[Kind[Bearing]] = Kind(
+        what="bearing type",
+        group="gearlube.bearings",
+        package="gearlube_core.bearings",
+        files="*_bearing",
+    )
+
+    @abstractmethod
     def parameters(self) -> ShaftBearings:
         """Return the floats for the kernels."""
 
     def preload_force(self) -> float:
         """Return the axial force of either bearing at rest [N]."""
+        return 0.0
 
 
-expand_forces = by_class()(ShaftBearings.expand_forces)
-expanded_forces = by_class()(ShaftBearings.expanded_forces)
+def bearing_types(wanted: str = "") -> Mapping[str, type[Bearing]]:
+    """Return the bearing types by name, see `Kind.known`."""
+    return Bearing.kind.known(wanted)
+
+
+class _Expanded(NamedTuple):
+    """What stands in the expansion of a type that has none."""
+
+    f_ref: float
+    oil: LubricantState
+
+
+@kernel
+def _no_expansion(
+    bearings: Any, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: Array
+) -> None:
+    tuple_to_array(_Expanded(f_ref, oil), expansion)
+
+
+@kernel
+def _sum_of_forces(
+    bearings: Any, motion: ShaftMotion, expansion: Array
+) -> tuple[float, float, float, float]:
+    kept = tuple_from_array(expansion, _Expanded)
+    F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, lost = shaft_forces(
+        bearings, motion, kept.f_ref, kept.oil
+    )
+    return F1_r1 + F2_r1, F1_r2 + F2_r2, F1_a + F2_a, lost
+
+
+@kernel
+def _force_alone(
+    bearings: Any,
+    motion: ShaftMotion,
+    f_ref: float,
+    oil: LubricantState,
+    side: float,
+    rollers: Array,
+) -> tuple[float, float, float, float, float, float]:
+    F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, _ = shaft_forces(bearings, motion, f_ref, oil)
+    if side > 0.0:
+        return F1_r1, F1_r2, F1_a, 0.0, 0.0, 0.0
+    return F2_r1, F2_r2, F2_a, 0.0, 0.0, 0.0
+
+
+@kernel
+def _no_drag(
+    bearings: Any,
+    speed: float,
+    axial_load: float,
+    radial_load: float,
+    law: int,
+    oil: LubricantState,
+) -> float:
+    return 0.0
+
+
+@kernel
+def _no_torque(bearings: Any, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
+    return 0.0
+
+
+@kernel
+def _no_films(
+    bearings: Any, motion: ShaftMotion, oil: LubricantState, films: RollerFilms
+) -> SolvedRaceways:
+    return NO_RACEWAYS
+
+
+@kernel
+def _drag_alone(bearings: Any, motion: ShaftMotion, oil: LubricantState) -> float:
+    return loaded_drag(bearings, motion, PALMGREN, oil)
+
+
+@kernel
+def _nothing_derived(bearings: Any, preload: float, out: Array) -> None:
+    return None
+
+
 shaft_forces = by_class()(ShaftBearings.shaft_forces)
 shaft_energy = by_class()(ShaftBearings.shaft_energy)
-bearing_loads = by_class()(ShaftBearings.bearing_loads)
-shaft_drag = by_class()(ShaftBearings.shaft_drag)
-raceway_torque = by_class()(ShaftBearings.raceway_torque)
-solved_raceways = by_class()(ShaftBearings.solved_raceways)
-beside_raceways = by_class()(ShaftBearings.beside_raceways)
+expand_forces = by_class(_no_expansion)(ShaftBearings.expand_forces)
+expanded_forces = by_class(_sum_of_forces)(ShaftBearings.expanded_forces)
+bearing_loads = by_class(_force_alone)(ShaftBearings.bearing_loads)
+shaft_drag = by_class(_no_drag)(ShaftBearings.shaft_drag)
+raceway_torque = by_class(_no_torque)(ShaftBearings.raceway_torque)
+solved_raceways = by_class(_no_films)(ShaftBearings.solved_raceways)
+beside_raceways = by_class(_drag_alone)(ShaftBearings.beside_raceways)
+write_derived = by_class(_nothing_derived)(ShaftBearings.write_derived)
+without_loss = by_class(lambda bearings: bearings)(ShaftBearings.without_loss)
+
+
+@kernel
+def loaded_drag(
+    bearings: ShaftBearings, motion: ShaftMotion, law: int, oil: LubricantState
+) -> float:
+    """Return the drag of both bearings of a shaft under their present forces [N m].
+
+    `law` is PALMGREN or SKF of `losses.laws`. The rollers' hysteresis is no load here.
+    """
+    F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, _ = shaft_forces(bearings, motion, _NO_HYSTERESIS, oil)
+    first = shaft_drag(bearings, motion.speed, abs(F1_a), math.hypot(F1_r1, F1_r2), law, oil)
+    second = shaft_drag(bearings, motion.speed, abs(F2_a), math.hypot(F2_r1, F2_r2), law, oil)
+    return first + second

@@ -67,6 +67,7 @@ class BearingParameters(NamedTuple):
     conductivity: float  # of rollers and races [W/(m K)]
     density: float  # of theirs [kg/m3]
     heat_capacity: float  # [J/(kg K)]
+    contact_angle: float  # [rad]
 
 
 class ApproachTerms(NamedTuple):

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
+from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.losses.catalogue import (
     F0_TAPERED_OIL_BATH,
     F1_TAPERED,
@@ -35,7 +36,7 @@ from gearlube_core.film.mostofi_gohar_1983 import (
     SPEED_EXPONENT,
     SQUEEZE_SHARE,
 )
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Number
 
 Approach = Literal["full", "as_printed"]
 Film = Literal["squeeze", "steady", "off"]
@@ -43,10 +44,12 @@ Film = Literal["squeeze", "steady", "off"]
 HYSTERETIC_LOSS = 0.009  # 1, [mohammadpour_2015 (25)], after [dietl_2000]
 CONTACT_ANGLE_COMPLETED = math.radians(15.0)  # not in the paper; common for axle bearings
 _LARGEST_FIT = 100e-6  # m
+_LINES = "For lines n = 10/9 and kn is in N/m^(10/9)."
+_SIZE = Number("m", 1e-3, 2.0, "12.7 mm is 0.0127 m.")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TaperedRollerBearing:
+@dataclass(frozen=True, kw_only=True)
+class TaperedRollerBearing(Bearing, name="tapered_roller", text="tapered rollers with films"):
     """A tapered roller bearing of the axle model, mounted as an opposed pair on each shaft.
 
     Parameters
@@ -96,34 +99,36 @@ class TaperedRollerBearing:
     0.3987
     """
 
-    bore_diameter: float
+    bore_diameter: Annotated[float, _SIZE]
     outside_diameter: float
-    inner_race_diameter: float
+    inner_race_diameter: Annotated[float, _SIZE]
     outer_race_diameter: float
-    roller_diameter: float
-    roller_length: float
+    roller_diameter: Annotated[float, _SIZE]
+    roller_length: Annotated[float, _SIZE]
     n_rollers: Annotated[int, Number("1", 3, ROLLERS_MAX)]
-    stiffness_constant: float
-    exponent: float
-    contact_angle: float
+    stiffness_constant: Annotated[float, Number("N/m^n", 1e6, 1e14, _LINES)]
+    exponent: Annotated[float, Number("1", 1.0, 2.0, _LINES)]
+    contact_angle: Annotated[
+        float, Number("rad", 0.0, math.radians(45.0), "15 deg is 0.2618 rad.", fmi="contact_angle")
+    ]
     loss: Annotated[float, Number("1", 0.0, 1.0)]
     approach: Approach
     film: Film
     solid: Solid
-    f0: Annotated[float, Number("1", 0.0, 100.0)]
-    f1: Annotated[float, Number("1", 0.0, 0.1)]
-    preload: float | None = None
+    f0: Annotated[float, Number("1", 0.0, 100.0, fmi="f0")]
+    f1: Annotated[float, Number("1", 0.0, 0.1, fmi="f1")]
+    preload: Annotated[
+        float | None, Number("N", 0.0, 1e6, "Preload cannot pull.", fmi="preload")
+    ] = None
     interference: float | None = None
     series: str = "other"
     rib_height: float | None = None
     rib_boundary_friction: Annotated[float, Number("1", 0.0, 0.5)] = RIB_BOUNDARY_FRICTION
-    rib_roughness: float = RIB_ROUGHNESS
+    rib_roughness: Annotated[float, Number("m", 1e-9, 1e-5, "0.24 um is 2.4e-7 m.")] = RIB_ROUGHNESS
 
     def __post_init__(self) -> None:
-        check_fields(self)
+        super().__post_init__()
         check_option("series", self.series, SERIES_NAMES)
-        for name in ("roller_diameter", "roller_length", "bore_diameter", "inner_race_diameter"):
-            check_within(name, getattr(self, name), 1e-3, 2.0, "m", "12.7 mm is 0.0127 m.")
         room = self.inner_race_diameter + self.roller_diameter
         cure = "The roller must fit between the races."
         check_within("outer_race_diameter", self.outer_race_diameter, room, 4.0, "m", cure)
@@ -132,16 +137,9 @@ class TaperedRollerBearing:
         check_within("outside_diameter", self.outside_diameter, low, 4.0, "m", cure)
         if self.n_rollers != int(self.n_rollers):
             raise ParameterError(f"n_rollers must be a whole number, got {self.n_rollers:g}.")
-        cure = "For lines n = 10/9 and kn is in N/m^(10/9)."
-        check_within("exponent", self.exponent, 1.0, 2.0, "", cure)
-        check_within("stiffness_constant", self.stiffness_constant, 1e6, 1e14, "N/m^n", cure)
-        cure = "15 deg is 0.2618 rad."
-        check_within("contact_angle", self.contact_angle, 0.0, math.radians(45.0), "rad", cure)
         cure = "It is below the roller diameter; 0 m is no rib."
         if self.rib_height is not None:
             check_within("rib_height", self.rib_height, 0.0, self.roller_diameter, "m", cure)
-        cure = "0.24 um is 2.4e-7 m."
-        check_within("rib_roughness", self.rib_roughness, 1e-9, 1e-5, "m", cure)
         self._check_fit()
 
     def _check_fit(self) -> None:
@@ -150,13 +148,11 @@ class TaperedRollerBearing:
                 "preload and interference both set the approach of the rollers at standstill, got "
                 f"{self.preload:g} N and {self.interference:g} m. Give one of them."
             )
-        if self.preload is not None:
-            check_within("preload", self.preload, 0.0, 1e6, "N", "Preload cannot pull.")
-            if self.contact_angle == 0.0 and self.preload != 0.0:
-                raise ParameterError(
-                    "An axial preload needs a contact angle above 0 rad, got 0 rad with "
-                    f"{self.preload:g} N. Use with_interference for cylindrical rollers."
-                )
+        if self.preload and self.contact_angle == 0.0:
+            raise ParameterError(
+                "An axial preload needs a contact angle above 0 rad, got 0 rad with "
+                f"{self.preload:g} N. Use with_interference for cylindrical rollers."
+            )
         if self.interference is not None:
             cure = "10 um is 1e-5 m."
             limit = _LARGEST_FIT
@@ -297,4 +293,5 @@ class TaperedRollerBearing:
             conductivity=float(self.solid.conductivity),
             density=float(self.solid.density),
             heat_capacity=float(self.solid.heat_capacity),
+            contact_angle=float(self.contact_angle),
         )

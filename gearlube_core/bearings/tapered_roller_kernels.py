@@ -29,6 +29,7 @@ from gearlube_core.bearings.raceway_drag import (
     steady_load,
     steady_rollers,
 )
+from gearlube_core.bearings.roller_contact import contact_angle_terms, preload_approach
 from gearlube_core.bearings.roller_loads import bearing_forces, roller_loads
 from gearlube_core.bearings.roller_nodes import solved_raceway_drag
 from gearlube_core.bearings.shaft_expansion import (
@@ -264,6 +265,12 @@ def rib_drag(motion: ShaftMotion, oil: LubricantState, p: BearingParameters) -> 
     return RibDrag(on_rib, hysteresis, in_oil)
 
 
+_SIN, _COS, _AXIAL_FACTOR, _INTERFERENCE = (
+    BearingParameters._fields.index(name)
+    for name in ("sin_contact", "cos_contact", "axial_factor", "interference")
+)
+
+
 class TaperedRollerParameters(BearingParameters):
     """Two opposed tapered roller bearings of one shaft; see `bearing_type.ShaftBearings`."""
 
@@ -379,6 +386,13 @@ class TaperedRollerParameters(BearingParameters):
         ends = rib_drag(motion, oil, self)
         beside = ends.rib + ends.hysteresis + ends.oil
         return -beside if motion.speed < 0.0 else beside
+
+    @kernel
+    def write_derived(self, preload: float, out: Array) -> None:
+        """Write what follows from contact angle and preload into its places."""
+        sin_contact, cos_contact, axial_factor = contact_angle_terms(self.contact_angle)
+        out[_SIN], out[_COS], out[_AXIAL_FACTOR] = sin_contact, cos_contact, axial_factor
+        out[_INTERFERENCE] = preload_approach(preload, self.n_rollers, sin_contact, self.kn, self.n)
 
     def without_loss(self) -> TaperedRollerParameters:
         """Return the bearings without hysteresis."""

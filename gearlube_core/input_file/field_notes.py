@@ -371,6 +371,15 @@ def field_unit(key: str) -> tuple[str, str]:
     return _UNITS.get(longest, ""), longest
 
 
+def unit_ending(unit: str) -> str:
+    """Return the ending of a field's name for a unit; "" where no ending says it.
+
+    >>> unit_ending("N/um")
+    '_n_per_um'
+    """
+    return next((ending for ending, one in _UNITS.items() if one == unit), "")
+
+
 def _kind(value: Any) -> str:
     kind = _KINDS[value["type"]]
     entries = value.get("items", value.get("additionalProperties"))

@@ -3,30 +3,26 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
-from gearlube_core.checks import check_finite, check_option, check_positive, check_within
+from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.eyring_1936 import NEWTONIAN, Eyring
 from gearlube_core.oil.film_laws import (
-    DOWSON_HIGGINSON_1966,
-    INCOMPRESSIBLE,
-    barus,
+    DowsonHigginson,
+    RoelandsHoupert,
     density_ratio,
     log_viscosity,
     rate_ratio,
-    roelands,
 )
 from gearlube_core.oil.film_oil import FilmOil, viscosity_cooling
-from gearlube_core.oil.houpert_1985 import houpert_log_viscosity, houpert_parameters
 from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.named_laws import DensityLaw, Newtonian, ShearLaw, ViscosityLaw
 from gearlube_core.oil.oil_heat import OilHeat
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 
 _MINERAL = OilHeat()
-
-VISCOSITY_LAWS = ("barus", "roelands", "houpert")
-DENSITY_LAWS = {"dowson_higginson": DOWSON_HIGGINSON_1966, "incompressible": INCOMPRESSIBLE}
 
 
 def film_oil(
@@ -52,12 +48,15 @@ def film_oil(
     alpha : float, optional
         Pressure-viscosity coefficient [1/Pa], 0 for constant viscosity. Leave it out with a
         viscosity law of your own, which has its own coefficient.
-    law : {"barus", "roelands", "houpert"} or viscosity law
-        Law of viscosity over pressure. Houpert is Roelands with `temperature_exponent` above zero.
-    density_law : {"dowson_higginson", "incompressible"} or density law
-        Law of density over pressure.
-    shear_law : shear law, optional
-        Shear law used instead of `eyring_stress`.
+    law : str, ViscosityLaw or viscosity law
+        Law of viscosity over pressure: name of one that is registered ("barus", "roelands",
+        "houpert"), such a law with its numbers, or a NamedTuple with its kernels. Houpert is
+        Roelands with `temperature_exponent` above zero.
+    density_law : str, DensityLaw or density law
+        Law of density over pressure, likewise ("dowson_higginson", "incompressible").
+    shear_law : str, ShearLaw or shear law, optional
+        Shear law, likewise ("eyring", "newtonian"); a NamedTuple is used instead of
+        `eyring_stress`.
     rho0 : float
         Density [kg/m3].
     eyring_stress : float, optional
@@ -91,24 +90,19 @@ def film_oil(
     >>> hot.expansion, hot.conductivity
     (0.00065, 0.14)
     """
-    lowest = 1.0001 * ROELANDS_KAPPA if law in ("roelands", "houpert") else 0.0
     check_positive("eta0", eta0, "Pa s", "20 cP is 0.02 Pa s.")
-    check_within("eta0", eta0, lowest, 1e4, "Pa s", "20 cP is 0.02 Pa s.")
     check_within("rho0", rho0, 100.0, 3000.0, "kg/m3", "0.87 g/cm3 is 870 kg/m3.")
     check_within("temperature", temperature, GLASS_TEMPERATURE + 1.0, 1000.0, "K")
     check_within("temperature_exponent", temperature_exponent, 0.0, 5.0)
-    if law != "houpert" and temperature_exponent > 0.0:
-        raise ParameterError(
-            f"law must be houpert if temperature_exponent is above 0, got {law} and "
-            f"{temperature_exponent:g}. Take houpert, or leave the exponent out."
-        )
+    if temperature_exponent > 0.0:
+        law = _warming_law(law, temperature_exponent)
     limit, slope = (0.0, 0.0) if limiting_shear is None else limiting_shear
     check_within("limiting_shear[0]", limit, 0.0, 1e10, "Pa", "5 MPa is 5e6 Pa.")
     check_within("limiting_shear[1]", slope, 0.0, 1.0)
     return FilmOil(
         eta0=float(eta0),
         rho0=float(rho0),
-        viscosity=_viscosity_law(law, eta0, alpha, temperature_exponent),
+        viscosity=_viscosity_law(law, eta0, alpha),
         density=_density_law(density_law),
         shear=_shear_law(shear_law, eyring_stress),
         tau_limit=float(limit),
@@ -120,46 +114,74 @@ def film_oil(
     )
 
 
-def _viscosity_law(law: Any, eta0: float, alpha: float | None, S0: float) -> Any:
-    if not isinstance(law, str):
-        if alpha is not None:
+def _warming_law(law: Any, exponent: float) -> ViscosityLaw:
+    if isinstance(law, str):
+        law = ViscosityLaw.kind.named("law", law, {})
+    if not (isinstance(law, ViscosityLaw) and hasattr(law, "temperature_exponent")):
+        raise ParameterError(
+            "law must be houpert if temperature_exponent is above 0, got "
+            f"{law.name if isinstance(law, ViscosityLaw) else law} and {exponent:g}. Take houpert, "
+            "or leave the exponent out."
+        )
+    warming: Any = replace(law, temperature_exponent=exponent)  # type: ignore[call-arg]
+    return warming  # type: ignore[no-any-return]
+
+
+def _viscosity_law(law: Any, eta0: float, alpha: float | None) -> Any:
+    if isinstance(law, str):
+        law = ViscosityLaw.kind.named("law", law, {})
+    if isinstance(law, ViscosityLaw):
+        check_within("eta0", eta0, law.least_viscosity, 1e4, "Pa s", "20 cP is 0.02 Pa s.")
+        if alpha is None:
             raise ParameterError(
-                "alpha must be left out with a viscosity law of your own, which has its own "
-                f"coefficient, got {alpha:g} 1/Pa."
+                f"alpha is missing; the law {law.name} needs it. 20 1/GPa is 2e-8 1/Pa."
             )
+        check_within("alpha", alpha, 0.0, 1e-6, "1/Pa", "20 1/GPa is 2e-8 1/Pa.")
+        law = law(eta0, alpha)
+    elif alpha is not None:
+        raise ParameterError(
+            "alpha must be left out with a viscosity law of your own, which has its own "
+            f"coefficient, got {alpha:g} 1/Pa."
+        )
+    if not isinstance(law, RoelandsHoupert):
         _check_law("law", law, "log_viscosity")
         _check_start("ln(eta/eta0)", log_viscosity(law, 0.0, 1.0)[0], 0.0)
-        return law
-    check_option("law", law, VISCOSITY_LAWS)
-    if alpha is None:
-        raise ParameterError(f"alpha is missing; the law {law} needs it. 20 1/GPa is 2e-8 1/Pa.")
-    check_within("alpha", alpha, 0.0, 1e-6, "1/Pa", "20 1/GPa is 2e-8 1/Pa.")
-    return barus(alpha) if law == "barus" else roelands(eta0, alpha, S0)
+    return law
 
 
 def _density_law(law: Any) -> Any:
     if isinstance(law, str):
-        check_option("density_law", law, DENSITY_LAWS)
-        return DENSITY_LAWS[law]
-    _check_law("density_law", law, "density_ratio")
-    _check_start("rho/rho0", density_ratio(law, 0.0)[0], 1.0)
+        law = DensityLaw.kind.named("density_law", law, {})
+    if isinstance(law, DensityLaw):
+        law = law()
+    if not isinstance(law, DowsonHigginson):
+        _check_law("density_law", law, "density_ratio")
+        _check_start("rho/rho0", density_ratio(law, 0.0)[0], 1.0)
     return law
 
 
 def _shear_law(law: Any, eyring_stress: float | None) -> Any:
     if law is None:
+        law = "newtonian" if eyring_stress is None else "eyring"
+    if isinstance(law, str):
+        law = ShearLaw.kind.named("shear_law", law, {})
+    if isinstance(law, Newtonian):
+        return NEWTONIAN
+    if isinstance(law, ShearLaw):
         if eyring_stress is None:
-            return NEWTONIAN
-        return Eyring(
-            float(check_within("eyring_stress", eyring_stress, 1e4, 1e12, "Pa", "5 MPa is 5e6 Pa."))
-        )
-    if eyring_stress is not None:
+            raise ParameterError(
+                f"eyring_stress is missing; the shear law {law.name} needs it. 5 MPa is 5e6 Pa."
+            )
+        tau0 = check_within("eyring_stress", eyring_stress, 1e4, 1e12, "Pa", "5 MPa is 5e6 Pa.")
+        law = law(tau0)
+    elif eyring_stress is not None:
         raise ParameterError(
             f"eyring_stress must be left out if shear_law is given, got {eyring_stress:g} Pa."
         )
-    _check_law("shear_law", law, "rate_ratio")
+    if not isinstance(law, Eyring):
+        _check_law("shear_law", law, "rate_ratio")
+        _check_start("G = rate_ratio", rate_ratio(law, 0.0)[0], 1.0)
     check_positive("tau0 of the shear law", law.tau0, "Pa", "5 MPa is 5e6 Pa.")
-    _check_start("G = rate_ratio", rate_ratio(law, 0.0)[0], 1.0)
     return law
 
 
@@ -179,8 +201,8 @@ def film_oil_of(
     lubricant: Lubricant,
     temperature: float,
     *,
-    law: str = "roelands",
-    density_law: Any = "dowson_higginson",
+    law: Any = None,
+    density_law: Any = None,
     newtonian: bool = False,
     limiting_shear: bool = False,
 ) -> FilmOil:
@@ -193,7 +215,8 @@ def film_oil_of(
     temperature : float
         Temperature at the inlet [K], within the range of the oil.
     law, density_law
-        As in `film_oil`; the viscosity law by its name.
+        As in `film_oil`, but no NamedTuple for `law`; by default those of the lubricant, else
+        "roelands" and "dowson_higginson".
     newtonian : bool
         True: leave the Eyring stress out.
     limiting_shear : bool
@@ -219,21 +242,18 @@ def film_oil_of(
     >>> round(oil.eta0, 4)  # Pa s
     0.0239
     """
-    check_option("law", law, VISCOSITY_LAWS)
-    eta0 = lubricant.dynamic_viscosity(temperature)
-    S0 = 0.0
-    if law == "houpert":
-        fit = houpert_parameters(lubricant)
-        # the law's own constant 9.67 and kappa agree to 4e-5
-        eta0 = ROELANDS_KAPPA * math.exp(houpert_log_viscosity(fit, 0.0, temperature))
-        S0 = fit.S0
+    law = law or lubricant.viscosity_law or "roelands"
+    if isinstance(law, str):
+        law = ViscosityLaw.kind.named("law", law, {})
+    law, eta0 = law.at(lubricant, temperature)
     alpha = ROELANDS_PRESSURE * lubricant.roelands_z * math.log(eta0 / ROELANDS_KAPPA)
     offset = temperature - lubricant.conductivity_temperature
     return film_oil(
         eta0=eta0,
         alpha=alpha,
         law=law,
-        density_law=density_law,
+        density_law=density_law or lubricant.density_law or "dowson_higginson",
+        shear_law=None if newtonian else lubricant.shear_law,
         rho0=lubricant.density,
         eyring_stress=None if newtonian else lubricant.eyring_stress,
         limiting_shear=(
@@ -242,7 +262,6 @@ def film_oil_of(
             else None
         ),
         temperature=temperature,
-        temperature_exponent=S0,
         heat=OilHeat(
             conductivity=lubricant.conductivity + lubricant.conductivity_slope * offset,
             heat_capacity=lubricant.heat_capacity,

@@ -22,6 +22,7 @@ from gearlube_core.oil.walther_1931 import (
     walther_kinematic_viscosity,
     walther_viscosity,
 )
+from gearlube_core.part import Part
 
 
 class LubricantParameters(NamedTuple):
@@ -69,6 +70,9 @@ class Lubricant:
     alpha_factor, eyring_stress_factor
         The true value lies between value/factor and value * factor with 95 % (k = 2) [-]; None:
         not known.
+    viscosity_law, density_law, shear_law
+        Laws of films, see `film_laws`; None: those of `film_oil_of`. Formulas of films and friction
+        know an oil by its other data alone.
 
     Notes
     -----
@@ -101,6 +105,9 @@ class Lubricant:
     temperature_high: float
     alpha_factor: float | None = None
     eyring_stress_factor: float | None = None
+    viscosity_law: Part | None = None
+    density_law: Part | None = None
+    shear_law: Part | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)

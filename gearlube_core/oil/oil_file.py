@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import Usual, field_unit
+from gearlube_core.input_file.field_notes import OneOf, Usual, field_unit
 from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, toml_data
 from gearlube_core.oil.field_limits import (
     Conductivity,
@@ -26,6 +26,7 @@ from gearlube_core.oil.field_limits import (
 )
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
+from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
 from gearlube_core.oil.sheet_values import SheetValues, sheet_values
 
 FILE_IN_FMU = "oil.toml"  # among the resources of an FMU
@@ -161,6 +162,18 @@ class OilFile(InputFile):
         description="Friction coefficient of the boundary layer: how much its shear strength "
         "rises per pressure",
     )
+    viscosity_law: Annotated[str, OneOf(ViscosityLaw.kind.known)] | None = Field(
+        default=None, description="Law of viscosity over pressure in solved films"
+    )
+    density_law: Annotated[str, OneOf(DensityLaw.kind.known)] | None = Field(
+        default=None, description="Law of density over pressure in solved films"
+    )
+    shear_law: Annotated[str, OneOf(ShearLaw.kind.known)] | None = Field(
+        default=None, description="Law of shear with the Eyring stress in solved films"
+    )
+    law_numbers: dict[str, float] | None = Field(
+        default=None, description="Numbers of laws of your own, by name, in SI units"
+    )
     conductivity_w_m_k: Conductivity | None = Field(
         default=None, description="Thermal conductivity"
     )
@@ -196,13 +209,24 @@ class OilFile(InputFile):
 
     def described(self) -> DescribedOil:
         """Return the oil in SI units with a note on every number."""
-        given = self.model_dump(exclude_none=True)
+        laws: dict[str, Any] = chosen_laws(
+            self.law_numbers,
+            viscosity_law=(ViscosityLaw, self.viscosity_law),
+            density_law=(DensityLaw, self.density_law),
+            shear_law=(ShearLaw, self.shear_law),
+        )
+        given = self.model_dump(exclude_none=True, exclude={*laws, "law_numbers"})
         values: SheetValues = sheet_values(given)
+        notes = [InputNote(field, law.name, "", "given", "") for field, law in laws.items()]
+        for law in laws.values():
+            notes += law.notes("law_numbers.", self.law_numbers or {})
         return DescribedOil(
             name=self.name,
             source=self.source or "",
-            lubricant=Lubricant(name=self.name, source=self.source or "an oil file", **values.data),
-            inputs=tuple(values.notes),
+            lubricant=Lubricant(
+                name=self.name, source=self.source or "an oil file", **(values.data | laws)
+            ),
+            inputs=(*values.notes, *notes),
             limiting_coefficient=values.limiting_coefficient,
             density_slope=values.density_slope,
         )

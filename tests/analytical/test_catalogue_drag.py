@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.bearing_type import ShaftMotion, loaded_drag
 from gearlube_core.bearings.losses.laws import PALMGREN, SKF
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.bearings.tapered_roller_kernels import skf_drag
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import loaded_drag
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,

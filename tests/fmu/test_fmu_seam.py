@@ -15,13 +15,14 @@ from fmu_src.definition import Definition, Model
 from fmu_src.hypoid_axle import DEFINITION
 from fmu_src.model_description import model_description
 from fmu_src.values import Values
-from fmu_src.variable import declared_in, output, parameter
+from fmu_src.variable import declared_in, declared_outputs, in_order, output, parameter
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
-from gearlube_core.number import Number
+from gearlube_core.number import Number, Output
 from tests.helpers.each import each
 
 FLOOR = parameter("mesh.frequency_floor", "Hz", "Lowest frequency of the mesh damping", start=50.0,
                   minimum=1.0, maximum=1e4, nominal=100.0, argument="frequency_floor")  # fmt: skip
+NEW = output("mesh.new", "W", "Another output")
 POWER = output("mesh.power", "W", "Power through the mesh", 1e3)
 ROOT = Path(__file__).parents[2]
 AXLE, PAIR = "gearlube_core/dynamics/hypoid_axle", "gearlube_core/dynamics/helical_pair/march"
@@ -92,6 +93,14 @@ def test_a_number_that_declares_an_fmi_name_is_a_parameter_without_a_line_of_the
                   maximum=9.0, argument="adhesion"),
     )  # fmt: skip
     assert declared_in(Sticky, known | {"adhesion"}) == ()
+
+
+def test_an_output_that_is_declared_beside_its_kernel_needs_no_line_of_the_table() -> None:
+    declared = declared_outputs([Output("mesh.power", "W", "Power through the mesh", 1e3)])
+    assert declared == (POWER,)
+    # those of a release keep their order and places, whatever is declared before them later
+    mixed = in_order(["mesh.power", "mesh.frequency_floor"], NEW, FLOOR, POWER)
+    assert mixed == (POWER, FLOOR, NEW)
 
 
 def test_an_output_of_the_model_lands_on_its_value_reference() -> None:

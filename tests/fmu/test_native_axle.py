@@ -69,8 +69,8 @@ def drivable(rng):
     values["gear_inertia"] = rng.uniform(0.03, 0.1)
     values["gear_bearing_preload"] = rng.choice([-1.0, rng.uniform(100.0, 1e4)])
     for role in ("pinion", "gear"):
-        values[f"{role}_contact_angle"] = rng.uniform(0.2, 0.5)
-        values[f"{role}_f0"], values[f"{role}_f1"] = rng.uniform(0.0, 12.0), rng.uniform(0.0, 1e-3)
+        for name, low, high in (("contact_angle", 0.2, 0.5), ("f0", 0.0, 12.0), ("f1", 0.0, 1e-3)):
+            values[f"{role}_bearing_{name}"] = rng.uniform(low, high)
     values["steps_per_mesh_period"], values["steps_per_highest_period"] = 64, 22
     if not friction_law(values["friction"]).solved_film:
         values["film"] = "formula"
@@ -302,7 +302,10 @@ def test_what_is_refused_leaves_the_state_as_it_was(native):
     for values, status in (
         ({"mesh_damping": "modal", "modal_loss_factor": 0.0}, MODAL_WITHOUT_LOSS),
         # cylindrical rollers carry no axial force
-        ({"pinion_contact_angle": 1e-300, "gear_contact_angle": 1e-300}, NO_EQUILIBRIUM),
+        (
+            {f"{role}_bearing_contact_angle": 1e-300 for role in ("pinion", "gear")},
+            NO_EQUILIBRIUM,
+        ),
     ):
         refused = native.instance(values, CURRENT)
         refused.state[:] = before

@@ -6,7 +6,7 @@ from collections import Counter
 
 import pytest
 
-from fmu_src.model_description import UNITS, units_of
+from fmu_src.model_description import UNITS, Unit, units_of
 from fmu_src.variable import Variable
 from gearlube_core.errors import ParameterError
 from tests.helpers.each import each
@@ -33,9 +33,9 @@ def exponents_of(name):
     return {base: power for base, power in found.items() if power}
 
 
-@each("name", UNITS)
+@each("name", [*UNITS, "N.m.s/rad", "W/m2", "Pa.s"])
 def test_exponents_are_those_of_the_name(name):
-    assert exponents_of(name) == {b: e for b, e in UNITS[name].exponents.items() if e}
+    assert exponents_of(name) == Unit(name).exponents
 
 
 @each(
@@ -63,5 +63,7 @@ def test_units_in_use_come_once_with_the_display_units_in_use():
     found = units_of([output("m", "um"), flag, output("N"), output("m")])
     shown = [(unit.name, [one.name for one in unit.display]) for unit in found]
     assert shown == [("m", ["um"]), ("N", [])]
+    assert [one.name for one in units_of([output("W/(m.K)"), output("m")])] == ["m", "W/(m.K)"]
+    assert Unit("W/(m.K)").exponents == {"kg": 1, "m": 1, "s": -3, "K": -1}
     with pytest.raises(ParameterError, match=r"unit of x must be one of .* got 'furlong'"):
         units_of([output("furlong")])

@@ -70,7 +70,11 @@ def test_what_the_file_gives_is_given_and_the_rest_is_not(tmp_path):
     assert full.lubricant.alpha == pytest.approx(21e-9, rel=1e-12, abs=0.0)
     assert full.lubricant.eyring_stress == pytest.approx(5.5e6)
     named = {note.field for note in full.inputs}
-    assert named == set(OilFile.model_fields) - {"name", "source"}
+    assert named == {one for one in OilFile.model_fields if "law" not in one} - {"name", "source"}
+    newtonian = gl.read_oil(written(tmp_path, shear_law="newtonian"))
+    assert origins(newtonian)["shear_law"] == "given"
+    thick = gl.film_oil_of(newtonian.lubricant, 313.15)
+    assert thick.shear.tau0 == 0.0  # as an oil of film_oil(shear_law="newtonian")
 
 
 def test_the_eyring_stress_goes_with_one_over_alpha(tmp_path):

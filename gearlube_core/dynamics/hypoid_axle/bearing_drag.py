@@ -10,20 +10,17 @@ are renewed by what a change has done; the first ones take an evaluation each.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     NO_RACEWAYS,
     RollerFilms,
-    ShaftBearings,
-    ShaftMotion,
     SolvedRaceways,
     beside_raceways,
+    loaded_drag,
     raceway_torque,
     shaft_drag,
-    shaft_forces,
     solved_raceways,
 )
 from gearlube_core.bearings.losses.laws import PALMGREN as PALMGREN_LAW
@@ -66,7 +63,6 @@ PALMGREN = float(TORQUE_LOSSES.index("palmgren"))
 _PALMGREN_LOADED = float(TORQUE_LOSSES.index("palmgren_loaded"))
 _SKF = float(TORQUE_LOSSES.index("skf_2013"))
 SOLVED_FILMS = float(TORQUE_LOSSES.index("solved_films"))
-_NO_HYSTERESIS = 1e12  # Hz, reference frequency beyond which rollers lose nothing
 # places of what is kept: 1 where it is, oil temperature of then [K], bound [W]; of each shaft
 # its torque [N m], displacements [um] and speed [rad/s] of then, and slopes over their reaches
 _KNOWN, _OIL, _BOUND, _SHAFTS = range(4)
@@ -120,20 +116,6 @@ def drag_bound_of(s: Array, raceways: AxleRaceways) -> float:
     """Return the bound of the power that the bearings of both shafts lose [W]."""
     of_pinion = raceways.pinion.torque_bound * abs(s[W_P])
     return of_pinion + raceways.gear.torque_bound * abs(s[W_G])
-
-
-@kernel
-def loaded_drag(
-    bearings: ShaftBearings, motion: ShaftMotion, law: int, oil: LubricantState
-) -> float:
-    """Return the drag of both bearings of a shaft under their present forces [N m].
-
-    `law` is PALMGREN or SKF of `bearings.losses.laws`. The rollers' hysteresis is no load here.
-    """
-    F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, _ = shaft_forces(bearings, motion, _NO_HYSTERESIS, oil)
-    first = shaft_drag(bearings, motion.speed, abs(F1_a), math.hypot(F1_r1, F1_r2), law, oil)
-    second = shaft_drag(bearings, motion.speed, abs(F2_a), math.hypot(F2_r1, F2_r2), law, oil)
-    return first + second
 
 
 @kernel

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
-from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.bearings.bearing_type import ShaftBearings, without_loss
 from gearlube_core.drag import ChurningConstants
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
@@ -77,6 +77,6 @@ def without_losses(p: AxleParameters) -> AxleParameters:
         friction=0.0,
         rolling=0.0,
         mesh=p.mesh._replace(hysteretic_loss=0.0),
-        bearing_p=p.bearing_p.without_loss(),
-        bearing_g=p.bearing_g.without_loss(),
+        bearing_p=without_loss(p.bearing_p),
+        bearing_g=without_loss(p.bearing_g),
     )

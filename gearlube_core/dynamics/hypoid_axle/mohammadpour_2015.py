@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import get_args
 
-from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_bearing import Approach, TaperedRollerBearing
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import (
     STEEL_MOHAMMADPOUR_2015,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import Approach, HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant

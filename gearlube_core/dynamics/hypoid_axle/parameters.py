@@ -51,7 +51,6 @@ Radii = Literal["consistent", "paper", "mean"]
 MeshStiffness = Literal["tangent", "secant"]
 MeshDamping = Literal["hysteretic", "modal"]
 Film = Literal["formula", "solved"]
-Approach = Literal["full", "as_printed"]
 
 NO_MODAL_LOSS = (
     "modal_loss_factor must be above 0 with mesh_damping 'modal', got 0. "

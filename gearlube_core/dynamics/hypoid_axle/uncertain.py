@@ -14,7 +14,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW, RACE_LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.bearings.losses.rib import RIB_FRICTION_FACTOR, RIB_ROUGHNESS_FACTOR
-from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
@@ -83,35 +82,37 @@ def _roughness(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
 
 
 def _of_bearings(name: str) -> Callable[[HypoidAxleParameters, float], HypoidAxleParameters]:
-    """Return the change of an attribute of all tapered roller bearings, times a number."""
-
-    def changed(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
-        pair = [
-            replace(one, **{name: by * getattr(one, name)})
-            if isinstance(one, TaperedRollerBearing) and getattr(one, name)
-            else one
-            for one in axle.bearings
-        ]
-        return replace(axle, bearing=pair[0], gear_bearing=axle.gear_bearing and pair[1])
-
-    return changed
+    """Return the change of a number of all bearings that have it, times a number."""
+    return partial(_times, "bearing", name)
 
 
 def _of_numbers(axle: HypoidAxleParameters) -> Iterator[Uncertain]:
-    """Yield the numbers of an axle and of its friction law that are declared with a factor."""
-    for part, prefix in ((axle, ""), (axle.friction_law, "friction_")):
+    """Yield the numbers of an axle, its friction law and bearings that are declared with a factor.
+
+    Those of the bearings of both shafts are one input.
+    """
+    for field, part in (("", axle), ("friction", axle.friction_law), ("bearing", axle.bearing)):
         kind: Any = type(part)
         for name, one in numbers_of(kind).items():
             if one.factor > 1.0:
-                changed = partial(_times, name, bool(prefix))
-                yield Uncertain(f"{prefix}{name}", one.text, one.factor, one.source, changed)
+                changed = partial(_times, field, name)
+                key = f"{field}_{name}".lstrip("_")
+                yield Uncertain(key, one.text, one.factor, one.source, changed)
 
 
-def _times(name: str, of_law: bool, axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
-    """Return the axle with a number of it, or of its friction law, times another."""
-    part: Any = axle.friction_law if of_law else axle
-    made = replace(part, **{name: by * getattr(part, name)})
-    return replace(axle, friction=made) if of_law else made
+def _times(field: str, name: str, axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
+    """Return the axle with a number of it or of the part in a field times another."""
+
+    def changed(part: Any) -> Any:
+        value = getattr(part, name, None)
+        return replace(part, **{name: by * value}) if value else part
+
+    if not field:
+        return changed(axle)  # type: ignore[no-any-return]
+    if field == "friction":
+        return replace(axle, friction=changed(axle.friction_law))
+    other = axle.gear_bearing and changed(axle.gear_bearing)
+    return replace(axle, bearing=changed(axle.bearing), gear_bearing=other)
 
 
 _NOT_MEASURED = "state of lubrication not known, no torque measured"
@@ -228,8 +229,8 @@ def uncertain_of(
     ribbed = BEARING_LAWS.get(law) in RACE_LAWS
     for one in (*UNCERTAIN, *RIBS * ribbed, *_of_numbers(axle)):
         factor, why = own.get(one.name, (None, ""))
-        if one.name == "preload" and calibrated_bearings:
-            continue  # it is in the measured torque
+        if one.name == "preload" and (calibrated_bearings or not hasattr(axle.bearing, "preload")):
+            continue  # it is in the measured torque, or there is none
         found.append(one if factor is None else replace(one, factor=factor, why=why))
     return tuple(found)
 

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from dataclasses import replace
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import OneOf, Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
+from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.oil.oil_heat import OilHeat
 from gearlube_core.units import celsius_to_kelvin
@@ -72,14 +75,24 @@ class Oil(Section):
         "at ambient pressure. Measured at 40 degC: polyalphaolefin 15, paraffinic mineral oil 21, "
         "naphthenic mineral oil 27 [arana_2019 Table 3]",
     )
-    law: Literal["barus", "roelands", "houpert"] | None = Field(
+    law: Annotated[str, OneOf(ViscosityLaw.kind.known)] | None = Field(
         default=None,
         description="Law of viscosity over pressure; houpert also over temperature. Left out: "
         "houpert with a temperature exponent and for thermal solutions with an oil of the library, "
         "which has its own exponent; else roelands",
     )
-    density_law: Literal["dowson_higginson", "incompressible"] = Field(
-        default="dowson_higginson", description="Law of density over pressure"
+    density_law: Annotated[str, OneOf(DensityLaw.kind.known)] | None = Field(
+        default=None,
+        description="Law of density over pressure; left out: that of an oil file, else "
+        "dowson_higginson",
+    )
+    shear_law: Annotated[str, OneOf(ShearLaw.kind.known)] | None = Field(
+        default=None,
+        description="Law of shear with the Eyring stress; left out: that of an oil file, else "
+        "eyring with an Eyring stress and newtonian without",
+    )
+    law_numbers: dict[str, float] | None = Field(
+        default=None, description="Numbers of laws of your own, by name, in SI units"
     )
     eyring_stress_mpa: Stress | None = Field(
         default=None,
@@ -137,7 +150,19 @@ class Oil(Section):
                     )
         if self.limiting_stress_mpa is None and self.limiting_stress_slope > 0.0:
             raise ValueError("limiting_stress_slope needs limiting_stress_mpa")
+        try:
+            self._laws()
+        except ParameterError as reason:
+            raise ValueError(str(reason).removesuffix(".")) from None
         return self
+
+    def _laws(self) -> dict[str, Any]:
+        return chosen_laws(
+            self.law_numbers,
+            law=(ViscosityLaw, self.law),
+            density_law=(DensityLaw, self.density_law),
+            shear_law=(ShearLaw, self.shear_law),
+        )
 
     @property
     def from_file(self) -> bool:
@@ -148,13 +173,15 @@ class Oil(Section):
         """Return the film's data of the oil, in SI units, for a solution with heat or without."""
         temperature = celsius_to_kelvin(self.temperature_degc)
         warms = self.temperature_exponent > 0.0 or (thermal and self.library is not None)
-        law = self.law or ("houpert" if warms else "roelands")
-        if self.library is not None:
+        laws = self._laws()
+        oil = None if self.library is None else read_oil(self.library).lubricant
+        law = laws.get("law", "houpert" if warms else "roelands")
+        if oil is not None:
             return film_oil_of(
-                read_oil(self.library).lubricant,
+                replace(oil, shear_law=laws.get("shear_law", oil.shear_law)),
                 temperature,
-                law=law,
-                density_law=self.density_law,
+                law=laws.get("law", oil.viscosity_law or law),
+                density_law=laws.get("density_law"),
                 newtonian=self.shear == "newtonian",
                 limiting_shear=self.shear == "limited",
             )._replace(expansion=self.expansion_per_k)
@@ -163,7 +190,8 @@ class Oil(Section):
             eta0=self.viscosity_pa_s or 0.0,
             alpha=(self.pressure_viscosity_per_gpa or 0.0) / _GIGA,
             law=law,
-            density_law=self.density_law,
+            density_law=laws.get("density_law", "dowson_higginson"),
+            shear_law=laws.get("shear_law"),
             rho0=self.density_kg_m3,
             eyring_stress=None if eyring is None else eyring * _MEGA,
             limiting_shear=None if limit is None else (limit * _MEGA, self.limiting_stress_slope),

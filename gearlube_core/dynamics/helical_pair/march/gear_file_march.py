@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
@@ -22,11 +23,13 @@ from gearlube_core.film_model.model import FilmModel
 from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.number import Number, check_fields
 from gearlube_core.oil.lubricant import Lubricant
 
 DENSITY_WITH_MESH_WORDS = "stiffness_density must be 0 with a line mesh"
 _NO_BEARING = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _ZERO = "0 takes the value of the gear file."
+_STIFFNESS = Number("N/m", 0.0, 1e12, _ZERO)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,17 +56,12 @@ class ReplacedBearings:
     500000000.0
     """
 
-    radial_stiffness: float = 0.0
-    axial_stiffness: float = 0.0
-    bearing_distance: float = 0.0
+    radial_stiffness: Annotated[float, _STIFFNESS] = 0.0
+    axial_stiffness: Annotated[float, _STIFFNESS] = 0.0
+    bearing_distance: Annotated[float, Number("m", 0.0, 10.0, _ZERO)] = 0.0
 
     def __post_init__(self) -> None:
-        for name, high, unit in (
-            ("radial_stiffness", 1e12, "N/m"),
-            ("axial_stiffness", 1e12, "N/m"),
-            ("bearing_distance", 10.0, "m"),
-        ):
-            check_within(name, getattr(self, name), 0.0, high, unit, _ZERO)
+        check_fields(self)
 
 
 def helical_march_parameters(

@@ -82,7 +82,7 @@ class MarchChoices(NamedTuple):
     support_damping_ratio: float  # [-]
     held: float  # 1: axial motion and tilt are held; 0: free
     line_work: float  # see `FlankConstants`
-    refreshes: float  # see `MarchConstants`
+    friction_updates_per_mesh_period: float
     film: float  # ditto
     film_limiting_slope: float  # ditto
 
@@ -199,7 +199,7 @@ def write_constants(given: Array, oil: Array, choices: Array, constants: Array) 
             pair.teeth,
             chosen.friction_form,
             chosen.friction_coefficient if chosen.friction_form == 0.0 else 0.0,
-            chosen.refreshes,
+            chosen.friction_updates_per_mesh_period,
             chosen.film,
             chosen.film_limiting_slope,
             gear_flanks(chosen.roughness_rms),

@@ -50,6 +50,7 @@ from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS, write_ranges
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import lubricant_state
 
 BEARING_QUANTITIES = ("force.x", "force.y", "force.z")
@@ -96,9 +97,17 @@ _OUTPUTS: tuple[str, ...] = (
     "energy.stored",
     *RANGE_OUTPUTS,
 )
+# outputs that the table of the FMU's variables takes from here, with unit and text
+OWN_OUTPUTS: tuple[Output, ...] = ()
 # for another integrator: the other states, the rates of all, and the event indicators
 _OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
-OUTPUT_NAMES = (*_OUTPUTS, *_OTHER_STATES, *RATE_NAMES, *EVENT_INDICATORS)
+OUTPUT_NAMES = (
+    *_OUTPUTS,
+    *_OTHER_STATES,
+    *RATE_NAMES,
+    *EVENT_INDICATORS,
+    *(one.name for one in OWN_OUTPUTS),
+)
 OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
 N_OUTPUTS = len(OUTPUT_NAMES)
 

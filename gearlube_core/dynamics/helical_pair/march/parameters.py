@@ -230,7 +230,6 @@ class HelicalMarchParameters(MarchScalars):
             friction_form=FRICTION_FORMS[self.friction],
             held=HELD[self.form],
             line_work=LINE_WORK[self.equations],
-            refreshes=float(self.friction_updates_per_mesh_period),
             film=float(FILM_MODELS.index(self.film)),
         )
 
