@@ -231,7 +231,10 @@ def test_straight_waves_in_time_are_the_line_in_time(
     assert changed > 0.03
 
 
-@pytest.mark.parametrize("discretisation", ["differences", "elements"])
+# films of elements in time between these sides are in the default run with straight waves
+@pytest.mark.parametrize(
+    "discretisation", ["differences", pytest.param("elements", marks=pytest.mark.slow)]
+)
 def test_shifted_roughness_that_touches_moves_the_film_by_rows(discretisation):
     # touching solids, crossing waves of both surfaces; a march cannot tell the seam from a row
     part = section((129, 16), line_load=2e5)
