@@ -16,7 +16,12 @@ import xarray as xr
 import gearlube
 from gearlube_core.errors import ConvergenceError, FileError
 from gearlube_core.storage import cache_folder, process_pool
-from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays, write_figure
+from gearlube_core.storage.atomic_file import (
+    atomic_write,
+    read_arrays,
+    write_arrays,
+    write_figure,
+)
 from gearlube_core.storage.process_pool import ProcessPool
 from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results

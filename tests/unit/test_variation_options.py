@@ -10,7 +10,6 @@ from gearlube.variation.keys import Key, understood
 from gearlube.variation.points.losses import _OPERANDS
 from gearlube.variation.vary_option import limits_from, sampling_from, varied_from
 from gearlube_core.errors import ParameterError
-from tests.helpers.each import each
 
 KEYS = {**axle_keys(), **_OPERANDS}
 
@@ -49,7 +48,7 @@ def test_several_variations_follow_one_flag():
     ]  # fmt: skip
 
 
-@each(
+@pytest.mark.parametrize(
     ("text", "said"),
     [
         ("bering.preload=1", "Is it bearing.preload"),
@@ -84,7 +83,7 @@ def test_designs_and_limits_are_read():
     assert limits_from(["loss=5e2"], ["loss"]) == {"loss": 500.0}
 
 
-@each("text", ["lhs", "lhs:", "lhs:-3", "lhs:1.5", "grid:4", "", "lhs:1e9"])
+@pytest.mark.parametrize("text", ["lhs", "lhs:", "lhs:-3", "lhs:1.5", "grid:4", "", "lhs:1e9"])
 def test_a_wrong_design_text_is_refused(text):
     with pytest.raises(ParameterError, match="--design must be"):
         sampling_from(text, 1)
