@@ -15,6 +15,7 @@ from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.newton.transfer import build_hierarchy
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import Sides
+from gearlube_core.ehl.transient import patches
 from gearlube_core.kernels import row_workers
 from gearlube_core.kernels.row_workers import RowWorkers
 from gearlube_core.oil.film_oil_data import film_oil
@@ -176,3 +177,57 @@ def test_rows_that_need_an_exchange_go_the_other_way(monkeypatch):
 def test_rows_beyond_the_sides():
     assert list(held_rows(Sides("cyclic"), 4, 3)) == [1, 2, 3, 0, 1, 2, 3, 0, 1, 2]
     assert list(held_rows(Sides("no_flow"), 4, 5)) == [3, 3, 2, 1, 0, 0, 1, 2, 3, 3, 2, 1, 0, 0]
+
+
+def at(*nodes):
+    """Flags of 18 rows and a copied one at both ends, set at row, column."""
+    flags = np.zeros((ROWS + 2, COLUMNS), dtype=bool)
+    flags[tuple(np.transpose(nodes))] = True
+    return flags
+
+
+@pytest.mark.parametrize("sides", ["cyclic", "no_flow"])
+def test_patches_leave_nothing_of_their_equations(sides):
+    hierarchy = grids(sides)
+    linear, level = linearised(hierarchy), hierarchy.levels[-1]
+    # at both ends of the rows, where the film repeats or is mirrored
+    linear.touching = at((1, 30), (ROWS, 33))
+    pressure = np.where(linear.free, np.random.default_rng(5).uniform(size=level.shape), 0.0)
+    changed = pressure.copy()
+    deflection = level.grid.deflection(pressure).copy()
+    found = patches.TouchingPatches(level.grid, linear)
+    found.correct(linear.right, deflection, 0.1, changed)
+    inside = (changed != pressure) & linear.free
+    # 5 x 7 around both, of which they share 4 x 4 where rows repeat; else 3 x 7 at either end
+    assert inside.sum() == {"cyclic": 2 * 5 * 7 - 4 * 4, "no_flow": 2 * 3 * 7}[sides]
+    before, rest = (
+        np.abs(linear.right - level.apply(linear, one, 0.1))[inside] for one in (pressure, changed)
+    )
+    if sides == "cyclic":
+        # factors have seven digits, of equations that range over three orders of magnitude
+        assert rest.max() < 1e-3 * before.max()
+    else:
+        # patches apart: each feels what the other one adds
+        assert rest.max() < 0.3 * before.max()
+
+
+def test_patches_go_on_where_rows_repeat_and_are_cut_where_large(monkeypatch):
+    free = np.ones((ROWS + 2, COLUMNS), dtype=bool)
+    touching = at((1, 10), (ROWS, 12), (9, 40))
+    assert patches.patch_numbers(touching, free, True).max() == 2
+    number = patches.patch_numbers(touching, free, False)
+    assert number.max() == 3
+    assert (number[[0, -1]] == 0).all()
+    # two rows to either side, three columns
+    assert {*zip(*np.nonzero(number == number[9, 40]), strict=True)} == {
+        (j, i) for j in range(7, 12) for i in range(37, 44)
+    }
+    free[8, 38:43] = False
+    # the first two share 4 x 5 nodes
+    whole = 3 * 5 * 7 - 4 * 5
+    assert (patches.patch_numbers(touching, free, True) > 0).sum() == whole - 5
+    monkeypatch.setattr(patches, "_LARGEST", 20)
+    monkeypatch.setattr(patches, "_TILE", 4)
+    cut = patches.patch_numbers(touching, np.ones_like(free), True)
+    assert np.bincount(cut.ravel())[1:].max() <= 16
+    assert (cut > 0).sum() == whole
