@@ -59,7 +59,6 @@ def test_cycle_is_that_of_sparse_matrices(length, monkeypatch):
     hierarchy = grids("cyclic", length)
     linear = linearised(hierarchy)
     own, other = ColumnCycle(hierarchy, linear), MultigridCycle(hierarchy, linear)
-    assert own.exchanging is None
     residual = np.random.default_rng(8).normal(size=linear.free.shape)
     residual = np.where(linear.free, residual * np.abs(linear.by_pressure[0]), 0.0)
     for right, load in ((residual, 0.0), (linear.right, 0.2), (np.zeros_like(residual), 1.0)):
@@ -164,14 +163,17 @@ def test_coarse_derivatives_are_products_of_matrices(sides):
         assert found.free.shape == level.shape
 
 
-def test_rows_that_need_an_exchange_go_the_other_way(monkeypatch):
+def test_a_node_that_hardly_feels_its_own_pressure_does_not_grow_in_the_lines(monkeypatch):
     hierarchy = grids("cyclic")
     linear = linearised(hierarchy)
-    monkeypatch.setattr(column_levels, "_LARGEST_SHARE", 0.0)
-    cycle = ColumnCycle(hierarchy, linear)
-    assert cycle.exchanging is not None
-    expected = MultigridCycle(hierarchy, linear)(linear.right, 0.1)
-    assert np.array_equal(cycle(linear.right, 0.1)[0], expected[0])
+    sound = ColumnCycle(hierarchy, linear)(linear.right, 0.1)[0]
+    # the equation of one node loses its own pressure: to solve its row it would be exchanged
+    own = linear.by_pressure[linear.centre], linear.by_film[linear.centre]
+    for slopes in own:
+        slopes[9, 32] *= 1e-6
+    weak = ColumnCycle(hierarchy, linear)(linear.right, 0.1)[0]
+    # an exact solution of that row would be as large as the inverse of what is left
+    assert np.abs(weak).max() < 10.0 * np.abs(sound).max()
 
 
 def test_rows_beyond_the_sides():

@@ -144,8 +144,9 @@ class TouchingPatches:
             scale = 1.0 / np.abs(matrix).max(axis=1)
             matrix *= scale[:, None]
             # of the transpose, as it lies in memory
-            factors, pivots, _ = sgetrf(matrix.T, overwrite_a=True)
-            self._factors.append((part, at, scale, factors, pivots))
+            factors, pivots, singular = sgetrf(matrix.T, overwrite_a=True)
+            if not singular:
+                self._factors.append((part, at, scale, factors, pivots))
 
     def correct(self, right: Array, film: Array, approach: float, pressure: Array) -> None:
         """Add to a pressure, whose deflection is `film`, what the patches lack of `right`."""
@@ -167,7 +168,9 @@ def patch_numbers(touching: Flags, free: Flags, cyclic: bool) -> Any:
     """
     rows = touching.shape[0] - 2
     row = np.arange(-_BESIDE, rows + _BESIDE)
-    inner = touching[1:-1][row % rows] if cyclic else np.pad(touching[1:-1], ((_BESIDE,) * 2, (0, 0)))
+    inner = (
+        touching[1:-1][row % rows] if cyclic else np.pad(touching[1:-1], ((_BESIDE,) * 2, (0, 0)))
+    )
     inner = _widened(_widened(inner, _BESIDE).T, _ALONG).T[_BESIDE:-_BESIDE] & free[1:-1]
     number, count = label(inner, np.ones((3, 3)))
     if cyclic:
