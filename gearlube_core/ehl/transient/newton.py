@@ -20,6 +20,7 @@ from gearlube_core.ehl.point.newton.transfer import Hierarchy
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.level import MovingLevel, lifted, lifted_off_solids
+from gearlube_core.ehl.transient.patches import TouchingPatches
 from gearlube_core.ehl.transient.rows import Inverse, WindowedDeflection
 from gearlube_core.kernels.jit import kernel
 
@@ -170,7 +171,8 @@ class LaggedPreconditioner:
     """A multigrid cycle that is built once and used for several linearisations.
 
     It solves the nodes that carried pressure when it was built; nodes that came since are solved
-    on their own, nodes that left keep no pressure.
+    on their own, nodes that left keep no pressure. Between closed sides patches around touching
+    nodes are solved after it, at every linearisation.
 
     Parameters
     ----------
@@ -196,6 +198,7 @@ class LaggedPreconditioner:
         self._stale, self._same = True, False
         self._free = self._new = np.zeros(0, dtype=np.bool_)
         self._linear: Linearisation | None = None
+        self._patches: TouchingPatches | None = None
         level = hierarchy.levels[-1]
         self.deflection = WindowedDeflection(level.grid)
         self._level = level
@@ -215,6 +218,9 @@ class LaggedPreconditioner:
         self.deflection.follow(linear.free)
         self._same = np.array_equal(linear.free, self._free)
         self._new = linear.free & ~self._free
+        # rows that are solved whole need none
+        touches = linear.touching is not None and linear.sides.closed
+        self._patches = TouchingPatches(self._level.grid, linear) if touches else None
 
     def mark_outdated(self) -> None:
         """Bring the cycle up to date before its next use."""
@@ -231,12 +237,15 @@ class LaggedPreconditioner:
         assert self._linear is not None
         if self._same:
             # other nodes have no equation: residual and pressure are zero there
-            return self._cycle(residual, load_residual)
-        pressure, approach = self._cycle(np.where(self._free, residual, 0.0), load_residual)
-        pressure[~self._linear.free] = 0.0
-        new = self._new
-        solids = self._level.terms.solids
-        pressure[new] = residual[new] / solids.own_slope(self._linear, new, self._level.grid)
+            pressure, approach = self._cycle(residual, load_residual)
+        else:
+            pressure, approach = self._cycle(np.where(self._free, residual, 0.0), load_residual)
+            pressure[~self._linear.free] = 0.0
+            new = self._new
+            solids = self._level.terms.solids
+            pressure[new] = residual[new] / solids.own_slope(self._linear, new, self._level.grid)
+        if self._patches is not None:
+            self._patches.correct(residual, self.deflection(pressure), approach, pressure)
         return pressure, approach
 
 

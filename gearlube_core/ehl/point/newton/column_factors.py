@@ -15,10 +15,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.ehl.point.newton.row_factors import BELOW
+from gearlube_core.ehl.point.newton.row_factors import BELOW, LARGEST_SHARE
 from gearlube_core.kernels.line_kernel import line_kernel
 
 REACH = 2  # nodes that a stencil reaches to each side
+_LEAST = 1.0e-30  # coefficient, over which shares are taken
 TILE = 32  # rows and columns that are turned at once: they stay in the nearest cache
 
 
@@ -176,19 +177,24 @@ def fill_band(
 
 
 @line_kernel
-def factor_node(i: int, low: int, high: int, band: np.ndarray, largest: np.ndarray) -> None:
+def factor_node(i: int, low: int, high: int, band: np.ndarray, most: np.ndarray) -> None:
     """Take the equations of node i off those of the next nodes; see `factor_rows`."""
     nx = band.shape[0]
-    pivot, most = band[i, BELOW, low:high], largest[low:high]
+    pivot, largest = band[i, BELOW, low:high], most[low:high]
+    for j in range(largest.size):
+        largest[j] = np.float32(_LEAST)
+    for k in range(1, min(BELOW, nx - 1 - i) + 1):
+        share = band[i + k, BELOW - k, low:high]
+        for j in range(share.size):
+            largest[j] = max(largest[j], abs(share[j]))
     for j in range(pivot.size):
-        pivot[j] = np.float32(1.0) / pivot[j]
+        # an equation that would have to be exchanged is made to weigh more
+        size = max(abs(pivot[j]), np.float32(1.0 / LARGEST_SHARE) * largest[j])
+        pivot[j] = np.float32(1.0) / (size if pivot[j] >= np.float32(0.0) else -size)
     for k in range(1, min(BELOW, nx - 1 - i) + 1):
         share = band[i + k, BELOW - k, low:high]
         for j in range(share.size):
             share[j] *= pivot[j]
-        for j in range(share.size):
-            # written so that what is no number counts as too large
-            most[j] = most[j] if abs(share[j]) <= most[j] else abs(share[j])
         for m in range(1, min(BELOW, nx - 1 - i) + 1):
             rest, above = band[i + k, BELOW - k + m, low:high], band[i, BELOW + m, low:high]
             for j in range(rest.size):
@@ -206,7 +212,7 @@ def factor_rows(
     across: np.ndarray,
     rows: tuple[int, int],
     band: np.ndarray,
-    largest: np.ndarray,
+    most: np.ndarray,
 ) -> None:
     """Write the factors of rows of nodes, uncoupled from each other.
 
@@ -226,11 +232,15 @@ def factor_rows(
         First row of nodes and the one behind the last.
     band : ndarray, shape (nx, 9, rows)
         Result: L and U, the reciprocal of the diagonal in its place.
-    largest : ndarray, shape (rows,)
-        Result: largest share of an equation that was taken off another, for every row of nodes.
+    most : ndarray, shape (rows,)
+        Overwritten.
+
+    Notes
+    -----
+    No equations are exchanged. One of which another would have more than `LARGEST_SHARE` taken
+    off gets a larger coefficient of its own node: lines are smoothed with it, no more.
     """
     nx = free.shape[0]
-    largest[rows[0] : rows[1]] = np.float32(0.0)
     for i in range(nx + BELOW):
         if i < nx:
             fill_band(
@@ -247,7 +257,7 @@ def factor_rows(
                 band,
             )
         if i >= BELOW:
-            factor_node(i - BELOW, rows[0], rows[1], band, largest)
+            factor_node(i - BELOW, rows[0], rows[1], band, most)
 
 
 @line_kernel

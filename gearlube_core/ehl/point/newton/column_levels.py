@@ -25,9 +25,6 @@ from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection, unresolved_wave
 from gearlube_core.ehl.point.settings import Sides
 
-# of an equation that is taken off another without exchange: two of seven digits are left for it,
-# in a row of which there are few
-_LARGEST_SHARE = 1.0e5
 _LEAST = 1.0e-3  # mean weight of a neighbour that is kept, over that of the heaviest one
 _WEIGHED = 64  # nodes of a row whose neighbours are weighed, at least
 TOGETHER = 16  # rows of nodes that one thread takes: a line of the cache
@@ -135,10 +132,10 @@ class ColumnLevel:
         self._scratch = self.half, back, np.empty(nx)
         self._packed: dict[tuple[int, int], Any] = {}
         self._reached: dict[bytes, Any] = {}
-        self._largest = np.empty(rows, dtype=Single)
+        self._most = np.empty(rows, dtype=Single)
 
-    def follow(self, whole: WholeStencils, coarse: WholeStencils) -> ColumnGrid | None:
-        """Return the grid with derivatives and factors; None where rows had to be exchanged.
+    def follow(self, whole: WholeStencils, coarse: WholeStencils) -> ColumnGrid:
+        """Return the grid with derivatives and factors.
 
         Parameters
         ----------
@@ -150,7 +147,7 @@ class ColumnLevel:
         weight, nx, rows = np.zeros((2, PLACES)), *self.shape
         own = self._grid.own_deflection[0, 0]
         both, stride = (whole.by_pressure, whole.by_film), max(1, nx // _WEIGHED)
-        nodes = weigh_places(*both, whole.used, own, stride, self._largest, weight)
+        nodes = weigh_places(*both, whole.used, own, stride, self._most, weight)
         kept = weight > _LEAST * nodes
         kept[:, CENTRE] = True
         stencils, packed = [], []
@@ -165,10 +162,10 @@ class ColumnLevel:
         columns, share = self.coarse[1], self._grid.workers.share
 
         def factor(part: tuple[int, int]) -> None:
-            local, across, largest = self._local, self._across, self._largest
+            local, across, most = self._local, self._across, self._most
             p_offsets, p, h_offsets, h = packed
             given = p_offsets, p, h_offsets, h, whole.free, local, across
-            factor_rows(*given, part, self._band, largest)
+            factor_rows(*given, part, self._band, most)
 
         share(
             lambda part: pack_and_coarsen(self.along, stencils[0], stencils[1], part),
@@ -176,8 +173,6 @@ class ColumnLevel:
             nx * rows // columns,
         )
         share(factor, rows, nx, TOGETHER)
-        if not (self._largest <= _LARGEST_SHARE).all():
-            return None
         links = *self._held, self.along, self.across
         derivatives = *packed, whole.by_approach, self._band, whole.free
         fields = *self._fields, *self._padded, *self._scratch

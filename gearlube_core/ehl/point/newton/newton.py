@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.linalg.blas import daxpy
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.level import PointLevel
@@ -86,7 +87,7 @@ def flexible_gmres(
         w = np.append(image.ravel(), weight * image_number)
         for i in range(k + 1):
             H[i, k] = float(w @ basis[i])
-            w -= H[i, k] * basis[i]
+            w = daxpy(basis[i], w, a=-H[i, k])
         H[k + 1, k] = float(np.linalg.norm(w))
         for i in range(k):
             upper, lower = H[i, k], H[i + 1, k]

@@ -218,6 +218,7 @@ class Linearisation:
     centre: int = CENTRE  # number of the node itself among its neighbours
     sides: Sides = AMBIENT  # of the rows
     workers: RowWorkers = ALONE  # who share them
+    touching: Flags | None = None  # where solids carry pressure; None: nowhere
 
     @property
     def neighbours(self) -> Offsets:

@@ -145,6 +145,7 @@ class ContactPressure:
         by_pressure[linear.centre][dry] = -self.weight
         by_film[linear.centre][dry] = self.weight * self.slope[dry]
         linear.free |= dry
+        linear.touching = self.pressure > 0.0
 
 
 class NoSolids:
