@@ -172,7 +172,8 @@ def chosen_laws(
             listed = ", ".join(sorted({one for own in known.values() for one in own})) or "none"
             said = f"both {' and '.join(owners)} have it" if owners else f"they have {listed}"
             raise ParameterError(
-                f"A number of the oil's laws must be that of one of them, got {number!r}: {said}."
+                f"law_numbers must hold numbers that one law of the oil has, got {number!r}: "
+                f"{said}."
             )
     return {
         field: base.kind.named(

@@ -17,7 +17,7 @@ from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helpers.axle_cases import axle_with
 from tests.helpers.helical_march_cases import march_of
 
-OF_BEARINGS = ("gear_bearing_preload", *(f"{role}_{name}" for role in ("pinion", "gear")
+OF_BEARINGS = ("gear_bearing_preload", *(f"{role}_bearing_{name}" for role in ("pinion", "gear")
                for name in ("contact_angle", "f0", "f1")))  # fmt: skip
 H = 2.0**-10  # s; exact in binary, so that t + h is exact too
 
