@@ -89,7 +89,7 @@ def test_a_better_pair_is_written_and_a_second_run_computes_nothing(
     for part in ("sensitivity to errors", "With errors and without", "against loss"):
         assert (part in report) == bool(errors)
     monkeypatch.setattr(held_model.HeldModel, "_cut", lambda self: pytest.fail("cut again"))
-    assert run(*asked).exit_code == 0
+    assert run(*asked, *options).exit_code == 0
 
 
 @pytest.mark.parametrize(
