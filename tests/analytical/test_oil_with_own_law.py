@@ -28,6 +28,8 @@ def test_one_file_makes_the_law_known_to_oil_files_case_files_and_python():
         ["law_numbers.q", Q, "1", "given", ""],
     ]
     unknown, low, nobody = found["refusals"]
-    assert "must be that of one of them, got 'r': they have q" in unknown
+    assert (
+        "law_numbers must hold numbers that one law of the oil has, got 'r': they have q" in unknown
+    )
     assert "q must be within 1 to 100, got 0" in low
     assert "got 'q': they have none" in nobody
