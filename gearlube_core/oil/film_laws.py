@@ -117,25 +117,25 @@ def log_viscosity(law: Any, p: float, cooling: float) -> tuple[float, float]:
     tuple of float
         ln(eta/eta0) [-], zero at p = 0 and cooling 1, and d ln eta/dp [1/Pa].
     """
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(_one)
 def cooling_factor(law: Any, temperature: float, oil_temperature: float) -> float:
     """Return the cooling factor [-] at a temperature, of an oil at `oil_temperature` [K]."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(_one_at)
 def cooling_at(law: Any, p: float, log_ratio: float) -> float:
     """Return the cooling factor [-] at which ln(eta/eta0) is `log_ratio` at a pressure [Pa]."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(_zero)
 def viscosity_decline(law: Any, p: float, temperature: float, oil_temperature: float) -> float:
     """Return -d ln eta/dT [1/K] at a pressure [Pa] and a temperature [K]."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 class ScaledViscosity(NamedTuple):

@@ -169,11 +169,13 @@ def chosen_laws(
     for number in numbers or ():
         owners = [field for field, own in known.items() if number in own]
         if len(owners) != 1:
-            listed = ", ".join(sorted({one for own in known.values() for one in own})) or "none"
-            said = f"both {' and '.join(owners)} have it" if owners else f"they have {listed}"
+            listed = ", ".join(sorted({one for own in known.values() for one in own}))
+            said = f"the chosen laws have {listed or 'no numbers'}"
+            if owners:
+                said = f"{' and '.join(owners)} both have it"
             raise ParameterError(
-                f"law_numbers must hold numbers that one law of the oil has, got {number!r}: "
-                f"{said}."
+                f"law_numbers must name numbers of the oil's laws, each of one law alone, got "
+                f"{number!r}; {said}. Correct the name, or leave it out."
             )
     return {
         field: base.kind.named(

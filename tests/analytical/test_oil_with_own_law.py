@@ -28,8 +28,7 @@ def test_one_file_makes_the_law_known_to_oil_files_case_files_and_python():
         ["law_numbers.q", Q, "1", "given", ""],
     ]
     unknown, low, nobody = found["refusals"]
-    assert (
-        "law_numbers must hold numbers that one law of the oil has, got 'r': they have q" in unknown
-    )
+    assert "law_numbers must name numbers of the oil's laws" in unknown
+    assert "got 'r'; the chosen laws have q. Correct the name" in unknown
     assert "q must be within 1 to 100, got 0" in low
-    assert "got 'q': they have none" in nobody
+    assert "got 'q'; the chosen laws have no numbers" in nobody

@@ -25,8 +25,8 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Z,
 )
 from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
+from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.kernels.part import part
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant import LubricantState

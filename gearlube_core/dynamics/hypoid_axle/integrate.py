@@ -72,8 +72,8 @@ from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.kernels.part import part
 from gearlube_core.mesh_table.kernels import K_M
 from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 

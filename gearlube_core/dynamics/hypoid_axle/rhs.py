@@ -47,8 +47,8 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.kernels.part import part
 from gearlube_core.oil.lubricant import LubricantState
 
 AT_EXPANSION = N_FRICTION + N_CHANNELS

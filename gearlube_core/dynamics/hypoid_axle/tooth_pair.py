@@ -45,8 +45,8 @@ from gearlube_core.friction.flank_law import (
     model_film,
     takes_film_model,
 )
+from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.kernels.part import part
 from gearlube_core.mesh_table.kernels import pair_node
 from gearlube_core.oil.lubricant import LubricantState
 

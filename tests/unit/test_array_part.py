@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.kernels.part import part
 
 
 @kernel
