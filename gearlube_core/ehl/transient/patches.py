@@ -1,8 +1,8 @@
 """Patches of nodes around touching solids, solved exactly after a multigrid cycle.
 
-Where solids touch the film is given, and a small change of it changes pressure much: a cycle, whose
-films are those of coarser grids, multiplies what is left within a few nodes by ten. Small dense
-matrices with the whole deflection of a patch put that right.
+Where solids touch, the film is given and a small change of it changes the pressure much. A multigrid
+cycle takes its films from coarser grids, so it makes residuals within a few nodes of the contact ten
+times larger. Small dense matrices with the whole deflection of a patch correct them.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def fill_patch(
     reach : ndarray of int, shape (ny + 2,)
         Of the sides: rows that hold those from one before the first to one behind the last.
     coefficients : ndarray
-        Deflection under unit pressure on a cell so many rows and columns away.
+        Deflection under unit pressure on a cell by the number of rows and columns between.
     matrix : ndarray, shape (n, n)
         Result.
     """
@@ -135,7 +135,7 @@ class TouchingPatches:
         for count in sizes:
             part = slice(end, end := end + count)
             at = tuple(self._nodes[part].T)
-            # digits of a preconditioner
+            # single precision is enough for a preconditioner
             matrix: Any = np.empty((count, count), dtype=np.float32)
             place[at] = np.arange(1, count + 1)
             fill_patch(self._nodes[part], place, *self._derivatives, grid.coefficients, matrix)
@@ -190,7 +190,7 @@ def patch_numbers(touching: Flags, free: Flags, cyclic: bool) -> Any:
 
 
 def _widened(flags: Flags, by: int) -> Flags:
-    """Return flags with so many more to both sides along the first axis."""
+    """Return flags widened by a number of nodes to both sides along the first axis."""
     wide = flags.copy()
     for k in range(1, by + 1):
         wide[k:] |= flags[:-k]
