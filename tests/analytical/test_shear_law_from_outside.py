@@ -120,8 +120,8 @@ def test_stress_in_a_film_with_one_thin_wall_layer_is_finite_and_mirrored(slope)
     assert there == pytest.approx(-here, rel=1e-12)
 
 
-# both solvers are compiled again for the law. In the default run a line film has such a law, and the
-# tests of a density law show that these solvers take the laws of their oil from outside
+# both solvers are compiled again for the law. In the default run a line film has such a law, and
+# the tests of a density law show that these solvers take the laws of their oil from outside
 @pytest.mark.slow
 def test_films_of_a_ball_are_eyrings_without_its_closed_forms():
     # the quadrature is exact to 1e-9, films are solved to 1e-9

@@ -1,8 +1,8 @@
 """Patches of nodes around touching solids, solved exactly after a multigrid cycle.
 
-Where solids touch, the film is given and a small change of it changes the pressure much. A multigrid
-cycle takes its films from coarser grids, so it makes residuals within a few nodes of the contact ten
-times larger. Small dense matrices with the whole deflection of a patch correct them.
+Where solids touch, the film is given and a small change of it changes the pressure much. A
+multigrid cycle takes its films from coarser grids, so it makes residuals within a few nodes of the
+contact ten times larger. Small dense matrices with the whole deflection of a patch correct them.
 """
 
 from __future__ import annotations
