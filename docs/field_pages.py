@@ -14,7 +14,6 @@ from docs.measured.make import lines_rows
 from docs.page import Page
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
-from drivetrain.axle_file.section import attribute_of
 from fmu_src.axle_arguments import start_arguments
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.bearings.bearing_file import BearingFile
@@ -27,6 +26,7 @@ from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
 from gearlube_core.input_file.field_notes import FieldNote, field_notes
+from gearlube_core.input_file.field_units import attribute_of
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.oil.base_oils import (
     BASE_OILS,

@@ -11,7 +11,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.section import Declared, ModelSection
+from drivetrain.axle_file.section import ModelSection
 from gearlube_core.bearings.tapered_roller_bearing import Approach
 from gearlube_core.contact.solid import Solid
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
@@ -28,7 +28,7 @@ from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import FLANK, ROLLER, SHIPPED, FilmModel
 from gearlube_core.friction.flank_friction import friction_law, friction_laws
 from gearlube_core.friction.flank_rolling import FlankRolling
-from gearlube_core.input_file.field_notes import OneOf, Usual
+from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
 from gearlube_core.input_file.input_file import InputNote
 
 _axle, _solid = partial(Declared, HypoidAxleParameters), partial(Declared, Solid)

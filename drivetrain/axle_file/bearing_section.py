@@ -11,14 +11,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import ConfigDict, Field, SerializeAsAny, model_validator
 
 from drivetrain.axle_file.axle_sections import SolidOfRevolution, stacked_frusta
-from drivetrain.axle_file.section import (
-    Declared,
-    ModelSection,
-    field_value,
-    part_notes,
-    part_numbers,
-    unit_of,
-)
+from drivetrain.axle_file.section import ModelSection, part_notes, part_numbers
 from gearlube_core.bearings.bearing_fields import BearingFields, Diameter, add_catalogue_rollers
 from gearlube_core.bearings.bearing_type import Bearing, bearing_types
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
@@ -26,7 +19,8 @@ from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import Film, TaperedRollerBearing
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import OneOf, Usual
+from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
+from gearlube_core.input_file.field_units import field_value, unit_of
 from gearlube_core.input_file.input_file import InputNote, Origin
 from gearlube_core.number import numbers_of
 

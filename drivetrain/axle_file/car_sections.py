@@ -9,11 +9,12 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.section import ModelSection, field_value, si_value
+from drivetrain.axle_file.section import ModelSection
 from drivetrain.engine import LARGEST_ORDER, Engine, EngineKind, Gearbox, TorqueOrder
 from drivetrain.road_load import CIRCUMFERENCE_FACTOR, Tyre, Vehicle, mohammadpour_2015_vehicle
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.field_units import field_value, si_value
 from gearlube_core.input_file.input_file import InputNote
 
 Text = Annotated[str, Field(min_length=1)]

@@ -9,11 +9,12 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.section import Declared, ModelSection, field_value, unit_of
+from drivetrain.axle_file.section import ModelSection
 from gearlube_core.drag import ChurningLaw, SealMaterial, seal_torque
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.field_notes import Declared, Usual
+from gearlube_core.input_file.field_units import field_value, unit_of
 from gearlube_core.input_file.input_file import InputNote, Origin
 from gearlube_core.oil.field_limits import (
     Conductivity,

@@ -1,86 +1,26 @@
-"""Base class of the sections of an axle file, and the units of their fields."""
+"""Base class of the sections of an axle file, and the fields of parts."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields
-from decimal import Decimal
+from dataclasses import MISSING, fields
 from typing import Any, ClassVar, NamedTuple
-
-from pydantic_core import core_schema
 
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import field_unit, likely_fields, unit_ending
+from gearlube_core.input_file.field_notes import likely_fields
+from gearlube_core.input_file.field_units import (
+    attribute_of,
+    field_value,
+    from_si,
+    si_value,
+    to_si,
+    unit_ending,
+    unit_of,
+)
 from gearlube_core.input_file.input_file import InputNote, Origin, Section
 from gearlube_core.number import Number, numbers_of
 from gearlube_core.part import Part
-from gearlube_core.units import ZERO_CELSIUS
-
-# power of ten from a unit to SI; what is absent is SI
-_POWERS = {
-    "mm": -3,
-    "um": -6,
-    "l": -3,
-    "kN": 3,
-    "MPa": 6,
-    "GPa": 9,
-    "N/mm": 3,
-    "N/um": 6,
-    "1/GPa": -9,
-}
-_SI_WORDS = {"stiffness_constant": "N/m^n"}  # units that no ending writes
-
-
-def unit_of(key: str) -> str:
-    """Return the unit of a field, "" for a pure number or a text."""
-    return _SI_WORDS.get(key) or field_unit(key)[0]
-
-
-def attribute_of(key: str) -> str:
-    """Return the name of a field without its unit, as the models have it.
-
-    >>> attribute_of("contact_angle_deg")
-    'contact_angle'
-    """
-    unit, ending = field_unit(key)
-    return key if unit == "rpm" else key.removesuffix(ending)  # models have crank speeds in rpm
-
-
-def _scaled(value: float, power: int) -> float:
-    """Return value times a power of ten, rounded once: 83.7 mm is 0.0837 m to the last bit."""
-    return float(Decimal(repr(float(value))).scaleb(power))
-
-
-def si_value(key: str, value: Any) -> Any:
-    """Return the value of a field in SI units; texts and whole numbers as they are."""
-    return _to_si(unit_of(key), value)
-
-
-def _to_si(unit: str, value: Any) -> Any:
-    if isinstance(value, tuple | list):
-        return tuple(_to_si(unit, one) for one in value)
-    if unit == "deg":
-        return math.radians(value)
-    if unit == "degC":
-        return value + ZERO_CELSIUS
-    return _scaled(value, _POWERS[unit]) if unit in _POWERS else value
-
-
-def field_value(key: str, value: Any) -> Any:
-    """Return a number of a model in the unit of a field; the inverse of `si_value`."""
-    return _from_si(unit_of(key), value)
-
-
-def _from_si(unit: str, value: Any) -> Any:
-    if isinstance(value, tuple | list):
-        return tuple(_from_si(unit, one) for one in value)
-    if unit == "deg":
-        return float(f"{math.degrees(value):.12g}")
-    if unit == "degC":
-        return float(f"{value - ZERO_CELSIUS:.12g}")
-    return _scaled(value, -_POWERS[unit]) if unit in _POWERS else value
 
 
 class PartField(NamedTuple):
@@ -95,7 +35,7 @@ class PartField(NamedTuple):
         """Return what is wrong with a value in the file; "" for nothing."""
         if isinstance(value, bool | str) or not isinstance(value, float | int):
             return f"{key} must be a number, got {value!r}; {self.number.text}"
-        low, high = (_from_si(self.unit, end) for end in (self.number.low, self.number.high))
+        low, high = (from_si(self.unit, end) for end in (self.number.low, self.number.high))
         try:
             check_within(key, value, low, high, self.unit, self.number.cure)
         except ParameterError as reason:
@@ -134,7 +74,7 @@ def part_numbers(kind: type[Part], data: Mapping[str, Any]) -> dict[str, float]:
     ]
     if any(wrong):
         raise ParameterError(". ".join(one for one in wrong if one))
-    return {one.name: _to_si(one.unit, data[key]) for key, one in known.items() if key in data}
+    return {one.name: to_si(one.unit, data[key]) for key, one in known.items() if key in data}
 
 
 def part_notes(prefix: str, part: Part, data: Mapping[str, Any]) -> list[InputNote]:
@@ -144,25 +84,9 @@ def part_notes(prefix: str, part: Part, data: Mapping[str, Any]) -> list[InputNo
     notes = []
     for note in part.notes("", [known[key].name for key in data]):
         key, unit = fields_of[note.field]
-        value = _from_si(unit, note.value)
+        value = from_si(unit, note.value)
         notes.append(note._replace(field=prefix + key, value=value, unit=unit))
     return notes
-
-
-@dataclass(frozen=True)
-class Declared:
-    """Mark of a field's type: its limits are those of a number that a model declares."""
-
-    model: type
-    field: str
-    number: str = ""  # name in the model, where it is not that of the field without its unit
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        number = numbers_of(self.model)[self.number or attribute_of(self.field)]
-        low, high = (field_value(self.field, end) for end in (number.low, number.high))
-        if source is int:
-            return core_schema.int_schema(ge=int(low), le=int(high))
-        return core_schema.float_schema(ge=low, le=high, allow_inf_nan=False)
 
 
 class ModelSection(Section):

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import FieldNote, field_unit, likely_fields
+from gearlube_core.input_file.field_notes import FieldNote, likely_fields
+from gearlube_core.input_file.field_units import field_unit
 
 Kind = Literal["number", "whole number", "text"]
 _KINDS: tuple[Kind, ...] = ("number", "whole number", "text")

@@ -23,7 +23,8 @@ from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.flank.flank import CURVES, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.gear_file_sections import FlankRelief
-from gearlube_core.input_file.field_notes import field_notes, field_unit, likely_fields
+from gearlube_core.input_file.field_notes import field_notes, likely_fields
+from gearlube_core.input_file.field_units import field_unit
 from gearlube_core.input_file.input_file import read_toml
 
 logger = logging.getLogger(__name__)

@@ -13,7 +13,7 @@ from gearlube_core.helical_contact.flank_rates import FlankRates, flank_rates
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.input_file.field_notes import field_unit
+from gearlube_core.input_file.field_units import field_unit
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.series_rates import SeriesRates, series_of_records, torques_about

@@ -14,78 +14,14 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 from pydantic_core import PydanticKnownError, core_schema
 
-from gearlube_core.units import ZERO_CELSIUS
+from gearlube_core.input_file.field_units import (
+    attribute_of,
+    field_unit,
+    field_value,
+    in_other_units,
+)
+from gearlube_core.number import numbers_of
 
-_UNITS = {  # of names' endings; the longest that fits counts
-    "_rpm": "rpm",
-    "_m_s": "m/s",
-    "_hz": "Hz",
-    "_mm": "mm",
-    "_mm_per_rad": "mm/rad",
-    "_um": "um",
-    "_deg": "deg",
-    "_mrad": "mrad",
-    "_degc": "degC",
-    "_kg": "kg",
-    "_l": "l",
-    "_kg_m3": "kg/m3",
-    "_kg_m3_k": "kg/(m3.K)",
-    "_kg_m2": "kg.m2",
-    "_kg_mm2": "kg.mm2",
-    "_m2": "m2",
-    "_mm2_s": "mm2/s",
-    "_m_s2": "m/s2",
-    "_n": "N",
-    "_kn": "kN",
-    "_n_m": "N.m",
-    "_n_m_per_rad": "N.m/rad",
-    "_n_m_s_per_rad": "N.m.s/rad",
-    "_n_per_mm": "N/mm",
-    "_n_per_um": "N/um",
-    "_kn_per_rad": "kN/rad",
-    "_knm_per_rad": "kN.m/rad",
-    "_mpa": "MPa",
-    "_gpa": "GPa",
-    "_per_gpa": "1/GPa",
-    "_pa_s": "Pa.s",
-    "_per_k": "1/K",
-    "_k_w": "K/W",
-    "_w_m_k": "W/(m.K)",
-    "_w_m_k2": "W/(m.K2)",
-    "_j_kg_k": "J/(kg.K)",
-}
-# what a number is likely in that is far off: unit, times so many of the field's unit
-_SLIPS: dict[str, tuple[tuple[str, float], ...]] = {
-    "mm": (("m", 1e3), ("um", 1e-3), ("inch", 25.4), ("nm", 1e-6)),
-    "um": (("mm", 1e3), ("m", 1e6), ("nm", 1e-3)),
-    "kg": (("t", 1e3), ("g", 1e-3)),
-    "l": (("m3", 1e3), ("ml", 1e-3)),
-    "kg.m2": (("kg.mm2", 1e-6), ("kg.cm2", 1e-4), ("g.m2", 1e-3)),
-    "kg.mm2": (("kg.m2", 1e6), ("kg.cm2", 1e2)),
-    "kg/m3": (("g/cm3", 1e3),),
-    "m2": (("cm2", 1e-4), ("mm2", 1e-6)),
-    "deg": (("rad", 180.0 / math.pi), ("arcmin", 1.0 / 60.0)),
-    "mrad": (("rad", 1e3), ("deg", 1e3 * math.pi / 180.0), ("arcmin", math.pi / 10.8)),
-    "rpm": (("rad/s", 30.0 / math.pi), ("1/s", 60.0)),
-    "N": (("kN", 1e3), ("mN", 1e-3)),
-    "kN": (("N", 1e-3), ("MN", 1e3)),
-    "N.m": (("kN.m", 1e3), ("N.mm", 1e-3)),
-    "N/mm": (("N/m", 1e-3), ("kN/mm", 1e3)),
-    "N/um": (("N/m", 1e-6), ("N/mm", 1e-3), ("kN/um", 1e3)),
-    "N.m/rad": (("N.m/deg", 180.0 / math.pi), ("kN.m/rad", 1e3), ("N.mm/rad", 1e-3)),
-    "N.m.s/rad": (("N.m.s/deg", 180.0 / math.pi), ("N.mm.s/rad", 1e-3)),
-    "kN.m/rad": (("N.m/rad", 1e-3), ("MN.m/rad", 1e3)),
-    "kN/rad": (("N/rad", 1e-3), ("MN/rad", 1e3)),
-    "Hz": (("kHz", 1e3), ("1/min", 1.0 / 60.0)),
-    "m/s": (("mm/s", 1e-3), ("km/h", 1.0 / 3.6)),
-    "Pa.s": (("mPa.s", 1e-3), ("kPa.s", 1e3)),
-    "J/(kg.K)": (("kJ/(kg.K)", 1e3),),
-    "W/(m.K)": (("mW/(m.K)", 1e-3), ("kW/(m.K)", 1e3)),
-    "MPa": (("Pa", 1e-6), ("GPa", 1e3), ("kPa", 1e-3)),
-    "GPa": (("Pa", 1e-9), ("MPa", 1e-3)),
-    "1/GPa": (("1/Pa", 1e9), ("1/MPa", 1e3)),
-    "mm2/s": (("m2/s", 1e6),),
-}
 _LIMITS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _KINDS = {
     "number": "number",
@@ -130,6 +66,22 @@ class OneOf:
         return value
 
 
+@dataclass(frozen=True)
+class Declared:
+    """Mark of a field's type: its limits are those of a number that a model declares."""
+
+    model: type
+    field: str
+    number: str = ""  # name in the model, where it is not that of the field without its unit
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        number = numbers_of(self.model)[self.number or attribute_of(self.field)]
+        low, high = (field_value(self.field, end) for end in (number.low, number.high))
+        if source is int:
+            return core_schema.int_schema(ge=int(low), le=int(high))
+        return core_schema.float_schema(ge=low, le=high, allow_inf_nan=False)
+
+
 # shares of equal letters, as difflib has them, from which a word or a whole name is the same
 _SAME_WORD, _SAME_LETTERS = 0.75, 0.9
 
@@ -157,7 +109,7 @@ class FieldNote(NamedTuple):
         low, high = self.usual
         if self._is_usual(value):
             return ""
-        meant = self._usual_in_other_units(value)
+        meant = self._usualin_other_units(value)
         question = (
             _question(value, *meant, self.unit) if meant else " Check the number and its unit."
         )
@@ -173,11 +125,11 @@ class FieldNote(NamedTuple):
         if error["type"] not in _LIMITS or not isinstance(value, float | int) or value <= 0.0:
             return ""
         if self.usual is not None:
-            meant = self._usual_in_other_units(value)
+            meant = self._usualin_other_units(value)
             return _question(value, *meant, self.unit) if meant else ""
         bound = next(float(one) for one in bounds if one is not None)
         rises = error["type"].startswith("greater")
-        for other, converted in _in_other_units(self.unit, value):
+        for other, converted in in_other_units(self.unit, value):
             if (converted > value) == rises and (converted > bound) == rises:
                 return _question(value, other, converted, self.unit)
         return ""
@@ -186,8 +138,8 @@ class FieldNote(NamedTuple):
         low, high = self.usual or (math.inf, math.inf)
         return low <= (number if low < 0.0 else abs(number)) <= high
 
-    def _usual_in_other_units(self, value: float) -> tuple[str, float] | None:
-        meant = _in_other_units(self.unit, value)
+    def _usualin_other_units(self, value: float) -> tuple[str, float] | None:
+        meant = in_other_units(self.unit, value)
         return next((one for one in meant if self._is_usual(one[1])), None)
 
 
@@ -325,13 +277,6 @@ def _rewritten(kind: str, value: object) -> str:
     return ""
 
 
-def _in_other_units(unit: str, value: float) -> list[tuple[str, float]]:
-    """Return the units that a number may be in, each with the number in the field's unit."""
-    if unit == "degC":
-        return [("K", value - ZERO_CELSIUS)]
-    return [(other, factor * value) for other, factor in _SLIPS.get(unit, ())]
-
-
 def _question(value: float, other: str, converted: float, unit: str) -> str:
     return f" Is it in {other}? {value:g} {other} is {converted:.6g} {unit}."
 
@@ -357,27 +302,6 @@ def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]
         )
         notes.append((name, note))
     return notes
-
-
-@cache
-def field_unit(key: str) -> tuple[str, str]:
-    """Return the unit of a field and the ending of its name that says so; both may be empty.
-
-    >>> field_unit("tip_relief_um")
-    ('um', '_um')
-    """
-    endings = [ending for ending in _UNITS if key.endswith(ending)]
-    longest = max(endings, key=len, default="")
-    return _UNITS.get(longest, ""), longest
-
-
-def unit_ending(unit: str) -> str:
-    """Return the ending of a field's name for a unit; "" where no ending says it.
-
-    >>> unit_ending("N/um")
-    '_n_per_um'
-    """
-    return next((ending for ending, one in _UNITS.items() if one == unit), "")
 
 
 def _kind(value: Any) -> str:

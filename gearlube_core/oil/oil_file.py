@@ -10,7 +10,8 @@ from pydantic import Field, model_validator
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import OneOf, Usual, field_unit
+from gearlube_core.input_file.field_notes import OneOf, Usual
+from gearlube_core.input_file.field_units import field_unit
 from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, toml_data
 from gearlube_core.oil.field_limits import (
     Conductivity,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import field_unit
+from gearlube_core.input_file.field_units import field_unit
 from gearlube_core.input_file.input_file import InputNote, Origin
 from gearlube_core.oil.base_oils import (
     BASE_OILS,

@@ -14,12 +14,12 @@ from pydantic import ValidationError
 
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
-from drivetrain.axle_file.section import Declared, ModelSection
+from drivetrain.axle_file.section import ModelSection
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError, TableError
-from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.field_notes import Declared, field_notes
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.number import Number

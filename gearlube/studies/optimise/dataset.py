@@ -13,7 +13,7 @@ from gearlube.studies.optimise.summary import MeasureRow, measure_rows
 from gearlube_core.flank_optimisation.held_position import Evaluation
 from gearlube_core.flank_optimisation.optimise import Optimised
 from gearlube_core.flank_optimisation.problem import values_of
-from gearlube_core.input_file.field_notes import field_unit
+from gearlube_core.input_file.field_units import field_unit
 
 _COLUMNS = ("torque", "name", "unit", "before", "after", "limit")
 _EACH = ("design", "torque", "error")

@@ -10,7 +10,6 @@ from typing import Any
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
 from drivetrain.axle_file.read_axle import read_axle
-from drivetrain.axle_file.section import attribute_of
 from fmu_src.axle_arguments import axle_parameters, start_arguments
 from fmu_src.hypoid_axle import (
     AXLE_FILE,
@@ -26,6 +25,7 @@ from gearlube_core.checks import check_option
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_units import attribute_of
 from gearlube_core.input_file.input_file import InputNote
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, read_mesh_table
 from gearlube_core.units import kmh_to_ms
