@@ -13,6 +13,8 @@ from gearlube_core.units import rads_to_rpm, rpm_to_rads
 
 EngineKind = Literal["combustion", "electric_motor"]
 LARGEST_ORDER = 24  # 6 periods for each of four pole pairs
+LOWEST_RATIO, HIGHEST_RATIO = 0.3, 20.0
+HIGHEST_SPEED_RPM = 2e4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,7 +112,8 @@ class Engine:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        check_within("highest_speed_rpm", self.highest_speed_rpm, self.idle_speed_rpm, 2e4, "1/min")
+        low, high = self.idle_speed_rpm, HIGHEST_SPEED_RPM
+        check_within("highest_speed_rpm", self.highest_speed_rpm, low, high, "1/min")
 
     def torque(self, mean_torque: float, crank_angle: float) -> float:
         """Return the torque [N m] at `crank_angle` [rad] for the mean `mean_torque` [N m]."""
@@ -141,7 +144,7 @@ class Gearbox:
         if not self.ratios:
             raise ParameterError("ratios must hold at least one gear, got none. Try (1.0,).")
         for gear, ratio in enumerate(self.ratios, start=1):
-            check_within(f"ratio of gear {gear}", ratio, 0.3, 20.0)
+            check_within(f"ratio of gear {gear}", ratio, LOWEST_RATIO, HIGHEST_RATIO)
         if any(high <= low for high, low in zip(self.ratios, self.ratios[1:], strict=False)):
             raise ParameterError(
                 f"ratios must fall from gear to gear, got {self.ratios}. First gear comes first."

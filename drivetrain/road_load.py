@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from typing import Annotated
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.number import Number, check_fields
 
 STANDARD_GRAVITY = 9.80665  # m/s2, [cgpm_1901]
 _INCH = 0.0254  # m
@@ -45,22 +47,16 @@ class Vehicle:
         g [m/s2].
     """
 
-    mass: float
-    frontal_area: float
-    drag_coefficient: float
-    rolling_coefficient: float
-    air_density: float
-    grade: float = 0.0
-    gravity: float = STANDARD_GRAVITY
+    mass: Annotated[float, Number("kg", 100.0, 1e5, "Give a mass, not a weight in newton.")]
+    frontal_area: Annotated[float, Number("m2", 0.1, 20.0)]
+    drag_coefficient: Annotated[float, Number("1", 0.0, 2.0)]
+    rolling_coefficient: Annotated[float, Number("1", 0.0, 0.2, "Try 0.015.")]
+    air_density: Annotated[float, Number("kg/m3", 0.0, 2.0, "Try 1.2 kg/m3.")]
+    grade: Annotated[float, Number("1", -0.5, 0.5, "5 % is 0.05.")] = 0.0
+    gravity: Annotated[float, Number("m/s2", 1.0, 30.0, "Try 9.80665 m/s2.")] = STANDARD_GRAVITY
 
     def __post_init__(self) -> None:
-        check_within("mass", self.mass, 100.0, 1e5, "kg", "Give a mass, not a weight in newton.")
-        check_within("frontal_area", self.frontal_area, 0.1, 20.0, "m2")
-        check_within("drag_coefficient", self.drag_coefficient, 0.0, 2.0)
-        check_within("rolling_coefficient", self.rolling_coefficient, 0.0, 0.2, "", "Try 0.015.")
-        check_within("air_density", self.air_density, 0.0, 2.0, "kg/m3", "Try 1.2 kg/m3.")
-        check_within("grade", self.grade, -0.5, 0.5, "", "5 % is 0.05.")
-        check_within("gravity", self.gravity, 1.0, 30.0, "m/s2", "Try 9.80665 m/s2.")
+        check_fields(self)
 
     @property
     def rolling_resistance(self) -> float:
@@ -115,11 +111,11 @@ class Tyre:
     radius" in [mohammadpour_2015 (7)] without its value.
     """
 
-    unladen_radius: float
+    unladen_radius: Annotated[float, Number("m", 0.1, 1.0, "Use metres.")]
     rolling_radius: float
 
     def __post_init__(self) -> None:
-        check_within("unladen_radius", self.unladen_radius, 0.1, 1.0, "m", "Use metres.")
+        check_fields(self)
         check_within(
             "rolling_radius",
             self.rolling_radius,

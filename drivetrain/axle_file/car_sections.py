@@ -5,43 +5,59 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.section import ModelSection
-from drivetrain.engine import LARGEST_ORDER, Engine, EngineKind, Gearbox, TorqueOrder
+from drivetrain.driveline.parameters import DrivelineParameters
+from drivetrain.engine import (
+    HIGHEST_RATIO,
+    HIGHEST_SPEED_RPM,
+    LARGEST_ORDER,
+    LOWEST_RATIO,
+    Engine,
+    EngineKind,
+    Gearbox,
+    TorqueOrder,
+)
 from drivetrain.road_load import CIRCUMFERENCE_FACTOR, Tyre, Vehicle, mohammadpour_2015_vehicle
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.input_file.field_units import field_value, si_value
 from gearlube_core.input_file.input_file import InputNote
 
 Text = Annotated[str, Field(min_length=1)]
-Mass = Annotated[float, Field(ge=100.0, le=1e5, allow_inf_nan=False), Usual(500.0, 50000.0)]
-Area = Annotated[float, Field(ge=0.1, le=20.0, allow_inf_nan=False), Usual(0.2, 12.0)]
-Drag = Annotated[float, Field(ge=0.01, le=2.0, allow_inf_nan=False)]
-Rolling = Annotated[float, Field(ge=0.0, le=0.2, allow_inf_nan=False)]
-AirDensity = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False), Usual(0.7, 1.6)]
-Grade = Annotated[float, Field(ge=-0.5, le=0.5, allow_inf_nan=False)]
-Gravity = Annotated[float, Field(ge=1.0, le=30.0, allow_inf_nan=False), Usual(9.0, 10.5)]
-Radius = Annotated[float, Field(ge=100.0, le=1000.0, allow_inf_nan=False), Usual(200.0, 650.0)]
+_vehicle, _tyre = partial(Declared, Vehicle), partial(Declared, Tyre)
+_driveline = partial(Declared, DrivelineParameters)
+Mass = Annotated[float, _vehicle("mass_kg"), Usual(500.0, 50000.0)]
+Area = Annotated[float, _vehicle("frontal_area_m2"), Usual(0.2, 12.0)]
+Drag = Annotated[float, _vehicle("drag_coefficient")]
+Rolling = Annotated[float, _vehicle("rolling_coefficient")]
+AirDensity = Annotated[float, _vehicle("air_density_kg_m3"), Usual(0.7, 1.6)]
+Grade = Annotated[float, _vehicle("grade")]
+Gravity = Annotated[float, _vehicle("gravity_m_s2"), Usual(9.0, 10.5)]
+Radius = Annotated[float, _tyre("unladen_radius_mm"), Usual(200.0, 650.0)]
+# the models take any inertia and stiffness above 0: a wall, a rigid tyre
 Inertia = Annotated[float, Field(ge=1e-4, le=100.0, allow_inf_nan=False), Usual(0.001, 20.0)]
 Stiffness = Annotated[float, Field(ge=1.0, le=1e8, allow_inf_nan=False), Usual(100.0, 1e7)]
 ShaftStiffness = Annotated[Stiffness, Usual(2e3, 1e6)]
-Damping = Annotated[float, Field(ge=0.0, le=1e4, allow_inf_nan=False), Usual(0.01, 1000.0)]
+Damping = Annotated[float, _driveline("propshaft_damping_n_m_s_per_rad"), Usual(0.01, 1000.0)]
 SlipStiffness = Annotated[float, Field(ge=1e3, le=1e8, allow_inf_nan=False), Usual(10000.0, 1e7)]
 Relaxation = Annotated[float, Field(ge=10.0, le=5000.0, allow_inf_nan=False), Usual(50.0, 2000.0)]
-Bandwidth = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False), Usual(0.001, 0.5)]
+Bandwidth = Annotated[float, _driveline("speed_control_frequency_hz"), Usual(0.001, 0.5)]
 
 TYRE_SIZE = "195/65R16"  # [mohammadpour_2015 Table A3]
 _PAPER = "Mohammadpour et al. 2015, Table A3"
-Ratio = Annotated[float, Field(ge=0.3, le=20.0, allow_inf_nan=False)]
+Ratio = Annotated[float, Field(ge=LOWEST_RATIO, le=HIGHEST_RATIO, allow_inf_nan=False)]
 Ratios = Annotated[tuple[Ratio, ...], Field(strict=False, min_length=1)]
-Speed = Annotated[float, Field(gt=0.0, le=2e4, allow_inf_nan=False), Usual(300.0, 20000.0)]
+Speed = Annotated[
+    float, Field(gt=0.0, le=HIGHEST_SPEED_RPM, allow_inf_nan=False), Usual(300.0, 20000.0)
+]
 HighestSpeed = Annotated[Speed, Usual(1e3, 2e4)]
 Orders = Annotated[tuple[Annotated[int, Field(ge=1, le=LARGEST_ORDER)], ...], Field(strict=False)]
-Amplitude = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False)]
+Amplitude = Annotated[float, Declared(TorqueOrder, "amplitude")]
 Amplitudes = Annotated[tuple[Amplitude, ...], Field(strict=False)]
 Phase = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
 Phases = Annotated[tuple[Phase, ...], Field(strict=False)]

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from drivetrain.engine import Engine, Gearbox
 from drivetrain.road_load import RoadLoad
 from gearlube_core.checks import check_positive, check_within
+from gearlube_core.number import Number, Positive, check_fields
 
 _STEEL_SHEAR_MODULUS = 79.3e9  # Pa
+_DAMPING = Number("N m s/rad", 0.0, 1e4)
 
 
 def shaft_stiffness(
@@ -76,36 +79,21 @@ class DrivelineParameters:
     road_load: RoadLoad
     engine: Engine = field(default_factory=Engine)
     gearbox: Gearbox = field(default_factory=Gearbox)
-    propshaft_inertia: float = 0.012
-    propshaft_stiffness: float = shaft_stiffness(0.070, 1.4, 0.066)
-    propshaft_damping: float = 0.64
-    half_shaft_stiffness: float = 2.0 * shaft_stiffness(0.027, 0.7)
-    half_shaft_damping: float = 3.0
-    wheel_inertia: float = 0.9
-    tyre_slip_stiffness: float = 127.5e3
-    tyre_relaxation_length: float = 0.3
-    speed_control_frequency: float = 0.1
+    propshaft_inertia: Annotated[float, Positive("kg m2")] = 0.012
+    propshaft_stiffness: Annotated[float, Positive("N m/rad")] = shaft_stiffness(0.070, 1.4, 0.066)
+    propshaft_damping: Annotated[float, _DAMPING] = 0.64
+    half_shaft_stiffness: Annotated[float, Positive("N m/rad")] = 2.0 * shaft_stiffness(0.027, 0.7)
+    half_shaft_damping: Annotated[float, _DAMPING] = 3.0
+    wheel_inertia: Annotated[float, Positive("kg m2")] = 0.9
+    tyre_slip_stiffness: Annotated[float, Positive("N")] = 127.5e3
+    tyre_relaxation_length: Annotated[float, Positive("m")] = 0.3
+    speed_control_frequency: Annotated[
+        float,
+        Number("Hz", 0.0, 0.5, "A faster controller would excite the driveline's modes."),
+    ] = 0.1
 
     def __post_init__(self) -> None:
-        for name, unit in (
-            ("propshaft_inertia", "kg m2"),
-            ("propshaft_stiffness", "N m/rad"),
-            ("half_shaft_stiffness", "N m/rad"),
-            ("wheel_inertia", "kg m2"),
-            ("tyre_slip_stiffness", "N"),
-            ("tyre_relaxation_length", "m"),
-        ):
-            check_positive(name, getattr(self, name), unit)
-        for name in ("propshaft_damping", "half_shaft_damping"):
-            check_within(name, getattr(self, name), 0.0, 1e4, "N m s/rad")
-        check_within(
-            "speed_control_frequency",
-            self.speed_control_frequency,
-            0.0,
-            0.5,
-            "Hz",
-            "A faster controller would act on the modes of the driveline.",
-        )
+        check_fields(self)
 
     @property
     def rolling_radius(self) -> float:
