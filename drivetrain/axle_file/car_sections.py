@@ -111,7 +111,7 @@ class VehicleSection(ModelSection):
         changes = self.changes(base)
         drag_area = changes.pop("drag_area", None)
         if drag_area is not None:
-            changes["frontal_area"] = drag_area / base.drag_coefficient
+            changes |= {"frontal_area": drag_area, "drag_coefficient": 1.0}
         return replace(base, **changes)
 
     def vehicle_notes(self, prefix: str, made: Vehicle) -> list[InputNote]:

@@ -81,7 +81,8 @@ NUMBERS = {
     "model.steps_per_mesh_period": (72, "axle.steps_per_mesh_period", 72),
     "model.steps_per_highest_period": (20, "axle.steps_per_highest_period", 20),
     "vehicle.mass_kg": (1999.0, "driveline.road_load.vehicle.mass", 1999.0),
-    "vehicle.drag_area_m2": (0.99, "driveline.road_load.vehicle.frontal_area", 0.99 / 0.33),
+    # up to the largest that is allowed; half the air's density of the paper times it
+    "vehicle.drag_area_m2": (20.0, "driveline.road_load.vehicle.drag_area", 0.5 * 1.22 * 20.0),
     "vehicle.frontal_area_m2": (2.5, "driveline.road_load.vehicle.frontal_area", 2.5),
     "vehicle.drag_coefficient": (0.28, "driveline.road_load.vehicle.drag_coefficient", 0.28),
     "vehicle.rolling_coefficient": (0.01, "driveline.road_load.vehicle.rolling_coefficient", 0.01),
