@@ -35,7 +35,7 @@ from fmu_src.variable import (
     velocities,
 )
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
-from gearlube_core.bearings.tapered_roller_bearing import Approach, TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_bearing import PRELOAD, Approach, TaperedRollerBearing
 from gearlube_core.drag import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
@@ -82,8 +82,8 @@ _INPUTS = (
 
 _PARAMETERS = (
     parameter("bearing.preload", "N", "Axial preload of each bearing; see wheel.bearing.preload",
-              display_unit="kN",
-              start=2500.0, minimum=0.0, maximum=1e5, nominal=1e3, argument="bearing_preload"),
+              display_unit="kN", start=2500.0, minimum=PRELOAD.low, maximum=PRELOAD.high,
+              nominal=1e3, argument="bearing_preload"),
     _number("roughness_rms", "flank.roughness_rms",
             "Composite root-mean-square roughness of the flanks",
             display_unit="um", start=0.5e-6, nominal=1e-6),
@@ -200,8 +200,8 @@ _AXLE_NUMBERS = (
       for (name, word), start in zip(MEMBERS, (1734e-6, 5.81e-2), strict=True)),
     parameter("wheel.bearing.preload", "N", "Axial preload of each bearing of the gear shaft; "
               "a negative value takes bearing.preload", display_unit="kN",
-              start=SHARED_PRELOAD, minimum=SHARED_PRELOAD, maximum=1e5, nominal=1e3,
-              argument="gear_bearing_preload"),
+              start=SHARED_PRELOAD, minimum=SHARED_PRELOAD, maximum=PRELOAD.high,
+              nominal=1e3, argument="gear_bearing_preload"),
     *(_of_bearing("contact_angle", name, word, f"Contact angle of the bearings of the {word} "
                   "shaft, at the outer race", display_unit="deg", start=math.radians(15.0),
                   minimum=math.radians(5.0), nominal=0.1)

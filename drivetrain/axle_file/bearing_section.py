@@ -16,7 +16,12 @@ from gearlube_core.bearings.bearing_fields import BearingFields, Diameter, add_c
 from gearlube_core.bearings.bearing_type import Bearing, bearing_types
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
-from gearlube_core.bearings.tapered_roller_bearing import Film, TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_bearing import (
+    LARGEST_FIT,
+    PRELOAD,
+    Film,
+    TaperedRollerBearing,
+)
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
@@ -24,22 +29,20 @@ from gearlube_core.input_file.field_units import field_value, unit_of
 from gearlube_core.input_file.input_file import InputNote, Origin
 from gearlube_core.number import numbers_of
 
-LARGEST_PRELOAD = 1e5  # N
-
 _axle, _bearing = partial(Declared, HypoidAxleParameters), partial(Declared, TaperedRollerBearing)
 Stiffness = Annotated[float, _bearing("stiffness_constant"), Usual(1e7, 1e11)]
 Exponent = Annotated[float, _bearing("exponent")]
 Share = Annotated[float, _bearing("loss")]
-Preload = Annotated[
-    float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False), Usual(100.0, 50000.0)
+Preload = Annotated[float, _bearing("preload_n"), Usual(100.0, 50000.0)]
+Interference = Annotated[
+    float, Field(ge=0.0, le=1e6 * LARGEST_FIT, allow_inf_nan=False), Usual(0.5, 50.0)
 ]
-Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.5, 50.0)]
 RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False), Usual(0.2, 20.0)]
 RibFriction = Annotated[float, _bearing("rib_boundary_friction")]
 RibRoughness = Annotated[float, _bearing("rib_roughness_um"), Usual(0.02, 3.0)]
 
 _TAPERED = TaperedRollerBearing.name
-PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]
+USUAL_PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]
 _RACES = ("inner_race_diameter_mm", "outer_race_diameter_mm")
 _BOUNDARY = ("bore_diameter_mm", "outside_diameter_mm")
 Mass = Annotated[float, _axle("mass_kg", "pinion_mass"), Usual(0.5, 500.0)]
@@ -161,9 +164,9 @@ class BearingSection(ModelSection, BearingFields):
         pitch = 0.5 * (made.inner_race_diameter + made.outer_race_diameter)
         problems = []
         preload = made.preload_force()
-        if preload > LARGEST_PRELOAD:
+        if preload > PRELOAD.high:
             problems.append(
-                f"the preload must be within 0 to {LARGEST_PRELOAD:g} N, got {preload:.4g} N from "
+                f"the preload must be within 0 to {PRELOAD.high:g} N, got {preload:.4g} N from "
                 "the interference; 10 um is common"
             )
         room = pitch * math.sin(math.pi / made.n_rollers)
@@ -214,7 +217,7 @@ class BearingSection(ModelSection, BearingFields):
         changes = self.changes(base)
         inferred: dict[str, str] = {}
         interference = changes.pop("interference", None)
-        changes.setdefault("preload", PRELOAD)
+        changes.setdefault("preload", USUAL_PRELOAD)
         pitch = self._pitch
         rating = self.dynamic_load_rating_kn
         if pitch is not None or rating is not None:

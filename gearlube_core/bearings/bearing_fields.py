@@ -9,11 +9,13 @@ bearings whose rollers are known: 32216 in [wingertszahn_2023], and that of [moh
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.bearings.losses.geometry import BearingGeometry
+from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.input_file.input_file import Section
 
 _OF_SECTION = 0.57  # roller diameter over half the difference of outside diameter and bore
@@ -21,13 +23,14 @@ _OF_CIRCLE = 0.8  # roller diameters over the circumference of the pitch circle
 _LENGTH = 1.5  # over the diameter, if no load rating is known
 _B_M = 1.1  # tapered roller bearings
 _LAMBDA_NU = 0.83
-Diameter = Annotated[float, Field(ge=5.0, le=2000.0, allow_inf_nan=False), Usual(10.0, 800.0)]
-RollerSize = Annotated[float, Field(ge=2.0, le=500.0, allow_inf_nan=False), Usual(2.5, 120.0)]
-Rollers = Annotated[int, Field(ge=3, le=40)]
+_of = partial(Declared, BearingGeometry)
+Diameter = Annotated[float, _of("bore_diameter_mm"), Usual(10.0, 800.0)]
+RollerSize = Annotated[float, _of("roller_diameter_mm"), Usual(2.5, 120.0)]
+Rollers = Annotated[int, _of("rollers", "n_rollers")]
 Rating = Annotated[float, Field(ge=1.0, le=20000.0, allow_inf_nan=False), Usual(10.0, 5000.0)]
-Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False), Usual(8.0, 36.0)]
-ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
-LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
+Angle = Annotated[float, _of("contact_angle_deg", "outer_angle"), Usual(8.0, 36.0)]
+ViscousFactor = Annotated[float, _of("f0")]
+LoadFactor = Annotated[float, _of("f1")]
 Series = Literal["302", "303", "313", "320X", "322", "other"]
 
 

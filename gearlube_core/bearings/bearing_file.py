@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
@@ -32,22 +33,23 @@ from gearlube_core.bearings.losses.rib import (
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import ROLLER, FilmModel
-from gearlube_core.input_file.field_notes import Usual, field_notes
+from gearlube_core.input_file.field_notes import Declared, Usual, field_notes
 from gearlube_core.input_file.input_file import InputFile, InputNote, Section
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
-Rows = Annotated[int, Field(ge=1, le=4)]
+_of, _rib = partial(Declared, BearingGeometry), partial(Declared, Rib)
+Rows = Annotated[int, _of("rows")]
 InnerAngle = Annotated[float, Field(ge=0.1, le=45.0, allow_inf_nan=False), Usual(2.0, 36.0)]
-Roughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False), Usual(0.02, 2.0)]
+Roughness = Annotated[float, _of("roughness_um"), Usual(0.02, 2.0)]
 TimkenFactor = Annotated[float, Field(ge=0.1, le=10000.0, allow_inf_nan=False)]
-Scale = Annotated[float, Field(ge=0.05, le=5.0, allow_inf_nan=False)]
+Scale = Annotated[float, _of("rolling_scale")]
 Height = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False), Usual(0.2, 20.0)]
-EndRadius = Annotated[float, Field(ge=0.5, le=0.99, allow_inf_nan=False)]
-ShareB = Annotated[float, Field(ge=0.1, le=10.0, allow_inf_nan=False)]
-ShareC = Annotated[float, Field(ge=0.1, le=3.0, allow_inf_nan=False)]
-Friction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+EndRadius = Annotated[float, _rib("end_radius")]
+ShareB = Annotated[float, _rib("share_b")]
+ShareC = Annotated[float, _rib("share_c")]
+Friction = Annotated[float, _rib("boundary_friction")]
 ShaftSpeed = Annotated[float, Field(ge=0.0, le=1e5, allow_inf_nan=False), Usual(10.0, 3e4)]
 Load = Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False), Usual(20.0, 1e6)]
 Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False), Usual(-55.0, 200.0)]

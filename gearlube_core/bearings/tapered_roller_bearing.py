@@ -43,9 +43,13 @@ Film = Literal["squeeze", "steady", "off"]
 
 HYSTERETIC_LOSS = 0.009  # 1, [mohammadpour_2015 (25)], after [dietl_2000]
 CONTACT_ANGLE_COMPLETED = math.radians(15.0)  # not in the paper; common for axle bearings
-_LARGEST_FIT = 100e-6  # m
+LARGEST_FIT = 100e-6  # m
 _LINES = "For lines n = 10/9 and kn is in N/m^(10/9)."
-_SIZE = Number("m", 1e-3, 2.0, "12.7 mm is 0.0127 m.")
+DIAMETER = Number("m", 5e-3, 2.0, "83.7 mm is 0.0837 m.")  # of a ring, or of a race
+ROLLER = Number("m", 2e-3, 0.5, "12.7 mm is 0.0127 m.")
+PRELOAD = Number(
+    "N", 0.0, 1e5, "Preload cannot pull; give 0 N for line-to-line bearings.", fmi="preload"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,12 +103,12 @@ class TaperedRollerBearing(Bearing, name="tapered_roller", text="tapered rollers
     0.3987
     """
 
-    bore_diameter: Annotated[float, _SIZE]
-    outside_diameter: float
-    inner_race_diameter: Annotated[float, _SIZE]
-    outer_race_diameter: float
-    roller_diameter: Annotated[float, _SIZE]
-    roller_length: Annotated[float, _SIZE]
+    bore_diameter: Annotated[float, DIAMETER]
+    outside_diameter: Annotated[float, DIAMETER]
+    inner_race_diameter: Annotated[float, DIAMETER]
+    outer_race_diameter: Annotated[float, DIAMETER]
+    roller_diameter: Annotated[float, ROLLER]
+    roller_length: Annotated[float, ROLLER]
     n_rollers: Annotated[int, Number("1", 3, ROLLERS_MAX)]
     stiffness_constant: Annotated[float, Number("N/m^n", 1e6, 1e14, _LINES)]
     exponent: Annotated[float, Number("1", 1.0, 2.0, _LINES)]
@@ -117,9 +121,7 @@ class TaperedRollerBearing(Bearing, name="tapered_roller", text="tapered rollers
     solid: Solid
     f0: Annotated[float, Number("1", 0.0, 100.0, fmi="f0")]
     f1: Annotated[float, Number("1", 0.0, 0.1, fmi="f1")]
-    preload: Annotated[
-        float | None, Number("N", 0.0, 1e6, "Preload cannot pull.", fmi="preload")
-    ] = None
+    preload: Annotated[float | None, PRELOAD] = None
     interference: float | None = None
     series: str = "other"
     rib_height: float | None = None
@@ -131,10 +133,12 @@ class TaperedRollerBearing(Bearing, name="tapered_roller", text="tapered rollers
         check_option("series", self.series, SERIES_NAMES)
         room = self.inner_race_diameter + self.roller_diameter
         cure = "The roller must fit between the races."
-        check_within("outer_race_diameter", self.outer_race_diameter, room, 4.0, "m", cure)
+        check_within(
+            "outer_race_diameter", self.outer_race_diameter, room, DIAMETER.high, "m", cure
+        )
         cure = "It is the outside of the outer ring."
-        low = self.bore_diameter
-        check_within("outside_diameter", self.outside_diameter, low, 4.0, "m", cure)
+        low, high = self.bore_diameter, DIAMETER.high
+        check_within("outside_diameter", self.outside_diameter, low, high, "m", cure)
         if self.n_rollers != int(self.n_rollers):
             raise ParameterError(f"n_rollers must be a whole number, got {self.n_rollers:g}.")
         cure = "It is below the roller diameter; 0 m is no rib."
@@ -155,8 +159,7 @@ class TaperedRollerBearing(Bearing, name="tapered_roller", text="tapered rollers
             )
         if self.interference is not None:
             cure = "10 um is 1e-5 m."
-            limit = _LARGEST_FIT
-            check_within("interference", self.interference, -limit, limit, "m", cure)
+            check_within("interference", self.interference, -LARGEST_FIT, LARGEST_FIT, "m", cure)
 
     @classmethod
     def mohammadpour_2015(

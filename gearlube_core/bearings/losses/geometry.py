@@ -28,9 +28,9 @@ from gearlube_core.bearings.losses.rib import (
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.roller_contact import N_LINE
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
-from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_bearing import DIAMETER, ROLLER, TaperedRollerBearing
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
-from gearlube_core.checks import check_option, check_within
+from gearlube_core.checks import check_option
 from gearlube_core.contact.solid import (
     STEEL_MOHAMMADPOUR_2015,
     Solid,
@@ -74,7 +74,7 @@ class Rib:
         check_fields(self)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class BearingGeometry:
     """Geometry of a tapered roller bearing, for `bearing_loss`; rows share the load equally.
 
@@ -124,13 +124,15 @@ class BearingGeometry:
     11.44
     """
 
-    bore_diameter: float
-    outside_diameter: float
-    pitch_diameter: float
-    roller_diameter: float
-    roller_length: Annotated[float, Number("m", 1e-3, 1.0, "17 mm is 0.017 m.")]
+    bore_diameter: Annotated[float, DIAMETER]
+    outside_diameter: Annotated[float, DIAMETER]
+    pitch_diameter: Annotated[float, DIAMETER]
+    roller_diameter: Annotated[float, ROLLER]
+    roller_length: Annotated[float, ROLLER]
     n_rollers: Annotated[int, Number("1", 3, ROLLERS_MAX)]
-    outer_angle: float
+    outer_angle: Annotated[
+        float, Number("rad", math.radians(5.0), math.radians(45.0), "15 deg is 0.2618 rad.")
+    ]
     inner_angle: float
     rib: Rib
     rows: Annotated[int, Number("1", 1, 4)] = 1
@@ -139,18 +141,12 @@ class BearingGeometry:
     f0: Annotated[float, Number("1", 0.0, 100.0)] = F0_TAPERED_OIL_BATH
     f1: Annotated[float, Number("1", 0.0, 0.1)] = F1_TAPERED
     timken_g1: Annotated[float, Number("1", 0.0, 1e4)] = 0.0
-    rolling_scale: float | None = None
+    rolling_scale: Annotated[float | None, Number("1", 0.05, 5.0)] = None
     solid: Solid = STEEL_MOHAMMADPOUR_2015
 
     def __post_init__(self) -> None:
-        for name in ("bore_diameter", "outside_diameter", "pitch_diameter", "roller_diameter"):
-            check_within(name, getattr(self, name), 1e-3, 4.0, "m", "17 mm is 0.017 m.")
         check_fields(self)
         check_option("series", self.series, SERIES_NAMES)
-        cure = "15 deg is 0.2618 rad."
-        check_within("outer_angle", self.outer_angle, 5 * _DEG, 45 * _DEG, "rad", cure)
-        if self.rolling_scale is not None:
-            check_within("rolling_scale", self.rolling_scale, 0.05, 5.0)
         self._check_rollers()
         self._check_apex()
 

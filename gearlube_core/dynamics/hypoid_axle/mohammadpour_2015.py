@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import get_args
 
-from gearlube_core.bearings.tapered_roller_bearing import Approach, TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_bearing import PRELOAD, Approach, TaperedRollerBearing
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import (
     STEEL_MOHAMMADPOUR_2015,
@@ -60,14 +60,8 @@ def mohammadpour_2015_axle(
     49.9
     """
     check_option("bearing_approach", bearing_approach, get_args(Approach))
-    check_within(
-        "bearing_preload",
-        bearing_preload,
-        0.0,
-        1e5,
-        "N",
-        "Preload cannot pull; give 0 N for line-to-line bearings.",
-    )
+    low, high = PRELOAD.low, PRELOAD.high
+    check_within("bearing_preload", bearing_preload, low, high, "N", PRELOAD.cure)
     return HypoidAxleParameters(
         mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
         bearing=TaperedRollerBearing.mohammadpour_2015(approach=bearing_approach).with_preload(
