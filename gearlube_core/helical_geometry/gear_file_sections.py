@@ -3,35 +3,47 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from gearlube_core.helical_geometry.modification import (
+    WIDEST_RELIEF,
+    Crown,
+    FlankModification,
+    PowerTipRelief,
+    TipRelief,
+)
+from gearlube_core.helical_geometry.pair import LARGEST_SHIFT, HelicalPair
 from gearlube_core.helical_geometry.tooth_limits import USUAL_FILLET
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.input_file.input_file import Section
 
+_pair = partial(Declared, HelicalPair)
 Nodes = Annotated[int, Field(ge=17, le=2049)]
 Steps = Annotated[int, Field(ge=1, le=1_000_000)]
 ShownSteps = Annotated[tuple[Annotated[int, Field(ge=0)], ...], Field(strict=False)]
 Position = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.0, 200.0)]
-Teeth = Annotated[int, Field(ge=5, le=1000)]
-Module = Annotated[float, Field(ge=0.1, le=100.0, allow_inf_nan=False), Usual(0.5, 30.0)]
-PressureAngle = Annotated[float, Field(ge=10.0, le=35.0, allow_inf_nan=False), Usual(12.0, 30.0)]
-HelixAngle = Annotated[float, Field(ge=0.0, le=45.0, allow_inf_nan=False), Usual(3.0, 45.0)]
+Teeth = Annotated[int, _pair("teeth", "pinion_teeth")]
+Module = Annotated[float, _pair("normal_module_mm"), Usual(0.5, 30.0)]
+PressureAngle = Annotated[float, _pair("normal_pressure_angle_deg"), Usual(12.0, 30.0)]
+HelixAngle = Annotated[float, _pair("helix_angle_deg"), Usual(3.0, 45.0)]
 Length = Annotated[float, Field(gt=0.0, le=10000.0, allow_inf_nan=False), Usual(5.0, 2000.0)]
 Width = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(2.0, 600.0)]
-Depth = Annotated[Width, Usual(0.05, 30.0)]
+Depth = Annotated[
+    float, Field(gt=0.0, le=1e3 * WIDEST_RELIEF, allow_inf_nan=False), Usual(0.05, 30.0)
+]
 Step = Annotated[Width, Usual(1e-3, 20.0)]
 Backlash = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False), Usual(1e-3, 1.5)]
-Removal = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False), Usual(0.5, 300.0)]
-Slope = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.5, 300.0)]
-Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Exponent = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
-Start = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False), Usual(0.1, 300.0)]
+Removal = Annotated[float, Declared(Crown, "crown_um", "amount"), Usual(0.5, 300.0)]
+Slope = Annotated[float, Declared(FlankModification, "lead_slope_um"), Usual(0.5, 300.0)]
+Share = Annotated[float, Declared(TipRelief, "k")]
+Exponent = Annotated[float, Declared(PowerTipRelief, "beta")]
+Start = Annotated[float, Declared(Crown, "crown_start_mm", "start"), Usual(0.1, 300.0)]
 Facets = Annotated[int, Field(ge=0, le=10000)]
-Shift = Annotated[float, Field(ge=-2.0, le=2.0, allow_inf_nan=False)]
-Fillet = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Shift = Annotated[float, Field(ge=-LARGEST_SHIFT, le=LARGEST_SHIFT, allow_inf_nan=False)]
+Fillet = Annotated[float, _pair("fillet_factor")]
 Mass = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False), Usual(0.02, 5000.0)]
 Inertia = Annotated[float, Field(gt=0.0, le=1e13, allow_inf_nan=False), Usual(1.0, 1e9)]
 Stiffness = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False), Usual(5.0, 20000.0)]

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_finite, check_positive, check_within
+from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import (
     InvoluteFlank,
@@ -22,17 +23,16 @@ from gearlube_core.helical_geometry.involute import (
     involute_flank,
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.number import Number, check_fields
 
-_METRES_OF_RELIEF = "Give metres, not micrometres or millimetres."
-_DEEPEST, _WIDEST = 1.0e-3, 0.1
-_METRES = "Give metres, not micrometres."
-_LARGEST = 1.0e-3
+_METRES = "Give metres, not micrometres or millimetres."
+WIDEST_RELIEF = 0.1  # m
+_REMOVAL, _SLOPE = Number("m", 0.0, 1e-3, _METRES), Number("m", -1e-3, 1e-3, _METRES)
 
 
-def _check_size(amount: float, extent: float) -> None:
-    check_within("amount", amount, 0.0, _DEEPEST, "m", _METRES_OF_RELIEF)
-    check_positive("extent", extent, "m", _METRES_OF_RELIEF)
-    check_within("extent", extent, 0.0, _WIDEST, "m", _METRES_OF_RELIEF)
+def _check_extent(extent: float) -> None:
+    check_positive("extent", extent, "m", _METRES)
+    check_within("extent", extent, 0.0, WIDEST_RELIEF, "m", _METRES)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,13 +65,13 @@ class TipRelief:
     is left, the tangent goes on.
     """
 
-    amount: float
+    amount: Annotated[float, _REMOVAL]
     extent: float
-    k: float
+    k: Annotated[float, Number("1", 0.0, 1.0, "0 is linear relief, 1 parabolic.")]
 
     def __post_init__(self) -> None:
-        _check_size(self.amount, self.extent)
-        check_within("k", self.k, 0.0, 1.0, "", "0 is linear relief, 1 parabolic.")
+        check_fields(self)
+        _check_extent(self.extent)
 
     @property
     def parabola_end_removal(self) -> float:
@@ -118,13 +118,13 @@ class PowerTipRelief:
     Source: [jamali_2015 (5.6)]. Past the tip, where no flank is left, the power goes on.
     """
 
-    amount: float
+    amount: Annotated[float, _REMOVAL]
     extent: float
-    beta: float
+    beta: Annotated[float, Number("1", 1.0, 10.0, "1 is linear relief, 2 parabolic.")]
 
     def __post_init__(self) -> None:
-        _check_size(self.amount, self.extent)
-        check_within("beta", self.beta, 1.0, 10.0, "", "1 is linear relief, 2 parabolic.")
+        check_fields(self)
+        _check_extent(self.extent)
 
     def removal(self, r: ArrayLike, tip_radius: float) -> Array:
         """Return the removal [m] at radius `r` [m], any shape; zero below r_start."""
@@ -156,12 +156,11 @@ class Crown:
     the lower half's start at -F_o, so both halves are one formula in |z|.
     """
 
-    amount: float
-    start: float
+    amount: Annotated[float, _REMOVAL]
+    start: Annotated[float, Number("m", 0.0, 1.0, _METRES)]
 
     def __post_init__(self) -> None:
-        check_within("amount", self.amount, 0.0, _LARGEST, "m", _METRES)
-        check_within("start", self.start, 0.0, 1.0, "m", _METRES)
+        check_fields(self)
 
     def removal(self, z: ArrayLike, face_width: float) -> Array:
         """Return the removal [m] at z [m] from mid-face, any shape; goes on past the faces."""
@@ -204,15 +203,13 @@ class FlankModification:
 
     tip_relief: TipRelief | PowerTipRelief | None = None
     crown: Crown | None = None
-    lead_slope: float = 0.0
-    profile_slope: float = 0.0
+    lead_slope: Annotated[float, _SLOPE] = 0.0
+    profile_slope: Annotated[float, _SLOPE] = 0.0
     facets: int = 0
 
     def __post_init__(self) -> None:
         check_facets("facets", self.facets)
-        for name in ("lead_slope", "profile_slope"):
-            value = check_finite(name, getattr(self, name), "m", _METRES)
-            check_within(name, value, -_LARGEST, _LARGEST, "m", _METRES)
+        check_fields(self)
 
     def removal(self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank) -> Array:
         """Return the transverse removal, down to the facets where there are any.

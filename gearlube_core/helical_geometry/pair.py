@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
-from gearlube_core.checks import check_positive, check_within
+from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.tooth_limits import (
@@ -21,9 +21,10 @@ from gearlube_core.helical_geometry.tooth_limits import (
     profile_shift_sum,
     tip_thickness,
 )
+from gearlube_core.number import Number, Positive, check_fields
 
 _METRES = "Give metres, not millimetres."
-_LARGEST_HELIX = math.radians(45.0)
+_TEETH = Number("1", 5, 1000)
 LARGEST_SHIFT = 2.0  # x of a gear
 _ROUNDED_SHIFTS = 2e-3  # normal modules of backlash that shifts of three decimals leave at most
 Shifts = tuple[float, float]
@@ -87,31 +88,25 @@ class HelicalPair:
     """
 
     name: str
-    pinion_teeth: int
-    gear_teeth: int
-    normal_module: float
-    normal_pressure_angle: float
-    helix_angle: float
+    pinion_teeth: Annotated[int, _TEETH]
+    gear_teeth: Annotated[int, _TEETH]
+    normal_module: Annotated[float, Number("m", 1e-4, 0.1, _METRES)]
+    normal_pressure_angle: Annotated[
+        float, Number("rad", math.radians(10.0), math.radians(35.0), "Give radians.")
+    ]
+    helix_angle: Annotated[float, Number("rad", 0.0, math.radians(45.0), "Give radians.")]
     centre_distance: float
     pinion_tip_radius: float
     gear_tip_radius: float
     pinion_root_radius: float
     gear_root_radius: float
-    face_width: float
+    face_width: Annotated[float, Positive("m", _METRES)]
     backlash: float = math.nan
     profile_shift: tuple[float | None, float | None] = (None, None)
-    fillet_factor: float = USUAL_FILLET
+    fillet_factor: Annotated[float, Number("1", 0.0, 1.0, "0.25 to 0.4 is usual.")] = USUAL_FILLET
 
     def __post_init__(self) -> None:
-        for name in ("pinion_teeth", "gear_teeth"):
-            check_within(name, getattr(self, name), 5, 1000)
-        check_within("normal_module", self.normal_module, 1e-4, 0.1, "m", _METRES)
-        low, high = math.radians(10.0), math.radians(35.0)
-        check_within(
-            "normal_pressure_angle", self.normal_pressure_angle, low, high, "rad", "Give radians."
-        )
-        check_within("helix_angle", self.helix_angle, 0.0, _LARGEST_HELIX, "rad", "Give radians.")
-        check_positive("face_width", self.face_width, "m", _METRES)
+        check_fields(self)
         smallest = self.pinion_base_radius + self.gear_base_radius
         check_within(
             "centre_distance", self.centre_distance, 1.0001 * smallest, 1.3 * smallest, "m",
@@ -142,7 +137,6 @@ class HelicalPair:
         if math.isnan(self.backlash):
             object.__setattr__(self, "backlash", max(self.backlash_of_shifts, 0.0))
         check_within("backlash", self.backlash, 0.0, self.normal_module, "m", _METRES)
-        check_within("fillet_factor", self.fillet_factor, 0.0, 1.0, "", "0.25 to 0.4 is usual.")
         for role, x in zip(("pinion", "gear"), self.profile_shifts, strict=True):
             if self.profile_shift != (None, None):
                 what = f"profile shift coefficient x of the {role}"

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Annotated, Literal
 
 import numpy as np
 
-from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.kernel_parameters import (
     COORDINATES,
     SIX_DOF,
@@ -27,6 +27,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.number import Number, Positive, check_fields
 
 _SAME = 1e-6  # of the base pitch
 Form = Literal["twelve_dof", "six_dof"]
@@ -36,6 +37,7 @@ BearingMoments = Literal["consistent", "as_printed"]
 SupportDamping = Literal["total", "as_printed"]
 MeshSign = Literal["compression", "as_printed"]
 _MOST_LINES = 100
+DAMPING_RATIO, FRICTION = Number("1", 0.0, 1.0, "Five percent is usual."), Number("1", 0.0, 1.0)
 
 
 def check_line_mesh(mesh: LineMesh, pair: HelicalPair, most_lines: int) -> None:
@@ -111,43 +113,29 @@ class HelicalPairParameters:
 
     pair: HelicalPair
     mesh: LineMesh
-    pinion_torque: float
-    pinion_mass: float
-    pinion_inertia: float
-    pinion_polar_inertia: float
-    gear_mass: float
-    gear_inertia: float
-    gear_polar_inertia: float
+    pinion_torque: Annotated[float, Positive("N.m")]
+    pinion_mass: Annotated[float, Positive("kg")]
+    pinion_inertia: Annotated[float, Positive("kg m2")]
+    pinion_polar_inertia: Annotated[float, Positive("kg m2")]
+    gear_mass: Annotated[float, Positive("kg")]
+    gear_inertia: Annotated[float, Positive("kg m2")]
+    gear_polar_inertia: Annotated[float, Positive("kg m2")]
     pinion_support: ShaftSupport
     gear_support: ShaftSupport
-    support_damping_ratio: float
-    mesh_damping_ratio: float
+    support_damping_ratio: Annotated[float, DAMPING_RATIO]
+    mesh_damping_ratio: Annotated[float, DAMPING_RATIO]
     friction: Friction
-    friction_coefficient: float
+    friction_coefficient: Annotated[float, FRICTION]
     film: FilmFriction | None = None
     form: Form = "twelve_dof"
     contact: Contact = "linear"
-    line_divisions: int = 1
+    line_divisions: Annotated[int, Number("1", 1, 64)] = 1
     bearing_moments: BearingMoments = "consistent"
     support_damping: SupportDamping = "total"
     mesh_sign: MeshSign = "compression"
 
     def __post_init__(self) -> None:
-        for name, options in (
-            ("friction", Friction), ("form", Form), ("contact", Contact),
-            ("bearing_moments", BearingMoments), ("support_damping", SupportDamping),
-            ("mesh_sign", MeshSign),
-        ):  # fmt: skip
-            check_option(name, getattr(self, name), get_args(options))
-        check_positive("pinion_torque", self.pinion_torque, "N.m")
-        for member in ("pinion", "gear"):
-            check_positive(f"{member}_mass", getattr(self, f"{member}_mass"), "kg")
-            for kind in ("inertia", "polar_inertia"):
-                check_positive(f"{member}_{kind}", getattr(self, f"{member}_{kind}"), "kg m2")
-        for name in ("support_damping_ratio", "mesh_damping_ratio"):
-            check_within(name, getattr(self, name), 0.0, 1.0, "1", "Five percent is usual.")
-        check_within("friction_coefficient", self.friction_coefficient, 0.0, 1.0, "1")
-        check_within("line_divisions", self.line_divisions, 1, 64)
+        check_fields(self)
         if self.friction == "film" and self.film is None:
             raise ParameterError(
                 'film must be given with friction "film", got None. Give a FilmFriction.'

@@ -27,7 +27,12 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     MarchConstants,
     MarchScalars,
 )
-from gearlube_core.dynamics.helical_pair.parameters import check_line_mesh, effective_mass
+from gearlube_core.dynamics.helical_pair.parameters import (
+    DAMPING_RATIO,
+    FRICTION,
+    check_line_mesh,
+    effective_mass,
+)
 from gearlube_core.dynamics.helical_pair.supports import ShaftSupport, shaft_springs
 from gearlube_core.dynamics.ranges import Range, model_ranges, range_limits
 from gearlube_core.film import line_film
@@ -45,8 +50,6 @@ Form = Literal["twelve_dof", "six_dof"]
 Friction = Literal["film", "constant", "off"]
 Equations = Literal["consistent", "he_2007"]
 Film = Literal["formula", "solved"]
-
-_DAMPING = Number("1", 0.0, 1.0, "Five percent is usual.")
 
 # what the constants of the march call the options
 FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
@@ -143,13 +146,13 @@ class HelicalMarchParameters(MarchScalars):
     gear: Body
     oil: Lubricant
     friction: Friction = "film"
-    friction_coefficient: Annotated[float, Number("1", 0.0, 1.0)] = 0.05
+    friction_coefficient: Annotated[float, FRICTION] = 0.05
     film: Film = "formula"
     line_film_model: FilmModel | None = None
     roughness_rms: Annotated[float, Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")] = 0.5e-6
     solid: Solid = STEEL_MOHAMMADPOUR_2015
-    mesh_damping_ratio: Annotated[float, _DAMPING] = 0.05
-    support_damping_ratio: Annotated[float, _DAMPING] = 0.05
+    mesh_damping_ratio: Annotated[float, DAMPING_RATIO] = 0.05
+    support_damping_ratio: Annotated[float, DAMPING_RATIO] = 0.05
     form: Form = "twelve_dof"
     equations: Equations = "consistent"
     steps_per_mesh_period: Annotated[int, Number("1", 16, 4096)] = 64
