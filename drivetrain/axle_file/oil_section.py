@@ -16,9 +16,12 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.input_file.field_units import field_value, unit_of
 from gearlube_core.input_file.input_file import InputNote, Origin
-from gearlube_core.oil.field_limits import (
+from gearlube_core.oil.library import read_library
+from gearlube_core.oil.lubricant import Lubricant, lubricant_names
+from gearlube_core.oil.oil_file import (
     Conductivity,
     Density,
+    DescribedOil,
     HeatCapacity,
     PressureViscosity,
     Share,
@@ -28,9 +31,6 @@ from gearlube_core.oil.field_limits import (
     Text,
     Viscosity,
 )
-from gearlube_core.oil.library import read_library
-from gearlube_core.oil.lubricant import Lubricant, lubricant_names
-from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.units import celsius_to_kelvin
 
 _axle, _oil = partial(Declared, HypoidAxleParameters), partial(Declared, Lubricant)

@@ -36,6 +36,7 @@ from gearlube_core.film_model.model import ROLLER, FilmModel
 from gearlube_core.input_file.field_notes import Declared, Usual, field_notes
 from gearlube_core.input_file.input_file import InputFile, InputNote, Section
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
+from gearlube_core.oil.oil_file import Temperature
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
@@ -52,7 +53,6 @@ ShareC = Annotated[float, _rib("share_c")]
 Friction = Annotated[float, _rib("boundary_friction")]
 ShaftSpeed = Annotated[float, Field(ge=0.0, le=1e5, allow_inf_nan=False), Usual(10.0, 3e4)]
 Load = Annotated[float, Field(ge=0.0, le=1e7, allow_inf_nan=False), Usual(20.0, 1e6)]
-Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False), Usual(-55.0, 200.0)]
 Speeds = Annotated[tuple[ShaftSpeed, ...], Field(strict=False, min_length=1)]
 Loads = Annotated[tuple[Load, ...], Field(strict=False, min_length=1)]
 Temperatures = Annotated[tuple[Temperature, ...], Field(strict=False, min_length=1)]

@@ -6,12 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from gearlube_core.hypoid_geometry.gear_file_sections import PairOffset, SpiralAngle
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
 
 Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False), Usual(5.0, 1000.0)]
-Offset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(1.0, 150.0)]
-SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False), Usual(3.0, 60.0)]
 PressureAngle = Annotated[float, Field(ge=10.0, le=30.0, allow_inf_nan=False), Usual(12.0, 28.0)]
 CutterRadius = Annotated[float, Field(gt=0.0, le=900.0, allow_inf_nan=False), Usual(5.0, 600.0)]
 Depth = Annotated[float, Field(ge=1.0, le=3.0, allow_inf_nan=False)]
@@ -30,7 +29,7 @@ class BlankPair(Section):
 
     pinion_teeth: int = Field(ge=3, le=100, description="Number of teeth of the pinion")
     gear_teeth: int = Field(ge=3, le=400, description="Number of teeth of the gear")
-    offset_mm: Offset = Field(
+    offset_mm: PairOffset = Field(
         description="Distance between the axes (pinion offset), without a sign: pinion_hand "
         "tells its side; 0: bevel gears"
     )

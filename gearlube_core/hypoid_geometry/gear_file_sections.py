@@ -10,8 +10,9 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank, MemberBlank
 from gearlube_core.hypoid_geometry.flank.correction import surface_degree
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.input_file.input_file import Section
 
 Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.0, 500.0)]
@@ -26,7 +27,8 @@ TiltAngle = Annotated[float, Field(ge=0.0, le=80.0, allow_inf_nan=False), Usual(
 ModifiedRoll = Annotated[float, Field(ge=-1.0, le=1.0, allow_inf_nan=False)]
 HelicalMotion = Annotated[float, Field(ge=-50.0, le=50.0, allow_inf_nan=False), Usual(0.0, 30.0)]
 RollRatio = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
-PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(1.0, 150.0)]
+Teeth = Annotated[int, Declared(MemberBlank, "teeth")]
+PairOffset = Annotated[float, Declared(HypoidBlank, "offset_mm"), Usual(1.0, 150.0)]
 Clearance = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False), Usual(0.1, 8.0)]
 BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False), Usual(5.0, 40.0)]
 Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False), Usual(0.0, 3.0)]
@@ -283,7 +285,7 @@ class FlankRelief(Section):
 class Member(Section):
     """Blank of one member; apexes count positive beyond the crossing point of the axes."""
 
-    teeth: int = Field(ge=3, le=400, description="Number of teeth")
+    teeth: Teeth = Field(description="Number of teeth")
     face_width_mm: Length = Field(description="Face width along the pitch cone")
     outer_cone_distance_mm: Length = Field(
         description="Distance from the pitch apex to the heel, along the pitch cone"

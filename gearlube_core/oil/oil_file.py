@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -10,27 +11,28 @@ from pydantic import Field, model_validator
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import OneOf, Usual
+from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
 from gearlube_core.input_file.field_units import field_unit
 from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, toml_data
-from gearlube_core.oil.field_limits import (
-    Conductivity,
-    Density,
-    HeatCapacity,
-    PressureViscosity,
-    Share,
-    Strength,
-    Stress,
-    Temperature,
-    Text,
-    Viscosity,
-)
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
 from gearlube_core.oil.sheet_values import SheetValues, sheet_values
 
 FILE_IN_FMU = "oil.toml"  # among the resources of an FMU
+
+# shared with the axle file
+_oil = partial(Declared, Lubricant)
+Text = Annotated[str, Field(min_length=1)]
+Viscosity = Annotated[float, Field(ge=2.0, le=1e5, allow_inf_nan=False), Usual(2.0, 3000.0)]
+Density = Annotated[float, _oil("density_kg_m3"), Usual(750.0, 1200.0)]
+PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False), Usual(5.0, 50.0)]
+Stress = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False), Usual(0.5, 50.0)]
+Strength = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False), Usual(0.5, 100.0)]
+Share = Annotated[float, _oil("boundary_friction")]
+Conductivity = Annotated[float, _oil("conductivity_w_m_k"), Usual(0.08, 0.3)]
+HeatCapacity = Annotated[float, _oil("heat_capacity_j_kg_k"), Usual(1300.0, 3500.0)]
+Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False), Usual(-55.0, 200.0)]
 
 Index = Annotated[float, Field(ge=0.0, le=400.0, allow_inf_nan=False)]
 DensitySlope = Annotated[float, Field(ge=-2.0, le=0.0, allow_inf_nan=False), Usual(-1.2, -0.3)]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import OneOf, Usual
+from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
@@ -27,18 +28,19 @@ PressureViscosity = Annotated[
 ]
 Stress = Annotated[float, Field(ge=0.01, le=1e6, allow_inf_nan=False), Usual(0.5, 1000.0)]
 Slope = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Density = Annotated[float, Field(ge=100.0, le=30000.0, allow_inf_nan=False), Usual(900.0, 20000.0)]
+_solid = partial(Declared, Solid)
+Density = Annotated[float, _solid("density_kg_m3"), Usual(900.0, 20000.0)]
 OilDensity = Annotated[float, Field(ge=100.0, le=3000.0, allow_inf_nan=False), Usual(700.0, 1300.0)]
 Temperature = Annotated[float, Field(ge=-60.0, le=500.0, allow_inf_nan=False), Usual(-55.0, 250.0)]
 TemperatureExponent = Annotated[float, Field(ge=0.0, le=5.0, allow_inf_nan=False)]
 Expansion = Annotated[float, Field(ge=0.0, le=1e-2, allow_inf_nan=False), Usual(0.0003, 0.0012)]
-Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False), Usual(0.1, 500.0)]
+Conductivity = Annotated[float, _solid("conductivity_w_m_k"), Usual(0.1, 500.0)]
 OilConductivity = Annotated[Conductivity, Usual(0.08, 0.3)]
 HeatCapacity = Annotated[
     float, Field(ge=50.0, le=10000.0, allow_inf_nan=False), Usual(300.0, 4500.0)
 ]
-Modulus = Annotated[float, Field(ge=1e-3, le=2000.0, allow_inf_nan=False), Usual(0.5, 1300.0)]
-PoissonRatio = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+Modulus = Annotated[float, _solid("youngs_modulus_gpa"), Usual(0.5, 1300.0)]
+PoissonRatio = Annotated[float, _solid("poisson_ratio")]
 
 # what an oil of the library brings along
 _OWN_DATA = (

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.number import Number, check_fields
 
 _METRES = "Give metres, not millimetres."
 
@@ -30,22 +32,16 @@ class MemberBlank:
         Distance of the apex beyond the crossing point [m]; negative: before it.
     """
 
-    teeth: int
-    face_width: float
-    outer_cone_distance: float
-    pitch_angle: float
-    spiral_angle: float
-    pitch_apex: float
-    face_apex: float
+    teeth: Annotated[int, Number("1", 3, 400)]
+    face_width: Annotated[float, Number("m", 1e-4, 1.0, _METRES)]
+    outer_cone_distance: Annotated[float, Number("m", 1e-4, 2.0, _METRES)]
+    pitch_angle: Annotated[float, Number("rad", 0.01, 1.56, "Give radians.")]
+    spiral_angle: Annotated[float, Number("rad", -1.2, 1.2, "Give radians.")]
+    pitch_apex: Annotated[float, Number("m", -1.0, 1.0, _METRES)]
+    face_apex: Annotated[float, Number("m", -1.0, 1.0, _METRES)]
 
     def __post_init__(self) -> None:
-        check_within("teeth", self.teeth, 3, 400)
-        for name, limit in (("face_width", 1.0), ("outer_cone_distance", 2.0)):
-            check_within(name, getattr(self, name), 1e-4, limit, "m", _METRES)
-        for name in ("pitch_apex", "face_apex"):
-            check_within(name, getattr(self, name), -1.0, 1.0, "m", _METRES)
-        check_within("pitch_angle", self.pitch_angle, 0.01, 1.56, "rad", "Give radians.")
-        check_within("spiral_angle", self.spiral_angle, -1.2, 1.2, "rad", "Give radians.")
+        check_fields(self)
         if not self.outer_cone_distance > self.face_width:
             raise ParameterError(
                 f"outer_cone_distance must exceed face_width {self.face_width:g} m, "
@@ -92,13 +88,13 @@ class HypoidBlank:
 
     pinion: MemberBlank
     gear: MemberBlank
-    offset: float
+    offset: Annotated[float, Number("m", 0.0, 0.5, _METRES)]
     name: str
     source: str
     clearance: float | None = None
 
     def __post_init__(self) -> None:
-        check_within("offset", self.offset, 0.0, 0.5, "m", _METRES)
+        check_fields(self)
         if self.clearance is not None:
             check_within("clearance", self.clearance, 0.0, self.working_depth, "m", _METRES)
 
