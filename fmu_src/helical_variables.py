@@ -32,7 +32,10 @@ from fmu_src.variable import (
     velocities,
 )
 from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import ReplacedBearings
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
+    STIFFNESS_DENSITY,
+    ReplacedBearings,
+)
 from gearlube_core.dynamics.helical_pair.march.outputs import OWN_OUTPUTS
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.friction.flank_laws import FILM_MODELS
@@ -73,8 +76,8 @@ _PARAMETERS = (
            "uniform", LINE_MESH, start="uniform", argument="stiffness_model"),
     parameter("mesh.stiffness_density", "N/m2",
               "Stiffness per length of contact line, if uniform; 0 takes ISO 6336-1",
-              display_unit="N/(mm.um)", start=0.0, minimum=0.0, maximum=1e12, nominal=1e10,
-              argument="stiffness_density"),
+              display_unit="N/(mm.um)", start=0.0, minimum=STIFFNESS_DENSITY.low,
+              maximum=STIFFNESS_DENSITY.high, nominal=1e10, argument="stiffness_density"),
     _number("mesh_damping_ratio", "mesh.damping_ratio", "Damping ratio of the relative rotation",
             nominal=0.1),
     _number("support_damping_ratio", "support.damping_ratio",

@@ -30,6 +30,7 @@ DENSITY_WITH_MESH_WORDS = "stiffness_density must be 0 with a line mesh"
 _NO_BEARING = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _ZERO = "0 takes the value of the gear file."
 _STIFFNESS = Number("N/m", 0.0, 1e12, _ZERO)
+STIFFNESS_DENSITY = Number("N/m2", 0.0, 1e12, _ZERO)  # along contact lines
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,7 +111,10 @@ def helical_march_parameters(
     >>> dry.pinion.support.first.K_xx  # N/m, half of both bearings together
     1000000000.0
     """
-    check_within("stiffness_density", stiffness_density, 0.0, 1e12, "N/m2", _ZERO)
+    limits = STIFFNESS_DENSITY
+    check_within(
+        "stiffness_density", stiffness_density, limits.low, limits.high, limits.unit, limits.cure
+    )
     instead = bearings or ReplacedBearings()
     pair = gear.helical_pair()
     if line_mesh is None:
