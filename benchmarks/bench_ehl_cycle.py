@@ -24,8 +24,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
-from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
-from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, HelicalFilm
+from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, HelicalFilm, march_helical_cycle
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.oil.film_oil import fill_properties

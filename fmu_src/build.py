@@ -67,7 +67,7 @@ def cached_hypoid_axle(
     from fmu_src.identity import guid_of
     from fmu_src.native.build import NativeOptions
     from fmu_src.native.platforms import platform_of_this_machine
-    from gearlube_core.storage.cache_folder import user_folder
+    from gearlube_core.storage.folders import user_folder
 
     definition = axle_definition(mesh_table, axle)
     native = can_build_native() if native is None else native

@@ -20,8 +20,7 @@ from typer.core import TyperCommand, TyperGroup
 from typer.main import get_group
 
 from gearlube.cli.exit_codes import exit_on_error
-from gearlube.cli.multi_value_options import MultiValueCommand
-from gearlube.cli.option_groups import group_options
+from gearlube.cli.option_groups import MultiValueCommand, group_options
 
 _MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would swallow [units]
 
@@ -379,7 +378,7 @@ def main() -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from rich.logging import RichHandler
 
-    from gearlube.cli.console import console
+    from gearlube.cli.exit_codes import console
 
     handler = RichHandler(console=console, show_path=False, show_time=False, markup=False)
     handler.addFilter(_WarningsOnce())

@@ -15,8 +15,8 @@ from pathlib import Path
 
 import gearlube as gl
 from gearlube.output.toml_text import toml_text
-from gearlube.studies.contact.summary import contact_summary
-from gearlube.studies.design.summary import unmet_targets
+from gearlube.studies.contact.findings import contact_summary
+from gearlube.studies.design.findings import unmet_targets
 from gearlube_core.errors import GearLubeError
 from gearlube_core.hypoid_contact.contact_dataset import analyse_contact
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings

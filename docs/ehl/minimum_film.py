@@ -10,7 +10,7 @@ from docs.ehl.claims import MM, UM
 from docs.ehl.store import MissingFilmError, Store
 from docs.page import Page
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
+from gearlube_core.ehl.gears.helical_film import march_helical_cycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.storage.atomic_file import write_arrays
 from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_film

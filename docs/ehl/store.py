@@ -13,7 +13,7 @@ import numpy as np
 from docs.ehl.cases import STEPS, FilmCase
 from docs.ehl.lines import Lines, March
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
+from gearlube_core.ehl.gears.helical_film import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.history import MarchRecord

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
+from gearlube_core.ehl.gears.helical_film import march_helical_cycle
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
 from tests.helpers.jamali_2015 import jamali_2015_film
 

@@ -23,7 +23,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.hertz import ellipticity
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.ehl.gears.hypoid_flank import pair_contact
+from gearlube_core.ehl.gears.hypoid_film import pair_contact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.friction.flank_data import ContactGeometry, contact_geometry
 from gearlube_core.friction.flank_film import FlankEllipse, flank_film_model

@@ -43,9 +43,9 @@ from docs.helical.stiffness_density import choice_rows, own_density, table_densi
 from docs.helical.structure import SAMPLE, sample_stiffness, six_against_twelve, spur_limit
 from docs.page import IMAGES, Page, begin
 from gearlube.studies.helical.figures.catalogue import GEOMETRY_CATALOGUE, HELICAL_CATALOGUE
-from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import HelicalSettings
+from gearlube.studies.helical.stages import HelicalResults
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     PeriodicResponse,
     harmonics,

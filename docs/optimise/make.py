@@ -14,10 +14,9 @@ from docs.optimise.page import HERE
 from docs.optimise.page import main as write_page
 from docs.page import IMAGES
 from gearlube.output.csv_text import csv_text
-from gearlube.studies.optimise.dataset import unit_of
+from gearlube.studies.optimise.dataset import measure_rows, unit_of
 from gearlube.studies.optimise.figures import save_optimise_figures
 from gearlube.studies.optimise.run import run_optimise
-from gearlube.studies.optimise.summary import measure_rows
 from gearlube_core.flank_optimisation.optimise import Optimised, OptimiseSettings
 from gearlube_core.flank_optimisation.problem import values_of
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile

@@ -13,7 +13,7 @@ import numpy as np
 from docs.page import Verdict, judge
 from docs.resonance.contacts import COLD, HOT, Contacts
 from docs.resonance.evidence import Both, Evidence
-from gearlube.studies.resonance.traction_curve import SHEAR_RATES, traction_curve
+from gearlube.studies.resonance.flank_cycle import SHEAR_RATES, traction_curve
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import PAIRS_AT, TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.rates import thermal_pair

@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 import gearlube as gl
 from docs.page import IMAGES, Page
 from fmu_src.axle_arguments import axle_parameters
-from gearlube.studies.sound.audible import Sound
+from gearlube.studies.sound.order_tracks import Sound
 from gearlube_core.units import kmh_to_ms
 
 HERE = Path(__file__).parent

@@ -15,7 +15,7 @@ from docs.validation.measures import (
     unloading_preload,
 )
 from drivetrain.road_load import RoadLoad, Tyre, mohammadpour_2015_vehicle
-from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
+from gearlube.studies.sweep.scalars import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.film.point_film import central_film_thickness
 from tests.helpers.bearing_statics import natural_frequencies, stiffness

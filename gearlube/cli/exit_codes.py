@@ -1,4 +1,4 @@
-"""Exit codes of the command `gearlube`."""
+"""Exit codes of the command `gearlube`, and the terminal to which it writes."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from concurrent.futures import BrokenExecutor
 from contextlib import contextmanager
 
 import typer
+from rich.console import Console
 
 from gearlube_core.errors import (
     GearLubeError,
@@ -17,6 +18,8 @@ from gearlube_core.errors import (
     TableError,
 )
 
+# no markup: it would take "[mm]" in a heading for a style
+console = Console(stderr=True, markup=False)
 BAD_ARGUMENT, FAILED, INTERRUPTED = 2, 1, 130
 
 _LOGGER = logging.getLogger("gearlube")

@@ -14,7 +14,7 @@ from typing import Any
 
 from gearlube_core import __version__
 from gearlube_core.errors import ParameterError
-from gearlube_core.storage.folder_lock import LOCK, locked_folder
+from gearlube_core.storage.folders import LOCK, locked_folder
 
 MARK = "gearlube_results.json"  # says which study wrote a folder, which version, of which input
 # options that change no result: they say how it is computed, or what is written beside it

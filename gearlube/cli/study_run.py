@@ -16,8 +16,7 @@ import typer
 from rich import progress as rich_progress
 from rich.table import Table
 
-from gearlube.cli.console import console
-from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.exit_codes import console, exit_on_error
 from gearlube.cli.results_folder import results_folder
 from gearlube.report.parts import WARNING, Finding, ranked
 from gearlube_core.progress import Progress

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.figure_folder import save_figure_folder
+from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.plotting.style import HATCHES, MARKERS, SERIES, house_style, new_figure
 from gearlube.variation.point_study import FINISHED
 from gearlube.variation.store import gridded

@@ -23,7 +23,7 @@ from gearlube_core import __version__
 from gearlube_core.checks import check_within
 from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.folder_lock import locked_folder
+from gearlube_core.storage.folders import locked_folder
 from gearlube_core.storage.process_pool import Pool, ProcessPool
 from gearlube_core.storage.resumable import resumable_results
 

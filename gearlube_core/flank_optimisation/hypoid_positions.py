@@ -17,8 +17,8 @@ from gearlube_core.flank_optimisation.held_position import (
     StripGaps,
 )
 from gearlube_core.flank_optimisation.problem import unchecked
+from gearlube_core.hypoid_contact.ease_off import mean_point_slopes
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, LoadedState, MeshPosition
-from gearlube_core.hypoid_contact.mean_point_slopes import mean_point_slopes
 from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.sensitivity.frozen_cells import (

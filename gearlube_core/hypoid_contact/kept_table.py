@@ -23,7 +23,7 @@ from gearlube_core.kernels.source_files import source_files
 from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.cache_folder import cache_folder
+from gearlube_core.storage.folders import cache_folder
 
 SUFFIX = ".mesh.nc"
 _TAGS = ("gear_file_hash", "torques_hash", "analysis_hash")  # settings of a kept table

@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_path import contact_path
-from gearlube_core.hypoid_contact.mean_point_slopes import mean_point_slopes
+from gearlube_core.hypoid_contact.ease_off import mean_point_slopes
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error

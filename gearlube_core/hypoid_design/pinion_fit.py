@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_design.blank_sections import BlankMachine
+from gearlube_core.hypoid_design.blank_file import BlankMachine
 from gearlube_core.hypoid_design.conjugate_flank import ConjugateFlank, PinionGap, conjugate_flank
 from gearlube_core.hypoid_design.flank_target import (
     FlankTarget,

@@ -1,6 +1,6 @@
 """Periodic motions of any dynamic model: shooting, continuation, stability."""
 
-from gearlube_core.periodic.branch import Branch, SpecialPoint
+from gearlube_core.periodic.branch import Branch, BranchStart, SpecialPoint, switch_branch
 from gearlube_core.periodic.continuation import ContinuationSettings, follow
 from gearlube_core.periodic.floquet import (
     floquet_multipliers,
@@ -10,7 +10,6 @@ from gearlube_core.periodic.floquet import (
 from gearlube_core.periodic.newton import NewtonSettings
 from gearlube_core.periodic.problem import PeriodicProblem, fixed_point_residual
 from gearlube_core.periodic.shooting import PeriodicMotion, solve_periodic
-from gearlube_core.periodic.special_points import BranchStart, switch_branch
 
 __all__ = [
     "Branch",

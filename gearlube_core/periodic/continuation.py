@@ -11,7 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.periodic.branch import Branch, Ending, SpecialPoint
+from gearlube_core.periodic.branch import Branch, Crossing, Ending, SpecialPoint, crossings, locate
 from gearlube_core.periodic.floquet import stable
 from gearlube_core.periodic.newton import (
     ArclengthCorrector,
@@ -23,7 +23,6 @@ from gearlube_core.periodic.newton import (
 )
 from gearlube_core.periodic.problem import PeriodicProblem
 from gearlube_core.periodic.shooting import require
-from gearlube_core.periodic.special_points import Crossing, crossings, locate
 
 
 class _Recorder:

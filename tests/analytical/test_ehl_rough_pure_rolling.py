@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from gearlube.studies.films.rough.gather import new_statistics
+from gearlube.studies.films.rough.files import new_statistics
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import moving_section

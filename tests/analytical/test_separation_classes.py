@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
+from gearlube.studies.sweep.scalars import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
 from tests.helpers.each import each
 
 BACKLASH = 150e-6  # 2b [m]

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
-from gearlube_core.ehl.gears.helical_film import EXIT_GRADING
+from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, solve_helical_line
 from gearlube_core.ehl.point import start as point_continuation
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS, FilmMarch

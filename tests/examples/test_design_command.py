@@ -16,7 +16,7 @@ from gearlube.output.toml_text import toml_text
 from gearlube.studies.design import command
 from gearlube.studies.design import run as design_run
 from gearlube.studies.design.figures import DESIGN_CATALOGUE
-from gearlube.studies.design.summary import unmet_targets
+from gearlube.studies.design.findings import unmet_targets
 from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings

@@ -14,8 +14,7 @@ import gearlube as gl
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.cli.example import kept_example
 from gearlube.command import app
-from gearlube.studies.sound.transfer_csv import read_csv_path
-from gearlube.studies.sound.transfer_path import generic_path
+from gearlube.studies.sound.transfer_path import generic_path, read_csv_path
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase

@@ -12,15 +12,15 @@ from typer.testing import CliRunner
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.output.toml_text import toml_text
-from gearlube.plotting.edge_pressure import mark_edge_pressure
 from gearlube.plotting.style import house_style, new_figure
+from gearlube.plotting.words import mark_edge_pressure
 from gearlube.report.stored import read_report
 from gearlube.studies.helical import run as helical_run
 from gearlube.studies.helical import stages, sweep_grid
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
-from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import RPM, HelicalSettings
+from gearlube.studies.helical.stages import HelicalResults
 from gearlube.studies.helical.summary import summary_csv, summary_rows
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,

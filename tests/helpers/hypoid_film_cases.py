@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
-from gearlube_core.ehl.gears.hypoid_flank import FlankCycle, pair_contact
+from gearlube_core.ehl.gears.hypoid_film import FlankCycle, HypoidFilm, pair_contact
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.film_oil_data import film_oil
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from docs.ehl.cases import FilmCase
-from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
+from gearlube_core.ehl.gears.helical_film import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.transient.solution import FilmSolution
 
 NODES = (97, 33)  # across and along the line

@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
-from gearlube_core.ehl.gears.helical_film import HelicalFilm
+from gearlube_core.ehl.gears.helical_film import (
+    HelicalFilm,
+    march_helical_cycle,
+    solve_helical_line,
+)
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile

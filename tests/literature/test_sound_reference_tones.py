@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube.studies.sound.audible import contributions, heard_order
 from gearlube.studies.sound.force_record import read_forces
 from gearlube.studies.sound.metrics import METRICS, metric_curve, missing, steady_loudness
-from gearlube.studies.sound.order_tracks import track_orders
+from gearlube.studies.sound.order_tracks import contributions, heard_order, track_orders
 from gearlube.studies.sound.pressure import RATE, sound_pressure
 from tests.helpers.made_run import made_run, one_path
 

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
+from gearlube_core.ehl.gears.helical_film import march_helical_cycle
 from gearlube_core.ehl.point.contact_domain import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings

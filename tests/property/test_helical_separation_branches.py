@@ -10,9 +10,9 @@ from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import contact_points, point_capacity
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.dynamics.helical_pair.separation.system import relative_masses
+from gearlube_core.periodic.branch import switch_branch
 from gearlube_core.periodic.continuation import ContinuationSettings, follow
 from gearlube_core.periodic.shooting import solve_periodic
-from gearlube_core.periodic.special_points import switch_branch
 from tests.helpers.separation_cases import (
     crowned_mesh,
     separated_motion,

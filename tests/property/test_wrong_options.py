@@ -118,7 +118,7 @@ def nothing_computes(monkeypatch, tmp_path):
     for name in SOLVERS:
         monkeypatch.setattr(name, reached)
     # checks of the gear file alone, which no option changes
-    monkeypatch.setattr("gearlube.studies.contact.summary.gear_file_warnings", lambda file: [])
+    monkeypatch.setattr("gearlube.studies.contact.findings.gear_file_warnings", lambda file: [])
     monkeypatch.setattr("fmu_src.build.cached_hypoid_axle", built)
 
 

@@ -15,7 +15,7 @@ from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.build import axle_definition
 from fmu_src.hypoid_axle import HypoidAxle, car_axle_in
 from gearlube.command import app
-from gearlube.studies.sweep.oil_in_axle import axle_with_oil
+from gearlube.studies.sweep.axle_in_fmu import axle_with_oil
 from gearlube.variation.file_variants import AxleVariants, files_named
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.hypoid_contact import kept_table

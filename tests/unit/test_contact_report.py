@@ -9,9 +9,14 @@ import xarray as xr
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.contact.figures import catalogue
 from gearlube.studies.contact.figures.charts import stiffness_chart
-from gearlube.studies.contact.findings import edge_torque, findings, numbers, transmission_orders
+from gearlube.studies.contact.findings import (
+    contact_summary,
+    edge_torque,
+    findings,
+    numbers,
+    transmission_orders,
+)
 from gearlube.studies.contact.run import _table
-from gearlube.studies.contact.summary import contact_summary
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from tests.helpers.contact_cases import shipped_file

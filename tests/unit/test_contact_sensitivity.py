@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube.plotting.parameter_words import parameter_words, tolerance_words
+from gearlube.plotting.words import parameter_words, tolerance_words
 from gearlube.studies.contact import sensitivity as study
 from gearlube.studies.contact.sensitivity import sensitivity_figure, sensitivity_table
 from gearlube_core.errors import ParameterError

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube.studies.contact.summary import edge_warnings
-from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
+from gearlube.studies.contact.findings import edge_warnings
+from gearlube_core.ehl.gears.helical_film import solve_helical_line
 from gearlube_core.ehl.point.contact_domain import elliptical_contact, line_section
 from gearlube_core.ehl.point.equations.grid import PointGrid, ShortDeflection
 from gearlube_core.ehl.point.equations.stencil import Grading

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from gearlube.plotting.figure_folder import save_figure_folder
+from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.studies.bearing.figures import torque_of_laws
 from gearlube.studies.helical.figures.catalogue import pair_losses
 from gearlube.studies.sound.figures import heard_orders

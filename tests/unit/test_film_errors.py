@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from gearlube.studies.films.commands.film_error import film_error_of
-from gearlube_core.ehl.gears.helical_cycle import COLUMNS
+from gearlube.studies.films.commands.console import film_error_of
+from gearlube_core.ehl.gears.helical_film import COLUMNS
 from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, doubled, estimated_error, halved
 from gearlube_core.ehl.point.equations import factor_fields
 from gearlube_core.ehl.point.equations.factor_fields import ShearUnits

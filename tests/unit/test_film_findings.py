@@ -9,7 +9,7 @@ from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.films.findings import findings, numbers
 from gearlube.studies.films.hypoid.summary import ratio_rows
 from gearlube.studies.films.report import _tables, film_inputs, film_report
-from gearlube.studies.films.summary import summary_csv, summary_rows
+from gearlube.studies.films.results import summary_csv, summary_rows
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from tests.helpers.known_answers import assert_cells, assert_findings, assert_numbers, quantities
 

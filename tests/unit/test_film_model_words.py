@@ -9,8 +9,8 @@ from gearlube.studies.film_model import audit as audits
 from gearlube.studies.film_model.audit import AuditRow, audit, audit_lines, audit_table
 from gearlube.studies.film_model.calibration import Misses, conformal_bounds
 from gearlube.studies.film_model.calibration import tests_table as table_of_tests
+from gearlube.studies.film_model.fits import _film_features
 from gearlube.studies.film_model.model_lines import limit_in_words, limits_of, model_lines
-from gearlube.studies.film_model.process import _film_features
 from gearlube.studies.film_model.samples import HYPOID_BOX, box_contacts
 from gearlube.studies.film_model.train import failures_in_words
 from gearlube_core.errors import ConvergenceError

@@ -14,9 +14,9 @@ from gearlube.studies.film_model.calibration import conformal_bounds
 from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.fit import fit_model
 from gearlube.studies.film_model.fit_settings import FitSettings
+from gearlube.studies.film_model.fits import fit_net, net_values
 from gearlube.studies.film_model.kinds import BEARING_ROLLER, HYPOID_FLANK
 from gearlube.studies.film_model.model_lines import limits_of
-from gearlube.studies.film_model.net_fit import fit_net, net_values
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, box_contacts
 from gearlube.studies.film_model.solve import Solved

@@ -20,7 +20,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     point_capacity,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import mesh_strain
-from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
+from gearlube_core.dynamics.helical_pair.parameters import pack_lines
 from gearlube_core.dynamics.helical_pair.separation.march import separating_rates
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.dynamics.helical_pair.separation.system import (

@@ -8,7 +8,7 @@ import pytest
 
 from gearlube.studies.films import run_hypoid
 from gearlube.studies.films.hypoid import flank
-from gearlube_core.ehl.gears.hypoid_flank import pair_contact, phase_of
+from gearlube_core.ehl.gears.hypoid_film import pair_contact, phase_of
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact

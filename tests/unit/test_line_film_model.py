@@ -9,10 +9,10 @@ import pytest
 from scipy.optimize import brentq
 
 from gearlube.studies.film_model.draws import widened
+from gearlube.studies.film_model.fits import fit_process
 from gearlube.studies.film_model.kinds import HELICAL_LINE, HYPOID_FLANK, kind_of
 from gearlube.studies.film_model.line_samples import LINE_DOMAIN
 from gearlube.studies.film_model.plan import FilmPlan
-from gearlube.studies.film_model.process import fit_process
 from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable
 from gearlube.studies.film_model.targets import own_steps

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from matplotlib.colors import to_hex
 
-from gearlube.plotting.loss_words import SOURCE_COLOURS, source_colour, source_words
+from gearlube.plotting.words import SOURCE_COLOURS, source_colour, source_words
 from gearlube.studies.drive_cycle.figures import cycle_figure
 from gearlube.studies.drive_cycle.report import loss_chart
 from gearlube.studies.loss_map.figures import loss_split

@@ -20,7 +20,7 @@ from gearlube.command import COMMANDS, command_line
 from gearlube.report.parts import WARNING
 from gearlube.studies.loss_map.exports import lossy_gear_table
 from gearlube.studies.loss_map.findings import findings
-from gearlube.studies.loss_map.swings import moving_inputs
+from gearlube.studies.loss_map.sampling import moving_inputs
 from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from gearlube.studies.optimise.dataset import optimise_dataset
-from gearlube.studies.optimise.summary import measure_rows
+from gearlube.studies.optimise.dataset import measure_rows, optimise_dataset
 from tests.helpers.contact_cases import shipped_file
 from tests.helpers.known_answers import assert_variables, named
 

@@ -20,7 +20,7 @@ from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube.studies.loss_map.findings import findings
 from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings
-from gearlube.studies.sweep.oil_in_axle import axle_with_oil
+from gearlube.studies.sweep.axle_in_fmu import axle_with_oil
 from gearlube.variation.file_variants import AxleVariants
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses

@@ -11,6 +11,7 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.periodic import newton as module
+from gearlube_core.periodic.branch import crossings, locate
 from gearlube_core.periodic.floquet import (
     doubling_test,
     exchange_test,
@@ -22,7 +23,6 @@ from gearlube_core.periodic.floquet import (
     torus_test,
 )
 from gearlube_core.periodic.newton import ArclengthCorrector, Node, hermite, turning_angle
-from gearlube_core.periodic.special_points import crossings, locate
 from tests.helpers.each import each
 
 

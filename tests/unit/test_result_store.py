@@ -16,7 +16,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 import gearlube
 from gearlube_core.errors import ConvergenceError, FileError
-from gearlube_core.storage import cache_folder, process_pool
+from gearlube_core.storage import folders, process_pool
 from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays, write_figure
 from gearlube_core.storage.process_pool import ProcessPool, on_one_thread
 from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
@@ -117,13 +117,13 @@ def test_a_full_disk_is_named_by_the_library_that_does_not_say_it(tmp_path):
 
 def test_without_a_home_a_temporary_folder_is_taken_and_said_once(tmp_path, monkeypatch, caplog):
     (tmp_path / "file").touch()
-    monkeypatch.delenv(cache_folder.FOLDER_VARIABLE, raising=False)
+    monkeypatch.delenv(folders.FOLDER_VARIABLE, raising=False)
     for home in (Path("~") / "cache", tmp_path / "file" / "cache"):
         caplog.clear()
         monkeypatch.setattr("platformdirs.user_cache_path", lambda name, home=home: home)
         monkeypatch.setattr(os, "access", lambda path, mode: path.is_dir())
-        found = cache_folder.cache_folder("contact")
-        assert cache_folder.cache_folder("contact") == found
+        found = folders.cache_folder("contact")
+        assert folders.cache_folder("contact") == found
         found.mkdir(parents=True)
         assert not found.is_relative_to(home)
         assert caplog.text.count(f"{home} cannot be written") == 1

@@ -16,12 +16,12 @@ from typer.testing import CliRunner
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.results_folder import MARK, results_folder
 from gearlube_core.errors import ParameterError
-from gearlube_core.storage.folder_lock import LOCK, locked_folder
+from gearlube_core.storage.folders import LOCK, locked_folder
 
 OF_ANOTHER_PROCESS = """
 import sys, time
 from pathlib import Path
-from gearlube_core.storage.folder_lock import locked_folder
+from gearlube_core.storage.folders import locked_folder
 with locked_folder(Path(sys.argv[1])):
     print("locked", flush=True)
     time.sleep(60.0)

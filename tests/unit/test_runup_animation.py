@@ -23,7 +23,7 @@ from gearlube.studies.runup.animation.dataset import (
 )
 from gearlube.studies.runup.animation.frames import PER_PERIOD, Frames
 from gearlube.studies.runup.figures.moving.parts import moving_figures, save_moving
-from gearlube.studies.runup.figures.moving.rollers import ring_at
+from gearlube.studies.runup.figures.moving.pictures import ring_at
 from gearlube.studies.runup.figures.moving.words import roller_sentence
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.errors import ParameterError

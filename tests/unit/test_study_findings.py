@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from gearlube.report.films import flank_friction
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
-from gearlube.report.solved_films import flank_friction
 from gearlube.studies.drive_cycle import report as cycle
 from gearlube.studies.drive_cycle.report import cycle_report
 from gearlube.studies.drive_cycle.tables import series_rows, summary_rows

@@ -8,7 +8,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.option_groups import MultiValueCommand
 from gearlube.cli.study_run import run_next, study_run
 
 

@@ -5,7 +5,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from gearlube import command as cli
-from gearlube.cli.multi_value_options import repeat_flags
+from gearlube.cli.option_groups import repeat_flags
 from gearlube.cli.ranges import numbers_from
 from gearlube.studies.sweep import findings as sweep_findings
 from gearlube.studies.sweep import report as sweep_report

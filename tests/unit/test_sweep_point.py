@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.sweep.recording import revolutions_to_record
-from gearlube.studies.sweep.separation import separation_class
+from gearlube.studies.sweep.scalars import separation_class
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
 from tests.helpers.each import each
 from tests.helpers.sweep_stand_in import (

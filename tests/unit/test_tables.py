@@ -9,7 +9,7 @@ import pytest
 
 from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube.studies.film_model.audit import visited_points
-from gearlube.studies.sound.transfer_csv import read_csv_path
+from gearlube.studies.sound.transfer_path import read_csv_path
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.traction_measurements import read_traction
 from gearlube_core.hypoid_geometry.measured.measured_file import read_pitch, read_waves

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
-from gearlube_core.storage.cache_folder import FOLDER_VARIABLE
+from gearlube_core.storage.folders import FOLDER_VARIABLE
 from gearlube_core.tooth_compliance import tooth_body
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, tooth_compliance
 from tests.helpers.compliance_cases import COARSE, spiral_tooth

@@ -11,8 +11,8 @@ import pytest
 import xarray as xr
 
 from gearlube.report.churning import churning_regime
+from gearlube.report.films import covered_alone, covered_share, points_beyond, solved_films
 from gearlube.report.parts import WARNING
-from gearlube.report.solved_films import covered_alone, covered_share, points_beyond, solved_films
 from gearlube.studies.drive_cycle import report as drive_cycle
 from gearlube.studies.loss_map import findings as loss_map
 from gearlube.studies.loss_map import sampling

@@ -7,8 +7,7 @@ import xarray as xr
 
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
-from gearlube.variation.findings import findings, numbers
-from gearlube.variation.report import _varies, variation_report
+from gearlube.variation.report import _varies, findings, numbers, variation_report
 from tests.helpers.known_answers import assert_findings, assert_numbers, assert_tables, named
 
 

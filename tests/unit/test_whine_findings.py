@@ -6,8 +6,7 @@ import xarray as xr
 
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
-from gearlube.studies.whine.findings import findings, meeting_speed, movers, numbers
-from gearlube.studies.whine.report import whine_report
+from gearlube.studies.whine.report import findings, meeting_speed, movers, numbers, whine_report
 from gearlube.studies.whine.run import whine_rows
 from tests.helpers.contact_cases import shipped_file
 from tests.helpers.known_answers import (

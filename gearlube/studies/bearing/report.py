@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.report.charts import Axis, Line, add_line, panels
+from gearlube.report.films import model_of
 from gearlube.report.inputs import origin_of
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import (
@@ -24,7 +25,6 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
-from gearlube.report.solved_films import model_of
 from gearlube.studies.bearing.figures import LAW_NAMES, axis_values, drawn_places, place_words
 from gearlube.studies.bearing.summary import bearing_summary, bearing_warnings, error_sentences
 from gearlube_core.film_model.model import ROLLER

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
-from gearlube.report.solved_films import film_model_attributes
+from gearlube.report.films import film_model_attributes
 from gearlube.studies.bearing.figures import save_bearing_figures
 from gearlube.studies.bearing.settings import BearingSettings
 from gearlube_core import __version__

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.table import Table
 
-from gearlube.cli.console import console
 from gearlube.cli.example import print_example
+from gearlube.cli.exit_codes import console
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
 from gearlube.cli.study_run import (
     StudyRun,
@@ -23,7 +23,7 @@ from gearlube.cli.study_run import (
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
-    from gearlube.studies.contact.summary import ContactSummary
+    from gearlube.studies.contact.findings import ContactSummary
     from gearlube_core.hypoid_contact.placement import Misalignment
     from gearlube_core.hypoid_contact.sensitivity.analysis import SensitivitySettings
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -133,18 +133,18 @@ def contact(
     from gearlube.report.stored import PAGE
     from gearlube.studies.contact import run
     from gearlube.studies.contact.film_option import film_request, write_films
-    from gearlube.studies.contact.findings import findings
+    from gearlube.studies.contact.findings import (
+        contact_summary,
+        edge_warnings,
+        findings,
+        gear_file_warnings,
+    )
     from gearlube.studies.contact.gear_solids import write_gears
     from gearlube.studies.contact.settings import (
         QUICK,
         ContactSettings,
         CycleSettings,
         Misalignment,
-    )
-    from gearlube.studies.contact.summary import (
-        contact_summary,
-        edge_warnings,
-        gear_file_warnings,
     )
     from gearlube_core.extras import extra_package
     from gearlube_core.hypoid_contact.contact_table import levels_left_out

@@ -12,8 +12,8 @@ import xarray as xr
 
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.cli.oil_option import oil_kelvin
-from gearlube.plotting.animation import save_animation
 from gearlube.plotting.drawn_tooth import DrawnTooth, ellipse
+from gearlube.plotting.figure_files import save_animation
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 from gearlube.studies.contact.run import ContactResults
 from gearlube_core.arrays import Array

@@ -20,8 +20,7 @@ from gearlube.studies.contact.figures.charts import (
     transmission_chart,
 )
 from gearlube.studies.contact.figures.solid_view import solid_view
-from gearlube.studies.contact.findings import findings, numbers
-from gearlube.studies.contact.summary import contact_summary
+from gearlube.studies.contact.findings import contact_summary, findings, numbers
 from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

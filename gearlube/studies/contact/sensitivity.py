@@ -12,8 +12,8 @@ import xarray as xr
 from rich.table import Table
 
 from gearlube.output.csv_text import csv_text
-from gearlube.plotting.parameter_words import parameter_words, tolerance_words
 from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.plotting.words import parameter_words, tolerance_words
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
 from gearlube_core.hypoid_contact.sensitivity.analysis import (

@@ -21,7 +21,7 @@ from gearlube.cli.study_run import (
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
-    from gearlube.studies.design.summary import AskedAndFound
+    from gearlube.studies.design.findings import AskedAndFound
 
 logger = logging.getLogger("gearlube")
 
@@ -55,9 +55,8 @@ def design(
         return
     from gearlube.report.stored import PAGE
     from gearlube.studies.design import run
-    from gearlube.studies.design.findings import findings
+    from gearlube.studies.design.findings import asked_and_found, findings
     from gearlube.studies.design.problem import PROBLEM
-    from gearlube.studies.design.summary import asked_and_found
     from gearlube_core.hypoid_design.blank_file import BlankFile
 
     with study_run("design", out, overwrite=overwrite) as frame:

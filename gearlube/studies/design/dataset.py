@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.design.summary import design_inputs, design_settings, design_warnings
+from gearlube.studies.design.findings import design_inputs, design_settings, design_warnings
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.contact_dataset import (
     EASE_GRID,

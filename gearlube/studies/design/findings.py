@@ -1,27 +1,178 @@
-"""What a design says, in sentences with numbers."""
+"""What a design was asked and found, what speaks against it, in numbers and sentences."""
 
 from __future__ import annotations
 
 import json
 import math
 import re
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from gearlube.report.numbers import number_text, quantity_text, unit_words
 from gearlube.report.parts import ASSUMED, GOOD, NOTE, WARNING, Finding, Number
-from gearlube.studies.design.summary import (
-    CENTRE_LIMIT,
-    ERROR_LIMIT,
-    LENGTH_LIMIT,
-    PATH_LIMIT,
-)
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.refusal import pair_warnings
+from gearlube_core.hypoid_design.design import Design, misses
+from gearlube_core.hypoid_design.flank_target import MeanContact
 from gearlube_core.hypoid_design.pinion_fit import SIDES
+from gearlube_core.hypoid_geometry.flank.flank import Side
+from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
+from gearlube_core.input_file.input_file import InputNote
 from gearlube_core.units import DEGREE, MILLIMETRE
 
+# what a design may miss before the report says so
+ERROR_LIMIT: dict[Side, float] = {"drive": 0.10, "coast": 0.15}
+PATH_LIMIT = 2.0 * DEGREE
+CENTRE_LIMIT = 0.5 * MILLIMETRE
+LENGTH_LIMIT = 0.25
 _MICRO = 1e-6
+_TORQUE = "0.2 N/mm2 times the cube of the gear's outer diameter, on the gear"
+_PATH = "44 deg from the normal of the lines of contact; 30 or 15 if that fails"
 _UNITS = {"urad": "µrad", "um": "µm", "deg": "°"}
+
+
+class AskedAndFound(NamedTuple):
+    """One number of the contact of one side, as a table shows it."""
+
+    side: str
+    what: str
+    asked: str
+    found: str
+
+
+def asked_and_found(design: Design) -> list[AskedAndFound]:
+    """Return the numbers of the unloaded contact on both sides; none of a side without."""
+    rows = []
+    for side in SIDES:
+        target, found = design.targets[side], design.measured[side]
+        if isinstance(found, str):
+            continue
+        _, _, centre, _ = misses(target, found, design.designed)
+        for what, asked, value in (
+            ("transmission error [urad]", target.error / _MICRO, found.error / _MICRO),
+            ("path direction [deg]", target.path_angle / DEGREE, found.path_angle / DEGREE),
+            ("ellipse length [mm]", target.length / MILLIMETRE, found.length / MILLIMETRE),
+        ):
+            rows.append(AskedAndFound(side, what, f"{asked:.1f}", f"{value:.1f}"))
+        relieved = design.relieved[side]
+        text = "no extreme" if isinstance(relieved, str) else f"{relieved.error / _MICRO:.1f}"
+        what = "transmission error with relief [urad]"
+        rows.insert(-2, AskedAndFound(side, what, "", text))
+        places = [f"s {one.s:.3f}, t {one.t:.3f}" for one in (target, found)]
+        off = f"{places[1]} ({centre / MILLIMETRE:.2f} mm off)"
+        rows.append(AskedAndFound(side, "mean contact", places[0], off))
+        rows.append(
+            AskedAndFound(side, "contact ratio of the path", "", f"{found.contact_ratio:.2f}")
+        )
+    return rows
+
+
+def unmet_targets(design: Design) -> list[str]:
+    """Return how near a design came to each target that it missed, and what to relax."""
+    said = []
+    for side in SIDES:
+        target, found = design.targets[side], design.measured[side]
+        pair = FlankPair.from_file(design.file, side)
+        across = MeanContact.at(pair, target.s, target.t).path_angle(0.0) / DEGREE
+        cure = (
+            f"Relax: a larger contact.{side}_error_urad, a longer contact.ellipse_length_mm, or "
+            f"contact.{side}_path_angle_deg nearer to {across:.0f} deg, the normal of the lines of "
+            "contact."
+        )
+        denied = design.designed.file.machine.denied
+        if denied:
+            cure += f" Or allow {denied}."
+        if isinstance(found, str):
+            gap = design.fit.rms[side] / _MICRO
+            said.append(
+                f"The {side} flanks have no parabolic transmission error; their gap came within "
+                f"{gap:.1f} um (rms) of the wanted one. {found} {cure}"
+            )
+            continue
+        error, turned, centre, length = misses(target, found, design.designed)
+        if abs(error) > ERROR_LIMIT[side]:
+            said.append(
+                f"The transmission error of the {side} flanks came to {found.error / _MICRO:.0f} "
+                f"urad, wanted {target.error / _MICRO:.0f} urad. {cure}"
+            )
+        if abs(turned) > PATH_LIMIT:
+            said.append(
+                f"The path of contact of the {side} flanks came to {found.path_angle / DEGREE:.1f} "
+                f"deg, wanted {target.path_angle / DEGREE:.1f} deg. {cure}"
+            )
+        if centre > CENTRE_LIMIT:
+            said.append(
+                f"The mean contact of the {side} flanks came within {centre / MILLIMETRE:.2f} mm "
+                f"of the wanted place. {cure}"
+            )
+        if abs(length) > LENGTH_LIMIT:
+            if found.length < target.length:
+                cure = cure.replace("a longer contact.ellipse", "a shorter contact.ellipse")
+            said.append(
+                f"The contact ellipse of the {side} flanks came to {found.length / MILLIMETRE:.1f} "
+                f"mm, wanted {target.length / MILLIMETRE:.1f} mm. {cure}"
+            )
+    return said
+
+
+def design_warnings(design: Design, forms: dict[str, ToothForm]) -> dict[str, list[str]]:
+    """Return what speaks against a design: sentences on its blank, contact, pair and teeth."""
+    teeth = [line for form in forms.values() for line in form.report()]
+    said = [one for one in design.measured.values() if isinstance(one, str)]
+    pair = [
+        # no setting is mistyped here: what would be most likely wrong in a given file is not said
+        one.partition(" Most likely wrong:")[0]
+        for one in pair_warnings(design.file)
+        if not any(one.startswith(reason) for reason in said)
+    ]
+    contact = unmet_targets(design) + design.relief.warnings()
+    return {"blank": list(design.warnings), "contact": contact, "pair": pair, "teeth": teeth}
+
+
+def design_inputs(design: Design) -> list[InputNote]:
+    """Return the numbers of the blank file, and those of the contact that it leaves open."""
+    notes = design.designed.file.inputs()
+    named = {note.field for note in notes}
+    drive, coast = design.targets["drive"], design.targets["coast"]
+    for key, value, unit, why in (
+        ("ellipse_length_mm", drive.length / MILLIMETRE, "mm", "a third of the face width"),
+        ("profile_position", drive.s, "", "the middle of the working depth"),
+        ("drive_path_angle_deg", drive.path_angle / DEGREE, "deg", _PATH),
+        ("coast_path_angle_deg", coast.path_angle / DEGREE, "deg", _PATH),
+    ):
+        if f"contact.{key}" not in named:
+            notes.append(InputNote(f"contact.{key}", value, unit, "assumed", why))
+    return notes + _relief_notes(design, named)
+
+
+def _relief_notes(design: Design, named: set[str]) -> list[InputNote]:
+    chosen = design.relief
+    found = [InputNote("relief.torque_n_m", chosen.torque, "N.m", "assumed", _TORQUE)]
+    why = f"no edge carries at {chosen.torque:g} N.m"
+    for key, edges in (
+        ("tip_relief_um", ("pinion tip", "gear tip")),
+        ("end_relief_um", ("ends",)),
+    ):
+        amounts = [chosen.amounts[side][edge] for side in SIDES for edge in edges]
+        low, high = min(amounts), max(amounts)
+        text = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+        found.append(InputNote(f"relief.{key}", text, "um", "assumed", why))
+    return [one for one in found if one.field not in named]
+
+
+def design_settings(design: Design) -> list[tuple[str, str, str]]:
+    """Return field, value and origin of every setting and cutter dimension of the gear file."""
+    origins = {"table": "given", "inferred": "follows", "completed": "chosen"}
+    rows = []
+    data = design.file.model_dump(exclude_defaults=True)
+    for role in ("gear", "pinion"):
+        for section in ("cutter", "machine"):
+            for key, value in data[role][section].items():
+                field = f"{role}.{section}.{key}"
+                rows.append((field, f"{value:.6g}", origins[design.file.origin(field)]))
+    return rows
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:

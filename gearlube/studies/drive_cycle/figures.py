@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.plotting.style import BLUE, house_style, new_figure
+from gearlube.plotting.words import source_colour, source_words
 from gearlube_core.storage.atomic_file import write_figure
 
 LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn

@@ -8,10 +8,19 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.plotting.range_words import range_words
+from gearlube.plotting.words import source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, line_chart, mark_level, panels, stack_chart
 from gearlube.report.churning import regime_findings
+from gearlube.report.films import (
+    bearing_drag,
+    covered_share,
+    flank_friction,
+    model_of,
+    points_beyond,
+    solved_films,
+    solved_rollers,
+)
 from gearlube.report.inputs import origin_of
 from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import (
@@ -26,15 +35,6 @@ from gearlube.report.parts import (
     Number,
     Report,
     Table,
-)
-from gearlube.report.solved_films import (
-    bearing_drag,
-    covered_share,
-    flank_friction,
-    model_of,
-    points_beyond,
-    solved_films,
-    solved_rollers,
 )
 from gearlube.studies.drive_cycle.figures import LEAST_SHARE
 from gearlube.studies.drive_cycle.tables import range_sentence

@@ -10,9 +10,9 @@ import xarray as xr
 
 from drivetrain.sump_heat import SumpHeat, Warming, warm
 from gearlube.output.csv_text import csv_text
-from gearlube.plotting.loss_words import not_modelled
+from gearlube.plotting.words import not_modelled
 from gearlube.report.churning import REGIME, churning_regime
-from gearlube.report.solved_films import covered_alone, film_model_attributes
+from gearlube.report.films import covered_alone, film_model_attributes
 from gearlube.studies.drive_cycle.figures import save_cycle_figures
 from gearlube.studies.drive_cycle.loss_field import (
     Demand,

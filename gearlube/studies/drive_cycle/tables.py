@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_words
 from gearlube.plotting.range_words import range_words
+from gearlube.plotting.words import source_words
 
 SUMMARY_HEAD = ("quantity", "value", "unit", "low", "high")
 _COLUMNS = {

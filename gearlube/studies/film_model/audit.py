@@ -16,7 +16,7 @@ from gearlube.studies.film_model.kinds import Contact, kind_of
 from gearlube.studies.film_model.samples import flank_contact_of
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
-from gearlube_core.ehl.gears.hypoid_flank import pair_contact
+from gearlube_core.ehl.gears.hypoid_film import pair_contact
 from gearlube_core.errors import FileError, GearLubeError, ParameterError
 from gearlube_core.film_model.groups import FilmContact, FilmGroups
 from gearlube_core.film_model.model import FilmModel

@@ -12,10 +12,9 @@ import numpy as np
 from gearlube.studies.film_model.calibration import CONFIDENCE, Misses, conformal_bounds
 from gearlube.studies.film_model.draws import Box, widened
 from gearlube.studies.film_model.fit_settings import FitSettings
+from gearlube.studies.film_model.fits import FilmProcess, fit_net, fit_process
 from gearlube.studies.film_model.kinds import Contact, ContactKind, kind_of
-from gearlube.studies.film_model.net_fit import fit_net
 from gearlube.studies.film_model.plan import FilmPlan
-from gearlube.studies.film_model.process import FilmProcess, fit_process
 from gearlube.studies.film_model.solves import SolveRow
 from gearlube.studies.film_model.targets import (
     Targets,

@@ -19,7 +19,7 @@ from gearlube.studies.film_model.draws import (
 )
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import ellipticity, hertz_coefficients
-from gearlube_core.ehl.gears.hypoid_flank import pair_contact
+from gearlube_core.ehl.gears.hypoid_film import pair_contact
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.groups import FilmContact, contact_groups, film_contact
 from gearlube_core.mesh_table.table import MeshTable

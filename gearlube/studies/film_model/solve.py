@@ -7,8 +7,7 @@ import time
 from typing import NamedTuple
 
 from gearlube_core.contact.solid import Solid
-from gearlube_core.ehl.gears.hypoid_film import flank_contact
-from gearlube_core.ehl.gears.hypoid_flank import FlankInstant
+from gearlube_core.ehl.gears.hypoid_film import FlankInstant, flank_contact
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.thermal.solver import PointThermalSettings, solve_thermal_point

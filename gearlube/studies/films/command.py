@@ -11,10 +11,9 @@ import typer
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
 from gearlube.studies.films.commands.console import exit_on_errors
-from gearlube.studies.films.commands.contacts import line, point
+from gearlube.studies.films.commands.contacts import line, point, rough
 from gearlube.studies.films.commands.helical import helical
 from gearlube.studies.films.commands.hypoid import hypoid
-from gearlube.studies.films.commands.rough import rough
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 

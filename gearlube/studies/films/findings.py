@@ -11,7 +11,7 @@ import xarray as xr
 
 from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.studies.films.film_ratios import RATIO_FILMS, film_ratio_finding, film_ratios
+from gearlube.studies.films.film_formulas import RATIO_FILMS, film_ratio_finding, film_ratios
 from gearlube_core.ehl.grid_error import LARGE_ERROR
 from gearlube_core.ehl.thin_film import thick_film_words
 

@@ -17,10 +17,10 @@ from gearlube.report.parts import Cell, Column, Input, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.films.figures.catalogue import CATALOGUES, drawn_figures
 from gearlube.studies.films.figures.parts import HEADROOM, shown_range
-from gearlube.studies.films.film_ratios import ROUGHNESS
+from gearlube.studies.films.film_formulas import ROUGHNESS
 from gearlube.studies.films.findings import STEADY, findings, numbers
 from gearlube.studies.films.hypoid.summary import ratio_rows
-from gearlube.studies.films.summary import SOLUTION, summary_rows
+from gearlube.studies.films.results import SOLUTION, summary_rows
 
 _PRESSURE = Axis("pressure", "GPa")
 _FILM = Axis("film", "µm")

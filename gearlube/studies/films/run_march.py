@@ -22,7 +22,7 @@ from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished, step_file, write_film_results
 from gearlube.studies.films.run_steady import note_roughness, warn_of_ends, warn_of_grid
 from gearlube_core.checks import check_within
-from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
+from gearlube_core.ehl.gears.helical_film import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ParameterError

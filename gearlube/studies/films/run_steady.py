@@ -11,12 +11,11 @@ import xarray as xr
 from gearlube.report.inputs import remark_attributes
 from gearlube.studies.films.datasets.contact import line_dataset, point_dataset
 from gearlube.studies.films.datasets.helical import helical_dataset
-from gearlube.studies.films.film_ratios import ROUGHNESS
+from gearlube.studies.films.film_formulas import ROUGHNESS
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import begin, finished
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
-from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
-from gearlube_core.ehl.gears.helical_film import HelicalFilm
+from gearlube_core.ehl.gears.helical_film import HelicalFilm, solve_helical_line
 from gearlube_core.ehl.grid_error import LARGE_ERROR
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.thermal import solve_thermal_line

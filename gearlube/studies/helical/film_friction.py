@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from gearlube.report.solved_films import film_model_attributes
+from gearlube.report.films import film_model_attributes
 from gearlube.studies.helical.operating_point import Variables
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array

@@ -9,10 +9,16 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from gearlube.report.film_ratio import film_ratio_level, film_ratio_words, hot_film
+from gearlube.report.films import (
+    film_ratio_level,
+    film_ratio_words,
+    formulas_stand_in,
+    hot_film,
+    model_of,
+    solved_films,
+)
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
-from gearlube.report.solved_films import formulas_stand_in, model_of, solved_films
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import LINE, MOST_OUTSIDE

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
-from gearlube.report.solved_films import film_model_attributes
+from gearlube.report.films import film_model_attributes
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import line_mean_pressure

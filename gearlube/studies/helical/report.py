@@ -24,8 +24,8 @@ from gearlube.studies.helical.findings import (
     operating_error,
     order_amplitudes,
 )
-from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM
+from gearlube.studies.helical.stages import HelicalResults
 from gearlube.studies.helical.summary import loss_model, losses_rows
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL, gear_file_oil
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE

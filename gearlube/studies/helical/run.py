@@ -8,9 +8,8 @@ from gearlube.studies.helical.figures.catalogue import save_helical_figures
 from gearlube.studies.helical.operating_point import study_attributes
 from gearlube.studies.helical.pair_losses import losses_csv
 from gearlube.studies.helical.report import write_helical_report
-from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import HelicalSettings
-from gearlube.studies.helical.stages import RunningStudy, StageReport, stages_of
+from gearlube.studies.helical.stages import HelicalResults, RunningStudy, StageReport, stages_of
 from gearlube.studies.helical.summary import summary_csv, summary_rows
 from gearlube_core.errors import GearLubeError
 from gearlube_core.mesh_table.line_mesh_file import write_line_mesh

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
-from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
+from gearlube.studies.helical.stages import HelicalResults
 
 MOST_POINTS = 12  # of the losses
 _MOTIONS = ("delta_z", "u_xp", "u_yp", "u_zp")

@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gearlube.cli.cooling_options import (
+from gearlube.cli.example import print_example
+from gearlube.cli.exit_codes import exit_if_failed
+from gearlube.cli.options import (
     AirTemperatureOption,
     ConductanceAt100Option,
     ConductanceAtRestOption,
+    ExampleOption,
+    OverwriteOption,
     given_cooling,
 )
-from gearlube.cli.example import print_example
-from gearlube.cli.exit_codes import exit_if_failed
-from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.study_run import study_run
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.steady_temperature import Cooling
-from gearlube.plotting.loss_words import NEVER_MODELLED
+from gearlube.plotting.words import NEVER_MODELLED
 from gearlube.report.churning import REGIME, churning_regime
-from gearlube.report.solved_films import covered_alone, film_model_attributes
+from gearlube.report.films import covered_alone, film_model_attributes
 from gearlube.studies.loss_map.sampling import Spread
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array

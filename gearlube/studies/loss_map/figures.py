@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.figure_folder import save_figure_folder
-from gearlube.plotting.loss_words import source_colour, source_words
+from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.plotting.style import SERIES, house_style, new_figure
-from gearlube.studies.loss_map.swings import input_words, moving_inputs
+from gearlube.plotting.words import source_colour, source_words
+from gearlube.studies.loss_map.sampling import input_words, moving_inputs
 
 _BAND = "between these lines: 95 % of the draws of uncertain data"
 _MOST_PANELS = 6

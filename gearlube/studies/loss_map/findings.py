@@ -7,23 +7,25 @@ import math
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_words
 from gearlube.plotting.range_words import RANGE_WORDS
+from gearlube.plotting.words import source_words
 from gearlube.report.churning import regime_findings
-from gearlube.report.film_ratio import MIXED, film_ratio_level, hot_film
-from gearlube.report.numbers import quantity_text
-from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.report.solved_films import (
+from gearlube.report.films import (
+    MIXED,
     bearing_drag,
     covered_share,
     efficiency_doubt,
+    film_ratio_level,
     flank_friction,
+    hot_film,
     model_of,
     points_beyond,
     solved_films,
     solved_rollers,
 )
-from gearlube.studies.loss_map.swings import input_words, mean_swings
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.studies.loss_map.sampling import input_words, mean_swings
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FLANK, ROLLER
 

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_colour, source_words
+from gearlube.plotting.words import source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, add_map, add_stack, bar_chart, panels
 from gearlube.report.inputs import OF_AXLE, origin_of
 from gearlube.report.numbers import number_text
 from gearlube.report.parts import Column, Figure, Input, Report, Table
 from gearlube.studies.loss_map.figures import LEAST_SHARE, shown_speeds, some_temperatures
 from gearlube.studies.loss_map.findings import findings, numbers
-from gearlube.studies.loss_map.swings import input_words, mean_swings, moving_inputs
+from gearlube.studies.loss_map.sampling import input_words, mean_swings, moving_inputs
 from gearlube_core.arrays import Array
 
 SPEED, TORQUE = Axis("pinion speed", "rpm"), Axis("pinion torque", "N·m")

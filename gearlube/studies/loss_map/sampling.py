@@ -1,10 +1,11 @@
-"""Error bars of a loss map: the uncertain data drawn again and again, the map anew each time."""
+"""Error bars of a loss map: uncertain data drawn again and again, how much each moves the loss."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
 import numpy as np
+import xarray as xr
 
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array, Flags
@@ -14,8 +15,37 @@ from gearlube_core.dynamics.hypoid_axle.uncertain import UPPER_END, changed_axle
 from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.progress import Progress, no_progress
 
+_INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
+_LEAST_SWING = 5e-4  # mean share of the loss that an input moves, below which it has no effect
 _ANGLES = 8  # within 4e-4 of 256, far below any spread
 _BOUNDS = (2.5, 97.5)  # percent
+
+
+def mean_swings(dataset: xr.Dataset) -> dict[str, float]:
+    """Return by what share each uncertain input alone moves the loss torque, largest first."""
+    share = dataset["swing"] / dataset["loss_torque"]
+    mean = share.mean([d for d in share.dims if d != "input"]).values
+    names = [str(one) for one in dataset["input"].values]
+    return {names[i]: float(mean[i]) for i in np.argsort(mean)[::-1]}
+
+
+def moving_inputs(dataset: xr.Dataset) -> tuple[dict[str, float], list[str]]:
+    """Return `mean_swings` of the inputs that move the loss, and the names of those that do not.
+
+    If none does, all are in the first.
+    """
+    swings = mean_swings(dataset)
+    moving = {name: swing for name, swing in swings.items() if swing >= _LEAST_SWING}
+    return (moving, [name for name in swings if name not in moving]) if moving else (swings, [])
+
+
+def input_words(name: str) -> str:
+    """Return what figures and tables call an uncertain input.
+
+    >>> input_words("alpha"), input_words("bearing_drag")
+    ('pressure-viscosity coefficient', 'bearing drag')
+    """
+    return _INPUT_WORDS.get(name, name.replace("_", " "))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,15 +14,66 @@ from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.results_folder import results_folder
 from gearlube.cli.study_run import StudyRun, empty_table, study_run
+from gearlube.output.csv_text import csv_text
+from gearlube_core.errors import ParameterError
+from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.storage.file_names import pair_stem
 
-if TYPE_CHECKING:  # the study is loaded when the command runs
+if TYPE_CHECKING:
     from gearlube.studies.measured.teeth import ToothErrorResults
     from gearlube_core.hypoid_contact.settings_fit import SettingsFit
     from gearlube_core.hypoid_geometry.measured.measured_flanks import MeasuredFlanks
 
+FILE = "settings.csv"
+HEAD = ("field", "unit", "nominal", "cut_with_more", "uncertainty", "corrective")
 logger = logging.getLogger("gearlube")
 _SHOWN = 4  # orders of a member in a row
+
+
+def fitted_settings(
+    flanks: MeasuredFlanks, fields: Sequence[str], folder: Path | None = None
+) -> list[SettingsFit]:
+    """Return the fit of settings for each member that fields name.
+
+    Parameters
+    ----------
+    flanks : MeasuredFlanks
+    fields : sequence of str
+        Dotted fields of the gear file, see `fit_settings`.
+    folder : Path, optional
+        Gets settings.csv.
+
+    Raises
+    ------
+    ParameterError
+        No flank of a member was measured, or a field cannot be fitted.
+    """
+    from gearlube_core.hypoid_contact.settings_fit import fit_settings
+
+    members = dict.fromkeys(field.partition(".")[0] for field in fields)
+    found = []
+    for role in members:
+        grids = [grid for (whose, _), grid in flanks.grids.items() if whose == role]
+        if not grids:
+            measured = ", ".join(grid.name for grid in flanks.grids.values()) or "none"
+            raise ParameterError(
+                f"settings of {role!r} can be fitted only if its flanks were measured; measured "
+                f"flanks: {measured}. Fit fields of a member whose deviations are in the file."
+            )
+        own = [field for field in fields if field.partition(".")[0] == role]
+        found.append(fit_settings(flanks.nominal, grids, own))
+    if folder is not None:
+        write_text(csv_text(HEAD, [row for fit in found for row in rows(fit)]), folder / FILE)
+    return found
+
+
+def rows(fit: SettingsFit) -> list[tuple[str, ...]]:
+    """Return the rows of a fit under `HEAD`, as text."""
+    numbers = zip(fit.nominal, fit.change, fit.uncertainty, fit.corrective, strict=True)
+    return [
+        (field, unit, f"{a:.6g}", f"{b:.4g}", f"{c:.2g}", f"{d:.6g}")
+        for field, unit, (a, b, c, d) in zip(fit.fields, fit.units, numbers, strict=True)
+    ]
 
 
 def _write_example(folder: Path | None) -> None:
@@ -106,13 +158,11 @@ def measured(
 
 
 def _fits(flanks: MeasuredFlanks, fields: list[str], out: Path) -> list[SettingsFit]:
-    from gearlube.studies.measured.settings import fitted_settings
 
     return fitted_settings(flanks, fields, out) if fields else []
 
 
 def _settings(name: str, fit: SettingsFit) -> Table:
-    from gearlube.studies.measured.settings import rows
 
     title = f"{name}: {1e6 * fit.before:.2f} µm rms, with other settings {1e6 * fit.after:.2f} µm"
     table = Table(title=title)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.parameter_words import parameter_words
+from gearlube.plotting.words import parameter_words
 from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 

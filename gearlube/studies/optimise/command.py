@@ -17,7 +17,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
-    from gearlube.studies.optimise.summary import MeasureRow
+    from gearlube.studies.optimise.dataset import MeasureRow
 
 logger = logging.getLogger("gearlube")
 
@@ -60,8 +60,8 @@ def optimise(
         return
     from gearlube.report.stored import PAGE
     from gearlube.studies.optimise import run
+    from gearlube.studies.optimise.dataset import measure_rows
     from gearlube.studies.optimise.findings import findings
-    from gearlube.studies.optimise.summary import measure_rows
     from gearlube_core.flank_optimisation.optimise import OptimiseSettings
     from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 

@@ -9,8 +9,7 @@ import xarray as xr
 
 from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.studies.optimise.dataset import measures_of
-from gearlube.studies.optimise.summary import MeasureRow
+from gearlube.studies.optimise.dataset import MeasureRow, measures_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.refusal import check_pair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

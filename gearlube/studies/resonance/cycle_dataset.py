@@ -8,10 +8,9 @@ import numpy as np
 import xarray as xr
 
 from gearlube.studies.resonance.datasets import study_attributes
-from gearlube.studies.resonance.flank_cycle import FlankCycle
+from gearlube.studies.resonance.flank_cycle import CURVES, SHEAR_RATES, FlankCycle, TractionCurve
 from gearlube.studies.resonance.motions import ORBIT_STEPS, Motion
 from gearlube.studies.resonance.study import ResonanceStudy
-from gearlube.studies.resonance.traction_curve import CURVES, SHEAR_RATES, TractionCurve
 from gearlube_core.arrays import Array
 
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]

@@ -9,7 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube.studies.resonance.flank_cycle import FlankCycle, flank_cycle
+from gearlube.studies.resonance.flank_cycle import (
+    FlankCycle,
+    TractionCurve,
+    flank_cycle,
+    traction_curve,
+)
 from gearlube.studies.resonance.motions import (
     ORBIT_STEPS,
     Motion,
@@ -21,7 +26,6 @@ from gearlube.studies.resonance.motions import (
 )
 from gearlube.studies.resonance.response import Response, follow_response
 from gearlube.studies.resonance.settings import HOT, MODELS, SWEPT, ResonanceSettings
-from gearlube.studies.resonance.traction_curve import TractionCurve, traction_curve
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import Direction, TimeSweep, time_sweep
 from gearlube_core.progress import Progress, no_progress

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gearlube.cli.console import console
 from gearlube.cli.example import prints_example
-from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.exit_codes import console, exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
 from gearlube.studies.roughness.flow_command import flow_factors

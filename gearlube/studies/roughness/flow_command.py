@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gearlube.cli.console import console
-from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.exit_codes import console, exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
 from gearlube_core.checks import check_positive, check_within

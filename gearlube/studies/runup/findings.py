@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import not_modelled, source_words
 from gearlube.plotting.range_words import range_text
+from gearlube.plotting.words import not_modelled, source_words
 from gearlube.report.churning import regime_findings
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number

@@ -12,7 +12,7 @@ from typing import Any
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
-from gearlube.plotting.figure_folder import save_figure_folder
+from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.inputs import origin_of, stored_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import INFERRED, Column, Figure, Input, Report, Table

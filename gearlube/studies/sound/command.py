@@ -16,7 +16,7 @@ logger = logging.getLogger("gearlube")
 
 
 def _example() -> str:
-    from gearlube.studies.sound.transfer_csv import example_text
+    from gearlube.studies.sound.transfer_path import example_text
 
     return example_text()
 

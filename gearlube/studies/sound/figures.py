@@ -16,7 +16,6 @@ from gearlube.plotting.style import (
     new_figure,
     outlined,
 )
-from gearlube.studies.sound.audible import AUDIBLE_SHARE, HeardRun
 from gearlube.studies.sound.dataset import (
     is_ramp,
     level_names,
@@ -26,6 +25,7 @@ from gearlube.studies.sound.dataset import (
     speed_axis,
 )
 from gearlube.studies.sound.metrics import METRICS
+from gearlube.studies.sound.order_tracks import AUDIBLE_SHARE, HeardRun
 from gearlube.studies.sound.pressure import RATE, REFERENCE, a_weighting
 from gearlube_core.arrays import Array
 

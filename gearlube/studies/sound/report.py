@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
-from gearlube.plotting.figure_folder import save_figure_folder
+from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.charts import Axis, Line, add_line, line_chart, panels
 from gearlube.report.inputs import origin_of
 from gearlube.report.page import write_report
@@ -29,7 +29,6 @@ from gearlube.report.parts import (
     Recording,
     Report,
 )
-from gearlube.studies.sound.audible import METHOD, Sound
 from gearlube.studies.sound.dataset import (
     is_ramp,
     level_names,
@@ -41,6 +40,7 @@ from gearlube.studies.sound.dataset import (
 )
 from gearlube.studies.sound.figures import draw_all
 from gearlube.studies.sound.metrics import METRICS
+from gearlube.studies.sound.order_tracks import METHOD, Sound
 from gearlube.studies.sound.settings import SoundSettings
 from gearlube.studies.sound.wav import OWN_WAV, write_wav
 from gearlube_core.arrays import Array

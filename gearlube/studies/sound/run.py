@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sound.audible import HeardRun, Sound, contributions
 from gearlube.studies.sound.compare import common_speeds, difference_sentences
 from gearlube.studies.sound.dataset import sound_dataset
 from gearlube.studies.sound.force_record import ForceRecord, read_forces
@@ -22,12 +21,11 @@ from gearlube.studies.sound.metrics import (
     metric_curve,
     missing,
 )
-from gearlube.studies.sound.order_tracks import track_orders
+from gearlube.studies.sound.order_tracks import HeardRun, Sound, contributions, track_orders
 from gearlube.studies.sound.pressure import sound_pressure
 from gearlube.studies.sound.report import write_sound
 from gearlube.studies.sound.settings import METRICS, SoundSettings
-from gearlube.studies.sound.transfer_csv import read_csv_path
-from gearlube.studies.sound.transfer_path import Complex, TransferPath, generic_path
+from gearlube.studies.sound.transfer_path import Complex, TransferPath, generic_path, read_csv_path
 from gearlube.studies.sound.wav import full_scale_for, played, wav_names
 from gearlube.studies.sound.words import limit_sentences, sound_sentences
 from gearlube_core.arrays import Array

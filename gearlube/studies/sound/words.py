@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sound.audible import heard_order
 from gearlube.studies.sound.dataset import is_ramp, order_name, speed_axis
 from gearlube.studies.sound.metrics import METRICS
+from gearlube.studies.sound.order_tracks import heard_order
 from gearlube_core.arrays import Array, Flags
 
 _ALWAYS = 0.95  # of the time

@@ -9,18 +9,16 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.cooling_options import (
-    AirTemperatureOption,
-    ConductanceAt100Option,
-    ConductanceAtRestOption,
-    given_cooling,
-)
 from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_if_failed
 from gearlube.cli.options import (
+    AirTemperatureOption,
+    ConductanceAt100Option,
+    ConductanceAtRestOption,
     ExampleOption,
     JobsOption,
     OverwriteOption,
+    given_cooling,
 )
 from gearlube.cli.study_run import command_line, study_run
 
@@ -137,10 +135,14 @@ def sweep(
     from gearlube.cli.ranges import numbers_from
     from gearlube.cli.study_run import tell_findings
     from gearlube.studies.sweep import run
-    from gearlube.studies.sweep.axle_in_fmu import chosen_axle, given_preload, settings_of
+    from gearlube.studies.sweep.axle_in_fmu import (
+        axle_with_oil,
+        chosen_axle,
+        given_preload,
+        settings_of,
+    )
     from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
     from gearlube.studies.sweep.findings import findings
-    from gearlube.studies.sweep.oil_in_axle import axle_with_oil
     from gearlube.studies.sweep.report import write_sweep_report
     from gearlube.studies.sweep.settings import (
         OILS,

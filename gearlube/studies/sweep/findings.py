@@ -5,25 +5,26 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import not_modelled, source_words
+from gearlube.plotting.words import not_modelled, source_words
 from gearlube.report.churning import regime_findings
-from gearlube.report.film_ratio import film_ratio_level, film_ratio_words
-from gearlube.report.numbers import quantity_text
-from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
-from gearlube.report.solved_films import (
+from gearlube.report.films import (
     bearing_drag,
     covered_share,
     efficiency_doubt,
+    film_ratio_level,
+    film_ratio_words,
     flank_friction,
     model_of,
     points_beyond,
     solved_films,
     solved_rollers,
 )
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
 from gearlube.studies.sweep.peaks import ORDERS, Crossing, Peak, crossings, peak_orders
 from gearlube.studies.sweep.point import FINISHED
 from gearlube.studies.sweep.quantities import GRID
-from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE
+from gearlube.studies.sweep.scalars import DOUBLE_SIDED, NONE
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FLANK, ROLLER
 from gearlube_core.units import ZERO_CELSIUS

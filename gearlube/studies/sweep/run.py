@@ -20,7 +20,7 @@ import drivetrain
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.driveline.parameters import DrivelineParameters
 from gearlube.report.churning import churning_regime
-from gearlube.report.solved_films import film_model_attributes
+from gearlube.report.films import film_model_attributes
 from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
     car_axle_at,
@@ -43,7 +43,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.folder_lock import locked_folder
+from gearlube_core.storage.folders import locked_folder
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.result_store import DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results

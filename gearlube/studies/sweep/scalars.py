@@ -7,17 +7,43 @@ from typing import Any
 
 import numpy as np
 
-from gearlube.report.solved_films import covered_alone
+from gearlube.report.films import covered_alone
 from gearlube.studies.sweep.operating_point import AXES, BEARINGS, FLANKS, LOSSES
 from gearlube.studies.sweep.recording import Recording
-from gearlube.studies.sweep.separation import separation_class
 from gearlube_core.arrays import Array
 from gearlube_core.spectra import AngleWindow, extremes
 
+NONE, SINGLE_SIDED, DOUBLE_SIDED = 0, 1, 2
 _REFINE = 4  # points read between samples of smooth signals: 5 samples a cycle become 20
 _CONTACT = 1e-3  # a flank counts as loaded above this share of its largest load
 
 Variables = dict[str, Any]
+
+
+def separation_class(dte_min: float, dte_max: float, backlash: float) -> int:
+    """Return the class of contact loss: 0 none, 1 single-sided, 2 double-sided impacts.
+
+    With the drive flank in contact for x > 0 and the coast flank for x < -2b:
+    single-sided when max >= 0 and -2b < min < 0, double-sided when min <= -2b and max >= 0.
+
+    Parameters
+    ----------
+    dte_min, dte_max : float
+        Extremes of the dynamic transmission error [m].
+    backlash : float
+        Total normal backlash 2b [m].
+
+    Notes
+    -----
+    Mirrored for coasting: contact with the coast flank throughout (max <= -2b) is class 0.
+    Teeth that float in the gap for the whole record (-2b < x < 0) count as single-sided.
+    Source: [mohammadpour_2015 (3)], classes after [karagiannis_2012 sec. 3].
+    """
+    if dte_min >= 0.0 or dte_max <= -backlash:
+        return NONE
+    if dte_min <= -backlash and dte_max >= 0.0:
+        return DOUBLE_SIDED
+    return SINGLE_SIDED
 
 
 def radial_displacement(recording: Recording) -> Array:

@@ -85,8 +85,7 @@ def whine(
         helical = is_shipped(_HELICAL, gear)
         print_example(_HELICAL if helical else _HYPOID, gear)
         return
-    from gearlube.studies.whine.findings import findings
-    from gearlube.studies.whine.report import write_whine_report
+    from gearlube.studies.whine.report import findings, write_whine_report
     from gearlube.studies.whine.run import WhineSettings, run_whine, whine_rows
     from gearlube_core.flank_optimisation.problem import read_gear_file
     from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings
@@ -130,7 +129,7 @@ def whine(
 
 
 def _table(name: str, torque: float, rows: list[WhineRow]) -> Table:
-    from gearlube.plotting.parameter_words import parameter_words, tolerance_words
+    from gearlube.plotting.words import parameter_words, tolerance_words
     from gearlube_core.units import rads_to_rpm
 
     table = empty_table(

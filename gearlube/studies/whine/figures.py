@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gearlube.plotting.parameter_words import parameter_words, tolerance_words
 from gearlube.plotting.style import SERIES, cell_edges, house_style, new_figure
+from gearlube.plotting.words import parameter_words, tolerance_words
 from gearlube_core.arrays import Array
 from gearlube_core.units import rads_to_rpm
 

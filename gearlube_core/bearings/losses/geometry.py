@@ -6,8 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from scipy.optimize import brentq
-
 from gearlube_core.bearings.losses.catalogue import (
     F0_TAPERED_OIL_BATH,
     F1_TAPERED,
@@ -327,6 +325,8 @@ def closing_inner_angle(pitch_diameter: float, roller_diameter: float, outer_ang
     outer_angle
         a_o [rad].
     """
+    from scipy.optimize import brentq  # not needed to read a file
+
     ratio = roller_diameter / pitch_diameter
     half = brentq(
         lambda b: math.tan(b) - ratio * math.sin(outer_angle - b), 0.0, outer_angle, xtol=1e-14

@@ -1,25 +1,224 @@
-"""The film of one hypoid tooth pair as its contact rolls over the flanks."""
+"""One hypoid tooth pair through its engagement: contact, window of the film, and the film."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.ehl.gears.hypoid_flank import FlankCycle, FlankInstant
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
-from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.problem import MovingFilm
+from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.kernels import LoadBracket, load_bracket
+from gearlube_core.mesh_table.sliding_direction import pair_sliding_direction
+from gearlube_core.mesh_table.table import PAIRS, MeshTable
 from gearlube_core.oil.film_oil import FilmOil
 
+_MIDDLE = 0.5 * PAIRS  # of a pair's window [mesh periods]
 FLOWS = ("eyring", "newtonian")
 
 # along the major axis, in its semi-axis: oil enters across the minor one. What is carried farther
 # out is that of the oil beyond
 _Y_REACH = (-1.5, 1.3)
+
+
+class PairContact(NamedTuple):
+    """Contact of one pair at N phases, per unit pinion speed.
+
+    x is the minor axis of the contact ellipse, y its major one, both turned so that entrainment
+    points to larger x and y.
+    """
+
+    share: Array  # of the mesh force [-], (N,)
+    R_x: Array  # relative radii [m], (N,)
+    R_y: Array
+    entrainment: Array  # mean surface velocity over pinion speed [m], (N, 2)
+    sliding: Array  # of the pinion's surface over the gear's, over pinion speed [m], (N, 2)
+
+
+def phase_of(table: MeshTable, angle: Array, pair: int = 0) -> Array:
+    """Return the phase of a pair at pinion angles [rad]: mesh periods from its window's middle."""
+    turned = table.pinion_teeth * np.asarray(angle) / (2.0 * np.pi) + pair
+    return np.asarray(turned % PAIRS - _MIDDLE)
+
+
+def pair_contact(table: MeshTable, torque: float, phase: Array) -> PairContact:
+    """Return the contact of a pair, interpolated linearly in load and phase as the axle does.
+
+    Parameters
+    ----------
+    table
+        Of the gear pair.
+    torque
+        On the pinion, its sign chooses the flank [N m].
+    phase : ndarray, shape (N,)
+        Mesh periods from the middle of the pair's window.
+    """
+    bracket = load_bracket(abs(torque), float(np.sign(torque)), table.torque, table.torque.size)
+    levels = [_at_level(table, level) for level in (bracket.lower, bracket.upper)]
+    position = (np.asarray(phase, dtype=np.float64) + _MIDDLE) % PAIRS / PAIRS * table.nodes
+    node = np.minimum(position.astype(int), table.nodes - 1)
+    after, weight = (node + 1) % table.nodes, position - node
+
+    def blended(lower: Array, upper: Array) -> Array:
+        values = _blend(lower, upper, bracket)
+        t = weight if values.ndim == 1 else weight[:, None]
+        return np.asarray(values[node] + t * (values[after] - values[node]))
+
+    return PairContact(*(blended(*pair) for pair in zip(*levels, strict=True)))
+
+
+def _blend(lower: Array, upper: Array, bracket: LoadBracket) -> Array:
+    return lower + bracket.weight * (upper - lower)
+
+
+def _at_level(table: MeshTable, level: int) -> PairContact:
+    w = {key: values[level] for key, values in table.windows.items()}
+    pinion, gear = w["friction_arm_p"], w["friction_arm_g"] / table.ratio
+    direction = pair_sliding_direction(w, table.ratio)
+    return PairContact(
+        w["share"],
+        w["R_x"],
+        w["R_y"],
+        _vectors(w["entrainment_arm"], w["psi"]),
+        _vectors(pinion - gear, direction),
+    )
+
+
+def _vectors(length: Array, angle: Array) -> Array:
+    return np.stack([length * np.cos(angle), length * np.sin(angle)], axis=1)
+
+
+class FlankInstant(NamedTuple):
+    """The contact at one time; vectors in the axes of its ellipse, x the minor one."""
+
+    time: float  # [s]
+    angle: float  # of the pinion [rad]
+    phase: float  # [mesh periods]
+    load: float  # [N]
+    R_x: float  # [m]
+    R_y: float  # [m]
+    entrainment: tuple[float, float]  # [m/s]
+    sliding: tuple[float, float]  # of the pinion's surface over the gear's [m/s]
+
+    @property
+    def psi(self) -> float:
+        """Return the angle of entrainment from the minor axis [rad]."""
+        return math.atan2(self.entrainment[1], self.entrainment[0])
+
+    @property
+    def chi(self) -> float:
+        """Return the angle of sliding from the minor axis towards the major one [rad]."""
+        return math.atan2(self.sliding[1], self.sliding[0])
+
+    @property
+    def speed(self) -> float:
+        """Return the entrainment speed [m/s]."""
+        return math.hypot(*self.entrainment)
+
+    @property
+    def slip(self) -> float:
+        """Return the sliding speed [m/s]."""
+        return math.hypot(*self.sliding)
+
+    @property
+    def gap(self) -> EllipticParaboloid:
+        """Return the gap of the undeformed flanks."""
+        return EllipticParaboloid(self.R_x, self.R_y)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FlankCycle:
+    """Contact of one tooth pair over the loaded part of its engagement, N times.
+
+    Parameters
+    ----------
+    time, angle, phase : ndarray, shape (N,)
+        Time [s], pinion angle [rad] and phase [mesh periods]; all rise.
+    load : ndarray, shape (N,)
+        Normal to the flanks [N], above zero.
+    R_x, R_y : ndarray, shape (N,)
+        Relative radii along the minor and the major axis of the contact ellipse [m].
+    entrainment : ndarray, shape (N, 2)
+        Mean surface velocity against the point of contact [m/s], above zero along x and not
+        below along y.
+    sliding : ndarray, shape (N, 2)
+        Velocity of the pinion's surface over the gear's [m/s].
+
+    Raises
+    ------
+    ParameterError
+        A shape differs or a value is out of range.
+
+    Notes
+    -----
+    Axes turn and move with the ellipse. Between times everything is linear.
+    """
+
+    time: Array
+    angle: Array
+    phase: Array
+    load: Array
+    R_x: Array
+    R_y: Array
+    entrainment: Array
+    sliding: Array
+
+    def __post_init__(self) -> None:
+        count = self.time.size
+        if count < 2:
+            raise ParameterError(f"a flank's cycle must have at least 2 times, got {count}.")
+        for name in self.__dataclass_fields__:
+            values = getattr(self, name)
+            shape = (count, 2) if name in ("entrainment", "sliding") else (count,)
+            if values.shape != shape or not np.isfinite(values).all():
+                raise ParameterError(
+                    f"{name} of a flank's cycle must be finite and of shape {shape}, got shape "
+                    f"{values.shape}."
+                )
+        for name in ("time", "angle", "phase"):
+            if not (np.diff(getattr(self, name)) > 0.0).all():
+                raise ParameterError(f"{name} of a flank's cycle must rise.")
+        for name, unit in (("load", "N"), ("R_x", "m"), ("R_y", "m")):
+            lowest = float(getattr(self, name).min())
+            if not lowest > 0.0:
+                raise ParameterError(
+                    f"{name} of a flank's cycle must be above 0 {unit}, got {lowest:g} {unit}. "
+                    "Leave times without contact out."
+                )
+        u, v = self.entrainment.min(axis=0)
+        if not (u > 0.0 and v >= 0.0):
+            raise ParameterError(
+                "entrainment of a flank's cycle must be above 0 m/s along x and not below along "
+                f"y, got down to {u:g} and {v:g} m/s. Turn the axes."
+            )
+
+    def at(self, time: float) -> FlankInstant:
+        """Return the contact at a time [s]; held outside the cycle."""
+
+        def value(values: Array) -> float:
+            return float(np.interp(time, self.time, values))
+
+        return FlankInstant(
+            time,
+            value(self.angle),
+            value(self.phase),
+            value(self.load),
+            value(self.R_x),
+            value(self.R_y),
+            (value(self.entrainment[:, 0]), value(self.entrainment[:, 1])),
+            (value(self.sliding[:, 0]), value(self.sliding[:, 1])),
+        )
+
+    def instants(self) -> list[FlankInstant]:
+        """Return the contact at all times of the cycle."""
+        return [self.at(float(time)) for time in self.time]
 
 
 def flank_contact(

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.edge_pressure import mark_edge_pressure
 from gearlube.plotting.style import GREY, SERIES, WIDTHS, house_style, new_figure
+from gearlube.plotting.words import mark_edge_pressure
 from gearlube.report.pictures import Picture, save_pictures
 from gearlube.studies.contact.figures.flank_maps import _SIDES, _spread, ease_off_map, pressure_maps
 

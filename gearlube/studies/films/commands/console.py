@@ -3,27 +3,64 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
+import typer
 from rich.table import Table
 
-from gearlube.cli.console import console
-from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
+from gearlube.cli.exit_codes import console, exit_if_failed, exit_on_error
 from gearlube.cli.results_folder import results_folder
 from gearlube.cli.study_run import command_line, progress_on, tell_findings
+from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
 
-if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
+if TYPE_CHECKING:
     import xarray as xr
 
     from gearlube.studies.films.hypoid.summary import RatioRow
-    from gearlube.studies.films.summary import Row
+    from gearlube.studies.films.results import Row
     from gearlube_core.progress import Progress
 
+FilmErrorOption = Annotated[
+    str | None,
+    typer.Option(
+        help="Halve the spacing until the estimated error of the films is below this, such as 1%.",
+        metavar="PERCENT%",
+    ),
+]
 logger = logging.getLogger("gearlube")
 _SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm"), "1": (1.0, "")}
+
+
+def film_error_of(text: str | None) -> float | None:
+    """Return the share that "1%" or "0.01" stands for.
+
+    Raises
+    ------
+    ParameterError
+        It is no number, or not within 0.01 % to 100 %.
+
+    Examples
+    --------
+    >>> film_error_of("1%")
+    0.01
+    """
+    if text is None:
+        return None
+    number = text.strip().removesuffix("%")
+    try:
+        value = float(number) * (0.01 if text.strip().endswith("%") else 1.0)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise ParameterError(
+            f"--film-error must be a percentage or a fraction, got {text!r}. Write 1% or 0.01."
+        )
+    return check_within("--film-error", value, 1e-4, 1.0, "", "1 % is 1% or 0.01.")
 
 
 def exit_on_errors(out: Path) -> AbstractContextManager[None]:
@@ -59,7 +96,7 @@ def solve_and_show(
 def _show(dataset: xr.Dataset) -> None:
     """Print the summary of a dataset, for a march its largest pressure and smallest film."""
     from gearlube.studies.films.hypoid.summary import ratio_rows
-    from gearlube.studies.films.summary import summary_rows
+    from gearlube.studies.films.results import summary_rows
 
     kind, name = dataset.attrs["contact"], dataset.attrs["name"]
     if kind == "helical_cycle":
@@ -72,7 +109,7 @@ def _show(dataset: xr.Dataset) -> None:
 
 
 def _summary_table(title: str, rows: list[Row]) -> Table:
-    from gearlube.studies.films.summary import SOLUTION
+    from gearlube.studies.films.results import SOLUTION
 
     table = _table(title, "quantity", ">value", "unit", ">deviation")
     for row in rows:

@@ -17,8 +17,12 @@ from gearlube.cli.options import (
     SpeedOfFileOption,
     TorqueOfFileOption,
 )
-from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
-from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
+from gearlube.studies.films.commands.console import (
+    FilmErrorOption,
+    exit_on_errors,
+    film_error_of,
+    solve_and_show,
+)
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads

@@ -13,7 +13,7 @@ from gearlube.studies.films.datasets.variables import Variable, noted, noted_cur
 from gearlube.studies.films.hypoid.flank import HypoidFlank
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import solid_parameters
-from gearlube_core.ehl.gears.hypoid_flank import FlankInstant
+from gearlube_core.ehl.gears.hypoid_film import FlankInstant
 from gearlube_core.ehl.transient.curves import FilmCurves
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.film.grubin_1949 import (

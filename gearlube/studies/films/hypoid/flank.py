@@ -19,8 +19,7 @@ from gearlube_core.dynamics.hypoid_axle import (
 )
 from gearlube_core.dynamics.ranges import TORQUE_MARGIN
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
-from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
-from gearlube_core.ehl.gears.hypoid_flank import FlankCycle, pair_contact, phase_of
+from gearlube_core.ehl.gears.hypoid_film import FlankCycle, HypoidFilm, pair_contact, phase_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_migration, contact_path

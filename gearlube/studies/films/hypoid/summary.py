@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
-from gearlube.studies.films.film_ratios import ROUGHNESS
+from gearlube.studies.films.film_formulas import ROUGHNESS
 
 # quantity, what it is compared with, and the solved variable
 _CENTRAL, _MINIMUM, _FRICTION = (

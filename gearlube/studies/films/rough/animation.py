@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.animation import save_animation
+from gearlube.plotting.figure_files import save_animation
 from gearlube.studies.films.figures.rough import loaded_film, rough_frame
 from gearlube.studies.films.rough.files import read_frames
 from gearlube_core.ehl.case.rough_case import RoughCase

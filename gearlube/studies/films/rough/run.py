@@ -14,8 +14,13 @@ import numpy as np
 import xarray as xr
 
 from gearlube.studies.films.results import begin
-from gearlube.studies.films.rough.files import read_frames, write_frame, write_rough_results
-from gearlube.studies.films.rough.gather import Gathered, new_statistics
+from gearlube.studies.films.rough.files import (
+    Gathered,
+    new_statistics,
+    read_frames,
+    write_frame,
+    write_rough_results,
+)
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.statistics.rough_film import statistics_of_run

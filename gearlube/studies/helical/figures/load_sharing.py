@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.edge_pressure import mark_edge_pressure
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
+from gearlube.plotting.words import mark_edge_pressure
 from gearlube.studies.helical.figures.layout import closed
 from gearlube_core.arrays import Array
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import source_colour, source_words
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, name_levels, new_figure
+from gearlube.plotting.words import source_colour, source_words
 from gearlube.report.numbers import quantity_text
 from gearlube.studies.runup import levels
 from gearlube.studies.runup.figures.maps import frequency_map, order_map

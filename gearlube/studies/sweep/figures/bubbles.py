@@ -18,7 +18,7 @@ from gearlube.plotting.style import (
     preload_label,
     speed_limits,
 )
-from gearlube.studies.sweep.figures.spectrum_map import MapChannel, default_top
+from gearlube.studies.sweep.figures.orders import MapChannel, default_top
 from gearlube_core.arrays import Array
 
 RANGE = 60.0  # dB from the smallest to the largest bubble

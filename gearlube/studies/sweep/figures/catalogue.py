@@ -13,13 +13,11 @@ import xarray as xr
 
 from gearlube.plotting.style import preload_label
 from gearlube.report.charts import Axis, panels
-from gearlube.studies.sweep.figures import bubbles, charts, spectrum_map
+from gearlube.studies.sweep.figures import bubbles, charts, orders
 from gearlube.studies.sweep.figures.charts import efficiency
-from gearlube.studies.sweep.figures.film import film_over_mesh_cycle
 from gearlube.studies.sweep.figures.operation import operating_points
-from gearlube.studies.sweep.figures.order_cuts import BEARING_CUTS, order_cuts
-from gearlube.studies.sweep.figures.spectrum_map import MapChannel, default_top
-from gearlube.studies.sweep.figures.waveforms import roller_zone, waveforms
+from gearlube.studies.sweep.figures.orders import BEARING_CUTS, MapChannel, default_top, order_cuts
+from gearlube.studies.sweep.figures.waveforms import film_over_mesh_cycle, roller_zone, waveforms
 from gearlube_core.storage.atomic_file import write_figure
 
 _SPEED = Axis("vehicle speed", "km/h")
@@ -50,11 +48,11 @@ class Entry:
     essential: bool = False
 
 
-def _map(channel: spectrum_map.MapChannel, top: float | None = None) -> Callable[..., Any]:
+def _map(channel: orders.MapChannel, top: float | None = None) -> Callable[..., Any]:
     return partial(bubbles.spectrum_bubbles, channel=channel, highest_frequency=top)
 
 
-def _map_chart(channel: spectrum_map.MapChannel) -> Callable[..., Any]:
+def _map_chart(channel: orders.MapChannel) -> Callable[..., Any]:
     return partial(_bubble_chart, channel=channel)
 
 
@@ -134,8 +132,8 @@ CATALOGUE = (
         essential=True,
         caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
         f"figures 3 and 4). {_BUBBLES}",
-        draw=_map(spectrum_map.DTE),
-        chart=_map_chart(spectrum_map.DTE),
+        draw=_map(orders.DTE),
+        chart=_map_chart(orders.DTE),
     ),
     Entry(
         name="dte_orders",
@@ -167,8 +165,8 @@ CATALOGUE = (
         title="Spectra of the radial displacement of the pinion",
         caption="Spectra of the radial displacement of the pinion, which excites the casing "
         f"(compare figures 6 and 7). {_BUBBLES}",
-        draw=_map(spectrum_map.RADIAL),
-        chart=_map_chart(spectrum_map.RADIAL),
+        draw=_map(orders.RADIAL),
+        chart=_map_chart(orders.RADIAL),
     ),
     Entry(
         name="radial_extremes",
@@ -183,8 +181,8 @@ CATALOGUE = (
         name="bearing_force_map",
         title="Spectra of a bearing force",
         caption=f"Spectra of the force of pinion bearing 1 along y. {_BUBBLES}",
-        draw=_map(spectrum_map.BEARING),
-        chart=_map_chart(spectrum_map.BEARING),
+        draw=_map(orders.BEARING),
+        chart=_map_chart(orders.BEARING),
     ),
     Entry(
         name="bearing_force_orders",
@@ -199,14 +197,14 @@ CATALOGUE = (
         caption="Spectra of the load of one roller (compare figures 9 and 10). Beside a mesh order "
         "lie its sidebands: the roller moves through the loaded zone while the force swings. "
         f"{_BUBBLES}",
-        draw=_map(spectrum_map.ROLLER),
+        draw=_map(orders.ROLLER),
     ),
     Entry(
         name="roller_map_cage",
         title="The same at low frequencies",
         caption="The same at low frequencies: cage frequency, pinion rotation and what the engine "
         "orders of the coupled vehicle modulate.",
-        draw=_map(spectrum_map.ROLLER_LOW, _CAGE_TOP),
+        draw=_map(orders.ROLLER_LOW, _CAGE_TOP),
     ),
     Entry(
         name="roller_extremes",

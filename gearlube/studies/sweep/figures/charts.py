@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.loss_words import SOURCE_COLOURS, SOURCE_WORDS, source_colour
 from gearlube.plotting.style import (
     GREY,
     HATCHES,
@@ -21,6 +20,7 @@ from gearlube.plotting.style import (
     series,
     speed_limits,
 )
+from gearlube.plotting.words import SOURCE_COLOURS, SOURCE_WORDS, source_colour
 from gearlube.report.charts import (
     Axis,
     Line,

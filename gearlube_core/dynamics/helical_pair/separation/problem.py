@@ -23,8 +23,7 @@ from gearlube_core.checks import check_positive, check_within
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE, linear_system
-from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
-from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters, pack_lines
 from gearlube_core.dynamics.helical_pair.separation.march import (
     CONTACT_SHARE,
     DAMPING_FORCE,

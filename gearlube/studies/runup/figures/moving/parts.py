@@ -13,7 +13,7 @@ from gearlube.report.moving import steering
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import Figure
 from gearlube.studies.runup.animation.dataset import animation_file
-from gearlube.studies.runup.figures.moving import flanks, rollers, words
+from gearlube.studies.runup.figures.moving import pictures, words
 from gearlube_core.arrays import Array
 from gearlube_core.progress import Progress, no_progress, part_of
 
@@ -65,9 +65,9 @@ def _ring(
     """Return the bars of a bearing in a frame, and its rollers on the cage."""
     import plotly.graph_objects as go
 
-    ring = rollers.ring_at(dataset, k, frame)
-    hub = rollers.HUB * (ring.top or 1.0)
-    width = rollers.WIDTH * 360.0 / ring.angle.size
+    ring = pictures.ring_at(dataset, k, frame)
+    hub = pictures.HUB * (ring.top or 1.0)
+    width = pictures.WIDTH * 360.0 / ring.angle.size
     theta = _small(np.degrees(ring.angle))
     marker: dict[str, Any] = {"color": "#0072B2", "line": {"color": "#606060", "width": 0.5}}
     told = "%{customdata[0]:.0f} N"
@@ -96,21 +96,21 @@ def _contacts(dataset: xr.Dataset, frame: int) -> list[Any]:
 
     load = dataset["flank_load"].values[frame]
     traces = []
-    for pair, colour in enumerate(flanks.PAIR_COLOURS):
-        x, y = flanks.outline(dataset, frame, pair) if np.isfinite(load[pair]) else ([], [])
+    for pair, colour in enumerate(pictures.PAIR_COLOURS):
+        x, y = pictures.outline(dataset, frame, pair) if np.isfinite(load[pair]) else ([], [])
         film = 1e6 * float(dataset["flank_film"][frame, pair])
         traces.append(
             go.Scatter(
                 x=_small(x), y=_small(y), mode="lines", fill="toself",
                 line={"color": colour, "width": 2.5},
-                fillcolor=_colour(film, flanks.film_scale(dataset)),
+                fillcolor=_colour(film, pictures.flank_film_scale(dataset)),
                 hoverinfo="skip",
             )
         )  # fmt: skip
     loaded = np.flatnonzero(np.isfinite(load))
-    tooth = flanks.drawn_tooth(dataset)
+    tooth = pictures.drawn_tooth(dataset)
     beside = 0.1 * tooth.height
-    sides = [flanks.label_side(dataset, frame, int(pair)) for pair in loaded]
+    sides = [pictures.label_side(dataset, frame, int(pair)) for pair in loaded]
     x, y = 1e3 * dataset["flank_centre"].values[frame, loaded].T
     x = x + beside * np.array(sides)
     y = np.minimum(y + beside, 0.96 * tooth.height)  # a label outside the axes is not drawn
@@ -119,7 +119,7 @@ def _contacts(dataset: xr.Dataset, frame: int) -> list[Any]:
         go.Scatter(x=_small(x), y=_small(y), mode="text", text=texts, hoverinfo="skip",
                    textposition=["top right" if one > 0 else "top left" for one in sides],
                    cliponaxis=False,
-                   textfont={"color": [flanks.PAIR_COLOURS[pair] for pair in loaded]})
+                   textfont={"color": [pictures.PAIR_COLOURS[pair] for pair in loaded]})
     )  # fmt: skip
     return traces
 
@@ -129,14 +129,14 @@ def _roller_chart(dataset: xr.Dataset) -> Any:
     from plotly.subplots import make_subplots
 
     count = dataset.sizes["ring"]
-    titles = ["<br>".join(filter(None, rollers.ring_title(dataset, k))) for k in range(count)]
+    titles = ["<br>".join(filter(None, pictures.ring_title(dataset, k))) for k in range(count)]
     rows = (count + 1) // 2
     figure = make_subplots(
         rows=rows, cols=2, specs=[[{"type": "polar"}] * 2] * rows, subplot_titles=titles,
         vertical_spacing=0.17, horizontal_spacing=0.1,
     )  # fmt: skip
     figure.update_annotations(font_size=11.5, yshift=22)
-    ends = rollers.film_scale(dataset)
+    ends = pictures.roller_film_scale(dataset)
     for k in range(count):
         _ring_frame(figure, dataset, k)
     if ends is not None:
@@ -160,8 +160,8 @@ def _flank_chart(dataset: xr.Dataset) -> Any:
     """Return the contacts on the tooth over load, film and friction of the tooth pairs."""
     from plotly.subplots import make_subplots
 
-    placed = flanks.has_places(dataset)
-    heights = [_TOOTH_HEIGHT] * placed + [_COURSE_HEIGHT] * len(flanks.COURSES)
+    placed = pictures.has_places(dataset)
+    heights = [_TOOTH_HEIGHT] * placed + [_COURSE_HEIGHT] * len(pictures.COURSES)
     figure = make_subplots(
         rows=len(heights), cols=1, row_heights=heights, vertical_spacing=0.32 / len(heights)
     )
@@ -177,8 +177,8 @@ def _flank_chart(dataset: xr.Dataset) -> Any:
             name += f", {words.flank_of(dataset, frame)}"
         frames.append((name, now))
     start = len(figure.data)
-    rows = [1] * (len(frames[0][1]) - len(flanks.COURSES))
-    rows += [first + k for k in range(len(flanks.COURSES))]
+    rows = [1] * (len(frames[0][1]) - len(pictures.COURSES))
+    rows += [first + k for k in range(len(pictures.COURSES))]
     for trace, row in zip(frames[0][1], rows, strict=True):
         figure.add_trace(trace, row=row, col=1)
     _name_rows(figure, dataset, first)
@@ -190,12 +190,12 @@ def _now(dataset: xr.Dataset, frame: int) -> list[Any]:
     import plotly.graph_objects as go
 
     phase = float(dataset["mesh_phase"][frame])
-    marker = {"color": list(flanks.PAIR_COLOURS), "size": 10}
+    marker = {"color": list(pictures.PAIR_COLOURS), "size": 10}
     return [
-        go.Scatter(x=_small([phase] * len(flanks.PAIR_COLOURS)),
+        go.Scatter(x=_small([phase] * len(pictures.PAIR_COLOURS)),
                    y=_small(factor * dataset[name].values[frame]),
                    mode="markers", marker=marker, hoverinfo="skip")
-        for name, factor, _, _ in flanks.COURSES
+        for name, factor, _, _ in pictures.COURSES
     ]  # fmt: skip
 
 
@@ -206,7 +206,7 @@ def _small(values: Any) -> Array:
 
 def _name_rows(figure: Any, dataset: xr.Dataset, first: int) -> None:
     if first > 1:
-        tooth = flanks.drawn_tooth(dataset)
+        tooth = pictures.drawn_tooth(dataset)
         figure.update_xaxes(
             title_text="along the face [mm]", range=[0.0, tooth.width], showgrid=False,
             zeroline=False, constrain="domain", row=1, col=1,
@@ -216,21 +216,21 @@ def _name_rows(figure: Any, dataset: xr.Dataset, first: int) -> None:
             zeroline=False, scaleanchor="x", constrain="domain", row=1, col=1,
         )  # fmt: skip
     phase = dataset["mesh_phase"].values
-    for k, (name, factor, label, unit) in enumerate(flanks.COURSES):
+    for k, (name, factor, label, unit) in enumerate(pictures.COURSES):
         figure.update_yaxes(
             title_text=f"{label} [{unit}]" if unit else label,
-            range=[0.0, flanks.course_limit(dataset, name, factor)], row=first + k, col=1,
+            range=[0.0, pictures.course_limit(dataset, name, factor)], row=first + k, col=1,
         )  # fmt: skip
         ends = [-0.03, float(phase[-1]) + 0.03]  # marks at the ends are seen whole
         figure.update_xaxes(range=ends, row=first + k, col=1)
-    figure.update_xaxes(title_text="mesh phase", row=first + len(flanks.COURSES) - 1, col=1)
+    figure.update_xaxes(title_text="mesh phase", row=first + len(pictures.COURSES) - 1, col=1)
 
 
 def _courses(figure: Any, dataset: xr.Dataset, first: int) -> None:
     """Draw load, film and friction of every tooth pair over the mesh phase."""
     phase = dataset["mesh_phase"].values
-    for k, (name, factor, label, unit) in enumerate(flanks.COURSES):
-        for pair, colour in enumerate(flanks.PAIR_COLOURS):
+    for k, (name, factor, label, unit) in enumerate(pictures.COURSES):
+        for pair, colour in enumerate(pictures.PAIR_COLOURS):
             figure.add_scatter(
                 x=_small(phase), y=_small(factor * dataset[name].values[:, pair]), mode="lines",
                 line={"color": colour, "width": 2},
@@ -242,7 +242,7 @@ def _courses(figure: Any, dataset: xr.Dataset, first: int) -> None:
 
 def _tooth(figure: Any, dataset: xr.Dataset) -> None:
     """Draw the outline of the tooth and the scale of the films."""
-    tooth = flanks.drawn_tooth(dataset)
+    tooth = pictures.drawn_tooth(dataset)
     w, h = tooth.width, tooth.height
     figure.add_scatter(
         x=[0.0, w, w, 0.0, 0.0], y=[0.0, 0.0, h, h, 0.0], mode="lines",
@@ -255,7 +255,7 @@ def _tooth(figure: Any, dataset: xr.Dataset) -> None:
         (w, 0.07 * h, "root", {"xshift": -3, "xanchor": "right"}),
     ):
         figure.add_annotation(x=x, y=y, text=name, showarrow=False, row=1, col=1, **shift)
-    low, high = flanks.film_scale(dataset)
+    low, high = pictures.flank_film_scale(dataset)
     bar = {"title": {"text": "film<br>[µm]", "side": "top"}, "thickness": 10, "len": 0.36,
            "y": 1.03, "yanchor": "top", "xpad": 4}  # fmt: skip
     figure.add_scatter(
@@ -278,18 +278,18 @@ def _film_bar(figure: Any, dataset: xr.Dataset, ends: tuple[float, float]) -> No
 
 def _ring_frame(figure: Any, dataset: xr.Dataset, k: int) -> None:
     """Draw the loaded zone of a bearing, and its axes."""
-    ring = rollers.ring_at(dataset, k, 0)
+    ring = pictures.ring_at(dataset, k, 0)
     top = ring.top or 1.0
     place = {"row": k // 2 + 1, "col": k % 2 + 1}
     for begin, end in zip(*ring.zone, strict=True):
         arc = np.degrees(np.linspace(begin, end, 61))
         figure.add_scatterpolar(
-            r=_small(np.full(arc.size, 0.8 * rollers.HUB * top)), theta=_small(arc), mode="lines",
+            r=_small(np.full(arc.size, 0.8 * pictures.HUB * top)), theta=_small(arc), mode="lines",
             line={"color": _GREY, "width": 4}, hoverinfo="skip", **place,
         )  # fmt: skip
     figure.update_polars(
         bgcolor="rgba(0,0,0,0)",
-        radialaxis={"range": [0.0, (rollers.HUB + rollers.REACH) * top], "visible": False},
+        radialaxis={"range": [0.0, (pictures.HUB + pictures.REACH) * top], "visible": False},
         angularaxis={"tickmode": "array", "tickvals": [0, 90],
                      "ticktext": list(words.AXES[ring.number]), "gridcolor": "rgba(0,0,0,0)"},
         **place,
@@ -317,7 +317,7 @@ MOVING = (
         shown=lambda dataset: True,
         sentence=words.flank_sentence,
         chart=_flank_chart,
-        animate=flanks.animate_flanks,
+        animate=pictures.animate_flanks,
     ),
     Moving(
         name="rollers",
@@ -325,10 +325,10 @@ MOVING = (
         caption="Bars outwards: load of each roller, each bearing on its own scale. Colour: film, "
         "one scale for all. Thick arc: where rollers carry load. The rollers go round with the "
         "cage; the black one is number 1. Axes are those of the fixed frame.",
-        shown=rollers.has_rollers,
+        shown=pictures.has_rollers,
         sentence=words.roller_sentence,
         chart=_roller_chart,
-        animate=rollers.animate_rollers,
+        animate=pictures.animate_rollers,
     ),
 )
 

@@ -1,0 +1,108 @@
+"""Words and colours of figures and reports: losses, varied parameters, sharp edges."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Collection
+from typing import Any
+
+import numpy as np
+
+from gearlube.plotting.style import GREY, PARTS
+from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE, EDGE_WORDS
+
+_WORDS = {
+    "misalignment.pinion_offset": "misalignment E (offset)",
+    "misalignment.pinion_axial": "misalignment P (pinion)",
+    "misalignment.gear_axial": "misalignment G (gear)",
+    "misalignment.shaft_angle": "misalignment Σ (shaft angle)",
+}
+_ROOM = 1.45  # height over the highest value, for the words
+SOURCE_WORDS = {
+    "friction_viscous": "flank friction (fluid)",
+    "friction_boundary": "flank friction (asperities)",
+    "mesh_damping": "mesh damping",
+    "bearing_damping": "roller hysteresis",
+    "bearing_torque": "bearing drag",
+    "churning": "churning",
+    "seals": "seals",
+    "friction_rolling": "rolling of the flanks",
+}
+SOURCE_COLOURS = dict(zip(SOURCE_WORDS, PARTS, strict=True))  # the same in every figure
+NEVER_MODELLED = ("bearings and grease of the wheel ends", "windage")
+_SAID = (
+    "bearing_torque",
+    "churning",
+    "seals",
+    "friction_rolling",
+)  # missing where they lose nothing
+
+
+def parameter_words(name: str) -> str:
+    """Return a parameter's name as labels show it: without unit and section."""
+    if name in _WORDS:
+        return _WORDS[name]
+    role, *_, field = name.split(".")
+    for unit in ("_mm_per_rad", "_mm", "_deg", "_um"):
+        field = field.removesuffix(unit)
+    return f"{role}: {field.replace('_', ' ')}"
+
+
+def tolerance_words(tolerance: float, unit: str) -> str:
+    """Return a tolerance as labels show it, lengths in mm and angles in degrees."""
+    if unit == "m":
+        return f"{1e3 * tolerance:.3g} mm"
+    if unit == "rad":
+        return f"{np.degrees(tolerance):.3g}°"
+    if unit == "deg":
+        return f"{tolerance:.3g}°"
+    return f"{tolerance:.3g}" + ("" if unit == "1" else f" {unit}")
+
+
+def mark_edge_pressure(axes: Any) -> None:
+    """Shade what lies above `EDGE_PRESSURE` in axes of GPa, and say what such a pressure is."""
+    drawn = [np.ravel(line.get_ydata()).astype(float) for line in axes.lines]
+    top = float(np.nanmax(np.concatenate([np.zeros(1), *drawn])))
+    limit = 1e-9 * EDGE_PRESSURE
+    if top <= limit:
+        return
+    above = max(axes.get_ylim()[1], _ROOM * top)
+    # far beyond the top: axes that share it may be stretched later
+    axes.axhspan(limit, 100.0 * above, color="0.92", zorder=0)
+    axes.set_ylim(0.0, above)
+    axes.text(
+        0.5,
+        0.97,
+        textwrap.fill(EDGE_WORDS, 56),
+        transform=axes.transAxes,
+        ha="center",
+        va="top",
+        fontsize=7.0,
+    )
+
+
+def source_words(source: str) -> str:
+    """Return the words for a source of loss.
+
+    >>> source_words("bearing_torque")
+    'bearing drag'
+    """
+    return SOURCE_WORDS.get(source, source.replace("_", " "))
+
+
+def source_colour(source: str) -> str:
+    """Return the colour of a source of loss.
+
+    >>> source_colour("bearing_torque") == source_colour("churning")
+    False
+    """
+    return SOURCE_COLOURS.get(source, GREY)
+
+
+def not_modelled(losing: Collection[str]) -> tuple[str, ...]:
+    """Return what is left out where only the sources `losing` lose power.
+
+    >>> not_modelled({"friction_viscous", "bearing_torque"})[:2]
+    ('churning', 'seals')
+    """
+    return (*(source_words(one) for one in _SAID if one not in losing), *NEVER_MODELLED)
