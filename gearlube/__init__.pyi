@@ -140,7 +140,7 @@ from gearlube_core.bearings.bearing_file import BearingFile as BearingFile
 from gearlube_core.bearings.losses.geometry import BearingGeometry as BearingGeometry
 from gearlube_core.bearings.losses.loss import LossModel as BearingLossModel
 from gearlube_core.bearings.losses.loss import bearing_loss as bearing_loss
-from gearlube.studies.bearing.settings import BearingSettings as BearingSettings
+from gearlube.studies.bearing.run import BearingSettings as BearingSettings
 from gearlube.studies.bearing.run import run_bearing as run_bearing
 
 # -- Study: loss map of an axle

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from gearlube.studies.resonance.flank_cycle import FlankCycle, flank_cycle
-from gearlube.studies.resonance.motions import motion_near
+from gearlube.studies.resonance.response import motion_near
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem

@@ -29,8 +29,7 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import (
     other_flank,
     pinion_cut,
 )
-from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.misfit import Misfit
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile, Misfit
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 # limits between what sound and wrong pairs show: sound ones stay below 0.3 %, 0.01 mm, 0.1 deg;

@@ -20,8 +20,7 @@ from gearlube_core.hypoid_contact.pair_check import (
     unloaded_warnings,
 )
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
-from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.misfit import Misfit
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile, Misfit
 
 _INCH = 25.4  # mm
 _RADIAN = math.degrees(1.0)  # deg

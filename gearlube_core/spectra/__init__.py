@@ -8,14 +8,16 @@ from gearlube_core.spectra.angle_grid import (
 )
 from gearlube_core.spectra.order_spectrum import (
     Extremes,
+    OrderBlocks,
     OrderSpectrum,
     Waterfall,
     extremes,
+    order_blocks,
     order_cut,
     order_spectrum,
+    samples_for,
     waterfall,
 )
-from gearlube_core.spectra.order_track import OrderBlocks, order_blocks, samples_for
 
 __all__ = [
     "AngleWindow",

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.resonance.flank_cycle import flank_cycle
-from gearlube.studies.resonance.motions import motion_near
+from gearlube.studies.resonance.response import motion_near
 from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair

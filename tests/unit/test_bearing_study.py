@@ -11,8 +11,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from gearlube.command import app
-from gearlube.studies.bearing.run import run_bearing
-from gearlube.studies.bearing.settings import BearingSettings
+from gearlube.studies.bearing.run import BearingSettings, run_bearing
 from gearlube.studies.bearing.summary import bearing_warnings, error_sentences
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import LossModel

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.film_model.audit import Audit, AuditRow, audit_lines, visited_points
-from gearlube.studies.film_model.calibration import conformal_bounds
+from gearlube.studies.film_model.calibration import conformal_bounds, expected_friction
 from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.fit import fit_model
 from gearlube.studies.film_model.fit_settings import FitSettings
@@ -21,7 +21,6 @@ from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, box_contacts
 from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
-from gearlube.studies.film_model.targets import expected_friction
 from gearlube.studies.film_model.train import failed_row, stored_plan, train
 from gearlube_core.errors import ConvergenceError, FileError, ParameterError
 from gearlube_core.film_model.groups import FilmContact, contact_groups, contact_parts

@@ -18,7 +18,7 @@ from gearlube.command import app
 from gearlube.output.csv_text import csv_text
 from gearlube.output.exports.tables import write_tables
 from gearlube.studies.design.run import axle_stub
-from gearlube_core.ehl.case.grids import FilmCase
+from gearlube_core.ehl.case.sections import FilmCase
 from gearlube_core.errors import ParameterError
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from gearlube.studies.film_model.calibration import own_steps
 from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.fits import fit_process
 from gearlube.studies.film_model.kinds import HELICAL_LINE, HYPOID_FLANK, kind_of
@@ -15,7 +16,6 @@ from gearlube.studies.film_model.line_samples import LINE_DOMAIN
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable
-from gearlube.studies.film_model.targets import own_steps
 from gearlube.studies.film_model.train import failed_row
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.groups import FilmGroups

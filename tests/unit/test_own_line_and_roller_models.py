@@ -13,8 +13,7 @@ from fmu_src.helical_pair import DEFINITION, HelicalPair, definition_with, pair_
 from fmu_src.identity import guid_of
 from gearlube.output.toml_text import toml_text
 from gearlube.studies.bearing.report import findings
-from gearlube.studies.bearing.run import run_bearing
-from gearlube.studies.bearing.settings import BearingSettings
+from gearlube.studies.bearing.run import BearingSettings, run_bearing
 from gearlube.studies.helical.film_friction import film_dataset
 from gearlube.studies.helical.findings import findings as helical_findings
 from gearlube.studies.helical.settings import HelicalSettings

@@ -13,10 +13,10 @@ from typer.testing import CliRunner
 
 from gearlube.command import app
 from gearlube.report.stored import read_report
-from gearlube.studies.sound.compare import difference_sentences
 from gearlube.studies.sound.dataset import level_range, level_values, weighted_order
 from gearlube.studies.sound.run import run_sound
 from gearlube.studies.sound.settings import SoundSettings
+from gearlube.studies.sound.words import difference_sentences
 from gearlube_core.errors import ParameterError
 from tests.helpers.made_run import made_run
 from tests.helpers.units import without_units

@@ -93,8 +93,7 @@ def bearing(
         return
     from gearlube.report.inputs import file_inputs, noted_inputs
     from gearlube.studies.bearing.report import bearing_report
-    from gearlube.studies.bearing.run import run_bearing
-    from gearlube.studies.bearing.settings import DEFAULT_LAWS, BearingSettings
+    from gearlube.studies.bearing.run import DEFAULT_LAWS, BearingSettings, run_bearing
     from gearlube.studies.bearing.summary import bearing_summary
     from gearlube_core.bearings.bearing_file import BearingFile
     from gearlube_core.bearings.losses.laws import CATALOGUE_LAWS, LAWS

@@ -9,21 +9,23 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearlube.studies.film_model.calibration import CONFIDENCE, Misses, conformal_bounds
-from gearlube.studies.film_model.draws import Box, widened
-from gearlube.studies.film_model.fit_settings import FitSettings
-from gearlube.studies.film_model.fits import FilmProcess, fit_net, fit_process
-from gearlube.studies.film_model.kinds import Contact, ContactKind, kind_of
-from gearlube.studies.film_model.plan import FilmPlan
-from gearlube.studies.film_model.solves import SolveRow
-from gearlube.studies.film_model.targets import (
+from gearlube.studies.film_model.calibration import (
+    CONFIDENCE,
+    Misses,
     Targets,
+    conformal_bounds,
     expected_friction,
     grid_corrections,
     own_steps,
     solved_rows,
     targets_of,
 )
+from gearlube.studies.film_model.draws import Box, widened
+from gearlube.studies.film_model.fit_settings import FitSettings
+from gearlube.studies.film_model.fits import FilmProcess, fit_net, fit_process
+from gearlube.studies.film_model.kinds import Contact, ContactKind, kind_of
+from gearlube.studies.film_model.plan import FilmPlan
+from gearlube.studies.film_model.solves import SolveRow
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError

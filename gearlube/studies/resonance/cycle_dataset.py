@@ -9,7 +9,7 @@ import xarray as xr
 
 from gearlube.studies.resonance.datasets import study_attributes
 from gearlube.studies.resonance.flank_cycle import CURVES, SHEAR_RATES, FlankCycle, TractionCurve
-from gearlube.studies.resonance.motions import ORBIT_STEPS, Motion
+from gearlube.studies.resonance.response import ORBIT_STEPS, Motion
 from gearlube.studies.resonance.study import ResonanceStudy
 from gearlube_core.arrays import Array
 

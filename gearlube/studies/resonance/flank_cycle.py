@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlube.studies.resonance.motions import Motion
+from gearlube.studies.resonance.response import Motion
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import PAIRS_AT
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters

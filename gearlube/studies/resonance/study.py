@@ -15,16 +15,17 @@ from gearlube.studies.resonance.flank_cycle import (
     flank_cycle,
     traction_curve,
 )
-from gearlube.studies.resonance.motions import (
+from gearlube.studies.resonance.response import (
     ORBIT_STEPS,
     Motion,
     PoincareSection,
+    Response,
+    follow_response,
     motion_near,
     motions_at,
     poincare_section,
     richest_frequency,
 )
-from gearlube.studies.resonance.response import Response, follow_response
 from gearlube.studies.resonance.settings import HOT, MODELS, SWEPT, ResonanceSettings
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import Direction, TimeSweep, time_sweep

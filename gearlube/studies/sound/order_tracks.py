@@ -17,7 +17,7 @@ from gearlube.studies.sound.transfer_path import TransferPath
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.spectra.order_track import OrderBlocks, order_blocks, samples_for
+from gearlube_core.spectra.order_spectrum import OrderBlocks, order_blocks, samples_for
 
 HARMONICS = 4  # mesh orders that are tracked
 _OTHERS = 4  # orders that are tracked where the teeth are not known

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sound.compare import common_speeds, difference_sentences
 from gearlube.studies.sound.dataset import sound_dataset
 from gearlube.studies.sound.force_record import ForceRecord, read_forces
 from gearlube.studies.sound.metrics import (
@@ -27,7 +26,12 @@ from gearlube.studies.sound.report import write_sound
 from gearlube.studies.sound.settings import METRICS, SoundSettings
 from gearlube.studies.sound.transfer_path import Complex, TransferPath, generic_path, read_csv_path
 from gearlube.studies.sound.wav import full_scale_for, played, wav_names
-from gearlube.studies.sound.words import limit_sentences, sound_sentences
+from gearlube.studies.sound.words import (
+    common_speeds,
+    difference_sentences,
+    limit_sentences,
+    sound_sentences,
+)
 from gearlube_core.arrays import Array
 from gearlube_core.errors import FileError, ParameterError, unread
 from gearlube_core.extras import extra_package

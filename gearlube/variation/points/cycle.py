@@ -15,8 +15,7 @@ from gearlube.variation.design import Point, Value
 from gearlube.variation.file_variants import content_hash
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
-from gearlube.variation.points.of_axle import AxlePoint
-from gearlube.variation.points.of_file import operand, value
+from gearlube.variation.points.of_file import AxlePoint, operand, value
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.units import celsius_to_kelvin
 

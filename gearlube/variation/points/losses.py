@@ -11,8 +11,7 @@ import numpy as np
 from gearlube.variation.design import Point
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
-from gearlube.variation.points.of_axle import AxlePoint
-from gearlube.variation.points.of_file import operand, value
+from gearlube.variation.points.of_file import AxlePoint, operand, value
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits

@@ -17,8 +17,7 @@ from gearlube.studies.sweep.settings import SPEED_RANGE, SweepSettings, quick_sw
 from gearlube.variation.design import Point
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
-from gearlube.variation.points.of_axle import AxlePoint
-from gearlube.variation.points.of_file import operand, value
+from gearlube.variation.points.of_file import AxlePoint, operand, value
 from gearlube_core.checks import check_option
 from gearlube_core.units import celsius_to_kelvin
 

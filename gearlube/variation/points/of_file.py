@@ -1,4 +1,4 @@
-"""What the studies of one gear or bearing file have in common."""
+"""What the studies of an axle, and those of one gear or bearing file, have in common."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Generic, Self, TypeVar
 import numpy as np
 
 from gearlube.variation.design import Point, Spread, Value
-from gearlube.variation.file_variants import content_hash
+from gearlube.variation.file_variants import AxleVariants, axle_keys, content_hash, files_named
 from gearlube.variation.keys import Key, Keys, Kind, file_keys
 from gearlube.variation.point_study import Quantity
 from gearlube.variation.scatter import scatter_of, values_of
@@ -26,6 +26,51 @@ from gearlube_core.oil.oil_file import read_oil
 
 ORDERS = (1, 2, 3)
 File = TypeVar("File", bound=InputFile)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxlePoint:
+    """A study of an axle at one point; each study adds its operands, check and computation.
+
+    Parameters
+    ----------
+    axle : AxleVariants
+    """
+
+    operands: ClassVar[Keys]
+    quantities: ClassVar[tuple[Quantity, ...]]
+
+    axle: AxleVariants
+
+    @property
+    def subject(self) -> str:
+        """Name of what is varied."""
+        return self.axle.file.name
+
+    @property
+    def keys(self) -> Keys:
+        """Fields of the axle file, parameters of the FMU, and the operands."""
+        return {**axle_keys(), **self.operands}
+
+    @property
+    def identity(self) -> str:
+        """Axle file and its tables."""
+        return self.axle.identity
+
+    def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> Self:
+        """Return the study with all files read that the values of the axes name."""
+        return replace(self, axle=self.axle.with_files(files_named(texts)))
+
+    def scatter(self) -> tuple[Spread, ...]:
+        """Return the spreads of the axle file's tolerances.
+
+        A field that the file leaves out scatters about its default.
+        """
+        file = self.axle.file
+        if not file.tolerances:
+            return scatter_of(file.name, {}, {})
+        notes = self.axle.car_axle({}, notes=True).inputs
+        return scatter_of(file.name, file.tolerances, {note.field: note.value for note in notes})
 
 
 def operand(

@@ -9,16 +9,18 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from gearlube_core.contact.solid import Solid, reduced_modulus
-from gearlube_core.ehl.case.grids import (
+from gearlube_core.ehl.case.sections import (
+    Body,
     FilmCase,
     Heat,
     LineDomain,
     LineSolver,
+    Modulus,
+    Oil,
     PointDomain,
     PointSolver,
     refused,
 )
-from gearlube_core.ehl.case.sections import Body, Modulus, Oil
 from gearlube_core.ehl.case.surfaces import (
     DentShape,
     MapFile,

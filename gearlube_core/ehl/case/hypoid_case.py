@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from gearlube_core.ehl.case.grids import FilmCase, Heat, Text, Wedge
+from gearlube_core.ehl.case.sections import FilmCase, Heat, Text, Wedge
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section

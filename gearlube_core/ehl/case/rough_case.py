@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field, field_validator, model_validator
 
 from gearlube_core.ehl.case.contact_case import ContactCase, LineLoad, PartLength, Radius
-from gearlube_core.ehl.case.grids import Steps, Tolerance, Wedge, refused
+from gearlube_core.ehl.case.sections import Steps, Tolerance, Wedge, refused
 from gearlube_core.ehl.case.surfaces import RoughSurface
 from gearlube_core.ehl.point.contact_domain import line_section
 from gearlube_core.ehl.point.problem import PointContactProblem

@@ -19,8 +19,7 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import (
     reference_plane_distance,
     reference_point,
 )
-from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.hypoid_geometry.misfit import Misfit
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile, Misfit
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 # a tenth of a millimetre is 60 times the misfit of the shipped pair; a whole one shifts the contact

@@ -46,8 +46,13 @@ from gearlube.studies.helical.figures.load_sharing import (
     load_sharing,
     loaded_stiffness,
 )
-from gearlube.studies.helical.figures.speed_sweep import campbell, friction_speed_maps, order_cuts
-from gearlube.studies.helical.figures.stability import instability, separation
+from gearlube.studies.helical.figures.speed_sweep import (
+    campbell,
+    friction_speed_maps,
+    instability,
+    order_cuts,
+    separation,
+)
 from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.storage.atomic_file import write_figure
 
