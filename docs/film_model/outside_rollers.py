@@ -16,7 +16,7 @@ from docs.film_model.outside_solves import outside_solves
 from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import BEARING_ROLLER
-from gearlube.studies.film_model.roller_samples import AXLE_BEARING, roller_contacts
+from gearlube.studies.film_model.line_samples import AXLE_BEARING, roller_contacts
 from gearlube.studies.film_model.solves import SolveRow
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.laws import aihara_heating

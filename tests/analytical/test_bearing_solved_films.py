@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.film_model.kinds import BEARING_ROLLER, line_problem
-from gearlube.studies.film_model.roller_samples import roller_contact_of
+from gearlube.studies.film_model.line_samples import roller_contact_of
 from gearlube.studies.film_model.solve import contact_solid
 from gearlube_core.bearings.losses.race_rolling import ROLLER_MODEL
 from gearlube_core.ehl.line.problem import LineSettings

@@ -8,8 +8,8 @@ import pytest
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
-from gearlube.studies.sweep.operating_point import CHANNELS
 from gearlube.studies.sweep.point import march, run_point
+from gearlube.studies.sweep.recording import CHANNELS
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import ParameterError, StepError
 

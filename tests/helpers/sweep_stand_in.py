@@ -7,9 +7,8 @@ import time
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sweep.operating_point import CHANNELS, LOSSES
 from gearlube.studies.sweep.point import failed_point, summarise
-from gearlube.studies.sweep.recording import record
+from gearlube.studies.sweep.recording import CHANNELS, LOSSES, record
 from gearlube_core.errors import GearLubeError
 
 TEETH, WHEEL_TEETH, RADIUS = 13, 36, 0.32

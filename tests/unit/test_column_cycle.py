@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.point.contact_domain import line_section
-from gearlube_core.ehl.point.newton import column_levels, column_multigrid, preconditioner
-from gearlube_core.ehl.point.newton.column_levels import held_rows
-from gearlube_core.ehl.point.newton.column_multigrid import ColumnCycle
+from gearlube_core.ehl.point.newton import column_multigrid, preconditioner
+from gearlube_core.ehl.point.newton.column_multigrid import ColumnCycle, held_rows
 from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_operator
 from gearlube_core.ehl.point.newton.newton import flexible_gmres
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
@@ -114,8 +113,8 @@ def test_cycle_is_the_same_to_the_bit_for_any_number_of_threads(
     parts = [
         parts_of(monkeypatch, *work)
         for work in (
-            (column_levels, "pack_and_coarsen", -1),
-            (column_levels, "factor_rows", -3),
+            (column_multigrid, "pack_and_coarsen", -1),
+            (column_multigrid, "factor_rows", -3),
             (column_multigrid, "turn_derivatives", -2),
             (column_multigrid, "solve_rows", -3),
             (column_multigrid, "descend", 1),
@@ -124,8 +123,7 @@ def test_cycle_is_the_same_to_the_bit_for_any_number_of_threads(
             (column_multigrid, "finish", 1),
         )
     ]
-    for module in (column_levels, column_multigrid):
-        monkeypatch.setattr(module, "TOGETHER", 4)
+    monkeypatch.setattr(column_multigrid, "TOGETHER", 4)
     for level in hierarchy.levels:
         level.set_workers(RowWorkers(threads))
     shared_pressure, shared_approach = ColumnCycle(hierarchy, linear)(linear.right, 0.2)

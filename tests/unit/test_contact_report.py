@@ -8,7 +8,7 @@ import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.contact.figures import catalogue
-from gearlube.studies.contact.figures.charts import stiffness_chart
+from gearlube.studies.contact.figures.flank_maps import stiffness_chart
 from gearlube.studies.contact.findings import (
     contact_summary,
     edge_torque,

@@ -9,9 +9,7 @@ import numpy as np
 import pytest
 
 from gearlube.studies.film_model.kinds import BEARING_ROLLER, kind_of
-from gearlube.studies.film_model.model_lines import model_lines
-from gearlube.studies.film_model.plan import FilmPlan, FilmTask
-from gearlube.studies.film_model.roller_samples import (
+from gearlube.studies.film_model.line_samples import (
     ROLLER_BOX,
     ROLLER_DOMAIN,
     roller_box_contacts,
@@ -19,6 +17,8 @@ from gearlube.studies.film_model.roller_samples import (
     roller_contacts,
     roller_fits,
 )
+from gearlube.studies.film_model.model_lines import model_lines
+from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.solve import Solved
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
 from gearlube.studies.film_model.train import PLAN, check_plan, stored_plan

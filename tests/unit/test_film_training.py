@@ -12,8 +12,7 @@ import pytest
 from gearlube.studies.film_model.audit import Audit, AuditRow, audit_lines, visited_points
 from gearlube.studies.film_model.calibration import conformal_bounds, expected_friction
 from gearlube.studies.film_model.draws import widened
-from gearlube.studies.film_model.fit import fit_model
-from gearlube.studies.film_model.fit_settings import FitSettings
+from gearlube.studies.film_model.fit import FitSettings, fit_model
 from gearlube.studies.film_model.fits import fit_net, net_values
 from gearlube.studies.film_model.kinds import BEARING_ROLLER, HYPOID_FLANK
 from gearlube.studies.film_model.model_lines import limits_of

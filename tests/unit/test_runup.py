@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 
 from drivetrain.speed_ramp import SpeedRamp
-from gearlube.studies.runup.car_torque import fitting_duration
 from gearlube.studies.runup.record import record_ramp
 from gearlube.studies.runup.run import load_runup, run_runup
+from gearlube.studies.runup.settings import fitting_duration
 from gearlube_core.errors import ParameterError
 from tests.helpers.short_ramp import SHORT
 from tests.helpers.units import without_units

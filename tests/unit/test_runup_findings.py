@@ -13,9 +13,8 @@ from gearlube.studies.runup import levels
 from gearlube.studies.runup.dataset import operating_shape
 from gearlube.studies.runup.figures.catalogue import bearing_spectra
 from gearlube.studies.runup.figures.tracks import order_tracks
-from gearlube.studies.runup.findings import findings, numbers
+from gearlube.studies.runup.findings import critical_speeds, findings, numbers, peaks
 from gearlube.studies.runup.modes import RampModes
-from gearlube.studies.runup.peaks import critical_speeds, peaks
 from gearlube.studies.runup.report import summary_csv, tables
 from gearlube.studies.runup.run import run_runup
 from gearlube.studies.runup.settings import RunupSettings

@@ -10,7 +10,7 @@ from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.sweep import datasets
 from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.findings import findings
-from gearlube.studies.sweep.peaks import crossings, numbers, peak_orders
+from gearlube.studies.sweep.natural_frequencies import crossings, numbers, peak_orders
 from gearlube.studies.sweep.point import failed_point
 from gearlube.studies.sweep.report import sweep_report, tables
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings

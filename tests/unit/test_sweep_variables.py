@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from gearlube.studies.sweep.datasets import merge, summary_csv
-from gearlube.studies.sweep.operating_point import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from gearlube.studies.sweep.point import summarise
-from gearlube.studies.sweep.recording import record
+from gearlube.studies.sweep.recording import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES, record
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
 from tests.helpers import sweep_stand_in as stand_in
 from tests.helpers.known_answers import assert_variables

@@ -9,7 +9,7 @@ import xarray as xr
 
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
-from gearlube.studies.contact.figures.charts import loaded_error
+from gearlube.studies.contact.figures.flank_maps import loaded_error
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
 from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_geometry.flank.flank import Role

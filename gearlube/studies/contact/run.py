@@ -14,7 +14,7 @@ from gearlube.report.parts import Cell, Column, Figure, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.contact.figures import save_contact_figures
 from gearlube.studies.contact.figures.catalogue import CONTACT_CATALOGUE
-from gearlube.studies.contact.figures.charts import (
+from gearlube.studies.contact.figures.flank_maps import (
     load_share_chart,
     stiffness_chart,
     transmission_chart,

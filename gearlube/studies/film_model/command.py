@@ -134,8 +134,7 @@ def fit(
     """Fit a model to solved films: processes, net, bounds, test. Some minutes."""
     from gearlube.cli.study_run import progress_on
     from gearlube.studies.film_model.calibration import tests_table
-    from gearlube.studies.film_model.fit import fit_model
-    from gearlube.studies.film_model.fit_settings import FitSettings
+    from gearlube.studies.film_model.fit import FitSettings, fit_model
     from gearlube.studies.film_model.model_lines import model_lines
     from gearlube.studies.film_model.solves import SolveTable
     from gearlube.studies.film_model.train import SOLVES, stored_plan

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any, NamedTuple
 
@@ -21,13 +22,13 @@ from gearlube.studies.film_model.calibration import (
     targets_of,
 )
 from gearlube.studies.film_model.draws import Box, widened
-from gearlube.studies.film_model.fit_settings import FitSettings
 from gearlube.studies.film_model.fits import FilmProcess, fit_net, fit_process
 from gearlube.studies.film_model.kinds import Contact, ContactKind, kind_of
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solves import SolveRow
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.film_model.model import FLANK, LINE, FilmModel
@@ -42,6 +43,29 @@ _FEWEST_PAIRS = 20
 _PAIR_NOISE = 0.1  # first guess, of the corrections' variance
 _VISITED_SHARE = 0.3  # of the points that the net learns from
 _TRAINED_WEIGHT = 4.0  # of a solved contact over a point of the process
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FitSettings:
+    """How a net is made of the processes.
+
+    Parameters
+    ----------
+    points
+        Of the processes that the net learns from.
+    steps
+        Most steps of the net's fit.
+    seed
+        Of points and first weights.
+    """
+
+    points: int = 8000
+    steps: int = 150
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        check_within("points", self.points, 500, 1_000_000)
+        check_within("steps", self.steps, 1, 1_000_000)
 
 
 class Fitted(NamedTuple):

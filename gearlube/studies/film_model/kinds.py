@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from gearlube.studies.film_model import line_samples, roller_samples, samples
+from gearlube.studies.film_model import line_samples, samples
 from gearlube.studies.film_model.draws import Box, Limits
 from gearlube.studies.film_model.solve import Solved, contact_oil, contact_solid, solve_contact
 from gearlube_core.arrays import Array
@@ -290,13 +290,13 @@ BEARING_ROLLER = ContactKind(
     contact=RollerContact,
     nodes=(513, 1),
     second=(1025, 1),
-    domain=roller_samples.ROLLER_DOMAIN,
-    trained=roller_samples.ROLLER_TRAINED,
-    box=roller_samples.ROLLER_BOX,
-    box_contact=roller_samples.roller_box_contact,
-    box_contacts=roller_samples.roller_box_contacts,
-    edge_contacts=roller_samples.roller_edge_contacts,
-    visits=roller_samples.roller_contacts,
+    domain=line_samples.ROLLER_DOMAIN,
+    trained=line_samples.ROLLER_TRAINED,
+    box=line_samples.ROLLER_BOX,
+    box_contact=line_samples.roller_box_contact,
+    box_contacts=line_samples.roller_box_contacts,
+    edge_contacts=line_samples.roller_edge_contacts,
+    visits=line_samples.roller_contacts,
     solve=_solve_roller_contact,
     groups=rolling_groups,
     reference_film=_roller_film,

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from gearlube.studies.film_model.draws import widened
 from gearlube.studies.film_model.kinds import Contact, ContactKind, kind_named
-from gearlube.studies.film_model.roller_samples import AXLE_BEARING
+from gearlube.studies.film_model.line_samples import AXLE_BEARING
 from gearlube_core.checks import check_within
 from gearlube_core.film_model.model import FLANK, LINE, ROLLER
 from gearlube_core.oil.oil_file import read_oil

@@ -274,7 +274,7 @@ def _pinion_speeds(car: CarAxle, ends: tuple[float, float], rpm: bool) -> tuple[
 def _long_enough(car: CarAxle, ends: tuple[float, float], rpm: bool, usual: float) -> float:
     """Return the usual duration [s], or a longer one that the mesh table allows, and say so."""
     from drivetrain.speed_ramp import SpeedRamp
-    from gearlube.studies.runup.car_torque import fitting_duration
+    from gearlube.studies.runup.settings import fitting_duration
 
     start, end = _pinion_speeds(car, ends, rpm)
     fitting = fitting_duration(car, SpeedRamp(start=start, end=end, duration=usual))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
 import numpy as np
 import xarray as xr
 
@@ -11,14 +14,141 @@ from gearlube.report.churning import regime_findings
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.runup import levels
-from gearlube.studies.runup.peaks import Critical, Peak, critical_speeds, mean_loss, peaks
+from gearlube_core.arrays import Array
 from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 
+SWEEP_RATE = 3.6  # z^2 f^2 Hz/s, [iso_7626_2]: 216 z^2 f^2 Hz/min
 NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
 _MARKED = 3  # mesh orders whose critical speeds are told
 _NAMED = 3  # critical speeds and losses that are told one by one
 _SMALL = 0.005  # of the loss, below which a part is not told
 _NARROW = 0.15  # of a speed: a margin below it is worth a warning
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Peak:
+    """The largest bearing force of a mesh order.
+
+    Parameters
+    ----------
+    mesh_order : int
+    force : float
+        All bearings and directions together, rms [N].
+    speed_rpm, frequency : float
+        Of the pinion there [rpm], of the order there [Hz].
+    bearing, direction : str
+        Which has the largest part.
+    part : float
+        That part, rms [N].
+    at_end : str
+        "start" or "end" where the crest lies in the first or last block, else "".
+    """
+
+    mesh_order: int
+    force: float
+    speed_rpm: float
+    frequency: float
+    bearing: str
+    direction: str
+    part: float
+    at_end: str
+
+
+def peaks(dataset: xr.Dataset) -> list[Peak]:
+    """Return the crest of each mesh order, the loudest first."""
+    total = levels.total_force(dataset, "bearing_force_track")
+    parts = levels.track_rms(dataset, "bearing_force_track")
+    speed = levels.rpm(dataset)
+    found = []
+    for place, order in enumerate(dataset["mesh_order"].values):
+        track = total.values[:, place]
+        block = int(np.argmax(track))
+        here = parts.isel(block=block, mesh_order=place).values
+        b, d = np.unravel_index(int(np.argmax(here)), here.shape)
+        found.append(
+            Peak(
+                mesh_order=int(order),
+                force=float(track[block]),
+                speed_rpm=float(speed[block]),
+                frequency=float(order * levels.teeth(dataset) * speed[block] / 60.0),
+                bearing=str(dataset["bearing"].values[b]),
+                direction=str(dataset["direction"].values[d]),
+                part=float(here[b, d]),
+                at_end={0: "start", track.size - 1: "end"}.get(block, ""),
+            )
+        )
+    return sorted(found, key=lambda one: -one.force)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Critical:
+    """A speed at which a mesh order meets a natural frequency.
+
+    Parameters
+    ----------
+    mesh_order : int
+    mode : str
+    speed_rpm, frequency, damping : float
+        [rpm], [Hz], ratio [-].
+    margin : float
+        By what share of that speed it lies outside the ramp [-]; 0 inside, below 0 below the ramp.
+    force : float
+        Of that order there, all bearings and directions, rms [N]; NaN outside.
+    hurry : float
+        Rate at which the order passes the mode, divided by the highest rate at which the
+        resonance still builds up [-].
+    """
+
+    mesh_order: int
+    mode: str
+    speed_rpm: float
+    frequency: float
+    damping: float
+    margin: float
+    force: float
+    hurry: float
+
+
+def critical_speeds(dataset: xr.Dataset) -> list[Critical]:
+    """Return all critical speeds that the dataset knows, ascending."""
+    speeds = levels.rpm(dataset, "mode_speed")
+    low, high = float(speeds[0]), float(speeds[-1])
+    total = levels.total_force(dataset, "bearing_force_track").values
+    along = np.argsort(levels.rpm(dataset))
+    tracks, at = total[along], levels.rpm(dataset)[along]
+    teeth = levels.teeth(dataset)
+    rate = abs(high - low) / 60.0 / float(dataset.attrs["setting_duration"])
+    found = []
+    for place, order in enumerate(dataset["mesh_order"].values):
+        for k, mode in enumerate(dataset["mode"].values):
+            speed = rads_to_rpm(float(dataset["critical_speed"].values[k, place]))
+            if not math.isfinite(speed):
+                continue
+            damping = float(dataset["critical_damping"].values[k, place])
+            frequency = float(order * teeth * speed / 60.0)
+            inside = low <= speed <= high
+            end = high if speed > high else low
+            found.append(
+                Critical(
+                    mesh_order=int(order),
+                    mode=str(mode),
+                    speed_rpm=speed,
+                    frequency=frequency,
+                    damping=damping,
+                    margin=0.0 if inside else speed / end - 1.0,
+                    force=float(np.interp(speed, at, tracks[:, place])) if inside else math.nan,
+                    hurry=order * teeth * rate / (SWEEP_RATE * (damping * frequency) ** 2),
+                )
+            )
+    return sorted(found, key=lambda one: one.speed_rpm)
+
+
+def mean_loss(dataset: xr.Dataset) -> Array:
+    """Return the mean loss by source over the fastest tenth of the ramp [W]."""
+    loss = dataset["loss"].values
+    tenth = max(1, loss.shape[0] // 10)
+    rising = float(dataset.attrs["setting_end_speed"]) > float(dataset.attrs["setting_start_speed"])
+    return np.asarray((loss[-tenth:] if rising else loss[:tenth]).mean(axis=0))
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:

@@ -19,8 +19,7 @@ from gearlube.report.parts import INFERRED, Column, Figure, Input, Report, Table
 from gearlube.studies.runup import levels
 from gearlube.studies.runup.figures import CATALOGUE
 from gearlube.studies.runup.figures.moving.parts import moving_figures
-from gearlube.studies.runup.findings import findings, numbers
-from gearlube.studies.runup.peaks import critical_speeds, peaks
+from gearlube.studies.runup.findings import critical_speeds, findings, numbers, peaks
 from gearlube.studies.runup.run import FILES
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 

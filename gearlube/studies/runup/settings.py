@@ -6,15 +6,15 @@ import hashlib
 import json
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.ramp_vehicle import gear_for_ramp
 from drivetrain.speed_ramp import SpeedRamp
-from gearlube.studies.runup.car_torque import NODES, car_torques
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_option, check_within
@@ -23,6 +23,8 @@ from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rads_to_rpm
 
+NODES = 9  # equal times along the ramp
+_OF_TABLE = 0.95  # share of the mesh table's torque; the rest is for the loss of the axle
 BENCH, VEHICLE = "bench", "vehicle"
 DRIVERS = (BENCH, VEHICLE)
 SPEEDS = (5.0, 2000.0)  # of the pinion [rad/s]
@@ -30,6 +32,40 @@ LONGEST = 600.0  # s
 LARGEST_CHANGE = 0.25  # of the speed within a block of revolutions
 LEAST_BLOCKS = 8  # that do not overlap
 SAMPLE_RATE = 32768.0  # Hz
+
+
+def car_torques(car: DrivelineParameters, ramp: SpeedRamp) -> Array:
+    """Return the torque for road load and acceleration [N m] at `NODES` equal times."""
+    return road_torques(car, ramp) + _inertial_torque(car, ramp)
+
+
+def road_torques(car: DrivelineParameters, ramp: SpeedRamp) -> Array:
+    """Return the torque for the road load [N m] at `NODES` equal times of the ramp."""
+    road = car.road_load
+    arm = car.rolling_radius / car.axle_ratio
+    speeds = np.linspace(ramp.start, ramp.end, NODES) / road.final_drive.ratio
+    return arm * np.array([road.resistance(float(v)) for v in speeds * road.tyre.rolling_radius])
+
+
+def fitting_duration(car_axle: CarAxle, ramp: SpeedRamp) -> float:
+    """Return the duration of the ramp [s] with which the torque stays in the mesh table.
+
+    It is that of `ramp` if this is long enough, or if the road load alone is too much for any.
+    """
+    car = car_axle.driveline
+    low, high = (_OF_TABLE * end for end in car_axle.axle.torque_range)
+    road = road_torques(car, ramp)
+    left = high - road.max() if ramp.acceleration > 0.0 else road.min() - low
+    if left <= 0.0:
+        return ramp.duration
+    impulse = abs(_inertial_torque(car, replace(ramp, duration=1.0)))  # N.m s
+    return max(ramp.duration, impulse / left)
+
+
+def _inertial_torque(car: DrivelineParameters, ramp: SpeedRamp) -> float:
+    radius, ratio = car.rolling_radius, car.axle_ratio
+    mass = car.translating_mass + 2.0 * car.wheel_inertia / radius**2
+    return float(mass * ramp.acceleration * radius**2 / ratio**2)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -21,9 +21,15 @@ from gearlube.report.films import (
 )
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
-from gearlube.studies.sweep.peaks import ORDERS, Crossing, Peak, crossings, peak_orders
+from gearlube.studies.sweep.datasets import GRID
+from gearlube.studies.sweep.natural_frequencies import (
+    ORDERS,
+    Crossing,
+    Peak,
+    crossings,
+    peak_orders,
+)
 from gearlube.studies.sweep.point import FINISHED
-from gearlube.studies.sweep.quantities import GRID
 from gearlube.studies.sweep.scalars import DOUBLE_SIDED, NONE
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FLANK, ROLLER

@@ -16,18 +16,20 @@ from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.drivers import Driver
 from gearlube.studies.sweep.axle_in_fmu import car_axle_at, car_axle_of
+from gearlube.studies.sweep.datasets import described
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.natural_frequencies import oil_at_rest
-from gearlube.studies.sweep.operating_point import (
+from gearlube.studies.sweep.recording import (
     AXES,
     BEARINGS,
     CHANNELS,
     FLANKS,
     LOSSES,
+    Recording,
+    SteppedAxle,
     operation,
+    record,
 )
-from gearlube.studies.sweep.quantities import described
-from gearlube.studies.sweep.recording import Recording, SteppedAxle, record
 from gearlube.studies.sweep.scalars import mesh_cycle, roller_zone, scalars, spectra, waves
 from gearlube.studies.sweep.settings import STEADY, SweepSettings
 from gearlube.studies.sweep.unpack import unpacked

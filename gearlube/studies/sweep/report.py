@@ -15,11 +15,16 @@ from gearlube.plotting.style import preload_label
 from gearlube.report.inputs import OF_AXLE, origin_of, stored_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import ASSUMED, Cell, Column, Figure, Input, Report, Table
+from gearlube.studies.sweep.datasets import SEPARATION_MEANINGS
 from gearlube.studies.sweep.figures import CATALOGUE, Entry
 from gearlube.studies.sweep.findings import findings
-from gearlube.studies.sweep.peaks import ORDERS, crossings, harmonic_amplitude, numbers
+from gearlube.studies.sweep.natural_frequencies import (
+    ORDERS,
+    crossings,
+    harmonic_amplitude,
+    numbers,
+)
 from gearlube.studies.sweep.point import FINISHED
-from gearlube.studies.sweep.quantities import SEPARATION_MEANINGS
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, STEADY
 from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.units import kelvin_to_celsius

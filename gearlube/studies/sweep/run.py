@@ -29,12 +29,11 @@ from gearlube.studies.sweep.axle_in_fmu import (
     chosen_axle,
     settings_of,
 )
-from gearlube.studies.sweep.datasets import merge, save
+from gearlube.studies.sweep.datasets import GRID, described, merge, save
 from gearlube.studies.sweep.fmu_axle import FmuAxle, axle_description
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
-from gearlube.studies.sweep.operating_point import CHANNELS, operation
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
-from gearlube.studies.sweep.quantities import GRID, described
+from gearlube.studies.sweep.recording import CHANNELS, operation
 from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSettings
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core import __version__

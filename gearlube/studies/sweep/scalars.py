@@ -8,8 +8,14 @@ from typing import Any
 import numpy as np
 
 from gearlube.report.films import covered_alone
-from gearlube.studies.sweep.operating_point import AXES, BEARINGS, FLANK_QUANTITIES, FLANKS, LOSSES
-from gearlube.studies.sweep.recording import Recording
+from gearlube.studies.sweep.recording import (
+    AXES,
+    BEARINGS,
+    FLANK_QUANTITIES,
+    FLANKS,
+    LOSSES,
+    Recording,
+)
 from gearlube_core.arrays import Array
 from gearlube_core.spectra import AngleWindow, extremes, order_spectrum, resample
 

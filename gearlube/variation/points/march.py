@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 
 from gearlube.studies.sweep.axle_in_fmu import check_operation, settings_of
-from gearlube.studies.sweep.operating_point import AXES, BEARINGS, LOSSES
+from gearlube.studies.sweep.datasets import QUANTITIES
 from gearlube.studies.sweep.point import march
-from gearlube.studies.sweep.quantities import QUANTITIES
+from gearlube.studies.sweep.recording import AXES, BEARINGS, LOSSES
 from gearlube.studies.sweep.settings import SPEED_RANGE, SweepSettings, quick_sweep_settings
 from gearlube.variation.design import Point
 from gearlube.variation.keys import Keys

@@ -10,9 +10,7 @@ import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 from gearlube.report.pictures import Picture
-from gearlube.studies.films.figures.helical_cycle import cycle_curves, cycle_map
-from gearlube.studies.films.figures.hypoid import hypoid_contours, hypoid_curves, hypoid_ratios
-from gearlube.studies.films.figures.line_contact import (
+from gearlube.studies.films.figures.contacts import (
     across_limits,
     helical_along,
     helical_contours,
@@ -23,19 +21,19 @@ from gearlube.studies.films.figures.line_contact import (
     line_temperature,
     line_title,
     loaded_rows,
+    point_contours,
+    point_sections,
+    point_shear,
+    point_temperature,
 )
+from gearlube.studies.films.figures.helical_cycle import cycle_curves, cycle_map
+from gearlube.studies.films.figures.hypoid import hypoid_contours, hypoid_curves, hypoid_ratios
 from gearlube.studies.films.figures.parts import (
     HEADROOM,
     contour_levels,
     film_colours,
     legend_of_both,
     two_scales,
-)
-from gearlube.studies.films.figures.point_contact import (
-    point_contours,
-    point_sections,
-    point_shear,
-    point_temperature,
 )
 from gearlube_core.storage.atomic_file import write_figure
 

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivetrain.speed_ramp import SpeedRamp
-from gearlube.studies.runup.car_torque import NODES
 from gearlube.studies.runup.record import driver_of, march_step, march_until
-from gearlube.studies.runup.settings import RunupSettings
+from gearlube.studies.runup.settings import NODES, RunupSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 

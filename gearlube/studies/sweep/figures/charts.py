@@ -30,7 +30,7 @@ from gearlube.report.charts import (
     mark_level,
     panels,
 )
-from gearlube.studies.sweep.peaks import ORDERS, harmonic_amplitude
+from gearlube.studies.sweep.natural_frequencies import ORDERS, harmonic_amplitude
 from gearlube_core.arrays import Array
 
 _LEAST_POWER = 1e-3  # W, that the axis reaches

@@ -15,7 +15,7 @@ from gearlube.plotting.style import (
     series,
     speed_limits,
 )
-from gearlube.studies.sweep.peaks import harmonic_amplitude
+from gearlube.studies.sweep.natural_frequencies import harmonic_amplitude
 
 HARMONICS = (1, 2, 3)
 
