@@ -17,10 +17,9 @@ from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import table_file
 from drivetrain.driveline.parameters import DrivelineParameters
 from fmu_src import helical_pair, hypoid_axle
-from fmu_src.archive import licence_texts, write_archive
 from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
-from fmu_src.identity import IDENTITY_FILE, guid_of, identity_text
+from fmu_src.identity import IDENTITY_FILE, guid_of, identity_text, licence_texts, write_archive
 from fmu_src.model_description import model_description
 from fmu_src.native.build import NativeOptions, build_native
 from gearlube_core.checks import check_option

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
 
-from fmu_src.archive import write_archive
+from fmu_src.identity import write_archive
 
 Values = Mapping[str, float | int]  # an int is an Integer parameter
 _STANDARD = "http://ssp-standard.org/SSP1/"

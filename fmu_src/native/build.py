@@ -11,10 +11,9 @@ from importlib.metadata import version
 from pathlib import Path
 from uuid import UUID
 
-from fmu_src.archive import licence_texts, write_archive
 from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
-from fmu_src.identity import source_digest
+from fmu_src.identity import licence_texts, source_digest, write_archive
 from fmu_src.model_description import model_description
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
 from fmu_src.native.model_description_3 import ICON, model_description_3, terminals

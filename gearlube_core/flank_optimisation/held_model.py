@@ -32,7 +32,7 @@ from gearlube_core.hypoid_contact.strips import StripSettings as HypoidStrips
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import single_threaded
-from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
+from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import compute_positions
 

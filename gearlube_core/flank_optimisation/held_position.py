@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.storage.result_store import Record
+from gearlube_core.storage.resumable import Record
 from gearlube_core.tooth_contact.held_contact import Mask, solve_held
 
 _OF_OTHER_SIDE = ("pressure", "edge_share", "pressure_rate", "edge_share_rate")

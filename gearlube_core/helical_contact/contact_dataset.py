@@ -24,7 +24,7 @@ from gearlube_core.helical_geometry.load_sharing import unrelieved_plane
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.result_store import Record
+from gearlube_core.storage.resumable import Record
 
 _STATE, _LINE = ("phase", "torque"), ("phase", "torque", "line")
 _UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {

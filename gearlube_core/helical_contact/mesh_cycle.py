@@ -23,7 +23,7 @@ from gearlube_core.helical_geometry.contact_line import clip_line, line_count
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.result_store import Record
+from gearlube_core.storage.resumable import Record
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import (
     MeshCycleSettings,

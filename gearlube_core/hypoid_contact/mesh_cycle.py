@@ -20,7 +20,7 @@ from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment, tooth_
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.result_store import Record
+from gearlube_core.storage.resumable import Record
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import (
     MeshCycleSettings,

@@ -14,7 +14,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.storage.folders import cache_folder as folder_of_part
 from gearlube_core.storage.process_pool import ProcessPool
-from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
+from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore
 from gearlube_core.tooth_compliance.flank_compliance import (
     SIDES,
     CondensationSettings,

@@ -14,8 +14,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress
 from gearlube_core.storage.process_pool import ProcessPool
-from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
-from gearlube_core.storage.resumable import resumable_results
+from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, resumable_results
 
 Position = TypeVar("Position")
 

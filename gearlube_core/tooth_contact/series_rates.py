@@ -18,7 +18,7 @@ from gearlube_core.mesh_table.table import (
     fourier,
     orders_kept,
 )
-from gearlube_core.storage.result_store import Record
+from gearlube_core.storage.resumable import Record
 
 HALF_WIDTH = 0.1  # of the torque: the tangent stiffness is that between 0.9 and 1.1 of it
 KEPT = ("rotation", "touching", "gear_torque", "force")

@@ -13,8 +13,8 @@ import pytest
 
 from build_fmu import main
 from fmu_src import identity
-from fmu_src.archive import write_archive
 from fmu_src.check import problems
+from fmu_src.identity import write_archive
 from tests.helpers.fmu_cases import CASES, Case
 
 

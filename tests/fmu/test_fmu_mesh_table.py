@@ -15,10 +15,10 @@ from typer.testing import CliRunner
 import build_fmu
 from drivetrain.axle_file.axle_file import AxleFile
 from fmu_src import build, identity
-from fmu_src.archive import write_archive
 from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
 from fmu_src.hypoid_axle import DEFINITION, definition_with_table
+from fmu_src.identity import write_archive
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
 from gearlube.studies.sweep import run as sweep_run

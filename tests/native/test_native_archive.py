@@ -13,8 +13,8 @@ import fmpy
 import pytest
 from lxml import etree
 
-from fmu_src.archive import write_archive
 from fmu_src.check import fmpy_problems, fmutool_problems
+from fmu_src.identity import write_archive
 from fmu_src.native.build import (
     NativeOptions,
     build_native,

@@ -20,8 +20,7 @@ from gearlube.variation.run import run_variation
 from gearlube.variation.store import open_variation
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.storage import dask_pool
-from gearlube_core.storage.result_store import ARRAYS, ResultStore
-from gearlube_core.storage.resumable import resumable_results
+from gearlube_core.storage.resumable import ARRAYS, ResultStore, resumable_results
 from tests.helpers import sweep_stand_in as stand_in
 from tests.helpers.dask_cluster import dask_cluster
 from tests.helpers.variation_stand_in import AreaStudy

@@ -19,8 +19,7 @@ from gearlube_core.errors import ConvergenceError, FileError
 from gearlube_core.storage import folders, process_pool
 from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays, write_figure
 from gearlube_core.storage.process_pool import ProcessPool, on_one_thread
-from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
-from gearlube_core.storage.resumable import resumable_results
+from gearlube_core.storage.resumable import ARRAYS, DATASETS, ResultStore, resumable_results
 
 ONE, OTHER = {"force": np.array([1.0, 2.0])}, {"force": np.array([3.0])}
 HERE = ProcessPool(jobs=1)

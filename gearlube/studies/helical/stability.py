@@ -26,8 +26,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import with_fr
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.periodic.floquet import floquet_multipliers
 from gearlube_core.storage.process_pool import ProcessPool
-from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
-from gearlube_core.storage.resumable import resumable_results
+from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, resumable_results
 
 Axis = Literal["stiffness_variation", "damping_ratio", "mu"]
 _SAMPLES = 16  # the march adds the mesh's own kinks

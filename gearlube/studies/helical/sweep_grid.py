@@ -41,8 +41,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from gearlube_core.storage.process_pool import ProcessPool, single_threaded
-from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
-from gearlube_core.storage.resumable import resumable_results
+from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, resumable_results
 
 QUANTITIES = (*RELATIVE, *COMPOSITES)
 _FORMAT = 1  # raise with every change of the model that changes results

@@ -18,8 +18,7 @@ from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.errors import InterruptedRunError
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
-from gearlube_core.storage.resumable import deferred_interrupts
+from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, deferred_interrupts
 from gearlube_core.units import rads_to_rpm
 
 logger = logging.getLogger(__name__)

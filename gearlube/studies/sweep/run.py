@@ -44,8 +44,7 @@ from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.folders import locked_folder
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
-from gearlube_core.storage.result_store import DATASETS, ResultStore
-from gearlube_core.storage.resumable import resumable_results
+from gearlube_core.storage.resumable import DATASETS, ResultStore, resumable_results
 from gearlube_core.units import kmh_to_ms
 
 _SPEED_KMH = 50.0

@@ -13,7 +13,7 @@ from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE, SIDES
 from gearlube_core.hypoid_contact.sensitivity.parameter import Parameter
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.storage.result_store import Record
+from gearlube_core.storage.resumable import Record
 
 _EASE = ("ease_s", "ease_t")
 _PHASE = ("phase",)

@@ -25,7 +25,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, ToothErrors
 from gearlube_core.mesh_table.table import MEMBERS, ZERO_PHASE, MeshTable
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.result_store import Record
+from gearlube_core.storage.resumable import Record
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import compute_positions, stack_records
 

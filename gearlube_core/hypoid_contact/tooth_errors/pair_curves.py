@@ -29,7 +29,7 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.strips import Strip, cut_strip, strip_frame
 from gearlube_core.hypoid_geometry.flank.flank import Role
 from gearlube_core.hypoid_geometry.measured.tooth_errors import ToothErrors
-from gearlube_core.storage.result_store import Record
+from gearlube_core.storage.resumable import Record
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness, strips_problem
 
 _HALVINGS = 60  # of the bracket of a rotation
