@@ -135,9 +135,7 @@ class AxleFile(InputFile):
     gearbox: GearboxSection = GearboxSection()
     engine: EngineSection = EngineSection()
     driveline: DrivelineSection = DrivelineSection()
-    tolerances: Tolerances = Field(
-        default={}, description="Scatter of fields from part to part, by their dotted names"
-    )
+    tolerances: Tolerances = Field(default={})
 
     @model_validator(mode="after")
     def _check_tolerances(self) -> AxleFile:

@@ -19,17 +19,21 @@ from gearlube_core.input_file.input_file import InputNote, Origin
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.oil_file import (
-    Conductivity,
+    Alpha,
+    AlphaTemperature,
+    BoundaryFriction,
     Density,
     DescribedOil,
-    HeatCapacity,
-    PressureViscosity,
-    Share,
-    Strength,
-    Stress,
+    EyringStress,
+    HighestTemperature,
+    LowestTemperature,
+    OilConductivity,
+    OilHeatCapacity,
+    ShearStrength,
     Temperature,
     Text,
     Viscosity,
+    ViscosityAt100,
 )
 from gearlube_core.units import celsius_to_kelvin
 
@@ -178,9 +182,7 @@ class OilSection(ModelSection):
     viscosity_40_degc_mm2_s: Viscosity | None = Field(
         default=None, description="Kinematic viscosity at 40 degC; give also that at 100 degC"
     )
-    viscosity_100_degc_mm2_s: Viscosity | None = Field(
-        default=None, description="Kinematic viscosity at 100 degC"
-    )
+    viscosity_100_degc_mm2_s: ViscosityAt100 = None
     walther_a: WaltherA | None = Field(
         default=None,
         description="A of Walther's equation log log(nu + 0.7) = A - B log T, nu in mm2/s, T in "
@@ -190,42 +192,21 @@ class OilSection(ModelSection):
     density_kg_m3: Density | None = Field(
         default=None, description="Density, taken as constant at all temperatures"
     )
-    alpha_per_gpa: PressureViscosity | None = Field(
-        default=None, description="Pressure-viscosity coefficient at low pressure"
-    )
-    alpha_temperature_degc: Temperature | None = Field(
-        default=None, description="Temperature to which alpha belongs"
-    )
-    eyring_stress_mpa: Stress | None = Field(
-        default=None, description="Shear stress at which shear thinning begins (Eyring)"
-    )
-    limiting_shear_stress_mpa: Strength | None = Field(
-        default=None,
-        description="Shear strength of the boundary layer between asperities, at zero pressure",
-    )
-    boundary_friction: Share | None = Field(
-        default=None,
-        description="Friction coefficient of the boundary layer: how much its shear strength "
-        "rises per pressure",
-    )
-    conductivity_w_m_k: Conductivity | None = Field(
-        default=None, description="Thermal conductivity"
-    )
+    alpha_per_gpa: Alpha = None
+    alpha_temperature_degc: AlphaTemperature = None
+    eyring_stress_mpa: EyringStress = None
+    limiting_shear_stress_mpa: ShearStrength = None
+    boundary_friction: BoundaryFriction = None
+    conductivity_w_m_k: OilConductivity = None
     conductivity_temperature_degc: Temperature | None = Field(
         default=None, description="Temperature to which conductivity_w_m_k belongs"
     )
     conductivity_slope_w_m_k2: Slope | None = Field(
         default=None, description="Change of the conductivity with temperature"
     )
-    heat_capacity_j_kg_k: HeatCapacity | None = Field(
-        default=None, description="Specific heat capacity"
-    )
-    temperature_low_degc: Temperature | None = Field(
-        default=None, description="Lowest oil temperature that the data are meant for"
-    )
-    temperature_high_degc: Temperature | None = Field(
-        default=None, description="Highest oil temperature that the data are meant for"
-    )
+    heat_capacity_j_kg_k: OilHeatCapacity = None
+    temperature_low_degc: LowestTemperature = None
+    temperature_high_degc: HighestTemperature = None
 
     @model_validator(mode="after")
     def _check_oil(self) -> OilSection:

@@ -33,6 +33,16 @@ ViscousFactor = Annotated[float, _of("f0")]
 LoadFactor = Annotated[float, _of("f1")]
 Series = Literal["302", "303", "313", "320X", "322", "other"]
 
+# texts of fields
+BORE = Field(description="Bore diameter of the inner ring")
+OUTSIDE = Field(description="Outside diameter of the outer ring")
+CONTACT_ANGLE = Field(
+    description="Contact angle of the outer race: half the included angle of the cup"
+)
+F0 = Field(description="Viscous factor of Palmgren's law; 6 is for an oil bath")
+F1 = Field(description="Load factor of Palmgren's law")
+SERIES = Field(description="Series in the catalogue, for the friction law of SKF")
+
 
 def usual_roller_diameter(bore: float, outside: float) -> float:
     """Return the mean roller diameter that is usual in a section [m].
@@ -146,12 +156,8 @@ def _rating_per_length(rollers: int, diameter: float, contact_angle: float, pitc
 class BearingFields(Section):
     """What a drawing and a catalogue tell of a tapered roller bearing."""
 
-    bore_diameter_mm: Diameter | None = Field(
-        default=None, description="Bore diameter of the inner ring"
-    )
-    outside_diameter_mm: Diameter | None = Field(
-        default=None, description="Outside diameter of the outer ring"
-    )
+    bore_diameter_mm: Annotated[Diameter | None, BORE] = None
+    outside_diameter_mm: Annotated[Diameter | None, OUTSIDE] = None
     pitch_diameter_mm: Diameter | None = Field(
         default=None,
         description="Diameter of the circle through the roller centres; left out: the mean of "
@@ -176,14 +182,7 @@ class BearingFields(Section):
         description="Effective roller length: without chamfers and undercuts; left out: from the "
         "load rating, or 1.5 roller diameters beside bore and outside diameter",
     )
-    contact_angle_deg: Angle | None = Field(
-        default=None,
-        description="Contact angle of the outer race: half the included angle of the cup",
-    )
-    f0: ViscousFactor | None = Field(
-        default=None, description="Viscous factor of Palmgren's law; 6 is for an oil bath"
-    )
-    f1: LoadFactor | None = Field(default=None, description="Load factor of Palmgren's law")
-    series: Series | None = Field(
-        default=None, description="Series in the catalogue, for the friction law of SKF"
-    )
+    contact_angle_deg: Annotated[Angle | None, CONTACT_ANGLE] = None
+    f0: Annotated[ViscousFactor | None, F0] = None
+    f1: Annotated[LoadFactor | None, F1] = None
+    series: Annotated[Series | None, SERIES] = None

@@ -8,6 +8,12 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field, model_validator
 
 from gearlube_core.bearings.bearing_fields import (
+    BORE,
+    CONTACT_ANGLE,
+    F0,
+    F1,
+    OUTSIDE,
+    SERIES,
     Angle,
     BearingFields,
     Diameter,
@@ -62,11 +68,9 @@ _MICROMETRE = 1e-6  # m
 class LossBearingSection(BearingFields):
     """Rings, races and rollers; these fields of a bearing have no default here."""
 
-    series: Series = Field(
-        default="other", description="Series in the catalogue, for the friction law of SKF"
-    )
-    bore_diameter_mm: Diameter = Field(description="Bore diameter of the inner ring")
-    outside_diameter_mm: Diameter = Field(description="Outside diameter of the outer ring")
+    series: Annotated[Series, SERIES] = "other"
+    bore_diameter_mm: Annotated[Diameter, BORE]
+    outside_diameter_mm: Annotated[Diameter, OUTSIDE]
     pitch_diameter_mm: Diameter | None = Field(
         default=None,
         description="Diameter of the circle through the middles of the rollers; left out: the "
@@ -75,9 +79,7 @@ class LossBearingSection(BearingFields):
     rows: Rows = Field(
         default=1, description="Number of rows; each row carries the same share of the load"
     )
-    contact_angle_deg: Angle = Field(
-        description="Contact angle of the outer race: half the included angle of the cup"
-    )
+    contact_angle_deg: Annotated[Angle, CONTACT_ANGLE]
     inner_angle_deg: InnerAngle | None = Field(
         default=None,
         description="Contact angle of the inner race; left out: the angle at which rollers and "
@@ -87,11 +89,8 @@ class LossBearingSection(BearingFields):
         default=0.16,
         description="Composite RMS roughness of roller and race; used only for the film ratio",
     )
-    f0: ViscousFactor = Field(
-        default=F0_TAPERED_OIL_BATH,
-        description="Viscous factor of Palmgren's law; 6 is for an oil bath",
-    )
-    f1: LoadFactor = Field(default=F1_TAPERED, description="Load factor of Palmgren's law")
+    f0: Annotated[ViscousFactor, F0] = F0_TAPERED_OIL_BATH
+    f1: Annotated[LoadFactor, F1] = F1_TAPERED
     timken_g1: TimkenFactor | None = Field(
         default=None,
         description="Geometry factor G1 from the manufacturer, for the friction law of Timken",
@@ -196,9 +195,7 @@ class BearingFile(InputFile):
     bearing: LossBearingSection
     rib: RibSection = Field(default_factory=RibSection)
     operation: OperationSection = Field(default_factory=OperationSection)
-    tolerances: Tolerances = Field(
-        default={}, description="Scatter of fields from part to part, by their dotted names"
-    )
+    tolerances: Tolerances = Field(default={})
 
     @model_validator(mode="after")
     def _check_tolerances(self) -> BearingFile:

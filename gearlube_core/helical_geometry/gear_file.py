@@ -100,9 +100,7 @@ class HelicalGearFile(InputFile):
         description="Dotted names of fields or sections that the source lacks, and why these "
         "values were chosen",
     )
-    tolerances: Tolerances = Field(
-        default={}, description="Scatter of fields from part to part, by their dotted names"
-    )
+    tolerances: Tolerances = Field(default={})
 
     @model_validator(mode="after")
     def _check_relations(self) -> HelicalGearFile:

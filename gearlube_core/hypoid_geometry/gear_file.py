@@ -124,9 +124,7 @@ class HypoidGearFile(InputFile):
     completed: Fields = Field(
         (), description="Dotted names of fields that the source lacks and whose values were chosen"
     )
-    tolerances: Tolerances = Field(
-        default={}, description="Scatter of fields from part to part, by their dotted names"
-    )
+    tolerances: Tolerances = Field(default={})
 
     @model_validator(mode="after")
     def _check_relations(self) -> HypoidGearFile:

@@ -70,7 +70,11 @@ def _flat(data: Any, prefix: str = "") -> Any:
     return found
 
 
-Tolerances = Annotated[dict[str, Tolerance], BeforeValidator(_flat)]
+Tolerances = Annotated[
+    dict[str, Tolerance],
+    BeforeValidator(_flat),
+    Field(description="Scatter of fields from part to part, by their dotted names"),
+]
 
 
 def check_tolerances(tolerances: Mapping[str, Tolerance], fields: Mapping[str, FieldNote]) -> None:

@@ -34,6 +34,36 @@ Conductivity = Annotated[float, _oil("conductivity_w_m_k"), Usual(0.08, 0.3)]
 HeatCapacity = Annotated[float, _oil("heat_capacity_j_kg_k"), Usual(1300.0, 3500.0)]
 Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False), Usual(-55.0, 200.0)]
 
+ViscosityAt100 = Annotated[Viscosity | None, Field(description="Kinematic viscosity at 100 degC")]
+Alpha = Annotated[
+    PressureViscosity | None, Field(description="Pressure-viscosity coefficient at low pressure")
+]
+AlphaTemperature = Annotated[
+    Temperature | None, Field(description="Temperature to which alpha belongs")
+]
+EyringStress = Annotated[
+    Stress | None, Field(description="Shear stress at which shear thinning begins (Eyring)")
+]
+ShearStrength = Annotated[
+    Strength | None,
+    Field(description="Shear strength of the boundary layer between asperities, at zero pressure"),
+]
+BoundaryFriction = Annotated[
+    Share | None,
+    Field(
+        description="Friction coefficient of the boundary layer: how much its shear strength "
+        "rises per pressure"
+    ),
+]
+OilConductivity = Annotated[Conductivity | None, Field(description="Thermal conductivity")]
+OilHeatCapacity = Annotated[HeatCapacity | None, Field(description="Specific heat capacity")]
+LowestTemperature = Annotated[
+    Temperature | None, Field(description="Lowest oil temperature that the data are meant for")
+]
+HighestTemperature = Annotated[
+    Temperature | None, Field(description="Highest oil temperature that the data are meant for")
+]
+
 Index = Annotated[float, Field(ge=0.0, le=400.0, allow_inf_nan=False)]
 DensitySlope = Annotated[float, Field(ge=-2.0, le=0.0, allow_inf_nan=False), Usual(-1.2, -0.3)]
 Factor = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
@@ -126,26 +156,18 @@ class OilFile(InputFile):
         default=None,
         description="Kinematic viscosity at 40 degC; give two of this field and the next two",
     )
-    viscosity_100_degc_mm2_s: Viscosity | None = Field(
-        default=None, description="Kinematic viscosity at 100 degC"
-    )
+    viscosity_100_degc_mm2_s: ViscosityAt100 = None
     viscosity_index: Index | None = Field(
         default=None, description="Viscosity index after ASTM D2270, instead of one viscosity"
     )
-    alpha_per_gpa: PressureViscosity | None = Field(
-        default=None, description="Pressure-viscosity coefficient at low pressure"
-    )
-    alpha_temperature_degc: Temperature | None = Field(
-        default=None, description="Temperature to which alpha belongs"
-    )
+    alpha_per_gpa: Alpha = None
+    alpha_temperature_degc: AlphaTemperature = None
     alpha_factor: Factor | None = Field(
         default=None,
         description="Uncertainty factor of alpha: it lies between alpha / factor and alpha * "
         "factor (k = 2)",
     )
-    eyring_stress_mpa: Stress | None = Field(
-        default=None, description="Shear stress at which shear thinning begins (Eyring)"
-    )
+    eyring_stress_mpa: EyringStress = None
     eyring_stress_factor: Factor | None = Field(
         default=None, description="Uncertainty factor of the Eyring stress, as above (k = 2)"
     )
@@ -156,15 +178,8 @@ class OilFile(InputFile):
         default=None,
         description="Uncertainty factor of the limiting coefficient, as above (k = 2)",
     )
-    limiting_shear_stress_mpa: Strength | None = Field(
-        default=None,
-        description="Shear strength of the boundary layer between asperities, at zero pressure",
-    )
-    boundary_friction: Share | None = Field(
-        default=None,
-        description="Friction coefficient of the boundary layer: how much its shear strength "
-        "rises per pressure",
-    )
+    limiting_shear_stress_mpa: ShearStrength = None
+    boundary_friction: BoundaryFriction = None
     viscosity_law: Annotated[str, OneOf(ViscosityLaw.kind.known)] | None = Field(
         default=None, description="Law of viscosity over pressure in solved films"
     )
@@ -177,18 +192,10 @@ class OilFile(InputFile):
     law_numbers: dict[str, float] | None = Field(
         default=None, description="Numbers of laws of your own, by name, in SI units"
     )
-    conductivity_w_m_k: Conductivity | None = Field(
-        default=None, description="Thermal conductivity"
-    )
-    heat_capacity_j_kg_k: HeatCapacity | None = Field(
-        default=None, description="Specific heat capacity"
-    )
-    temperature_low_degc: Temperature | None = Field(
-        default=None, description="Lowest oil temperature that the data are meant for"
-    )
-    temperature_high_degc: Temperature | None = Field(
-        default=None, description="Highest oil temperature that the data are meant for"
-    )
+    conductivity_w_m_k: OilConductivity = None
+    heat_capacity_j_kg_k: OilHeatCapacity = None
+    temperature_low_degc: LowestTemperature = None
+    temperature_high_degc: HighestTemperature = None
 
     @model_validator(mode="after")
     def _check_oil(self) -> OilFile:

@@ -167,11 +167,7 @@ class LineCase(ContactCase):
         description="Share of the gap at the inlet that is filled with oil; 1: flooded; below 1 "
         "needs mass_conserving cavitation",
     )
-    temperature: Heat = Field(
-        default="isothermal",
-        description="isothermal: the oil stays at its inlet temperature; thermal: the energy "
-        "balance of oil and bodies is solved too",
-    )
+    temperature: Heat = "isothermal"
     roughness_um: Roughness | None = Field(default=None, description=_ROUGHNESS)
     domain: LineDomain | None = None
     profile: ProfileFile | None = None
@@ -265,11 +261,7 @@ class PointCase(ContactCase):
         description="Thickness of the oil that both surfaces together carry into the inlet; "
         "needs mass_conserving cavitation; left out: flooded",
     )
-    temperature: Heat = Field(
-        default="isothermal",
-        description="isothermal: the oil stays at its inlet temperature; thermal: the energy "
-        "balance of oil and bodies is solved too",
-    )
+    temperature: Heat = "isothermal"
     roughness_um: Roughness | None = Field(default=None, description=_ROUGHNESS)
     domain: PointDomain = PointDomain()
     height_map: MapFile | None = None

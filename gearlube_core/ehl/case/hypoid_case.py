@@ -40,9 +40,7 @@ class HypoidSolver(Section):
     steady: Annotated[int, Field(ge=2, le=1000)] = Field(
         default=17, description="Number of positions at which a steady film is computed too"
     )
-    wedge: Wedge = Field(
-        default="quick", description="Difference formula for the wedge term of Reynolds' equation"
-    )
+    wedge: Wedge = "quick"
     tolerance: Tolerance = Field(
         default=1e-5,
         description="A film is accepted when the relative error of the flow balance is below this",

@@ -104,9 +104,7 @@ class RoughSolver(Section):
 
     nodes_x: Columns = Field(default=401, description="Number of nodes along x, with the border")
     rows: Rows = Field(default=64, description="Number of rows along y, an even number from 16 on")
-    wedge: Wedge = Field(
-        default="quick", description="Difference formula for the wedge term of Reynolds' equation"
-    )
+    wedge: Wedge = "quick"
     discretisation: Literal["differences", "elements"] = Field(
         default="differences",
         description="differences: finite volumes; elements: Galerkin finite elements, with "

@@ -23,8 +23,24 @@ from gearlube_core.storage.file_names import Name
 from gearlube_core.units import celsius_to_kelvin
 
 Text = Annotated[str, Field(min_length=1)]
-Heat = Literal["isothermal", "thermal"]
-Wedge = Literal["upwind-1", "upwind-2", "central", "quick"]
+Heat = Annotated[
+    Literal["isothermal", "thermal"],
+    Field(
+        description="isothermal: the oil stays at its inlet temperature; thermal: the energy "
+        "balance of oil and bodies is solved too"
+    ),
+]
+Wedge = Annotated[
+    Literal["upwind-1", "upwind-2", "central", "quick"],
+    Field(description="Difference formula for the wedge term of Reynolds' equation"),
+]
+Cavitation = Annotated[
+    Literal["reynolds", "mass_conserving"],
+    Field(
+        description="How the film breaks. reynolds: pressure and its slope are zero there; "
+        "mass_conserving: the oil in the broken film is computed too"
+    ),
+]
 Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False), Usual(0.0, 50.0)]
 Reach = Annotated[float, Field(ge=1.05, le=1000.0, allow_inf_nan=False)]
 Tolerance = Annotated[float, Field(gt=0.0, le=1e-2, allow_inf_nan=False)]
@@ -100,11 +116,7 @@ class LineSolver(Section):
         description="Difference formula for the wedge term of Reynolds' equation; galerkin: "
         "finite elements",
     )
-    cavitation: Literal["reynolds", "mass_conserving"] = Field(
-        default="reynolds",
-        description="How the film breaks. reynolds: pressure and its slope are zero there; "
-        "mass_conserving: the oil in the broken film is computed too",
-    )
+    cavitation: Cavitation = "reynolds"
     tolerance: Tolerance = Field(
         default=1e-8,
         description="The solution is accepted when the relative errors of flow and load are "
@@ -150,20 +162,13 @@ class PointSolver(Section):
         description="Number of nodes along y, with the border; rows of a part of a line "
         "contact: an even number from 16 on",
     )
-    wedge: Wedge = Field(
-        default="upwind-2",
-        description="Difference formula for the wedge term of Reynolds' equation",
-    )
+    wedge: Wedge = "upwind-2"
     discretisation: Literal["differences", "elements"] = Field(
         default="differences",
         description="differences: finite volumes; elements: Galerkin finite elements, with "
         "upwinding where pressure hardly moves the oil",
     )
-    cavitation: Literal["reynolds", "mass_conserving"] = Field(
-        default="reynolds",
-        description="How the film breaks. reynolds: pressure and its slope are zero there; "
-        "mass_conserving: the oil in the broken film is computed too",
-    )
+    cavitation: Cavitation = "reynolds"
     tolerance: Tolerance = Field(
         default=1e-6,
         description="The solution is accepted when the relative error of the flow balance is "
