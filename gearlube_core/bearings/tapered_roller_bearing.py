@@ -47,6 +47,12 @@ LARGEST_FIT = 100e-6  # m
 _LINES = "For lines n = 10/9 and kn is in N/m^(10/9)."
 DIAMETER = Number("m", 5e-3, 2.0, "83.7 mm is 0.0837 m.")  # of a ring, or of a race
 ROLLER = Number("m", 2e-3, 0.5, "12.7 mm is 0.0127 m.")
+ROLLERS = Number("1", 3, ROLLERS_MAX)
+VISCOUS_FACTOR, LOAD_FACTOR = (
+    Number("1", 0.0, 100.0, fmi="f0"), Number("1", 0.0, 0.1, fmi="f1"),
+)  # fmt: skip
+RIB_FRICTION = Number("1", 0.0, 0.5)
+ROUGHNESS = Number("m", 1e-9, 1e-5, "0.24 um is 2.4e-7 m.")  # of two surfaces, rms
 PRELOAD = Number(
     "N", 0.0, 1e5, "Preload cannot pull; give 0 N for line-to-line bearings.", fmi="preload"
 )
@@ -109,7 +115,7 @@ class TaperedRollerBearing(Bearing, name="tapered_roller", text="tapered rollers
     outer_race_diameter: Annotated[float, DIAMETER]
     roller_diameter: Annotated[float, ROLLER]
     roller_length: Annotated[float, ROLLER]
-    n_rollers: Annotated[int, Number("1", 3, ROLLERS_MAX)]
+    n_rollers: Annotated[int, ROLLERS]
     stiffness_constant: Annotated[float, Number("N/m^n", 1e6, 1e14, _LINES)]
     exponent: Annotated[float, Number("1", 1.0, 2.0, _LINES)]
     contact_angle: Annotated[
@@ -119,14 +125,14 @@ class TaperedRollerBearing(Bearing, name="tapered_roller", text="tapered rollers
     approach: Approach
     film: Film
     solid: Solid
-    f0: Annotated[float, Number("1", 0.0, 100.0, fmi="f0")]
-    f1: Annotated[float, Number("1", 0.0, 0.1, fmi="f1")]
+    f0: Annotated[float, VISCOUS_FACTOR]
+    f1: Annotated[float, LOAD_FACTOR]
     preload: Annotated[float | None, PRELOAD] = None
     interference: float | None = None
     series: str = "other"
     rib_height: float | None = None
-    rib_boundary_friction: Annotated[float, Number("1", 0.0, 0.5)] = RIB_BOUNDARY_FRICTION
-    rib_roughness: Annotated[float, Number("m", 1e-9, 1e-5, "0.24 um is 2.4e-7 m.")] = RIB_ROUGHNESS
+    rib_boundary_friction: Annotated[float, RIB_FRICTION] = RIB_BOUNDARY_FRICTION
+    rib_roughness: Annotated[float, ROUGHNESS] = RIB_ROUGHNESS
 
     def __post_init__(self) -> None:
         super().__post_init__()

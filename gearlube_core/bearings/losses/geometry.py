@@ -23,10 +23,18 @@ from gearlube_core.bearings.losses.rib import (
     RIB_SHARE_C,
     RibParameters,
 )
-from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.roller_contact import N_LINE
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
-from gearlube_core.bearings.tapered_roller_bearing import DIAMETER, ROLLER, TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_bearing import (
+    DIAMETER,
+    LOAD_FACTOR,
+    RIB_FRICTION,
+    ROLLER,
+    ROLLERS,
+    ROUGHNESS,
+    VISCOUS_FACTOR,
+    TaperedRollerBearing,
+)
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option
 from gearlube_core.contact.solid import (
@@ -63,10 +71,10 @@ class Rib:
 
     contact_height: Annotated[float, Positive("m", "2.5 mm is 0.0025 m.")]
     end_radius: Annotated[float, Number("1", 0.5, 0.99)] = RIB_END_RADIUS
-    roughness: Annotated[float, Number("m", 1e-9, 1e-5, "0.24 um is 2.4e-7 m.")] = RIB_ROUGHNESS
+    roughness: Annotated[float, ROUGHNESS] = RIB_ROUGHNESS
     share_b: Annotated[float, Number("1", 0.1, 10.0)] = RIB_SHARE_B
     share_c: Annotated[float, Number("1", 0.1, 3.0)] = RIB_SHARE_C
-    boundary_friction: Annotated[float, Number("1", 0.0, 0.5)] = RIB_BOUNDARY_FRICTION
+    boundary_friction: Annotated[float, RIB_FRICTION] = RIB_BOUNDARY_FRICTION
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -127,7 +135,7 @@ class BearingGeometry:
     pitch_diameter: Annotated[float, DIAMETER]
     roller_diameter: Annotated[float, ROLLER]
     roller_length: Annotated[float, ROLLER]
-    n_rollers: Annotated[int, Number("1", 3, ROLLERS_MAX)]
+    n_rollers: Annotated[int, ROLLERS]
     outer_angle: Annotated[
         float, Number("rad", math.radians(5.0), math.radians(45.0), "15 deg is 0.2618 rad.")
     ]
@@ -135,9 +143,9 @@ class BearingGeometry:
     rib: Rib
     rows: Annotated[int, Number("1", 1, 4)] = 1
     series: str = "other"
-    roughness: Annotated[float, Number("m", 1e-9, 1e-5, "0.16 um is 1.6e-7 m.")] = 0.16e-6
-    f0: Annotated[float, Number("1", 0.0, 100.0)] = F0_TAPERED_OIL_BATH
-    f1: Annotated[float, Number("1", 0.0, 0.1)] = F1_TAPERED
+    roughness: Annotated[float, ROUGHNESS] = 0.16e-6
+    f0: Annotated[float, VISCOUS_FACTOR] = F0_TAPERED_OIL_BATH
+    f1: Annotated[float, LOAD_FACTOR] = F1_TAPERED
     timken_g1: Annotated[float, Number("1", 0.0, 1e4)] = 0.0
     rolling_scale: Annotated[float | None, Number("1", 0.05, 5.0)] = None
     solid: Solid = STEEL_MOHAMMADPOUR_2015

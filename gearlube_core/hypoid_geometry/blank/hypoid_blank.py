@@ -14,6 +14,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.number import Number, check_fields
 
 _METRES = "Give metres, not millimetres."
+TEETH, FACE_WIDTH = Number("1", 3, 400), Number("m", 1e-4, 1.0, _METRES)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,8 +33,8 @@ class MemberBlank:
         Distance of the apex beyond the crossing point [m]; negative: before it.
     """
 
-    teeth: Annotated[int, Number("1", 3, 400)]
-    face_width: Annotated[float, Number("m", 1e-4, 1.0, _METRES)]
+    teeth: Annotated[int, TEETH]
+    face_width: Annotated[float, FACE_WIDTH]
     outer_cone_distance: Annotated[float, Number("m", 1e-4, 2.0, _METRES)]
     pitch_angle: Annotated[float, Number("rad", 0.01, 1.56, "Give radians.")]
     spiral_angle: Annotated[float, Number("rad", -1.2, 1.2, "Give radians.")]

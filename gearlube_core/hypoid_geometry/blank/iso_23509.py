@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.hypoid_geometry.blank.hypoid_blank import FACE_WIDTH, TEETH
 from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones, ToothTrace
 from gearlube_core.number import Number, check_fields
 
@@ -42,11 +43,11 @@ class HypoidDesign:
     cutter : CutterHead
     """
 
-    pinion_teeth: Annotated[int, Number("1", 3, 400)]
-    gear_teeth: Annotated[int, Number("1", 3, 400)]
+    pinion_teeth: Annotated[int, TEETH]
+    gear_teeth: Annotated[int, TEETH]
     offset: Annotated[float, Number("m", 1e-5, 1.0, _METRES)]
     shaft_angle: Annotated[float, Number("rad", 0.2, 2.9, "Give radians.")]
-    gear_face_width: Annotated[float, Number("m", 1e-4, 1.0, _METRES)]
+    gear_face_width: Annotated[float, FACE_WIDTH]
     cutter: CutterHead
 
     def __post_init__(self) -> None:

@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_geometry.blank.hypoid_blank import TEETH
 
 _METRES = "Give metres, not millimetres."
 _RADIANS = "Give radians."
@@ -191,7 +192,7 @@ class PitchCones:
 
     def __post_init__(self) -> None:
         for name in ("pinion_teeth", "gear_teeth"):
-            check_within(name, getattr(self, name), 3, 400)
+            check_within(name, getattr(self, name), TEETH.low, TEETH.high)
         check_within("offset", self.offset, 0.0, 1.0, "m", _METRES)
         check_within("shaft_angle", self.shaft_angle, 0.2, 2.9, "rad", _RADIANS)
         for name in ("pinion_pitch_angle", "gear_pitch_angle"):
