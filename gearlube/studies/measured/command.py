@@ -16,7 +16,6 @@ from gearlube.cli.results_folder import results_folder
 from gearlube.cli.study_run import StudyRun, empty_table, study_run
 from gearlube.output.csv_text import csv_text
 from gearlube_core.errors import ParameterError
-from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:
@@ -49,6 +48,7 @@ def fitted_settings(
         No flank of a member was measured, or a field cannot be fitted.
     """
     from gearlube_core.hypoid_contact.settings_fit import fit_settings
+    from gearlube_core.storage.atomic_file import write_text
 
     members = dict.fromkeys(field.partition(".")[0] for field in fields)
     found = []
