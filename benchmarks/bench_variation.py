@@ -19,8 +19,7 @@ from pathlib import Path
 
 from gearlube.variation.design import Design, Point, Sampling, Spread, Value
 from gearlube.variation.keys import Keys
-from gearlube.variation.point_study import PointStudy, Quantity
-from gearlube.variation.studies import point_study
+from gearlube.variation.point_study import PointStudy, Quantity, point_study
 
 _LOGGER = logging.getLogger("bench_variation")
 NUMBERS = 60

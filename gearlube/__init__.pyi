@@ -194,7 +194,7 @@ from gearlube.studies.sound.settings import SoundSettings as SoundSettings
 from gearlube.studies.sound.run import run_sound as run_sound
 
 # -- Variation of any parameter
-from gearlube.variation.studies import point_study as point_study
+from gearlube.variation.point_study import point_study as point_study
 from gearlube.variation.design import Axis as Axis
 from gearlube.variation.design import Spread as Spread
 from gearlube.variation.design import Sampling as Sampling

@@ -10,8 +10,7 @@ import numpy as np
 
 from gearlube.studies.film_model.kinds import ContactKind
 from gearlube.studies.film_model.plan import FilmTask
-from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
-from gearlube.studies.film_model.train import failed_row, solve_task
+from gearlube.studies.film_model.solves import SolveRow, SolveTable, failed_row, row_key, solve_task
 from gearlube_core.arrays import Array
 from gearlube_core.errors import GearLubeError
 

@@ -13,7 +13,7 @@ import xarray as xr
 from docs.page import IMAGES
 from docs.rough_contact.stress import stress_figure
 from gearlube.plotting.style import MARKERS, SERIES, house_style, new_figure
-from gearlube.studies.roughness.flow_factors import flow_figure
+from gearlube.studies.roughness.results import flow_figure
 from gearlube_core.rough_patch.table import gaussian_patches, patch_table
 from gearlube_core.storage.atomic_file import atomic_write
 

@@ -14,8 +14,8 @@ from docs.page import IMAGES
 from gearlube.output.csv_text import csv_text
 from gearlube.variation.design import Design, Sampling
 from gearlube.variation.figures import histogram_figure, rank_figure
+from gearlube.variation.point_study import point_study, scatter
 from gearlube.variation.run import run_variation
-from gearlube.variation.studies import point_study, scatter
 from gearlube.variation.summary import write_summary
 from gearlube_core.storage.atomic_file import write_text
 

@@ -96,10 +96,10 @@ def vary(
     from gearlube.variation.design import Design
     from gearlube.variation.figures import save_variation_figures
     from gearlube.variation.file_variants import GEAR_FILE
+    from gearlube.variation.point_study import OF_AXLE, point_study, prepared
+    from gearlube.variation.point_study import scatter as scatter_of_study
     from gearlube.variation.report import variation_report
     from gearlube.variation.run import MOST_BLOCK, run_variation
-    from gearlube.variation.studies import OF_AXLE, point_study, prepared
-    from gearlube.variation.studies import scatter as scatter_of_study
     from gearlube.variation.summary import write_summary
     from gearlube.variation.vary_option import (
         SCATTER_DESIGN,

@@ -105,7 +105,7 @@ def run_variation(
     Examples
     --------
     >>> from gearlube.variation.design import Axis
-    >>> from gearlube.variation.studies import point_study
+    >>> from gearlube.variation.point_study import point_study
     >>> design = Design(axes=(Axis("bearing.preload", (2500.0, 6000.0)),))
     >>> run_variation(point_study("map"), design, out="my_variation").computed  # doctest: +SKIP
     2

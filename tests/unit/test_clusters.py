@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 from gearlube.studies.film_model.plan import FilmPlan
-from gearlube.studies.film_model.train import pool_of, train
+from gearlube.studies.film_model.solves import pool_of, train
 from gearlube.studies.sweep.run import SweepModel, run_sweep
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube.variation.design import Axis, Design

@@ -12,7 +12,7 @@ from gearlube.studies.film_model.calibration import tests_table as table_of_test
 from gearlube.studies.film_model.fits import _film_features
 from gearlube.studies.film_model.model_lines import limit_in_words, limits_of, model_lines
 from gearlube.studies.film_model.samples import HYPOID_BOX, box_contacts
-from gearlube.studies.film_model.train import failures_in_words
+from gearlube.studies.film_model.solves import failures_in_words
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.film_model.groups import contact_groups
 from gearlube_core.film_model.model import FLANK, LINE

@@ -20,8 +20,14 @@ from gearlube.studies.film_model.line_samples import (
 from gearlube.studies.film_model.model_lines import model_lines
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.solve import Solved
-from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
-from gearlube.studies.film_model.train import PLAN, check_plan, stored_plan
+from gearlube.studies.film_model.solves import (
+    PLAN,
+    SolveRow,
+    SolveTable,
+    check_plan,
+    row_key,
+    stored_plan,
+)
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model import net
 from gearlube_core.film_model.groups import N_GROUPS

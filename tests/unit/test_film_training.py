@@ -19,8 +19,14 @@ from gearlube.studies.film_model.model_lines import limits_of
 from gearlube.studies.film_model.plan import FilmPlan, FilmTask
 from gearlube.studies.film_model.samples import DOMAIN, HYPOID_BOX, box_contacts
 from gearlube.studies.film_model.solve import Solved
-from gearlube.studies.film_model.solves import SolveRow, SolveTable, row_key
-from gearlube.studies.film_model.train import failed_row, stored_plan, train
+from gearlube.studies.film_model.solves import (
+    SolveRow,
+    SolveTable,
+    failed_row,
+    row_key,
+    stored_plan,
+    train,
+)
 from gearlube_core.errors import ConvergenceError, FileError, ParameterError
 from gearlube_core.film_model.groups import FilmContact, contact_groups, contact_parts
 from gearlube_core.film_model.groups import reference_film as reference
@@ -143,7 +149,7 @@ def test_a_foreign_table_and_another_plan_are_refused_in_words(tmp_path):
 
 
 def test_training_resumes_and_keeps_failures(monkeypatch, tmp_path):
-    from gearlube.studies.film_model import train as module
+    from gearlube.studies.film_model import solves as module
     from gearlube_core.storage.process_pool import ProcessPool
 
     plan = FilmPlan(

@@ -15,8 +15,7 @@ from gearlube.studies.film_model.kinds import HELICAL_LINE, HYPOID_FLANK, kind_o
 from gearlube.studies.film_model.line_samples import LINE_DOMAIN
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.solve import Solved
-from gearlube.studies.film_model.solves import SolveRow, SolveTable
-from gearlube.studies.film_model.train import failed_row
+from gearlube.studies.film_model.solves import SolveRow, SolveTable, failed_row
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.film_model.line_contact import (

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlube.studies.roughness import flow_factors, results
+from gearlube.studies.roughness import results
 from gearlube_core.rough_patch import table
 from gearlube_core.rough_patch.flow import FlowFactors
 from gearlube_core.surface.heights import HeightMap, Profile
@@ -29,9 +29,9 @@ FACTOR = {MICRO: 1e6, "1": 1.0, "deg": 180.0 / math.pi}
 
 @pytest.fixture(autouse=True)
 def no_figures_nor_netcdf(monkeypatch):
-    for module, name in ((results, "_surface_figure"), (flow_factors, "flow_figure")):
-        monkeypatch.setattr(module, name, lambda _: named(savefig=lambda *_, **__: None))
-    monkeypatch.setattr(flow_factors, "write_dataset", lambda *_: None)
+    for name in ("_surface_figure", "flow_figure"):
+        monkeypatch.setattr(results, name, lambda _: named(savefig=lambda *_, **__: None))
+    monkeypatch.setattr(results, "write_dataset", lambda *_: None)
 
 
 def test_statistics_of_profiles_and_maps_are_known(monkeypatch, tmp_path):
@@ -105,7 +105,7 @@ def test_flow_factors_and_asperities_of_patches_are_known(monkeypatch, tmp_path)
     assert_variables(made, expected, zero=even)
     assert_attributes(made, {"patches": 2, "roughness": 1.5 * sigma, "rms_slope": 1.5 * slope,
                              "nodes": "16x16"})  # fmt: skip
-    _, sheet, _ = flow_factors.flow_results(made, tmp_path, None)
+    _, sheet, _ = results.flow_results(made, tmp_path, None)
     head, *rows = sheet.read_text().splitlines()
     names = head.split(",")
     assert names[0] == "film_ratio"
@@ -114,7 +114,7 @@ def test_flow_factors_and_asperities_of_patches_are_known(monkeypatch, tmp_path)
     # nine digits; the spread of equal films is rounding
     for name, column in zip(names, written.T, strict=True):
         np.testing.assert_allclose(column, expected[name][1], rtol=1e-8, atol=1e-9, err_msg=name)
-    heads, shown = flow_factors.shown_rows(made)
+    heads, shown = results.shown_rows(made)
     assert heads == ("h/sigma", "phi_x", "phi_y", "Phi_s", "overlap", "p/E*", "area")
     names = ("pressure_x", "pressure_y", "shear_x", "contact_share", "asperity_pressure",
              "asperity_area")  # fmt: skip

@@ -7,7 +7,7 @@ import xarray as xr
 from gearlube.studies.bearing.run import _bearing_dataset as bearing_dataset
 from gearlube.studies.bearing.run import _bearing_rows as bearing_rows
 from gearlube.studies.design.dataset import mesh_error
-from gearlube.studies.measured.flank_dataset import flank_dataset
+from gearlube.studies.measured.run import flank_dataset
 from gearlube.studies.measured.teeth import tooth_error_dataset
 from gearlube.studies.sound.dataset import fast_level, sound_dataset
 from gearlube.studies.sound.metrics import Curve

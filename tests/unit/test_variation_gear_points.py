@@ -8,8 +8,8 @@ import pytest
 from gearlube.studies.contact.settings import ContactSettings, CycleSettings, Misalignment
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import HelicalSettings, quick_settings
+from gearlube.variation.point_study import point_study
 from gearlube.variation.points.of_file import order_values
-from gearlube.variation.studies import point_study
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.contact_dataset import analyse_contact

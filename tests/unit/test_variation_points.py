@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from gearlube.variation.file_variants import AxleVariants
+from gearlube.variation.point_study import point_study
 from gearlube.variation.points.bearing import BearingPoint
 from gearlube.variation.points.cycle import CyclePoint
 from gearlube.variation.points.losses import LossPoint
 from gearlube.variation.points.march import MarchPoint
-from gearlube.variation.studies import point_study
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import LossModel, bearing_loss
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses

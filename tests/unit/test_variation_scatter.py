@@ -10,9 +10,9 @@ import pytest
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.variation.design import Design, Sampling
 from gearlube.variation.file_variants import AxleVariants
+from gearlube.variation.point_study import point_study, scatter
 from gearlube.variation.points.bearing import BearingPoint
 from gearlube.variation.points.losses import LossPoint
-from gearlube.variation.studies import point_study, scatter
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.errors import ParameterError
 from tests.helpers.each import each

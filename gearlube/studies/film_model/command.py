@@ -84,7 +84,7 @@ def train(
     from gearlube.cli.study_run import progress_on
     from gearlube.studies.film_model.model_lines import limits_of
     from gearlube.studies.film_model.plan import FilmPlan
-    from gearlube.studies.film_model.train import failures_in_words, pool_of, train
+    from gearlube.studies.film_model.solves import failures_in_words, pool_of, train
 
     with exit_on_error():
         plan = FilmPlan(
@@ -136,8 +136,7 @@ def fit(
     from gearlube.studies.film_model.calibration import tests_table
     from gearlube.studies.film_model.fit import FitSettings, fit_model
     from gearlube.studies.film_model.model_lines import model_lines
-    from gearlube.studies.film_model.solves import SolveTable
-    from gearlube.studies.film_model.train import SOLVES, stored_plan
+    from gearlube.studies.film_model.solves import SOLVES, SolveTable, stored_plan
     from gearlube_core.errors import ParameterError
     from gearlube_core.film_model.model import FilmModel
     from gearlube_core.storage.atomic_file import write_text

@@ -134,9 +134,8 @@ def measured(
     With --table: the mesh table with the errors of single teeth, tooth_errors.nc and a figure.
     Finished positions are kept in OUT: run the same command again to go on after a stop.
     """
-    from gearlube.studies.measured.flank_dataset import flank_dataset
     from gearlube.studies.measured.report import flank_report
-    from gearlube.studies.measured.run import run_measured
+    from gearlube.studies.measured.run import flank_dataset, run_measured
     from gearlube_core.storage.atomic_file import write_dataset
 
     with study_run("measured", out, overwrite=overwrite) as frame:

@@ -51,7 +51,7 @@ def flow_factors(
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
         from rich.progress import Progress
 
-        from gearlube.studies.roughness.flow_factors import flow_results, shown_rows
+        from gearlube.studies.roughness.results import flow_results, shown_rows
         from gearlube_core.rough_patch.table import gaussian_patches, patch_table
 
         try:
