@@ -22,6 +22,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     FlankView,
     coast_view,
     drive_view,
+    pair_motion,
 )
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.friction.solved_line import line_film, line_inlet, solved_line_friction
@@ -92,7 +93,7 @@ def marched(speed: float, torque: float, temperature: float, *, kept: bool) -> t
     found = []
     for _ in range(200):
         if refresh_friction(model._state, model._data, oil) and not kept:
-            view = drive_view(model._state, flanks)
+            view = drive_view(pair_motion(model._state), flanks)
             for line in range(int(flanks.lines)):
                 slot = MU + POINTS_PER_LINE * pair_slot(view.phase, line, int(flanks.lines))
                 for place in range(POINTS_PER_LINE):
@@ -128,7 +129,11 @@ def test_films_and_frictions_are_the_models_at_any_load_speed_and_phase(coast):
             model.step(1e-5, torque, torque * RATIO, temperature)
         oil = lubricant_state(model.constants.oil, temperature)
         flanks = model.constants.motion.flanks
-        view = coast_view(model._state, flanks) if coast else drive_view(model._state, flanks)
+        view = (
+            coast_view(pair_motion(model._state), flanks)
+            if coast
+            else drive_view(pair_motion(model._state), flanks)
+        )
         for line in range(int(flanks.lines)):
             for place in range(POINTS_PER_LINE):
                 known = evaluated(model, view, line, place, oil)
@@ -222,7 +227,7 @@ def test_compiled_kernels_equal_their_python_functions():
     model = running(150.0, 226.0, 353.15)
     model.step(1e-4, 226.0, 226.0 * RATIO, 353.15)
     oil, constants = lubricant_state(model.constants.oil, 353.15), model.constants
-    view = drive_view(model._state, constants.motion.flanks)
+    view = drive_view(pair_motion(model._state), constants.motion.flanks)
     box = kept_films.bin_of(1.3e5, 150.0, 353.15)
     assert kept_films.bin_of.py_func(1.3e5, 150.0, 353.15) == pytest.approx(box, rel=1e-12)
     x = constants.motion.flanks.plane.P + 1e-3

@@ -23,6 +23,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     coast_deepest,
     deepest,
     drive_view,
+    pair_motion,
 )
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
@@ -80,9 +81,10 @@ def write_event_indicators(s: Array, data: Array, p: MarchConstants, out: Array)
     zero, which is 1 without friction of the film. `data` are the pair data.
     """
     flanks = p.motion.flanks
-    drive = drive_view(s, flanks)
+    m = pair_motion(s)
+    drive = drive_view(m, flanks)
     out[0] = deepest(drive, data[LEAST_OFFSET], flanks) * _MICRO
-    out[1] = coast_deepest(s, data[LEAST_OFFSET], flanks) * _MICRO
+    out[1] = coast_deepest(m, data[LEAST_OFFSET], flanks) * _MICRO
     out[2] = 1.0
     if p.friction_form > 0.0:
         out[2] = math.sin(math.pi * drive.phase * p.refreshes)

@@ -37,6 +37,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     coast_near,
     coast_view,
     drive_view,
+    pair_motion,
     touches,
 )
 from gearlube_core.dynamics.ranges import MAX_SPEED
@@ -90,11 +91,12 @@ def refresh_friction(s: Array, data: Array, lubricant: LubricantState) -> bool:
     """
     motion: MotionConstants = tuple_from_array(data, MotionConstants)
     flanks = motion.flanks
-    drive = drive_view(s, flanks)
+    m = pair_motion(s)
+    drive = drive_view(m, flanks)
     mark = 4.0 * np.floor(drive.phase * data[REFRESHES_AT])
     if touches(drive, data[LEAST_OFFSET], flanks):
         mark += 1.0
-    if coast_near(s, data[LEAST_OFFSET], flanks):
+    if coast_near(m, data[LEAST_OFFSET], flanks):
         mark += 2.0
     if mark == s[REFRESHED]:
         return False
@@ -102,8 +104,8 @@ def refresh_friction(s: Array, data: Array, lubricant: LubricantState) -> bool:
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     if touches(drive, data[LEAST_OFFSET], flanks):
         refresh_flank(drive, MU, s, data, lubricant, p)
-    if coast_near(s, data[LEAST_OFFSET], flanks):
-        refresh_flank(coast_view(s, flanks), MU + FLANK_POINTS, s, data, lubricant, p)
+    if coast_near(m, data[LEAST_OFFSET], flanks):
+        refresh_flank(coast_view(m, flanks), MU + FLANK_POINTS, s, data, lubricant, p)
     return True
 
 

@@ -12,8 +12,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     MESH_DAMPING,
     MU,
     N_LATERAL,
-    OM_G,
-    OM_P,
     PHI_G,
     PHI_P,
     PINION_WORK,
@@ -27,11 +25,13 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     WHEEL_WORK,
     FlankConstants,
     MotionConstants,
+    PairMotion,
     SupportConstants,
     coast_near,
     coast_view,
     drive_view,
     friction_direction,
+    pair_motion,
     touches,
     turned,
 )
@@ -67,22 +67,24 @@ def turned_wrench(w: Wrench, p: FlankConstants) -> Wrench:
 
 
 @kernel
-def friction_heat(sums: LineSums, direction: float, s: Array, p: FlankConstants) -> float:
+def friction_heat(sums: LineSums, direction: float, m: PairMotion, p: FlankConstants) -> float:
     """Return the heat of the drive flanks' friction [W], with the true velocities."""
-    rate = sums.F * (s[V_P + 1] - s[V_G + 1] + p.plane.x_g * s[W_G])
-    rate -= sums.Fz * (s[OM_P] - s[OM_G]) + sums.Fx * (s[W_P] + s[W_G])
+    rate = sums.F * (m.vy_p - m.vy_g + p.plane.x_g * m.w_g)
+    rate -= sums.Fz * (m.ox_p - m.ox_g) + sums.Fx * (m.w_p + m.w_g)
     return -direction * rate
 
 
 @kernel
-def turned_friction_heat(sums: LineSums, direction: float, s: Array, p: FlankConstants) -> float:
+def turned_friction_heat(
+    sums: LineSums, direction: float, m: PairMotion, p: FlankConstants
+) -> float:
     """Return the heat of the coast flanks' friction [W]."""
-    _, v_p = turned(s[V_P], s[V_P + 1], p)
-    _, v_g = turned(s[V_G], s[V_G + 1], p)
-    om_p, _ = turned(s[OM_P], s[OM_P + 1], p)
-    om_g, _ = turned(s[OM_G], s[OM_G + 1], p)
-    rate = sums.F * (v_p - v_g - p.plane.x_g * s[W_G])
-    rate -= sums.Fz * (om_p - om_g) - sums.Fx * (s[W_P] + s[W_G])
+    _, v_p = turned(m.vx_p, m.vy_p, p)
+    _, v_g = turned(m.vx_g, m.vy_g, p)
+    om_p, _ = turned(m.ox_p, m.oy_p, p)
+    om_g, _ = turned(m.ox_g, m.oy_g, p)
+    rate = sums.F * (v_p - v_g - p.plane.x_g * m.w_g)
+    rate -= sums.Fz * (om_p - om_g) - sums.Fx * (m.w_p + m.w_g)
     return -direction * rate
 
 
@@ -161,15 +163,16 @@ def march_rates(
     psi_rate = plane.r_bp * w_p - plane.r_bg * w_g
     F_x = F_y = F_z = M_px = M_py = M_pz = M_gx = M_gy = M_gz = 0.0
     heat = damping = moving = 0.0
-    drive = drive_view(s, p)
+    m = pair_motion(s)
+    drive = drive_view(m, p)
     if touches(drive, data[LEAST_OFFSET], p):
         sums = line_sums(drive.a, drive.tilt, drive.phase, data, s, MU)
         F_x, F_y, F_z, M_px, M_py, M_pz, M_gx, M_gy, M_gz = flank_wrench(sums, direction, plane)
-        heat = friction_heat(sums, direction, s, p)
+        heat = friction_heat(sums, direction, m, p)
         damping = sums_damping(sums, psi_rate, p)
         moving = p.line_work * sums.moving
-    if coast_near(s, data[LEAST_OFFSET], p):
-        coast = coast_view(s, p)
+    if coast_near(m, data[LEAST_OFFSET], p):
+        coast = coast_view(m, p)
         sums = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
         w = turned_wrench(flank_wrench(sums, -direction, plane), p)
         F_x += w.F_x
@@ -181,7 +184,7 @@ def march_rates(
         M_gx += w.M_gx
         M_gy += w.M_gy
         M_gz += w.M_gz
-        heat += turned_friction_heat(sums, -direction, s, p)
+        heat += turned_friction_heat(sums, -direction, m, p)
         damping -= sums_damping(sums, -psi_rate, p)
         moving -= p.line_work * sums.moving
     lost = support_rates(s, U_P, V_P, F_x, F_y, F_z, M_px, M_py, motion.pinion, ds)
