@@ -11,13 +11,14 @@ import pytest
 
 from gearlube_core.dynamics.helical_pair.march import kept_films, line_points
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
-from gearlube_core.dynamics.helical_pair.march.integrate import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.state import (
     MU,
     POINTS_PER_LINE,
+    REFRESHED,
     W_P,
     FlankView,
     coast_view,
@@ -92,7 +93,8 @@ def marched(speed: float, torque: float, temperature: float, *, kept: bool) -> t
     h = 0.9 * 2.0 * math.pi / (TEETH * speed) / 64.0  # one step of the integrator
     found = []
     for _ in range(200):
-        if refresh_friction(model._state, model._data, oil) and not kept:
+        state = model._state
+        if refresh_friction(pair_motion(state), state[REFRESHED:], model._data, oil) and not kept:
             view = drive_view(pair_motion(model._state), flanks)
             for line in range(int(flanks.lines)):
                 slot = MU + POINTS_PER_LINE * pair_slot(view.phase, line, int(flanks.lines))

@@ -5,49 +5,33 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.line_points import line_point
-from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
-from gearlube_core.dynamics.helical_pair.march.mesh_data import (
-    LEAST_OFFSET,
-    MeshFields,
-    mesh_at_torque,
-)
+from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
-    FLANK_POINTS,
     LOAD_TORQUE,
-    MU,
     N_ENERGIES,
+    N_FRICTION,
     N_ODE,
     N_STATE,
     PINION_WORK,
-    POINTS_PER_LINE,
     PSI,
     REFRESHED,
     TIME_IN_STEP,
     W_G,
     W_P,
     WORK_MARK,
-    FlankView,
     MarchConstants,
-    MotionConstants,
-    coast_near,
-    coast_view,
-    drive_view,
     pair_motion,
-    touches,
 )
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.friction.flank_laws import SOLVED
-from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
-# place of MarchConstants.refreshes in the pair data
-REFRESHES_AT = count_floats(MotionConstants) + MarchConstants._fields.index("refreshes") - 1
 OK = 0
 NOT_FINITE = 1
 TOO_MANY_STEPS = 2
@@ -62,51 +46,6 @@ _REFRESH_COST, _SOLVED_REFRESH_COST = 1.0, 4.0  # of friction by the formulas an
 _LOAD_REACH = 1e-3
 LOAD_FILTER_TIME = 0.02  # s, the load level follows the torque below the shafts' own motions
 DIVERGED = 0.1  # m along the line of action: teeth long broken
-
-
-@kernel
-def refresh_flank(
-    view: FlankView,
-    at: int,
-    s: Array,
-    data: Array,
-    lubricant: LubricantState,
-    p: MarchConstants,
-) -> None:
-    """Compute the friction coefficients of one flank anew; they start at `s[at]`."""
-    lines = int(p.motion.flanks.lines)
-    for line in range(lines):
-        slot = at + POINTS_PER_LINE * pair_slot(view.phase, line, lines)
-        for place in range(POINTS_PER_LINE):
-            _, _, _, film = line_point(view, at != MU, line, place, abs(s[W_P]), data, lubricant, p)
-            s[slot + place] = film.state.friction_coefficient
-
-
-@kernel
-def refresh_friction(s: Array, data: Array, lubricant: LubricantState) -> bool:
-    """Compute the friction coefficients in the state anew if they are due; return whether.
-
-    They are due so many times in a mesh period, and when a flank comes into contact or leaves it.
-    `data` are the pair data, see `mesh_data`.
-    """
-    motion: MotionConstants = tuple_from_array(data, MotionConstants)
-    flanks = motion.flanks
-    m = pair_motion(s)
-    drive = drive_view(m, flanks)
-    mark = 4.0 * np.floor(drive.phase * data[REFRESHES_AT])
-    if touches(drive, data[LEAST_OFFSET], flanks):
-        mark += 1.0
-    if coast_near(m, data[LEAST_OFFSET], flanks):
-        mark += 2.0
-    if mark == s[REFRESHED]:
-        return False
-    s[REFRESHED] = mark
-    p: MarchConstants = tuple_from_array(data, MarchConstants)
-    if touches(drive, data[LEAST_OFFSET], flanks):
-        refresh_flank(drive, MU, s, data, lubricant, p)
-    if coast_near(m, data[LEAST_OFFSET], flanks):
-        refresh_flank(coast_view(m, flanks), MU + FLANK_POINTS, s, data, lubricant, p)
-    return True
 
 
 class StepControl(NamedTuple):
@@ -230,7 +169,9 @@ def advance(
         cost += step_cost
         if cost > MAX_STEPS:
             return TOO_MANY_STEPS
-        if p.friction_form > 0.0 and refresh_friction(s, data, oil):
+        if p.friction_form > 0.0 and refresh_friction(
+            pair_motion(s), part(s, REFRESHED, N_FRICTION), data, oil
+        ):
             cost += refresh_cost
             for i in range(N_ODE, N_STATE):
                 stages[i] = s[i]

@@ -37,6 +37,7 @@ POINTS_PER_LINE = 4  # two Gauss points on either side of the pitch line
 FLANK_POINTS = LINES_MAX * POINTS_PER_LINE
 MU = REFRESHED + 1  # coefficients of friction: drive flank, then coast flank [-]
 N_STATE = MU + 2 * FLANK_POINTS
+N_FRICTION = N_STATE - REFRESHED
 N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events
 SPEED_OF_FULL_FRICTION = 0.01  # rad/s; below, friction fades so that it has no jump at rest
 
