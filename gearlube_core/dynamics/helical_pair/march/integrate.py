@@ -43,7 +43,7 @@ MAX_STEPS = 150_000
 _STATIONS = 14.0
 _REFRESH_COST, _SOLVED_REFRESH_COST = 1.0, 4.0  # of friction by the formulas and by solved films
 # Relative change of the load level that the line mesh follows at once
-_LOAD_REACH = 1e-3
+LOAD_REACH = 1e-3
 LOAD_FILTER_TIME = 0.02  # s, the load level follows the torque below the shafts' own motions
 DIVERGED = 0.1  # m along the line of action: teeth long broken
 
@@ -163,7 +163,7 @@ def advance(
     follows = -math.expm1(-h / LOAD_FILTER_TIME)
     cost = 0.0
     for _ in range(steps):
-        if abs(s[LOAD_TORQUE] - at_load) > _LOAD_REACH * (1.0 + at_load):
+        if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + at_load):
             at_load = s[LOAD_TORQUE]
             mesh_at_torque(at_load, mesh, data)
         cost += step_cost
