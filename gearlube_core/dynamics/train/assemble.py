@@ -1,8 +1,8 @@
 """A list of bodies and elements put together: places in the state, numbers and memory.
 
-State of a train: twelve states of each body, the elements' own states, the energies, and behind
-these integrated states what elements keep between steps. Order of the list is order of the sums,
-hence of the last digits.
+State of a train: twelve states of each body, own states and angles of the elements, the energies,
+and behind these integrated states what elements keep between steps. Order of the list is order of
+the sums, hence of the last digits.
 """
 
 from __future__ import annotations
@@ -54,8 +54,11 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: tuple[Any
     of_body = {body.name: BODY_STATES * i for i, body in enumerate(bodies)}
     own, works, losses, kept = {}, {}, {}, {}
     for one in elements:
-        own[one.name] = range(len(names), len(names) + len(one.states))
+        own[one.name] = [*range(len(names), len(names) + len(one.states))]
         names += [f"{one.name}.{state}" for state in one.states]
+    for one in elements:
+        own[one.name] += range(len(names), len(names) + len(one.angles))
+        names += [f"{one.name}.{angle}" for angle in one.angles]
     for one in elements:
         for label in (f"{one.name}.{work}" for work in one.works):
             works[label] = len(names)

@@ -80,6 +80,11 @@ def begin(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -
     """Make ready for a communication step."""
 
 
+@by_class(otherwise=_nothing)
+def expand(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+    """Make forces that are linear about a state exact about this one."""
+
+
 @by_class(otherwise=_no_step)
 def each_step(
     element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float

@@ -26,6 +26,7 @@ from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
 
+RATES, RENEW, SETTLE, ADVANCE, WRITE, ENERGY = range(6)
 OK = 0
 NOT_FINITE = 1
 TOO_MANY_STEPS = 2
@@ -59,21 +60,11 @@ class Layout(NamedTuple):
     states: int
 
 
-class TrainKernels(NamedTuple):
-    """Compiled functions of a train."""
-
-    rates: Callable[..., None]
-    renew: Callable[..., None]
-    settle: Callable[..., None]
-    advance: Callable[..., int]
-    write: Callable[..., None]
-    stored_energy: Callable[..., float]
-
-
 _GIVEN = "s, oil, numbers, memory"
 # kernels of all elements: what they take more, a line for each element, what they return
 _LINES = {
     "begin": ("", "{call}", "None"),
+    "expand": ("", "{call}", "None"),
     "each_step": (", h", "total += {call}", "total"),
     "after_step": (", h", "{call}", "None"),
     "step_rate": ("", "total = max(total, {call})", "total"),
@@ -121,17 +112,29 @@ def _called(elements: Sequence[Call]) -> tuple[Callable[..., Any], ...]:
 
 
 @cache
-def train_kernels(layout: Layout) -> TrainKernels:
-    """Return the compiled functions of all trains of a layout."""
-    begin, each_step, after_step, step_rate, stored_energy, add_forces, write = _called(
+def train_kernel(layout: Layout) -> Callable[..., float]:
+    """Return the compiled function of all trains of a layout: one, so that it compiles once.
+
+    Its arguments are an operation, the state, the oil's temperature [K], numbers and memory of
+    the assembly, then `size`, `least_rate` and `work`:
+
+    RATES
+        Rates of all integrated states into `work`.
+    RENEW
+        What elements keep is found again for this state.
+    ENERGY, WRITE
+        The energy [J]; WRITE writes the outputs into `work` before.
+    ADVANCE
+        A time of `size` [s] with at least `least_rate` steps a second; returns a status.
+    SETTLE
+        Static equilibrium in `size` coordinates. `work` has room for the rates, then the places of
+        the coordinates, what each own state gains by them, row by row, their scales, values and
+        forces out of balance [N, N.m], and room for `damped_newton`.
+    """
+    begin, expand, each_step, after_step, step_rate, stored_energy, add_forces, write = _called(
         layout.calls
     )
     bodies, own, first_mobility, n, n_state = layout[1:]
-
-    @kernel
-    def oil_at(temperature: float, numbers: Array) -> LubricantState:
-        oil: LubricantParameters = tuple_from_array(numbers, LubricantParameters)
-        return lubricant_state(oil, temperature)
 
     @inside
     def forces(s: Array, oil: LubricantState, numbers: Array, memory: Array, ds: Array) -> None:
@@ -150,16 +153,6 @@ def train_kernels(layout: Layout) -> TrainKernels:
                 ds[at + RATE + i] *= numbers[mobility + i]
 
     @kernel
-    def rates_under(s: Array, temperature: float, numbers: Array, memory: Array, ds: Array) -> None:
-        rates(s, oil_at(temperature, numbers), numbers, memory, ds)
-
-    @kernel
-    def renew(s: Array, temperature: float, numbers: Array, memory: Array) -> None:
-        oil = oil_at(temperature, numbers)
-        begin(s, oil, numbers, memory)
-        each_step(s, oil, numbers, memory, 0.0)
-
-    @kernel
     def unbalanced(u: Array, problem: Any, out: Array) -> None:
         s, oil, numbers, memory, places, relations, ds = problem
         for i in range(u.size):
@@ -171,6 +164,7 @@ def train_kernels(layout: Layout) -> TrainKernels:
             s[BODY_STATES * bodies + k] = found
         for body in range(bodies):  # angles move own states alone: periodic data stay
             s[BODY_STATES * body + RZ] = 0.0
+        expand(s, oil, numbers, memory)
         forces(s, oil, numbers, memory, ds)
         for i in range(u.size):
             out[i] = ds[int(places[i]) + RATE]
@@ -179,21 +173,15 @@ def train_kernels(layout: Layout) -> TrainKernels:
 
     @kernel
     def settle(
-        s: Array,
-        temperature: float,
-        numbers: Array,
-        memory: Array,
-        places: Array,
-        relations: Array,
-        scales: Array,
-        u: Array,
-        out: Array,
-        work: Array,
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, m: int, work: Array
     ) -> None:
-        oil = oil_at(temperature, numbers)
-        problem = (s, oil, numbers, memory, places, relations, part(work, 0, n))
-        newton(u, scales, problem, part(work, n, work.size - n))
-        unbalanced(u, problem, out)
+        at_u = n + m * (own + 2)
+        at_out, at_newton = at_u + m, at_u + 2 * m
+        relations = part(work, n + m, m * own)
+        problem = (s, oil, numbers, memory, part(work, n, m), relations, part(work, 0, n))
+        u, scales = part(work, at_u, m), part(work, at_u - m, m)
+        newton(u, scales, problem, part(work, at_newton, work.size - at_newton))
+        unbalanced(u, problem, part(work, at_out, m))
 
     @kernel
     def rk4_step(
@@ -239,14 +227,12 @@ def train_kernels(layout: Layout) -> TrainKernels:
     def advance(
         s: Array,
         duration: float,
-        temperature: float,
+        oil: LubricantState,
         numbers: Array,
         memory: Array,
         least_rate: float,
         work: Array,
     ) -> int:
-        oil = oil_at(temperature, numbers)
-        begin(s, oil, numbers, memory)
         wanted = duration * max(least_rate, step_rate(s, oil, numbers, memory))
         if not wanted < MAX_STEPS:
             return TOO_MANY_STEPS
@@ -267,23 +253,43 @@ def train_kernels(layout: Layout) -> TrainKernels:
         return OK
 
     @kernel
-    def write_under(
-        s: Array, temperature: float, numbers: Array, memory: Array, out: Array
-    ) -> None:
-        oil = oil_at(temperature, numbers)
-        begin(s, oil, numbers, memory)
-        write(s, oil, numbers, memory, out)
-
-    @kernel
-    def energy_under(s: Array, temperature: float, numbers: Array, memory: Array) -> float:
-        oil = oil_at(temperature, numbers)
-        kinetic = 0.0
+    def kinetic_energy(s: Array, numbers: Array) -> float:
+        twice = 0.0
         for body in range(bodies):
             at = BODY_STATES * body + RATE
             mobility = first_mobility + N_COORDINATES * body
             for i in range(N_COORDINATES):
                 if numbers[mobility + i] > 0.0:
-                    kinetic += s[at + i] * s[at + i] / numbers[mobility + i]
-        return 0.5 * kinetic + stored_energy(s, oil, numbers, memory)
+                    twice += s[at + i] * s[at + i] / numbers[mobility + i]
+        return 0.5 * twice
 
-    return TrainKernels(rates_under, renew, settle, advance, write_under, energy_under)
+    @kernel
+    def operate(
+        operation: int,
+        s: Array,
+        temperature: float,
+        numbers: Array,
+        memory: Array,
+        size: float,
+        least_rate: float,
+        work: Array,
+    ) -> float:
+        given: LubricantParameters = tuple_from_array(numbers, LubricantParameters)
+        oil = lubricant_state(given, temperature)
+        if operation == RATES:
+            rates(s, oil, numbers, memory, work)
+            return 0.0
+        if operation == SETTLE:
+            settle(s, oil, numbers, memory, int(size), work)
+            return 0.0
+        begin(s, oil, numbers, memory)
+        if operation == ADVANCE:
+            return float(advance(s, size, oil, numbers, memory, least_rate, work))
+        if operation == RENEW:
+            each_step(s, oil, numbers, memory, 0.0)
+        expand(s, oil, numbers, memory)
+        if operation == WRITE:
+            write(s, oil, numbers, memory, work)
+        return kinetic_energy(s, numbers) + stored_energy(s, oil, numbers, memory)
+
+    return operate

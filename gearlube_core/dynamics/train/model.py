@@ -22,12 +22,18 @@ from gearlube_core.dynamics.train.element import (
 )
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import (
+    ADVANCE,
+    ENERGY,
     MAX_STEPS,
     NOT_FINITE,
     OK,
+    RATES,
+    RENEW,
+    SETTLE,
     TOO_FAST,
     TOO_MANY_STEPS,
-    train_kernels,
+    WRITE,
+    train_kernel,
 )
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
@@ -90,7 +96,7 @@ class Train:
         check_within("steps_per_highest_period", steps_per_highest_period, 6, 4096)
         self.bodies, self.elements, self.oil = tuple(bodies), tuple(elements), oil
         self._made = assemble(bodies, elements, oil.parameters())
-        self._kernels = train_kernels(self._made.layout)
+        self._operate = train_kernel(self._made.layout)
         n, size = self._made.layout.integrated, self._made.layout.states
         self._n, self._state, self._trial = n, self._made.state.copy(), np.zeros(size)
         self._work = np.zeros(size + 2 * n)
@@ -159,7 +165,7 @@ class Train:
         before = self._state
         self._state = trial
         self._put(torques)
-        status = self._kernels.advance(trial, h, *self._given, self._least_rate, self._work)
+        status = int(self._call(ADVANCE, trial, self._work, h))
         if status != OK:
             self._state = before
             raise StepError(f"step of {h:g} s refused: {_REFUSED[status]}.")
@@ -168,7 +174,7 @@ class Train:
     def outputs(self) -> dict[str, float]:
         """Return the outputs of all elements in the present state, SI units, by name."""
         out = np.zeros(len(self._made.outputs))
-        self._kernels.write(self._state, *self._given, out)
+        self._call(WRITE, self._state, out)
         return dict(zip(self._made.outputs, out.tolist(), strict=True))
 
     def state(self, name: str) -> float:
@@ -178,7 +184,7 @@ class Train:
     @property
     def energy(self) -> float:
         """Kinetic and elastic energy of the train [J]."""
-        return float(self._kernels.stored_energy(self._state, *self._given))
+        return self._call(ENERGY, self._state, self._work)
 
     @property
     def work(self) -> float:
@@ -223,9 +229,9 @@ class Train:
         frequencies = np.sqrt(np.maximum(squares.real[order], 0.0)) / (2.0 * np.pi)
         return frequencies, shapes
 
-    @property
-    def _given(self) -> tuple[float, Array, Array]:
-        return self._temperature, self._made.numbers, self._made.memory
+    def _call(self, operation: int, s: Array, work: Array, size: float = 0.0) -> float:
+        given = self._temperature, self._made.numbers, self._made.memory
+        return self._operate(operation, s, *given, size, self._least_rate, work)
 
     def _take(self, torques: Mapping[str, float], oil_temperature: float) -> None:
         missing = sorted(set(self._ports) ^ set(torques))
@@ -251,7 +257,7 @@ class Train:
         for j in range(found.shape[1]):
             at = BODY_STATES * (j // N_COORDINATES) + RATE + j % N_COORDINATES
             s[at] = 1.0
-            self._kernels.rates(s, *self._given, slope)
+            self._call(RATES, s, slope)
             found[:, j] = slope[first : first + layout.own]
             s[at] = 0.0
         return found
@@ -295,8 +301,8 @@ class Train:
         # loads of the own states that balance the torques of the ports
         slope, s = np.zeros(self._n), self._state
         s[[BODY_STATES * i + W for i in range(len(self.bodies))]] = found
-        self._kernels.renew(s, *self._given)
-        self._kernels.rates(s, *self._given, slope)
+        self._call(RENEW, s, slope)
+        self._call(RATES, s, slope)
         mobility = np.concatenate([body.mobility for body in self.bodies])[columns]
         loads = np.linalg.lstsq(
             related[:, turns].T, (slope[places + RATE] / mobility)[turns], rcond=None
@@ -314,14 +320,16 @@ class Train:
             reach = np.abs(guess)[:, None] / np.abs(related)
         scales = 0.1 * np.min(reach, axis=0, initial=np.inf)
         scales[~np.isfinite(scales)] = 0.1 * min(np.abs(guess), default=1e-6)
-        out, work = np.zeros(u.size), np.zeros(self._n + newton_work_size(u.size))
+        before = np.concatenate([np.zeros(self._n), places, related.ravel(), scales])
+        at_u = before.size
+        work = np.concatenate([before, np.zeros(2 * u.size + newton_work_size(u.size))])
+        work[at_u : at_u + u.size] = u
         for _ in range(_PASSES):
             for at, values in kept.items():
                 s[at : at + values.size] = values
-            self._kernels.renew(s, *self._given)
-            self._kernels.settle(
-                s, *self._given, places.astype(float), related.ravel(), scales, u, out, work
-            )
+            self._call(RENEW, s, slope)
+            self._call(SETTLE, s, work, float(u.size))
+        out = work[at_u + u.size : at_u + 2 * u.size]
         size = np.abs(loads).max(initial=1.0)
         if not np.abs(out).max(initial=0.0) <= _SETTLED * max(size, 1.0):
             worst = self._made.names[places[int(np.nanargmax(np.abs(out)))]]
@@ -346,6 +354,6 @@ class Train:
                 if place % BODY_STATES != RZ:  # periodic data stay where they are
                     moved[place] += sign * _DIFFERENCE
                 moved[first : first + layout.own] += sign * _DIFFERENCE * related
-                self._kernels.rates(moved, *self._given, slope)
+                self._call(RATES, moved, slope)
                 matrix[:, j] -= sign * slope[self._free + RATE] / (2.0 * _DIFFERENCE)
         return matrix

@@ -66,7 +66,8 @@ class Element(ABC):
     name: str
     on: ClassVar[tuple[str, ...]]  # fields that name the bodies
     beside: ClassVar[tuple[str, ...]] = ()  # fields that name other elements, or None
-    states: ClassVar[tuple[str, ...]] = ()  # own integrated states
+    states: ClassVar[tuple[str, ...]] = ()  # own integrated states that stay in steady turning
+    angles: ClassVar[tuple[str, ...]] = ()  # own integrated states that turn on
     works: ClassVar[tuple[str, ...]] = ()  # energies put into the train
     losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
     outputs: ClassVar[tuple[str, ...]] = ()
