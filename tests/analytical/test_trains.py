@@ -14,15 +14,14 @@ from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, churning_torque
 from gearlube_core.dynamics.helical_pair.march import state as pair_state
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.state import SupportConstants
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
 from gearlube_core.dynamics.train.elements.port import Port
-from gearlube_core.dynamics.train.elements.support import Support
-from gearlube_core.dynamics.train.helical_pair import helical_pair
+from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
+from gearlube_core.dynamics.train.helical_pair import helical_pair, spring_support
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
@@ -159,7 +158,7 @@ def e_axle(turned: float = 0.0, friction: str = "film", hand: bool = True) -> Tr
         Port(name="right wheel", body="right"),
         first,
         second,
-        *(Support(name=f"{b.name} bearings", body=b.name, constants=even) for b in bodies[:3]),
+        *(spring_support(f"{b.name} bearings", b.name, even) for b in bodies[:3]),
         HalfShaft(name="left shaft", first="differential", second="left", stiffness=8e3),
         HalfShaft(name="right shaft", first="differential", second="right", stiffness=6e3),
     ]
@@ -178,22 +177,23 @@ def test_two_stages_carry_torque_speed_and_thrust_as_rigid_gears_do():
     expected = np.array([-(RATIO**2), RATIO, -1.0, -1.0, -1.0])
     assert speeds == pytest.approx(50.0 * expected, rel=1e-9)
     found = train.outputs()
-    # without friction each mesh carries the torque of its pinion at its base radius
+    # without friction each mesh carries the torque of its pinion at its base radius, but for the
+    # work of lines that move under load, 1e-4 of it
     for mesh, torque in (("first", 200.0), ("second", 200.0 * RATIO)):
         across = math.hypot(found[f"{mesh}.force.x"], found[f"{mesh}.force.y"])
-        assert across == pytest.approx(torque / PLANE.r_bp, rel=1e-5)
+        assert across == pytest.approx(torque / PLANE.r_bp, rel=1e-4)
         axial = abs(found[f"{mesh}.force.z"])
         assert axial == pytest.approx(across * PLANE.sin_b / PLANE.cos_b, rel=1e-9)
     # a left-hand pinion that turns about -z is pushed towards +z; so is a right-hand one about +z
     assert found["first.force.z"] > 0.0
     assert found["second.force.z"] > 0.0
     both = found["left shaft.torque"] + found["right shaft.torque"]
-    assert both == pytest.approx(-200.0 * RATIO**2, rel=1e-5)
+    assert both == pytest.approx(-200.0 * RATIO**2, rel=1e-4)
     # the countershaft feels the first mesh's reaction and the second one's action: with gears of
     # one hand they pull apart, as every countershaft is made
     other = e_axle(friction="off", hand=False)
     other.initialise({"left": -50.0, "right": -50.0}, loads(200.0), KELVIN)
-    assert other.outputs()["first.force.z"] == pytest.approx(-found["first.force.z"], rel=1e-6)
+    assert other.outputs()["first.force.z"] == pytest.approx(-found["first.force.z"], rel=1e-4)
 
 
 def test_energy_of_two_stages_is_balanced_while_torques_swing():
@@ -357,7 +357,7 @@ def test_what_cannot_be_a_train_is_named():
 
 def test_teeth_without_bearings_have_no_rest():
     bodies, elements = helical_pair(PAIR)
-    loose = [replace(one, constants=SupportConstants(*16 * (0.0,))) for one in elements[3:]]
+    loose = [SpringSupport(name=one.name, body=one.body) for one in elements[3:]]
     train = Train(bodies, [*elements[:3], *loose], PAIR.oil)
     with pytest.raises(ConvergenceError, match="no static equilibrium: forces on"):
         train.initialise({"wheel": 80.0}, LOAD, KELVIN)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.helical_pair.march.state import SupportConstants
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.port import Port
-from gearlube_core.dynamics.train.elements.support import Support
+from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
 from gearlube_core.dynamics.train.part import Body, Element
 
 
@@ -55,6 +56,13 @@ def helical_pair(parameters: HelicalMarchParameters) -> tuple[list[Body], list[E
         Port(name="input", body="pinion", sign=-1.0),
         Port(name="output", body="wheel", sign=-1.0),
         mesh,
-        Support(name="pinion bearings", body="pinion", constants=motion.pinion),
-        Support(name="wheel bearings", body="wheel", constants=motion.gear),
+        spring_support("pinion bearings", "pinion", motion.pinion),
+        spring_support("wheel bearings", "wheel", motion.gear),
     ]
+
+
+def spring_support(name: str, body: str, constants: SupportConstants) -> SpringSupport:
+    """Return the springs and dampers of a member of a helical pair."""
+    given = constants._asdict()
+    taken = {one: given[one] for one in given if one.startswith(("K_", "c_"))}
+    return SpringSupport(name=name, body=body, **taken)

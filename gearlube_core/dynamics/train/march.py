@@ -20,7 +20,7 @@ from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.dynamics.train import element as calls
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, RZ, W
 from gearlube_core.kernels.array_part import part
-from gearlube_core.kernels.damped_newton import damped_newton
+from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -58,6 +58,11 @@ class Layout(NamedTuple):
     first_mobility: int  # among the numbers
     integrated: int
     states: int
+
+
+def settle_work_size(layout: Layout, m: int) -> int:
+    """Return the length of `work` for SETTLE in `m` coordinates."""
+    return layout.integrated + m * (layout.own + 5) + layout.own + newton_work_size(m)
 
 
 _GIVEN = "s, oil, numbers, memory"
@@ -127,9 +132,9 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
     ADVANCE
         A time of `size` [s] with at least `least_rate` steps a second; returns a status.
     SETTLE
-        Static equilibrium in `size` coordinates. `work` has room for the rates, then the places of
-        the coordinates, what each own state gains by them, row by row, their scales, values and
-        forces out of balance [N, N.m], and room for `damped_newton`.
+        Static equilibrium in `size` coordinates, near the state. `work` has room for the rates,
+        then the places of the coordinates, what each own state gains by them, row by row, their
+        scales, the forces that stay out of balance [N, N.m], and work space of `settle_work_size`.
     """
     begin, expand, each_step, after_step, step_rate, stored_energy, add_forces, write = _called(
         layout.calls
@@ -154,11 +159,11 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
 
     @kernel
     def unbalanced(u: Array, problem: Any, out: Array) -> None:
-        s, oil, numbers, memory, places, relations, ds = problem
+        s, oil, numbers, memory, places, relations, base, ds = problem
         for i in range(u.size):
-            s[int(places[i])] = u[i]
+            s[int(places[i])] = base[i] + u[i]
         for k in range(own):
-            found = 0.0
+            found = base[u.size + k]
             for i in range(u.size):
                 found += relations[k * u.size + i] * u[i]
             s[BODY_STATES * bodies + k] = found
@@ -175,13 +180,19 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
     def settle(
         s: Array, oil: LubricantState, numbers: Array, memory: Array, m: int, work: Array
     ) -> None:
-        at_u = n + m * (own + 2)
-        at_out, at_newton = at_u + m, at_u + 2 * m
-        relations = part(work, n + m, m * own)
-        problem = (s, oil, numbers, memory, part(work, n, m), relations, part(work, 0, n))
-        u, scales = part(work, at_u, m), part(work, at_u - m, m)
-        newton(u, scales, problem, part(work, at_newton, work.size - at_newton))
-        unbalanced(u, problem, part(work, at_out, m))
+        places, relations = part(work, n, m), part(work, n + m, m * own)
+        scales, out = part(work, n + m * (own + 1), m), part(work, n + m * (own + 2), m)
+        at = n + m * (own + 3)
+        u, base = part(work, at, m), part(work, at + m, m + own)
+        for i in range(m):
+            u[i] = 0.0
+            base[i] = s[int(places[i])]
+        for k in range(own):
+            base[m + k] = s[BODY_STATES * bodies + k]
+        problem = (s, oil, numbers, memory, places, relations, base, part(work, 0, n))
+        at += 2 * m + own
+        newton(u, scales, problem, part(work, at, work.size - at))
+        unbalanced(u, problem, out)
 
     @kernel
     def rk4_step(

@@ -33,11 +33,11 @@ from gearlube_core.dynamics.train.march import (
     TOO_FAST,
     TOO_MANY_STEPS,
     WRITE,
+    settle_work_size,
     train_kernel,
 )
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
-from gearlube_core.kernels.damped_newton import newton_work_size
 from gearlube_core.oil.lubricant import Lubricant
 
 _DIFFERENCE = 1e-8  # m and rad, of coordinates in a linearisation
@@ -314,22 +314,22 @@ class Train:
             guess += one.guess(load)
             if one.name not in self._ports:
                 kept[self._made.kept[one.name]] = one.kept(load)
-        u = np.zeros(places.size)
-        u[turns] = np.linalg.lstsq(related[:, turns], np.array(guess), rcond=None)[0]
+        turned = np.linalg.lstsq(related[:, turns], np.array(guess), rcond=None)[0]
+        first = BODY_STATES * self._made.layout.bodies
+        s[first : first + related.shape[0]] = related[:, turns] @ turned
         with np.errstate(divide="ignore"):
             reach = np.abs(guess)[:, None] / np.abs(related)
         scales = 0.1 * np.min(reach, axis=0, initial=np.inf)
         scales[~np.isfinite(scales)] = 0.1 * min(np.abs(guess), default=1e-6)
-        before = np.concatenate([np.zeros(self._n), places, related.ravel(), scales])
-        at_u = before.size
-        work = np.concatenate([before, np.zeros(2 * u.size + newton_work_size(u.size))])
-        work[at_u : at_u + u.size] = u
+        work = np.zeros(settle_work_size(self._made.layout, places.size))
+        head = np.concatenate([np.zeros(self._n), places, related.ravel(), scales])
+        work[: head.size] = head
         for _ in range(_PASSES):
             for at, values in kept.items():
                 s[at : at + values.size] = values
             self._call(RENEW, s, slope)
-            self._call(SETTLE, s, work, float(u.size))
-        out = work[at_u + u.size : at_u + 2 * u.size]
+            self._call(SETTLE, s, work, float(places.size))
+        out = work[head.size : head.size + places.size]
         size = np.abs(loads).max(initial=1.0)
         if not np.abs(out).max(initial=0.0) <= _SETTLED * max(size, 1.0):
             worst = self._made.names[places[int(np.nanargmax(np.abs(out)))]]

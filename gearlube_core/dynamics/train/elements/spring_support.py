@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.state import SupportConstants
+from gearlube_core.checks import check_within
+from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE, coupling_limit
 from gearlube_core.dynamics.train.element import RATE
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
+
+_STIFFNESS = Number("N/m", 0.0, 1e13)
+_TILTING = Number("N.m/rad", 0.0, 1e10)
+_COUPLING = Number("N/rad", -1e12, 1e12)
+_DAMPING = Number("N s/m", 0.0, 1e9)
+_TILT_DAMPING = Number("N.m s/rad", 0.0, 1e9)
 
 
 class _Support(NamedTuple):
@@ -52,23 +60,52 @@ class _Support(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Support(Element):
-    """Springs and dampers of both bearings of a body, against the ground.
+class SpringSupport(Element):
+    """Linear springs and dampers of all bearings of a body together, against the ground.
 
     Parameters
     ----------
-    name : str
-    body : str
-    constants : SupportConstants
-        Stiffness and damping; its mobilities are not read.
+    name, body : str
+    K_xx, K_yy, K_zz : float
+        Stiffness against displacement [N/m], 0 to 1e13.
+    K_ax, K_ay : float
+        Against tilting about x and y [N.m/rad], 0 to 1e10.
+    K_x_ay, K_y_ax : float
+        Symmetric coupling of x with tilting about y, and of y with tilting about x [N/rad].
+    c_x, c_y, c_z, c_ax, c_ay : float
+        Dampers [N s/m], [N.m s/rad], not negative.
+
+    Notes
+    -----
+    `support_stiffness` gives the stiffness of two bearings on a shaft, [he_2007 (28)].
     """
 
     name: str
     body: str
-    constants: SupportConstants
+    K_xx: Annotated[float, _STIFFNESS] = 0.0
+    K_yy: Annotated[float, _STIFFNESS] = 0.0
+    K_zz: Annotated[float, _STIFFNESS] = 0.0
+    K_ax: Annotated[float, _TILTING] = 0.0
+    K_ay: Annotated[float, _TILTING] = 0.0
+    K_x_ay: Annotated[float, _COUPLING] = 0.0
+    K_y_ax: Annotated[float, _COUPLING] = 0.0
+    c_x: Annotated[float, _DAMPING] = 0.0
+    c_y: Annotated[float, _DAMPING] = 0.0
+    c_z: Annotated[float, _DAMPING] = 0.0
+    c_ax: Annotated[float, _TILT_DAMPING] = 0.0
+    c_ay: Annotated[float, _TILT_DAMPING] = 0.0
     on: ClassVar = ("body",)
     losses: ClassVar = ("bearing_damping",)
 
+    def __post_init__(self) -> None:
+        check_fields(self)
+        for coupling, direct, tilting in (
+            ("K_x_ay", self.K_xx, self.K_ay),
+            ("K_y_ax", self.K_yy, self.K_ax),
+        ):
+            limit, cure = coupling_limit(direct, tilting), COUPLING_CURE
+            check_within(coupling, getattr(self, coupling), -limit, limit, "N/rad", cure)
+
     def numbers(self) -> _Support:
         """Return the constants of the kernels."""
-        return _Support(*self.constants[: len(_Support._fields)])
+        return constants_of(_Support, self)
