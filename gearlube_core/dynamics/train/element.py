@@ -46,6 +46,11 @@ def _zero(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -
 
 
 @kernel
+def _smooth(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+    return math.inf
+
+
+@kernel
 def _no_outputs(
     element: Any,
     at: Any,
@@ -110,6 +115,12 @@ def stored_energy(element: Any, at: Any, memory: Array, s: Array, oil: Lubricant
 @by_class(otherwise=_zero)
 def step_rate(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
     """Return the least number of integrator steps a second that the element asks for now."""
+    raise NotImplementedError
+
+
+@by_class(otherwise=_smooth)
+def time_to_jump(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+    """Return after what time [s] a step must end because forces jump there; infinite for none."""
     raise NotImplementedError
 
 

@@ -65,6 +65,8 @@ def settle_work_size(layout: Layout, m: int) -> int:
     return layout.integrated + m * (layout.own + 5) + layout.own + newton_work_size(m)
 
 
+_IN_TIME = "begin", "expand", "each_step", "after_step"
+_NUMBERS = "step_rate", "time_to_jump", "stored_energy"
 _GIVEN = "s, oil, numbers, memory"
 # kernels of all elements: what they take more, a line for each element, what they return
 _LINES = {
@@ -73,6 +75,7 @@ _LINES = {
     "each_step": (", h", "total += {call}", "total"),
     "after_step": (", h", "{call}", "None"),
     "step_rate": ("", "total = max(total, {call})", "total"),
+    "time_to_jump": ("", "total = min(total, {call})", "total"),
     "stored_energy": ("", "total += {call}", "total"),
     "add_forces": (", ds", "{call}", "None"),
     "write": (", out", "{call}", "None"),
@@ -92,7 +95,8 @@ def _text(variants: Sequence[int]) -> str:
         lines += [f"    v{i}_{k} = v{i}[{k}]" for k in range(variants[i])]
     for name, (more, line, result) in _LINES.items():
         lines.append("    @inside" if name == "add_forces" else "    @kernel")
-        lines += [f"    def all_{name}({_GIVEN}{more}):", "        total = 0.0"]
+        start = "math.inf" if name == "time_to_jump" else "0.0"
+        lines += [f"    def all_{name}({_GIVEN}{more}):", f"        total = {start}"]
         for i in count:
             chosen = "".join(f", v{i}_{k}" for k in range(variants[i]))
             own = f"tuple_from_array(part(numbers, n{i}, c{i}), e{i}{chosen})"
@@ -105,7 +109,7 @@ def _text(variants: Sequence[int]) -> str:
 
 def _called(elements: Sequence[Call]) -> tuple[Callable[..., Any], ...]:
     """Return the kernels that call all elements, in the order of _LINES."""
-    space: dict[str, Any] = {"__name__": __name__}
+    space: dict[str, Any] = {"__name__": __name__, "math": math}
     text = _text([len(call.variants) for call in elements])
     exec(compile(text, __file__, "exec"), space)
     constants = [one for call in elements for one in call]
@@ -136,9 +140,10 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         then the places of the coordinates, what each own state gains by them, row by row, their
         scales, the forces that stay out of balance [N, N.m], and work space of `settle_work_size`.
     """
-    begin, expand, each_step, after_step, step_rate, stored_energy, add_forces, write = _called(
-        layout.calls
-    )
+    made = dict(zip(_LINES, _called(layout.calls), strict=True))
+    begin, expand, each_step, after_step = (made[name] for name in _IN_TIME)
+    step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
+    add_forces, write = made["add_forces"], made["write"]
     bodies, own, first_mobility, n, n_state = layout[1:]
 
     @inside
@@ -251,12 +256,16 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         h = duration / steps
         cost = 0.0
         for _ in range(steps):
-            cost += each_step(s, oil, numbers, memory, h)
-            if cost > MAX_STEPS:
-                return TOO_MANY_STEPS
-            for i in range(n, n_state):
-                work[i] = s[i]
-            rk4_step(s, h, oil, numbers, memory, work)
+            rest = h
+            while rest > 0.0:
+                cost += each_step(s, oil, numbers, memory, rest)
+                if cost > MAX_STEPS:
+                    return TOO_MANY_STEPS
+                for i in range(n, n_state):
+                    work[i] = s[i]
+                piece = min(rest, time_to_jump(s, oil, numbers, memory))
+                rk4_step(s, piece, oil, numbers, memory, work)
+                rest -= piece
             after_step(s, oil, numbers, memory, h)
             status = status_of(s)
             if status != OK:

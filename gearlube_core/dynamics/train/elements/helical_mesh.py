@@ -12,10 +12,12 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     LOAD_FILTER_TIME,
     LOAD_REACH,
+    time_to_jump,
 )
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    LEAST_OFFSET,
     LEVEL,
     mesh_at_torque,
     pack_march_mesh,
@@ -128,6 +130,13 @@ class _HelicalMesh(NamedTuple):
         constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
         frequency = constants.teeth * abs(s[at[0] + W]) / (2.0 * math.pi)
         return frequency * self.steps_per_period
+
+    @kernel
+    def time_to_jump(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        data = _data(at, memory)
+        constants: MarchConstants = tuple_from_array(data, MarchConstants)
+        m = _motion(self, at, s)
+        return time_to_jump(m, data[LEAST_OFFSET], constants.motion.flanks)
 
     @kernel
     def write(
