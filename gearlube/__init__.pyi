@@ -32,6 +32,21 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
 )
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel as HelicalPairModel
 
+# -- Trains of bodies and elements
+from gearlube_core.dynamics.train.model import Train as Train
+from gearlube_core.dynamics.train.part import Body as TrainBody
+from gearlube_core.dynamics.train.part import Element as TrainElement
+from gearlube_core.dynamics.train.elements.port import Port as Port
+from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh as HelicalMesh
+from gearlube_core.dynamics.train.elements.spring_support import SpringSupport as SpringSupport
+from gearlube_core.dynamics.train.elements.opposed_bearings import (
+    OpposedBearings as OpposedBearings,
+)
+from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfShaft
+from gearlube_core.dynamics.train.elements.drag import Seal as Seal
+from gearlube_core.dynamics.train.elements.drag import Churning as Churning
+from gearlube_core.dynamics.train.helical_pair import helical_pair as helical_pair_train
+
 # -- Oils
 from gearlube_core.oil.lubricant import Lubricant as Lubricant
 from gearlube_core.oil.lubricant import lubricant_names as lubricant_names

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple, get_args
+from typing import Annotated, Literal, NamedTuple, get_args
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number
 
 ChurningLaw = Literal["none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"]
 CHURNING_LAWS: tuple[str, ...] = get_args(ChurningLaw)
@@ -19,6 +20,13 @@ _LOW, _HIGH = 6000.0, 9000.0
 SealMaterial = Literal["fkm", "nbr"]
 # N.m per mm of shaft diameter, [iso_tr_14179_1]; not compared with the printed source
 _PER_MILLIMETRE = {"fkm": 3.737e-3, "nbr": 2.429e-3}
+
+# as a user gives them, with limits and units
+RingDiameter = Annotated[float, Number("m", 0.01, 3.0, "165 mm is 0.165 m.")]
+RingWidth = Annotated[float, Number("m", 1e-3, 1.0, "30 mm is 0.03 m.")]
+Immersion = Annotated[float, Number("m", 0.0, 3.0, "40 mm is 0.04 m.")]
+OilVolume = Annotated[float, Number("m3", 1e-5, 1.0, "1.2 l is 1.2e-3 m3.")]
+SealTorque = Annotated[float, Number("N.m", 0.0, 100.0, "0.15 N.m is usual.")]
 
 
 class ChurningConstants(NamedTuple):

@@ -21,6 +21,11 @@ def inlined(function: _Function) -> _Function:
     return compiled(function, error_model="numpy", forceinline=True, fastmath={"contract"})
 
 
+def inside(function: _Function) -> _Function:
+    """Compile `function` so that its callers contain its body; arithmetic as in any kernel."""
+    return compiled(function, error_model="numpy", forceinline=True)
+
+
 def summing(function: _Function) -> _Function:
     """Compile `function`, whose sums may be taken in any order."""
     return compiled(function, error_model="numpy", fastmath={"reassoc", "contract"})

@@ -11,17 +11,19 @@ import pytest
 
 from gearlube_core.dynamics.helical_pair.march import kept_films, line_points
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
-from gearlube_core.dynamics.helical_pair.march.integrate import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.state import (
     MU,
     POINTS_PER_LINE,
+    REFRESHED,
     W_P,
     FlankView,
     coast_view,
     drive_view,
+    pair_motion,
 )
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.friction.solved_line import line_film, line_inlet, solved_line_friction
@@ -91,8 +93,9 @@ def marched(speed: float, torque: float, temperature: float, *, kept: bool) -> t
     h = 0.9 * 2.0 * math.pi / (TEETH * speed) / 64.0  # one step of the integrator
     found = []
     for _ in range(200):
-        if refresh_friction(model._state, model._data, oil) and not kept:
-            view = drive_view(model._state, flanks)
+        state = model._state
+        if refresh_friction(pair_motion(state), state[REFRESHED:], model._data, oil) and not kept:
+            view = drive_view(pair_motion(model._state), flanks)
             for line in range(int(flanks.lines)):
                 slot = MU + POINTS_PER_LINE * pair_slot(view.phase, line, int(flanks.lines))
                 for place in range(POINTS_PER_LINE):
@@ -128,7 +131,11 @@ def test_films_and_frictions_are_the_models_at_any_load_speed_and_phase(coast):
             model.step(1e-5, torque, torque * RATIO, temperature)
         oil = lubricant_state(model.constants.oil, temperature)
         flanks = model.constants.motion.flanks
-        view = coast_view(model._state, flanks) if coast else drive_view(model._state, flanks)
+        view = (
+            coast_view(pair_motion(model._state), flanks)
+            if coast
+            else drive_view(pair_motion(model._state), flanks)
+        )
         for line in range(int(flanks.lines)):
             for place in range(POINTS_PER_LINE):
                 known = evaluated(model, view, line, place, oil)
@@ -222,7 +229,7 @@ def test_compiled_kernels_equal_their_python_functions():
     model = running(150.0, 226.0, 353.15)
     model.step(1e-4, 226.0, 226.0 * RATIO, 353.15)
     oil, constants = lubricant_state(model.constants.oil, 353.15), model.constants
-    view = drive_view(model._state, constants.motion.flanks)
+    view = drive_view(pair_motion(model._state), constants.motion.flanks)
     box = kept_films.bin_of(1.3e5, 150.0, 353.15)
     assert kept_films.bin_of.py_func(1.3e5, 150.0, 353.15) == pytest.approx(box, rel=1e-12)
     x = constants.motion.flanks.plane.P + 1e-3

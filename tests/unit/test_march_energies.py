@@ -37,6 +37,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     WORK_MARK,
     FlankConstants,
     SupportConstants,
+    pair_motion,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import Wrench
 from gearlube_core.helical_geometry.contact_line import ContactPlane
@@ -72,10 +73,10 @@ def power(w: Wrench, s: np.ndarray) -> float:
 def test_heat_of_friction_is_the_power_that_its_forces_take(direction: float):
     sums = LineSums(*np.zeros(11))._replace(F=31.0, Fx=0.4, Fz=-0.2)
     wrench = rates.flank_wrench(sums, direction, PLANE)
-    found = rates.friction_heat(sums, direction, STATE, FLANKS)
+    found = rates.friction_heat(sums, direction, pair_motion(STATE), FLANKS)
     assert found == pytest.approx(-power(wrench, STATE), rel=1e-12)
     turned = rates.turned_wrench(wrench, FLANKS)
-    found = rates.turned_friction_heat(sums, direction, STATE, FLANKS)
+    found = rates.turned_friction_heat(sums, direction, pair_motion(STATE), FLANKS)
     assert found == pytest.approx(-power(turned, STATE), rel=1e-12)
 
 

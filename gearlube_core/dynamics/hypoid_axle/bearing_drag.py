@@ -16,6 +16,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     NO_RACEWAYS,
     RollerFilms,
+    ShaftBearings,
+    ShaftMotion,
     SolvedRaceways,
     beside_raceways,
     loaded_drag,
@@ -129,36 +131,36 @@ def bearing_drag(
     load of each roller, see `raceway_drag`, `solved_raceway_drag` and `rib_drag`. `raceways` are
     those of `axle_raceways` at this state.
     """
-    if p.drag == 0.0:
-        return BearingDrag(0.0, 0.0, 0.0)
-    if p.drag == PALMGREN:
-        return BearingDrag(
-            2.0 * shaft_drag(p.bearing_p, s[W_P], p.preload_p, 0.0, PALMGREN_LAW, oil),
-            2.0 * shaft_drag(p.bearing_g, s[W_G], p.preload_g, 0.0, PALMGREN_LAW, oil),
-            0.0,
-        )
     pinion, gear = pinion_motion(s), gear_motion(s)
-    if p.drag == _PALMGREN_LOADED or p.drag == _SKF:
-        catalogue = SKF if p.drag == _SKF else PALMGREN_LAW
-        return BearingDrag(
-            loaded_drag(p.bearing_p, pinion, catalogue, oil),
-            loaded_drag(p.bearing_g, gear, catalogue, oil),
-            0.0,
-        )
-    beside_p = beside_raceways(p.bearing_p, pinion, oil)
-    beside_g = beside_raceways(p.bearing_g, gear, oil)
     if p.drag == SOLVED_FILMS:
         return BearingDrag(
-            raceways.pinion.torque + beside_p,
-            raceways.gear.torque + beside_g,
+            raceways.pinion.torque + beside_raceways(p.bearing_p, pinion, oil),
+            raceways.gear.torque + beside_raceways(p.bearing_g, gear, oil),
             drag_bound_of(s, raceways),
         )
-    law = _rolling_law(p.drag)
     return BearingDrag(
-        raceway_torque(p.bearing_p, pinion, law, oil) + beside_p,
-        raceway_torque(p.bearing_g, gear, law, oil) + beside_g,
+        drag_of_shaft(p.bearing_p, pinion, p.preload_p, p.drag, oil),
+        drag_of_shaft(p.bearing_g, gear, p.preload_g, p.drag, oil),
         0.0,
     )
+
+
+@kernel
+def drag_of_shaft(
+    bearings: ShaftBearings, motion: ShaftMotion, preload: float, law: float, oil: LubricantState
+) -> float:
+    """Return the drag of both bearings of a shaft [N m] by a law of TORQUE_LOSSES.
+
+    All but "solved_films". `preload` is that of `Bearing.preload_force` [N].
+    """
+    if law == 0.0:
+        return 0.0
+    if law == PALMGREN:
+        return 2.0 * shaft_drag(bearings, motion.speed, preload, 0.0, PALMGREN_LAW, oil)
+    if law in (_PALMGREN_LOADED, _SKF):
+        return loaded_drag(bearings, motion, SKF if law == _SKF else PALMGREN_LAW, oil)
+    rolling = raceway_torque(bearings, motion, _rolling_law(law), oil)
+    return rolling + beside_raceways(bearings, motion, oil)
 
 
 @kernel

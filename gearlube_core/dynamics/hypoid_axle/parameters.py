@@ -20,7 +20,15 @@ from gearlube_core.contact.solid import (
     contact_modulus,
     solid_parameters,
 )
-from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, ChurningLaw
+from gearlube_core.drag import (
+    CHURNING_LAWS,
+    ChurningConstants,
+    ChurningLaw,
+    Immersion,
+    OilVolume,
+    RingDiameter,
+    RingWidth,
+)
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
     BEARING_LAWS,
     TORQUE_LOSSES,
@@ -173,10 +181,10 @@ class HypoidAxleParameters(AxleScalars):
     rolling: FlankRolling = "none"
     bearing_torque_loss: str = DEFAULT_LAW
     churning: ChurningLaw = "none"
-    ring_diameter: Annotated[float, Number("m", 0.01, 3.0, "165 mm is 0.165 m.")] = 0.165
-    ring_width: Annotated[float, Number("m", 1e-3, 1.0, "30 mm is 0.03 m.")] = 0.030
-    immersion: Annotated[float, Number("m", 0.0, 3.0, "40 mm is 0.04 m.")] = 0.040
-    oil_volume: Annotated[float, Number("m3", 1e-5, 1.0, "1.2 l is 1.2e-3 m3.")] = 1.2e-3
+    ring_diameter: RingDiameter = 0.165
+    ring_width: RingWidth = 0.030
+    immersion: Immersion = 0.040
+    oil_volume: OilVolume = 1.2e-3
     steps_per_mesh_period: Annotated[int, Number("1", 16, 4096, "Default 56.")] = 56
     steps_per_highest_period: Annotated[int, Number("1", 8, 4096, "Default 17.")] = 17
 

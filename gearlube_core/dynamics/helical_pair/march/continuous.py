@@ -2,7 +2,7 @@
 
 The continuous states are the first N_CONTINUOUS of the state vector. What else the future depends
 on, the coefficients of friction and when they were computed, changes at events alone: there
-`integrate.refresh_friction` does what it does between the steps of `integrate.advance`.
+`refresh_friction` does what it does between the steps of `integrate.advance`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.integrate import LOAD_FILTER_TIME, refresh_friction
+from gearlube_core.dynamics.helical_pair.march.integrate import LOAD_FILTER_TIME
+from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
@@ -18,12 +19,16 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 )
 from gearlube_core.dynamics.helical_pair.march.state import (
     LOAD_TORQUE,
+    N_FRICTION,
     N_ODE,
+    REFRESHED,
     MarchConstants,
     coast_deepest,
     deepest,
     drive_view,
+    pair_motion,
 )
+from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import lubricant_state
@@ -80,9 +85,10 @@ def write_event_indicators(s: Array, data: Array, p: MarchConstants, out: Array)
     zero, which is 1 without friction of the film. `data` are the pair data.
     """
     flanks = p.motion.flanks
-    drive = drive_view(s, flanks)
+    m = pair_motion(s)
+    drive = drive_view(m, flanks)
     out[0] = deepest(drive, data[LEAST_OFFSET], flanks) * _MICRO
-    out[1] = coast_deepest(s, data[LEAST_OFFSET], flanks) * _MICRO
+    out[1] = coast_deepest(m, data[LEAST_OFFSET], flanks) * _MICRO
     out[2] = 1.0
     if p.friction_form > 0.0:
         out[2] = math.sin(math.pi * drive.phase * p.refreshes)
@@ -104,4 +110,5 @@ def event(s: Array, oil_temperature: float, mesh: MeshFields, data: Array) -> No
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     if p.friction_form > 0.0:
         mesh_at_torque(s[LOAD_TORQUE], mesh, data)
-        refresh_friction(s, data, lubricant_state(p.oil, oil_temperature))
+        oil = lubricant_state(p.oil, oil_temperature)
+        refresh_friction(pair_motion(s), part(s, REFRESHED, N_FRICTION), data, oil)

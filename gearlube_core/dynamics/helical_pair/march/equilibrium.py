@@ -6,7 +6,7 @@ import math
 from typing import TypeAlias
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.integrate import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
@@ -17,6 +17,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,
     LOAD_TORQUE,
     MU,
+    N_FRICTION,
     N_LATERAL,
     N_ODE,
     N_STATE,
@@ -28,7 +29,9 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_P,
     MarchConstants,
     MotionConstants,
+    pair_motion,
 )
+from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
@@ -177,7 +180,7 @@ def settle(
             worst = max(worst, abs(out[i])) if abs(out[i]) < math.inf else math.inf
         if p.friction_form > 0.0:
             s[REFRESHED] = -1.0
-            refresh_friction(s, data, oil)
+            refresh_friction(pair_motion(s), part(s, REFRESHED, N_FRICTION), data, oil)
     if worst <= _OUT_OF_BALANCE * max(abs(force), 1.0):
         return OK, worst
     return NO_EQUILIBRIUM, worst

@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.line_points import line_point
-from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
+from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
@@ -17,36 +16,33 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 )
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
-    FLANK_POINTS,
     LOAD_TORQUE,
-    MU,
     N_ENERGIES,
+    N_FRICTION,
     N_ODE,
     N_STATE,
     PINION_WORK,
-    POINTS_PER_LINE,
     PSI,
     REFRESHED,
     TIME_IN_STEP,
     W_G,
     W_P,
     WORK_MARK,
-    FlankView,
+    FlankConstants,
     MarchConstants,
-    MotionConstants,
+    PairMotion,
     coast_near,
-    coast_view,
     drive_view,
+    pair_motion,
     touches,
 )
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.friction.flank_laws import SOLVED
-from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import lubricant_state
 
-# place of MarchConstants.refreshes in the pair data
-REFRESHES_AT = count_floats(MotionConstants) + MarchConstants._fields.index("refreshes") - 1
 OK = 0
 NOT_FINITE = 1
 TOO_MANY_STEPS = 2
@@ -58,53 +54,49 @@ MAX_STEPS = 150_000
 _STATIONS = 14.0
 _REFRESH_COST, _SOLVED_REFRESH_COST = 1.0, 4.0  # of friction by the formulas and by solved films
 # Relative change of the load level that the line mesh follows at once
-_LOAD_REACH = 1e-3
+LOAD_REACH = 1e-3
+# Of a mesh period: vibration moves the phase in a step by less than the first, in a step as long as
+# the first by less than the second
+NEAR_JUMP, AT_JUMP = 2e-5, 1e-7
 LOAD_FILTER_TIME = 0.02  # s, the load level follows the torque below the shafts' own motions
 DIVERGED = 0.1  # m along the line of action: teeth long broken
 
 
 @kernel
-def refresh_flank(
-    view: FlankView,
-    at: int,
-    s: Array,
-    data: Array,
-    lubricant: LubricantState,
-    p: MarchConstants,
-) -> None:
-    """Compute the friction coefficients of one flank anew; they start at `s[at]`."""
-    lines = int(p.motion.flanks.lines)
-    for line in range(lines):
-        slot = at + POINTS_PER_LINE * pair_slot(view.phase, line, lines)
-        for place in range(POINTS_PER_LINE):
-            _, _, _, film = line_point(view, at != MU, line, place, abs(s[W_P]), data, lubricant, p)
-            s[slot + place] = film.state.friction_coefficient
+def _gap(phase: float, at: float, forward: bool) -> float:
+    """Return how far a phase is before `at` in the direction of rotation, 0 to 1."""
+    gap = at - phase if forward else phase - at
+    return gap - np.floor(gap)
 
 
 @kernel
-def refresh_friction(s: Array, data: Array, lubricant: LubricantState) -> bool:
-    """Compute the friction coefficients in the state anew if they are due; return whether.
+def time_to_jump(m: PairMotion, least_offset: float, p: FlankConstants) -> float:
+    """Return after what time [s] a step must end because stiffness or friction jump there.
 
-    They are due so many times in a mesh period, and when a flank comes into contact or leaves it.
-    `data` are the pair data, see `mesh_data`.
+    Lines of spur gears enter, leave and pass the pitch point over their whole length at once. A
+    step ends NEAR_JUMP before, a short one AT_JUMP before, and a third one AT_JUMP behind, so that
+    all others are smooth. Infinite for helical gears, whose lines come and go by and by.
     """
-    motion: MotionConstants = tuple_from_array(data, MotionConstants)
-    flanks = motion.flanks
-    drive = drive_view(s, flanks)
-    mark = 4.0 * np.floor(drive.phase * data[REFRESHES_AT])
-    if touches(drive, data[LEAST_OFFSET], flanks):
-        mark += 1.0
-    if coast_near(s, data[LEAST_OFFSET], flanks):
-        mark += 2.0
-    if mark == s[REFRESHED]:
-        return False
-    s[REFRESHED] = mark
-    p: MarchConstants = tuple_from_array(data, MarchConstants)
-    if touches(drive, data[LEAST_OFFSET], flanks):
-        refresh_flank(drive, MU, s, data, lubricant, p)
-    if coast_near(s, data[LEAST_OFFSET], flanks):
-        refresh_flank(coast_view(s, flanks), MU + FLANK_POINTS, s, data, lubricant, p)
-    return True
+    plane = p.plane
+    if plane.sin_b > 0.0 or m.w_p == 0.0:
+        return math.inf
+    forward = m.w_p > 0.0
+    phase = plane.r_bp * m.phi_p / plane.pitch
+    leaving, pitch_point = (plane.D - plane.A) / plane.pitch, (plane.P - plane.A) / plane.pitch
+    drives = touches(drive_view(m, p), least_offset, p)
+    coasts = coast_near(m, least_offset, p)
+    nearest = math.inf
+    for at in (0.0, leaving, pitch_point):
+        if drives:
+            nearest = min(nearest, _gap(phase, at, forward))
+        if coasts:
+            nearest = min(nearest, _gap(phase, p.coast_phase - at, forward))
+    way = nearest + AT_JUMP
+    if nearest > 2.0 * NEAR_JUMP:
+        way = nearest - NEAR_JUMP
+    elif nearest > 2.0 * AT_JUMP:
+        way = nearest - AT_JUMP
+    return way * plane.pitch / (plane.r_bp * abs(m.w_p))
 
 
 class StepControl(NamedTuple):
@@ -222,17 +214,24 @@ def advance(
     follows = -math.expm1(-h / LOAD_FILTER_TIME)
     cost = 0.0
     for _ in range(steps):
-        if abs(s[LOAD_TORQUE] - at_load) > _LOAD_REACH * (1.0 + at_load):
+        if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + at_load):
             at_load = s[LOAD_TORQUE]
             mesh_at_torque(at_load, mesh, data)
-        cost += step_cost
-        if cost > MAX_STEPS:
-            return TOO_MANY_STEPS
-        if p.friction_form > 0.0 and refresh_friction(s, data, oil):
-            cost += refresh_cost
-            for i in range(N_ODE, N_STATE):
-                stages[i] = s[i]
-        rk4_step(s, h, pinion_torque, wheel_torque, data, stages)
+        rest = h
+        while rest > 0.0:
+            cost += step_cost
+            if cost > MAX_STEPS:
+                return TOO_MANY_STEPS
+            m = pair_motion(s)
+            if p.friction_form > 0.0 and refresh_friction(
+                m, part(s, REFRESHED, N_FRICTION), data, oil
+            ):
+                cost += refresh_cost
+                for i in range(N_ODE, N_STATE):
+                    stages[i] = s[i]
+            piece = min(rest, time_to_jump(m, data[LEAST_OFFSET], p.motion.flanks))
+            rk4_step(s, piece, pinion_torque, wheel_torque, data, stages)
+            rest -= piece
         s[LOAD_TORQUE] += follows * (abs(pinion_torque) - s[LOAD_TORQUE])
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
             return NOT_FINITE if abs(s[PSI]) > DIVERGED else TOO_FAST

@@ -24,7 +24,7 @@ from gearlube_core.dynamics.helical_pair.march.kept_films import (
     place_of,
 )
 from gearlube_core.dynamics.helical_pair.march.line_moments import cell_ends
-from gearlube_core.dynamics.helical_pair.march.line_sums import GAUSS
+from gearlube_core.dynamics.helical_pair.march.line_sums import GAUSS, pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     FILM_AT,
     KEPT_AT,
@@ -33,9 +33,17 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     density_at,
 )
 from gearlube_core.dynamics.helical_pair.march.state import (
+    FLANK_POINTS,
+    POINTS_PER_LINE,
     FlankConstants,
     FlankView,
     MarchConstants,
+    MotionConstants,
+    PairMotion,
+    coast_near,
+    coast_view,
+    drive_view,
+    touches,
 )
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.film_model import net
@@ -51,10 +59,14 @@ from gearlube_core.helical_geometry.contact_line import (
     line_kinematics,
     pitch_crossing,
 )
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.places import place_below
 from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
+# place of MarchConstants.refreshes in the pair data
+REFRESHES_AT = count_floats(MotionConstants) + MarchConstants._fields.index("refreshes") - 1
 _TINY = 1e-300  # coefficient of friction in pure rolling
 
 
@@ -254,3 +266,60 @@ def line_point(
         return load, point.length, motion, bounded
     state = line_friction(load, R, u, slip, lubricant, p.surface, p.solid)
     return load, point.length, motion, BoundedLine(state, 0.0, 0.0, 0.0)
+
+
+@kernel
+def refresh_flank(
+    view: FlankView,
+    coast: bool,
+    pinion_speed: float,
+    mu: Array,
+    data: Array,
+    lubricant: LubricantState,
+    p: MarchConstants,
+) -> None:
+    """Compute the friction coefficients of one flank anew, `mu` of shape (FLANK_POINTS,)."""
+    lines = int(p.motion.flanks.lines)
+    for line in range(lines):
+        slot = POINTS_PER_LINE * pair_slot(view.phase, line, lines)
+        for place in range(POINTS_PER_LINE):
+            _, _, _, film = line_point(view, coast, line, place, pinion_speed, data, lubricant, p)
+            mu[slot + place] = film.state.friction_coefficient
+
+
+@kernel
+def refresh_friction(m: PairMotion, kept: Array, data: Array, lubricant: LubricantState) -> bool:
+    """Compute the friction coefficients that a state keeps anew if they are due; return whether.
+
+    They are due so many times in a mesh period, and when a flank comes into contact or leaves it.
+
+    Parameters
+    ----------
+    m : PairMotion
+    kept : ndarray of shape (N_FRICTION,)
+        The state from REFRESHED on.
+    data : ndarray
+        Pair data, see `mesh_data`.
+    lubricant : LubricantState
+    """
+    motion: MotionConstants = tuple_from_array(data, MotionConstants)
+    flanks = motion.flanks
+    drive = drive_view(m, flanks)
+    on_drive = touches(drive, data[LEAST_OFFSET], flanks)
+    on_coast = coast_near(m, data[LEAST_OFFSET], flanks)
+    mark = 4.0 * np.floor(drive.phase * data[REFRESHES_AT])
+    if on_drive:
+        mark += 1.0
+    if on_coast:
+        mark += 2.0
+    if mark == kept[0]:
+        return False
+    kept[0] = mark
+    p: MarchConstants = tuple_from_array(data, MarchConstants)
+    speed = abs(m.w_p)
+    if on_drive:
+        refresh_flank(drive, False, speed, part(kept, 1, FLANK_POINTS), data, lubricant, p)
+    if on_coast:
+        mu = part(kept, 1 + FLANK_POINTS, FLANK_POINTS)
+        refresh_flank(coast_view(m, flanks), True, speed, mu, data, lubricant, p)
+    return True

@@ -45,6 +45,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     coast_view,
     drive_view,
     friction_direction,
+    pair_motion,
 )
 from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS, write_ranges
@@ -287,8 +288,9 @@ def write_outputs(
     write_derivatives(s, inputs, mesh, data, work, out)
     flanks = p.motion.flanks
     plane = flanks.plane
-    drive = drive_view(s, flanks)
-    coast = coast_view(s, flanks)
+    m = pair_motion(s)
+    drive = drive_view(m, flanks)
+    coast = coast_view(m, flanks)
     on_drive = line_sums(drive.a, drive.tilt, drive.phase, data, s, MU)
     on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
     direction = friction_direction(s[W_P])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import LEAST_OFFSET
@@ -12,8 +14,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     MESH_DAMPING,
     MU,
     N_LATERAL,
-    OM_G,
-    OM_P,
     PHI_G,
     PHI_P,
     PINION_WORK,
@@ -27,11 +27,13 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     WHEEL_WORK,
     FlankConstants,
     MotionConstants,
+    PairMotion,
     SupportConstants,
     coast_near,
     coast_view,
     drive_view,
     friction_direction,
+    pair_motion,
     touches,
     turned,
 )
@@ -39,6 +41,7 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_consta
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import Wrench, mesh_wrench
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 
 
@@ -67,22 +70,24 @@ def turned_wrench(w: Wrench, p: FlankConstants) -> Wrench:
 
 
 @kernel
-def friction_heat(sums: LineSums, direction: float, s: Array, p: FlankConstants) -> float:
+def friction_heat(sums: LineSums, direction: float, m: PairMotion, p: FlankConstants) -> float:
     """Return the heat of the drive flanks' friction [W], with the true velocities."""
-    rate = sums.F * (s[V_P + 1] - s[V_G + 1] + p.plane.x_g * s[W_G])
-    rate -= sums.Fz * (s[OM_P] - s[OM_G]) + sums.Fx * (s[W_P] + s[W_G])
+    rate = sums.F * (m.vy_p - m.vy_g + p.plane.x_g * m.w_g)
+    rate -= sums.Fz * (m.ox_p - m.ox_g) + sums.Fx * (m.w_p + m.w_g)
     return -direction * rate
 
 
 @kernel
-def turned_friction_heat(sums: LineSums, direction: float, s: Array, p: FlankConstants) -> float:
+def turned_friction_heat(
+    sums: LineSums, direction: float, m: PairMotion, p: FlankConstants
+) -> float:
     """Return the heat of the coast flanks' friction [W]."""
-    _, v_p = turned(s[V_P], s[V_P + 1], p)
-    _, v_g = turned(s[V_G], s[V_G + 1], p)
-    om_p, _ = turned(s[OM_P], s[OM_P + 1], p)
-    om_g, _ = turned(s[OM_G], s[OM_G + 1], p)
-    rate = sums.F * (v_p - v_g - p.plane.x_g * s[W_G])
-    rate -= sums.Fz * (om_p - om_g) - sums.Fx * (s[W_P] + s[W_G])
+    _, v_p = turned(m.vx_p, m.vy_p, p)
+    _, v_g = turned(m.vx_g, m.vy_g, p)
+    om_p, _ = turned(m.ox_p, m.oy_p, p)
+    om_g, _ = turned(m.ox_g, m.oy_g, p)
+    rate = sums.F * (v_p - v_g - p.plane.x_g * m.w_g)
+    rate -= sums.Fz * (om_p - om_g) - sums.Fx * (m.w_p + m.w_g)
     return -direction * rate
 
 
@@ -123,6 +128,63 @@ def sums_damping(sums: LineSums, closing: float, p: FlankConstants) -> float:
     return flank_damping(constant, sums.built_up / sums.whole, closing, p.plane.cos_b * sums.N)
 
 
+class PairForces(NamedTuple):
+    """What a mesh does to both members."""
+
+    wrench: Wrench  # without damping and the work of moving lines
+    heat: float  # of friction [W]
+    damping: float  # along the line of action [N]
+    moving: float  # on the pinion alone, as loaded lines move [N]
+    closing: float  # rate of the relative rotation along the line of action [m/s]
+
+
+@inside
+def pair_forces(m: PairMotion, mu: Array, mu_at: int, data: Array) -> PairForces:
+    """Return the forces of the mesh in a motion of both members.
+
+    Parameters
+    ----------
+    m : PairMotion
+    mu : ndarray
+        Coefficients of friction from `mu_at` on: FLANK_POINTS of the drive flanks, then as many
+        of the coast flanks.
+    data : ndarray
+        Pair data, see `mesh_data`.
+    """
+    motion: MotionConstants = tuple_from_array(data, MotionConstants)
+    p = motion.flanks
+    plane = p.plane
+    direction = friction_direction(m.w_p)
+    psi_rate = plane.r_bp * m.w_p - plane.r_bg * m.w_g
+    F_x = F_y = F_z = M_px = M_py = M_pz = M_gx = M_gy = M_gz = 0.0
+    heat = damping = moving = 0.0
+    drive = drive_view(m, p)
+    if touches(drive, data[LEAST_OFFSET], p):
+        sums = line_sums(drive.a, drive.tilt, drive.phase, data, mu, mu_at)
+        F_x, F_y, F_z, M_px, M_py, M_pz, M_gx, M_gy, M_gz = flank_wrench(sums, direction, plane)
+        heat = friction_heat(sums, direction, m, p)
+        damping = sums_damping(sums, psi_rate, p)
+        moving = p.line_work * sums.moving
+    if coast_near(m, data[LEAST_OFFSET], p):
+        coast = coast_view(m, p)
+        sums = line_sums(coast.a, coast.tilt, coast.phase, data, mu, mu_at + FLANK_POINTS)
+        w = turned_wrench(flank_wrench(sums, -direction, plane), p)
+        F_x += w.F_x
+        F_y += w.F_y
+        F_z += w.F_z
+        M_px += w.M_px
+        M_py += w.M_py
+        M_pz += w.M_pz
+        M_gx += w.M_gx
+        M_gy += w.M_gy
+        M_gz += w.M_gz
+        heat += turned_friction_heat(sums, -direction, m, p)
+        damping -= sums_damping(sums, -psi_rate, p)
+        moving -= p.line_work * sums.moving
+    total = Wrench(F_x, F_y, F_z, M_px, M_py, M_pz, M_gx, M_gy, M_gz)
+    return PairForces(total, heat, damping, moving, psi_rate)
+
+
 @kernel
 def march_rates(
     s: Array,
@@ -153,42 +215,16 @@ def march_rates(
     [he_2007 (41c)]
     """
     motion: MotionConstants = tuple_from_array(data, MotionConstants)
-    p = motion.flanks
-    plane = p.plane
+    plane = motion.flanks.plane
     w_p = s[W_P]
     w_g = s[W_G]
-    direction = friction_direction(w_p)
-    psi_rate = plane.r_bp * w_p - plane.r_bg * w_g
-    F_x = F_y = F_z = M_px = M_py = M_pz = M_gx = M_gy = M_gz = 0.0
-    heat = damping = moving = 0.0
-    drive = drive_view(s, p)
-    if touches(drive, data[LEAST_OFFSET], p):
-        sums = line_sums(drive.a, drive.tilt, drive.phase, data, s, MU)
-        F_x, F_y, F_z, M_px, M_py, M_pz, M_gx, M_gy, M_gz = flank_wrench(sums, direction, plane)
-        heat = friction_heat(sums, direction, s, p)
-        damping = sums_damping(sums, psi_rate, p)
-        moving = p.line_work * sums.moving
-    if coast_near(s, data[LEAST_OFFSET], p):
-        coast = coast_view(s, p)
-        sums = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
-        w = turned_wrench(flank_wrench(sums, -direction, plane), p)
-        F_x += w.F_x
-        F_y += w.F_y
-        F_z += w.F_z
-        M_px += w.M_px
-        M_py += w.M_py
-        M_pz += w.M_pz
-        M_gx += w.M_gx
-        M_gy += w.M_gy
-        M_gz += w.M_gz
-        heat += turned_friction_heat(sums, -direction, s, p)
-        damping -= sums_damping(sums, -psi_rate, p)
-        moving -= p.line_work * sums.moving
-    lost = support_rates(s, U_P, V_P, F_x, F_y, F_z, M_px, M_py, motion.pinion, ds)
-    lost += support_rates(s, U_G, V_G, -F_x, -F_y, -F_z, M_gx, M_gy, motion.gear, ds)
-    on_pinion = pinion_torque - M_pz - plane.r_bp * (damping + moving)
-    on_gear = -wheel_torque + M_gz + plane.r_bg * damping
-    ds[PSI] = psi_rate
+    mesh = pair_forces(pair_motion(s), s, MU, data)
+    w = mesh.wrench
+    lost = support_rates(s, U_P, V_P, w.F_x, w.F_y, w.F_z, w.M_px, w.M_py, motion.pinion, ds)
+    lost += support_rates(s, U_G, V_G, -w.F_x, -w.F_y, -w.F_z, w.M_gx, w.M_gy, motion.gear, ds)
+    on_pinion = pinion_torque - (w.M_pz + plane.r_bp * (mesh.damping + mesh.moving))
+    on_gear = -wheel_torque + (w.M_gz + plane.r_bg * mesh.damping)
+    ds[PSI] = mesh.closing
     ds[W_P] = on_pinion * motion.pinion.mobility_r
     ds[W_G] = on_gear * motion.gear.mobility_r
     ds[PHI_P] = w_p
@@ -197,6 +233,6 @@ def march_rates(
         ds[U_P + i] = s[V_P + i]
     ds[PINION_WORK] = pinion_torque * w_p
     ds[WHEEL_WORK] = wheel_torque * w_g
-    ds[FRICTION] = heat
-    ds[MESH_DAMPING] = damping * psi_rate
+    ds[FRICTION] = mesh.heat
+    ds[MESH_DAMPING] = mesh.damping * mesh.closing
     ds[BEARING_DAMPING] = lost

@@ -37,6 +37,7 @@ POINTS_PER_LINE = 4  # two Gauss points on either side of the pitch line
 FLANK_POINTS = LINES_MAX * POINTS_PER_LINE
 MU = REFRESHED + 1  # coefficients of friction: drive flank, then coast flank [-]
 N_STATE = MU + 2 * FLANK_POINTS
+N_FRICTION = N_STATE - REFRESHED
 N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events
 SPEED_OF_FULL_FRICTION = 0.01  # rad/s; below, friction fades so that it has no jump at rest
 
@@ -69,6 +70,62 @@ class FlankConstants(NamedTuple):
     stations: float  # places along a line in it
 
 
+class PairMotion(NamedTuple):
+    """Motion of both members as their mesh takes it, in the axes of the contact plane."""
+
+    psi: float  # relative rotation along the line of action [m]
+    phi_p: float  # angle of the pinion, forward positive [rad]
+    w_p: float  # speeds, forward positive [rad/s]
+    w_g: float
+    x_p: float  # displacement of the pinion [m]
+    y_p: float
+    z_p: float
+    rx_p: float  # and its tilt [rad]
+    ry_p: float
+    x_g: float  # of the gear
+    y_g: float
+    z_g: float
+    rx_g: float
+    ry_g: float
+    vx_p: float  # their rates
+    vy_p: float
+    ox_p: float
+    oy_p: float
+    vx_g: float
+    vy_g: float
+    ox_g: float
+    oy_g: float
+
+
+@kernel
+def pair_motion(s: Array) -> PairMotion:
+    """Return the motion in a state of the pair, shape (N_STATE,)."""
+    return PairMotion(
+        s[PSI],
+        s[PHI_P],
+        s[W_P],
+        s[W_G],
+        s[U_P],
+        s[U_P + 1],
+        s[U_P + 2],
+        s[TH_P],
+        s[TH_P + 1],
+        s[U_G],
+        s[U_G + 1],
+        s[U_G + 2],
+        s[TH_G],
+        s[TH_G + 1],
+        s[V_P],
+        s[V_P + 1],
+        s[OM_P],
+        s[OM_P + 1],
+        s[V_G],
+        s[V_G + 1],
+        s[OM_G],
+        s[OM_G + 1],
+    )
+
+
 class FlankView(NamedTuple):
     """Motion as one flank sees it."""
 
@@ -78,19 +135,19 @@ class FlankView(NamedTuple):
 
 
 @kernel
-def drive_view(s: Array, p: FlankConstants) -> FlankView:
-    """Return compression and phase of the drive flanks; s[PSI] is -psi of docs/conventions.md."""
+def drive_view(m: PairMotion, p: FlankConstants) -> FlankView:
+    """Return compression and phase of the drive flanks; m.psi is -psi of docs/conventions.md."""
     plane = p.plane
     a, tilt = plane_strain(
-        s[U_P] - s[U_G] + s[PSI],
-        s[U_P + 2] - s[U_G + 2],
-        s[TH_P],
-        s[TH_P + 1],
-        s[TH_G],
-        s[TH_G + 1],
+        m.x_p - m.x_g + m.psi,
+        m.z_p - m.z_g,
+        m.rx_p,
+        m.ry_p,
+        m.rx_g,
+        m.ry_g,
         plane,
     )
-    return FlankView(a, tilt, plane.r_bp * s[PHI_P] / plane.pitch)
+    return FlankView(a, tilt, plane.r_bp * m.phi_p / plane.pitch)
 
 
 @kernel
@@ -100,7 +157,7 @@ def turned(x: float, y: float, p: FlankConstants) -> tuple[float, float]:
 
 
 @kernel
-def coast_view(s: Array, p: FlankConstants) -> FlankView:
+def coast_view(m: PairMotion, p: FlankConstants) -> FlankView:
     """Return compression and phase of the coast flanks.
 
     Notes
@@ -109,14 +166,14 @@ def coast_view(s: Array, p: FlankConstants) -> FlankView:
     drive flanks: the coast flanks are the drive flanks of the turned motion, less the backlash.
     """
     plane = p.plane
-    u_px, _ = turned(s[U_P], s[U_P + 1], p)
-    u_gx, _ = turned(s[U_G], s[U_G + 1], p)
-    th_px, th_py = turned(s[TH_P], s[TH_P + 1], p)
-    th_gx, th_gy = turned(s[TH_G], s[TH_G + 1], p)
-    closing = u_px - u_gx - s[PSI]
-    axial = s[U_G + 2] - s[U_P + 2]
+    u_px, _ = turned(m.x_p, m.y_p, p)
+    u_gx, _ = turned(m.x_g, m.y_g, p)
+    th_px, th_py = turned(m.rx_p, m.ry_p, p)
+    th_gx, th_gy = turned(m.rx_g, m.ry_g, p)
+    closing = u_px - u_gx - m.psi
+    axial = m.z_g - m.z_p
     a, tilt = plane_strain(closing, axial, th_px, th_py, th_gx, th_gy, plane)
-    phase = p.coast_phase - plane.r_bp * s[PHI_P] / plane.pitch
+    phase = p.coast_phase - plane.r_bp * m.phi_p / plane.pitch
     return FlankView(a - p.backlash, tilt, phase)
 
 
@@ -135,21 +192,21 @@ def touches(view: FlankView, offset_low: float, p: FlankConstants) -> bool:
 
 
 @kernel
-def coast_deepest(s: Array, offset_low: float, p: FlankConstants) -> float:
+def coast_deepest(m: PairMotion, offset_low: float, p: FlankConstants) -> float:
     """Return a bound of the deflection of the coast flanks [m] that costs less than their view."""
-    reach = 0.0
-    for i in range(3):
-        reach += abs(s[U_P + i]) + abs(s[U_G + i])
+    reach = abs(m.x_p) + abs(m.x_g)
+    reach += abs(m.y_p) + abs(m.y_g)
+    reach += abs(m.z_p) + abs(m.z_g)
     size = p.plane.W + 2.0 * p.plane.x_g + p.plane.r_bp + p.plane.r_bg
-    for i in range(2):
-        reach += size * (abs(s[TH_P + i]) + abs(s[TH_G + i]))
-    return reach - s[PSI] * p.plane.cos_b - p.backlash - offset_low
+    reach += size * (abs(m.rx_p) + abs(m.rx_g))
+    reach += size * (abs(m.ry_p) + abs(m.ry_g))
+    return reach - m.psi * p.plane.cos_b - p.backlash - offset_low
 
 
 @kernel
-def coast_near(s: Array, offset_low: float, p: FlankConstants) -> bool:
+def coast_near(m: PairMotion, offset_low: float, p: FlankConstants) -> bool:
     """Return whether the coast flanks can touch, by `coast_deepest`."""
-    return coast_deepest(s, offset_low, p) > 0.0
+    return coast_deepest(m, offset_low, p) > 0.0
 
 
 @kernel

@@ -1,0 +1,1 @@
+"""Drivetrains as lists: bodies own states, elements act on bodies."""

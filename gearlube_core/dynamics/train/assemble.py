@@ -1,0 +1,126 @@
+"""A list of bodies and elements put together: places in the state, numbers and memory.
+
+State of a train: twelve states of each body, own states and angles of the elements, the energies,
+and behind these integrated states what elements keep between steps. Order of the list is order of
+the sums, hence of the last digits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES
+from gearlube_core.dynamics.train.march import Call, Layout
+from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.flat_tuples import flatten
+
+_MOTIONS = (*COORDINATES, *(f"{one}.rate" for one in COORDINATES))
+
+
+class Assembly(NamedTuple):
+    """A train put together."""
+
+    layout: Layout
+    numbers: Array
+    memory: Array
+    state: Array  # at first
+    names: tuple[str, ...]  # of the integrated states
+    works: dict[str, int]  # places of the energies put in
+    losses: dict[str, int]  # of those lost
+    outputs: tuple[str, ...]
+    kept: dict[str, int]  # first place of what each element keeps
+
+
+def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: tuple[Any, ...]) -> Assembly:
+    """Return a train of bodies and elements, whose order is the order of its states and sums.
+
+    Parameters
+    ----------
+    bodies, elements
+    oil : LubricantParameters
+
+    Raises
+    ------
+    ParameterError
+        Two bodies or elements have one name, or an element names one that is not there.
+    """
+    _check_names(bodies, elements)
+    names = [f"{body.name}.{one}" for body in bodies for one in _MOTIONS]
+    of_body = {body.name: BODY_STATES * i for i, body in enumerate(bodies)}
+    own, works, losses, kept = {}, {}, {}, {}
+    for one in elements:
+        own[one.name] = [*range(len(names), len(names) + len(one.states))]
+        names += [f"{one.name}.{state}" for state in one.states]
+    for one in elements:
+        own[one.name] += range(len(names), len(names) + len(one.angles))
+        names += [f"{one.name}.{angle}" for angle in one.angles]
+    for one in elements:
+        for label in (f"{one.name}.{work}" for work in one.works):
+            works[label] = len(names)
+            names.append(f"energy.{label}")
+    for label in dict.fromkeys(loss for one in elements for loss in one.losses):
+        losses[label] = len(names)
+        names.append(f"energy.{label}")
+    size = len(names)
+    for one in elements:
+        kept[one.name] = size
+        size += one.kept().size
+    numbers, memory, calls, outputs = [flatten(oil)], [], [], list[str]()
+    at_number, at_memory = numbers[0].size, 0
+    for one in elements:
+        constants, room = one.numbers(), one.memory()
+        beside = [getattr(one, field) for field in one.beside]
+        places = (
+            *(of_body[getattr(one, field)] for field in one.on),
+            *own[one.name],
+            *(works[f"{one.name}.{work}"] for work in one.works),
+            *(losses[loss] for loss in one.losses),
+            *((kept[one.name],) if one.kept().size else ()),
+            *(-1 if other is None else kept[other] for other in beside),
+            *one.sizes(),
+        )
+        numbers.append(flatten(constants))
+        memory.append(room)
+        of_numbers = at_number, numbers[-1].size
+        of_memory = at_memory, room.size
+        kind, variants = type(constants), one.variants()
+        calls.append(Call(kind, variants, places, *of_numbers, *of_memory, len(outputs)))
+        outputs += [f"{one.name}.{output}" for output in one.outputs]
+        at_number += numbers[-1].size
+        at_memory += room.size
+    own_states = sum(len(one.states) for one in elements)
+    return Assembly(
+        Layout(tuple(calls), len(bodies), own_states, at_number, len(names), size),
+        np.concatenate([*numbers, *(body.mobility for body in bodies)]),
+        np.concatenate([*memory, np.zeros(1)]),
+        np.concatenate([np.zeros(len(names)), *(one.kept() for one in elements)]),
+        tuple(names),
+        works,
+        losses,
+        tuple(outputs),
+        kept,
+    )
+
+
+def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
+    """Raise ParameterError unless all names are unique and those that are referred to exist."""
+    there = {"bodies": [one.name for one in bodies], "elements": [one.name for one in elements]}
+    for what, names in there.items():
+        for name in names:
+            if names.count(name) > 1:
+                raise ParameterError(f"{what} must have names of their own, got {name!r} twice.")
+    for one in elements:
+        asked = [("bodies", getattr(one, field)) for field in one.on]
+        asked += [("elements", getattr(one, field)) for field in one.beside]
+        for what, name in asked:
+            if name is not None and name not in there[what]:
+                known = ", ".join(there[what]) or "none"
+                raise ParameterError(
+                    f"{one.name} names {name!r}, which is not among the {what} of the train. "
+                    f"There are: {known}."
+                )

@@ -1,0 +1,210 @@
+"""What the elements of a train are to its kernels, and where bodies stand in its state.
+
+A body owns twelve states: displacements x, y, z [m] and angles rx, ry, rz [rad] about axes fixed in
+space, then their rates. An element is a NamedTuple of floats whose kernels are methods, as of a
+bearing or a friction law; it acts on one or two bodies by adding to the places of their rates:
+there forces [N] and moments [N.m] are summed before each body turns its sums into accelerations.
+
+The kernels of an element take where it stands, `at`: the first place of each of its bodies, then of
+its own integrated states, of its energies, and of what it keeps between steps, then its sizes.
+They do not allocate and do not raise. `add_forces` must be there; the others do nothing by default.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.kernels.by_class import by_class
+from gearlube_core.kernels.inlining import inside
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import LubricantState
+
+COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
+N_COORDINATES = 6
+RATE = 6  # from a coordinate of a body to its rate
+BODY_STATES = 12
+RZ, W = 5, 11  # angle [rad] and speed [rad/s] about the shaft's axis z
+
+
+@kernel
+def _nothing(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+    pass
+
+
+@kernel
+def _no_step(
+    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
+) -> float:
+    return 0.0
+
+
+@kernel
+def _zero(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+    return 0.0
+
+
+@kernel
+def _smooth(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+    return math.inf
+
+
+@kernel
+def _no_outputs(
+    element: Any,
+    at: Any,
+    memory: Array,
+    s: Array,
+    oil: LubricantState,
+    out: Array,
+    first: int,
+) -> None:
+    pass
+
+
+@by_class()
+def add_forces(
+    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array
+) -> None:
+    """Add forces and moments to the bodies' rates; write the rates of own states and energies.
+
+    Energies of one name are shared, so an element adds its power.
+
+    Parameters
+    ----------
+    memory : ndarray
+        What the element has for itself: tables, and what it keeps that follows from the state.
+    s, ds : ndarray
+        State of the train, and its rates.
+    """
+
+
+@by_class(otherwise=_nothing)
+def begin(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+    """Make ready for a communication step."""
+
+
+@by_class(otherwise=_nothing)
+def expand(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+    """Make forces that are linear about a state exact about this one."""
+
+
+@by_class(otherwise=_no_step)
+def each_step(
+    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
+) -> float:
+    """Renew what is kept over one integrator step of `h` [s]; return its cost in steps."""
+    raise NotImplementedError
+
+
+@by_class(otherwise=_no_step)
+def after_step(
+    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
+) -> float:
+    """Change what a step of `h` [s] has left, such as filtered loads; the number means nothing."""
+    raise NotImplementedError
+
+
+@by_class(otherwise=_zero)
+def stored_energy(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+    """Return the elastic energy of the element [J]."""
+    raise NotImplementedError
+
+
+@by_class(otherwise=_zero)
+def step_rate(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+    """Return the least number of integrator steps a second that the element asks for now."""
+    raise NotImplementedError
+
+
+@by_class(otherwise=_smooth)
+def time_to_jump(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+    """Return after what time [s] a step must end because forces jump there; infinite for none."""
+    raise NotImplementedError
+
+
+@by_class(otherwise=_no_outputs)
+def write(
+    element: Any,
+    at: Any,
+    memory: Array,
+    s: Array,
+    oil: LubricantState,
+    out: Array,
+    first: int,
+) -> None:
+    """Write the element's outputs into `out` from place `first` on."""
+
+
+class Axes(NamedTuple):
+    """Axes of an element against those of its train: turned about z, then turned over, mirrored.
+
+    A vector of the train becomes one of the element by a turn about z, half a turn about the new x
+    where `over` is -1, and a mirror z -> -z where `hand` is -1.
+    """
+
+    cos: float
+    sin: float
+    over: float  # +1 or -1
+    hand: float  # +1 or -1
+
+    @classmethod
+    def turned(cls, angle: float, *, over: bool = False, mirrored: bool = False) -> Axes:
+        """Return axes whose x stands at an angle [rad] about z of the train."""
+        # + 0.0: no negative zeros
+        c, s = math.cos(angle) + 0.0, math.sin(angle) + 0.0
+        return cls(c, s, -1.0 if over else 1.0, -1.0 if mirrored else 1.0)
+
+
+@inside
+def seen(a: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return a displacement or force of the train in the axes of an element."""
+    return a.cos * x + a.sin * y, a.over * (a.cos * y - a.sin * x), a.over * a.hand * z
+
+
+@inside
+def seen_turn(a: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return a rotation or moment of the train in the axes of an element."""
+    return (
+        a.hand * (a.cos * x + a.sin * y),
+        a.hand * (a.over * (a.cos * y - a.sin * x)),
+        a.over * z,
+    )
+
+
+@inside
+def unseen(a: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return a force of the element in the axes of the train."""
+    y = a.over * y
+    return a.cos * x - a.sin * y, a.sin * x + a.cos * y, a.over * a.hand * z
+
+
+@inside
+def unseen_turn(a: Axes, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return a moment of the element in the axes of the train."""
+    x = a.hand * x
+    y = a.hand * (a.over * y)
+    return a.cos * x - a.sin * y, a.sin * x + a.cos * y, a.over * z
+
+
+@inside
+def add_wrench(
+    ds: Array,
+    body: int,
+    arm: float,
+    force: tuple[float, float, float],
+    moment: tuple[float, float, float],
+) -> None:
+    """Add a force at `arm` [m] along z from the centre of a body and a moment, in the train's axes.
+
+    `body` is its first place.
+    """
+    f_x, f_y, f_z = force
+    m_x, m_y, m_z = moment
+    ds[body + RATE] += f_x
+    ds[body + RATE + 1] += f_y
+    ds[body + RATE + 2] += f_z
+    ds[body + RATE + 3] += m_x - arm * f_y
+    ds[body + RATE + 4] += m_y + arm * f_x
+    ds[body + RATE + 5] += m_z

@@ -1,0 +1,1 @@
+"""Elements of a train, a file for each."""

@@ -1,0 +1,129 @@
+"""Drag without load on a body: of seals, and of a gear in its oil."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.drag import (
+    CHURNING_LAWS,
+    ChurningConstants,
+    ChurningLaw,
+    Immersion,
+    OilVolume,
+    RingDiameter,
+    RingWidth,
+    SealTorque,
+    churning_torque,
+    seal_drag,
+)
+from gearlube_core.dynamics.train.element import RATE, RZ, W
+from gearlube_core.dynamics.train.part import Element
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import check_fields
+from gearlube_core.oil.lubricant import LubricantState
+
+
+@kernel
+def _brake(at: Any, memory: Array, s: Array, ds: Array) -> None:
+    body, lost = at
+    ds[body + RATE + RZ] -= memory[0]
+    ds[lost] += memory[0] * s[body + W]
+
+
+class _Seal(NamedTuple):
+    torque: float  # [N.m]
+
+    @kernel
+    def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        memory[0] = seal_drag(s[at[0] + W], self.torque)
+        return 0.0
+
+    @kernel
+    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+        _brake(at, memory, s, ds)
+
+
+class _Churning(NamedTuple):
+    gear: ChurningConstants
+
+    @kernel
+    def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        density = oil.eta0 / oil.nu
+        memory[0] = churning_torque(s[at[0] + W], oil.nu, density, self.gear)
+        return 0.0
+
+    @kernel
+    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+        _brake(at, memory, s, ds)
+
+
+class _Brake(Element):
+    on: ClassVar = ("body",)
+
+    def memory(self) -> Array:
+        """Return room for the torque of the present step."""
+        return np.zeros(1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Seal(_Brake):
+    """Seal of a shaft, see `seal_torque`.
+
+    Parameters
+    ----------
+    name, body : str
+    torque : float
+        [N.m], 0 to 100.
+    """
+
+    name: str
+    body: str
+    torque: SealTorque
+    losses: ClassVar = ("seals",)
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def numbers(self) -> _Seal:
+        """Return the constants of the kernels."""
+        return _Seal(float(self.torque))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Churning(_Brake):
+    """A gear that turns in the oil.
+
+    Parameters
+    ----------
+    name, body : str
+    law : {"changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
+        See `churning_torque`.
+    ring_diameter, ring_width : float
+        Outside diameter and width of the teeth [m].
+    immersion : float
+        Depth of the lowest tooth below the oil at rest [m].
+    oil_volume : float
+        [m3]
+    """
+
+    name: str
+    body: str
+    law: ChurningLaw
+    ring_diameter: RingDiameter
+    ring_width: RingWidth
+    immersion: Immersion
+    oil_volume: OilVolume
+    losses: ClassVar = ("churning",)
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def numbers(self) -> _Churning:
+        """Return the constants of the kernels."""
+        sizes = self.ring_diameter, self.ring_width, self.immersion, self.oil_volume
+        law = float(CHURNING_LAWS.index(self.law))
+        return _Churning(ChurningConstants(law, *(float(one) for one in sizes)))

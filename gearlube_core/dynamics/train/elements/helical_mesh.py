@@ -1,0 +1,288 @@
+"""Mesh of two helical or spur gears on parallel shafts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.march.integrate import (
+    LOAD_FILTER_TIME,
+    LOAD_REACH,
+    time_to_jump,
+)
+from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    LEAST_OFFSET,
+    LEVEL,
+    mesh_at_torque,
+    pack_march_mesh,
+    pair_data,
+)
+from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.helical_pair.march.rates import pair_forces
+from gearlube_core.dynamics.helical_pair.march.state import (
+    FLANK_POINTS,
+    N_FRICTION,
+    MarchConstants,
+    PairMotion,
+    coast_view,
+    drive_view,
+)
+from gearlube_core.dynamics.train.element import (
+    RATE,
+    Axes,
+    W,
+    add_wrench,
+    seen,
+    seen_turn,
+    unseen,
+    unseen_turn,
+)
+from gearlube_core.dynamics.train.part import Element
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.array_rows import rows
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.inlining import inside
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import LubricantState
+
+# places of `at` behind both bodies, the relative rotation, and both losses
+_PSI, _HEAT, _DAMPING, _KEPT, _PORT, _LEVELS, _SIZE, _DATA, _DATA_SIZE = range(2, 11)
+_STATIONS = 14.0  # of a line, whose evaluation is the unit of cost
+_REFRESH_COST = 1.0  # of friction by the formulas
+_LEAST_PRESSED = 1e-9  # m
+_TORQUE = 0  # place in the memory: torque on the pinion in the last stage [N.m]
+_TABLE = 1  # torque levels, then density and offset at each, then the pair data
+
+
+class _HelicalMesh(NamedTuple):
+    axes: Axes
+    arm_p: float  # of the mesh along z from the centre of the pinion's body [m]
+    arm_g: float
+    steps_per_period: float
+
+    @kernel
+    def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        _follow_level(at, memory, s[at[_KEPT]])
+
+    @kernel
+    def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        data = _data(at, memory)
+        p: MarchConstants = tuple_from_array(data, MarchConstants)
+        level, before = s[at[_KEPT]], data[LEVEL]
+        if abs(level - before) > LOAD_REACH * (1.0 + before):
+            _follow_level(at, memory, level)
+        cost = max(1.0, p.motion.flanks.stations / _STATIONS)
+        if p.friction_form > 0.0:
+            kept = part(s, at[_KEPT] + 1, N_FRICTION)
+            if refresh_friction(_motion(self, at, s), kept, data, oil):
+                cost += _REFRESH_COST
+        return cost
+
+    @inside
+    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+        data = _data(at, memory)
+        constants: MarchConstants = tuple_from_array(data, MarchConstants)
+        plane = constants.motion.flanks.plane
+        mesh = pair_forces(_motion(self, at, s), s, at[_KEPT] + 2, data)
+        w = mesh.wrench
+        # dampers act along the line of action, and the work of moving lines on the pinion alone
+        on_pinion = w.M_pz + plane.r_bp * (mesh.damping + mesh.moving)
+        on_gear = w.M_gz + plane.r_bg * mesh.damping
+        memory[_TORQUE] = on_pinion
+        axes = self.axes
+        f_x, f_y, f_z = unseen(axes, w.F_x, w.F_y, w.F_z)
+        on_p = unseen_turn(axes, w.M_px, w.M_py, on_pinion)
+        on_g = unseen_turn(axes, w.M_gx, w.M_gy, on_gear)
+        add_wrench(ds, at[0], self.arm_p, (f_x, f_y, f_z), on_p)
+        add_wrench(ds, at[1], self.arm_g, (-f_x, -f_y, -f_z), on_g)
+        ds[at[_PSI]] = mesh.closing
+        ds[at[_HEAT]] += mesh.heat
+        ds[at[_DAMPING]] += mesh.damping * mesh.closing
+
+    @kernel
+    def after_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        torque = memory[_TORQUE]
+        if at[_PORT] >= 0:
+            torque = s[at[_PORT]]
+        level = at[_KEPT]
+        s[level] += -math.expm1(-h / LOAD_FILTER_TIME) * (abs(torque) - s[level])
+        return 0.0
+
+    @kernel
+    def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        data = _data(at, memory)
+        constants: MarchConstants = tuple_from_array(data, MarchConstants)
+        m, flanks = _motion(self, at, s), constants.motion.flanks
+        mu = at[_KEPT] + 2
+        drive, coast = drive_view(m, flanks), coast_view(m, flanks)
+        stored = line_sums(drive.a, drive.tilt, drive.phase, data, s, mu).energy
+        mu += FLANK_POINTS
+        return stored + line_sums(coast.a, coast.tilt, coast.phase, data, s, mu).energy
+
+    @kernel
+    def step_rate(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
+        frequency = constants.teeth * abs(s[at[0] + W]) / (2.0 * math.pi)
+        return frequency * self.steps_per_period
+
+    @kernel
+    def time_to_jump(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        data = _data(at, memory)
+        constants: MarchConstants = tuple_from_array(data, MarchConstants)
+        m = _motion(self, at, s)
+        return time_to_jump(m, data[LEAST_OFFSET], constants.motion.flanks)
+
+    @kernel
+    def write(
+        self,
+        at: Any,
+        memory: Array,
+        s: Array,
+        oil: LubricantState,
+        out: Array,
+        first: int,
+    ) -> None:
+        m = _motion(self, at, s)
+        mesh = pair_forces(m, s, at[_KEPT] + 2, _data(at, memory))
+        w = mesh.wrench
+        out[first] = m.psi + m.x_p - m.x_g
+        out[first + 1], out[first + 2], out[first + 3] = unseen(self.axes, w.F_x, w.F_y, w.F_z)
+        out[first + 4] = mesh.heat
+        out[first + 5] = m.ry_p - m.ry_g
+        out[first + 6] = s[at[_KEPT]]
+
+
+@inside
+def _data(at: Any, memory: Array) -> Array:
+    return part(memory, at[_DATA], at[_DATA_SIZE])
+
+
+@kernel
+def _follow_level(at: Any, memory: Array, torque: float) -> None:
+    levels, size = at[_LEVELS], at[_SIZE]
+    at_density = _TABLE + levels
+    mesh = (
+        part(memory, _TABLE, levels),
+        rows(memory, at_density, levels, size),
+        rows(memory, at_density + levels * size, levels, size),
+    )
+    mesh_at_torque(torque, mesh, _data(at, memory))
+
+
+@inside
+def _motion(self: _HelicalMesh, at: Any, s: Array) -> PairMotion:
+    """Return the motion of both members in the axes of the mesh, where the pinion drives to -z."""
+    a, p, g = self.axes, at[0], at[1]
+    x_p, y_p, z_p = seen(
+        a, s[p] + self.arm_p * s[p + 4], s[p + 1] - self.arm_p * s[p + 3], s[p + 2]
+    )
+    x_g, y_g, z_g = seen(
+        a, s[g] + self.arm_g * s[g + 4], s[g + 1] - self.arm_g * s[g + 3], s[g + 2]
+    )
+    rx_p, ry_p, rz_p = seen_turn(a, s[p + 3], s[p + 4], s[p + 5])
+    rx_g, ry_g, _ = seen_turn(a, s[g + 3], s[g + 4], s[g + 5])
+    vp, vg = p + RATE, g + RATE
+    vx_p, vy_p, _ = seen(
+        a, s[vp] + self.arm_p * s[vp + 4], s[vp + 1] - self.arm_p * s[vp + 3], s[vp + 2]
+    )
+    vx_g, vy_g, _ = seen(
+        a, s[vg] + self.arm_g * s[vg + 4], s[vg + 1] - self.arm_g * s[vg + 3], s[vg + 2]
+    )
+    ox_p, oy_p, w_p = seen_turn(a, s[vp + 3], s[vp + 4], s[vp + 5])
+    ox_g, oy_g, w_g = seen_turn(a, s[vg + 3], s[vg + 4], s[vg + 5])
+    return PairMotion(
+        s[at[_PSI]], -rz_p, -w_p, w_g,
+        x_p, y_p, z_p, rx_p, ry_p, x_g, y_g, z_g, rx_g, ry_g,
+        vx_p, vy_p, ox_p, oy_p, vx_g, vy_g, ox_g, oy_g,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HelicalMesh(Element):
+    """Mesh of a pinion and a gear: the lubricated pair of [he_2007] between any two bodies.
+
+    Parameters
+    ----------
+    name, pinion, gear : str
+        Of the mesh, and of the bodies that carry its gears.
+    parameters : HelicalMarchParameters
+        Gears, stiffness and friction; its own bodies and supports give the damping of the mesh
+        alone. Its oil's ranges hold, the oil itself is that of the train.
+    angle : float
+        Direction from the pinion's axis to the gear's, from x towards y [rad].
+    drives_forward : bool
+        Whether the pinion drives about +z; else about -z, as in the frame of [he_2007].
+    right_hand : bool
+        Whether the pinion's teeth are right-handed.
+    pinion_arm, gear_arm : float
+        Mid-face along z from the centre of each body [m].
+    torque_of : str, optional
+        Port whose torque selects the level of the line mesh; default: that of the mesh.
+    """
+
+    name: str
+    pinion: str
+    gear: str
+    parameters: HelicalMarchParameters
+    angle: float = math.pi / 2.0
+    drives_forward: bool = False
+    right_hand: bool = False
+    pinion_arm: float = 0.0
+    gear_arm: float = 0.0
+    torque_of: str | None = None
+    on: ClassVar = ("pinion", "gear")
+    beside: ClassVar = ("torque_of",)
+    states: ClassVar = ("rotation",)
+    losses: ClassVar = ("friction", "mesh_damping")
+    outputs: ClassVar = (
+        "dte", "force.x", "force.y", "force.z", "friction", "tilt", "load_torque",
+    )  # fmt: skip
+
+    def sizes(self) -> tuple[int, ...]:
+        """Return the sizes of the line mesh."""
+        packed = pack_march_mesh(self.parameters.mesh)
+        levels, size = packed.density.shape
+        data = self._pair_data().size
+        return levels, size, _TABLE + levels + 2 * levels * size, data
+
+    def _pair_data(self) -> Array:
+        given = self.parameters
+        return pair_data(given.constants(), given.mesh, given.film_model())
+
+    def numbers(self) -> _HelicalMesh:
+        """Return the constants of the kernels."""
+        plane = self.parameters.pair.plane
+        centres = math.atan2(plane.r_bp + plane.r_bg, plane.x_g)
+        x_axis = self.angle + centres if self.drives_forward else self.angle - centres
+        return _HelicalMesh(
+            Axes.turned(x_axis, over=self.drives_forward, mirrored=self.right_hand),
+            float(self.pinion_arm),
+            float(self.gear_arm),
+            float(self.parameters.steps_per_mesh_period),
+        )
+
+    def memory(self) -> Array:
+        """Return the line mesh at all levels and the pair data."""
+        packed = pack_march_mesh(self.parameters.mesh)
+        table = packed.torque, packed.density.ravel(), packed.offset.ravel()
+        return np.concatenate([[0.0], *table, self._pair_data()])
+
+    def kept(self, load: float = 0.0) -> Array:
+        """Return the load level, when friction was last computed, and its coefficients."""
+        mu = self.parameters.constants().mu
+        level = abs(load) * self.parameters.pair.plane.r_bp
+        return np.array([level, -1.0, *(N_FRICTION - 1) * (mu,)])
+
+    def guess(self, load: float) -> tuple[float, ...]:
+        """Return the relative rotation at which all lines touch, see `equilibrium.settle`."""
+        given = self.parameters
+        packed, plane = pack_march_mesh(given.mesh), given.pair.plane
+        pressed = 2.0 * abs(load) / (plane.W * packed.density.mean()) + packed.offset.max()
+        pressed = max(float(pressed), _LEAST_PRESSED) / plane.cos_b
+        return (pressed if load >= 0.0 else -pressed - given.backlash / plane.cos_b,)

@@ -1,0 +1,52 @@
+"""Torque from outside on a body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.train.element import RATE, RZ, W
+from gearlube_core.dynamics.train.part import Element
+from gearlube_core.kernels.inlining import inside
+from gearlube_core.oil.lubricant import LubricantState
+
+
+class _Port(NamedTuple):
+    sign: float  # of its torque about z
+
+    @inside
+    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+        body, work, given = at
+        torque = self.sign * s[given]
+        ds[body + RATE + RZ] += torque
+        ds[work] += torque * s[body + W]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Port(Element):
+    """A torque on a body, an input of the train: the first number that it keeps.
+
+    Parameters
+    ----------
+    name : str
+    body : str
+    sign : float
+        +1 where a positive torque acts about +z, -1 about -z.
+    """
+
+    name: str
+    body: str
+    sign: float = 1.0
+    on: ClassVar = ("body",)
+    works: ClassVar = ("work",)
+
+    def numbers(self) -> _Port:
+        """Return the constants of the kernels."""
+        return _Port(float(self.sign))
+
+    def kept(self, load: float = 0.0) -> Array:
+        """Return the torque at first."""
+        return np.zeros(1)

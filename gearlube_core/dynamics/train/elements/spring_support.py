@@ -1,0 +1,111 @@
+"""Linear springs and dampers that carry a body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
+from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE, coupling_limit
+from gearlube_core.dynamics.train.element import RATE
+from gearlube_core.dynamics.train.part import Element
+from gearlube_core.kernels.inlining import inside
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number, check_fields, constants_of
+from gearlube_core.oil.lubricant import LubricantState
+
+_STIFFNESS = Number("N/m", 0.0, 1e13)
+_TILTING = Number("N.m/rad", 0.0, 1e10)
+_COUPLING = Number("N/rad", -1e12, 1e12)
+_DAMPING = Number("N s/m", 0.0, 1e9)
+_TILT_DAMPING = Number("N.m s/rad", 0.0, 1e9)
+
+
+class _Support(NamedTuple):
+    K_xx: float  # [N/m]
+    K_yy: float
+    K_zz: float
+    K_ax: float  # against tilting about x [N.m/rad]
+    K_ay: float
+    K_x_ay: float  # symmetric coupling [N/rad]
+    K_y_ax: float
+    c_x: float  # [N s/m]
+    c_y: float
+    c_z: float
+    c_ax: float  # [N.m s/rad]
+    c_ay: float
+
+    @inside
+    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+        u, lost = at
+        v = u + RATE
+        x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
+        v_x, v_y, v_z, w_x, w_y = s[v], s[v + 1], s[v + 2], s[v + 3], s[v + 4]
+        ds[v] = ds[v] - self.K_xx * x - self.K_x_ay * a_y - self.c_x * v_x
+        ds[v + 1] = ds[v + 1] - self.K_yy * y - self.K_y_ax * a_x - self.c_y * v_y
+        ds[v + 2] = ds[v + 2] - self.K_zz * z - self.c_z * v_z
+        ds[v + 3] = ds[v + 3] - self.K_ax * a_x - self.K_y_ax * y - self.c_ax * w_x
+        ds[v + 4] = ds[v + 4] - self.K_ay * a_y - self.K_x_ay * x - self.c_ay * w_y
+        power = self.c_x * v_x * v_x + self.c_y * v_y * v_y + self.c_z * v_z * v_z
+        ds[lost] += power + self.c_ax * w_x * w_x + self.c_ay * w_y * w_y
+
+    @kernel
+    def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        u = at[0]
+        x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
+        elastic = self.K_xx * x * x + self.K_yy * y * y + self.K_zz * z * z
+        elastic += self.K_ax * a_x * a_x + self.K_ay * a_y * a_y
+        return 0.5 * elastic + (self.K_x_ay * x * a_y + self.K_y_ax * y * a_x)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpringSupport(Element):
+    """Linear springs and dampers of all bearings of a body together, against the ground.
+
+    Parameters
+    ----------
+    name, body : str
+    K_xx, K_yy, K_zz : float
+        Stiffness against displacement [N/m], 0 to 1e13.
+    K_ax, K_ay : float
+        Against tilting about x and y [N.m/rad], 0 to 1e10.
+    K_x_ay, K_y_ax : float
+        Symmetric coupling of x with tilting about y, and of y with tilting about x [N/rad].
+    c_x, c_y, c_z, c_ax, c_ay : float
+        Dampers [N s/m], [N.m s/rad], not negative.
+
+    Notes
+    -----
+    `support_stiffness` gives the stiffness of two bearings on a shaft, [he_2007 (28)].
+    """
+
+    name: str
+    body: str
+    K_xx: Annotated[float, _STIFFNESS] = 0.0
+    K_yy: Annotated[float, _STIFFNESS] = 0.0
+    K_zz: Annotated[float, _STIFFNESS] = 0.0
+    K_ax: Annotated[float, _TILTING] = 0.0
+    K_ay: Annotated[float, _TILTING] = 0.0
+    K_x_ay: Annotated[float, _COUPLING] = 0.0
+    K_y_ax: Annotated[float, _COUPLING] = 0.0
+    c_x: Annotated[float, _DAMPING] = 0.0
+    c_y: Annotated[float, _DAMPING] = 0.0
+    c_z: Annotated[float, _DAMPING] = 0.0
+    c_ax: Annotated[float, _TILT_DAMPING] = 0.0
+    c_ay: Annotated[float, _TILT_DAMPING] = 0.0
+    on: ClassVar = ("body",)
+    losses: ClassVar = ("bearing_damping",)
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        for coupling, direct, tilting in (
+            ("K_x_ay", self.K_xx, self.K_ay),
+            ("K_y_ax", self.K_yy, self.K_ax),
+        ):
+            limit, cure = coupling_limit(direct, tilting), COUPLING_CURE
+            check_within(coupling, getattr(self, coupling), -limit, limit, "N/rad", cure)
+
+    def numbers(self) -> _Support:
+        """Return the constants of the kernels."""
+        return constants_of(_Support, self)

@@ -1,0 +1,315 @@
+"""Kernels of a list of elements: rates, rest and march.
+
+The elements' kernels are called one after the other by source text made here, which differs with
+the number of elements alone: their classes and places are constants of the compiled code. Order of
+the list is order of the sums, hence of the bits.
+
+State of a train: twelve states of each body, the elements' own states, the energies, and behind
+these N integrated states what elements keep between steps.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any, NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
+from gearlube_core.dynamics.train import element as calls
+from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, RZ, W
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.inlining import inside
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
+
+RATES, RENEW, SETTLE, ADVANCE, WRITE, ENERGY = range(6)
+OK = 0
+NOT_FINITE = 1
+TOO_MANY_STEPS = 2
+TOO_FAST = 3
+
+MAX_STEPS = 150_000  # in one communication interval, or their cost
+DIVERGED = 0.1  # m, displacement of a body: supports long broken
+
+
+class Call(NamedTuple):
+    """How an element is called."""
+
+    numbers: type  # NamedTuple class of its constants
+    variants: tuple[type, ...]  # classes of its parts, see `tuple_from_array`
+    at: tuple[int, ...]
+    first_number: int
+    n_numbers: int
+    first_memory: int
+    n_memory: int
+    first_output: int
+
+
+class Layout(NamedTuple):
+    """What is compiled for: all of it constant."""
+
+    calls: tuple[Call, ...]
+    bodies: int
+    own: int  # states of elements, behind those of the bodies
+    first_mobility: int  # among the numbers
+    integrated: int
+    states: int
+
+
+def settle_work_size(layout: Layout, m: int) -> int:
+    """Return the length of `work` for SETTLE in `m` coordinates."""
+    return layout.integrated + m * (layout.own + 5) + layout.own + newton_work_size(m)
+
+
+_IN_TIME = "begin", "expand", "each_step", "after_step"
+_NUMBERS = "step_rate", "time_to_jump", "stored_energy"
+_GIVEN = "s, oil, numbers, memory"
+# kernels of all elements: what they take more, a line for each element, what they return
+_LINES = {
+    "begin": ("", "{call}", "None"),
+    "expand": ("", "{call}", "None"),
+    "each_step": (", h", "total += {call}", "total"),
+    "after_step": (", h", "{call}", "None"),
+    "step_rate": ("", "total = max(total, {call})", "total"),
+    "time_to_jump": ("", "total = min(total, {call})", "total"),
+    "stored_energy": ("", "total += {call}", "total"),
+    "add_forces": (", ds", "{call}", "None"),
+    "write": (", out", "{call}", "None"),
+}
+
+
+def _text(variants: Sequence[int]) -> str:
+    """Return the source of a function that makes one kernel of every kind for all elements.
+
+    `variants` has how many each element takes. Classes and places are its arguments, so that they
+    become constants of the compiled code.
+    """
+    count = range(len(variants))
+    constants = "".join(f", e{i}, v{i}, at{i}, n{i}, c{i}, m{i}, z{i}, o{i}" for i in count)
+    lines = [f"def make(kernel, inside, part, tuple_from_array, {', '.join(_LINES)}{constants}):"]
+    for i in count:
+        lines += [f"    v{i}_{k} = v{i}[{k}]" for k in range(variants[i])]
+    for name, (more, line, result) in _LINES.items():
+        lines.append("    @inside" if name == "add_forces" else "    @kernel")
+        start = "math.inf" if name == "time_to_jump" else "0.0"
+        lines += [f"    def all_{name}({_GIVEN}{more}):", f"        total = {start}"]
+        for i in count:
+            chosen = "".join(f", v{i}_{k}" for k in range(variants[i]))
+            own = f"tuple_from_array(part(numbers, n{i}, c{i}), e{i}{chosen})"
+            given = f"{own}, at{i}, part(memory, m{i}, z{i}), s, oil{more}"
+            given += f", o{i}" if name == "write" else ""
+            lines.append(f"        {line.format(call=f'{name}({given})')}")
+        lines.append(f"        return {result}")
+    return "\n".join([*lines, f"    return {', '.join(f'all_{name}' for name in _LINES)}"])
+
+
+def _called(elements: Sequence[Call]) -> tuple[Callable[..., Any], ...]:
+    """Return the kernels that call all elements, in the order of _LINES."""
+    space: dict[str, Any] = {"__name__": __name__, "math": math}
+    text = _text([len(call.variants) for call in elements])
+    exec(compile(text, __file__, "exec"), space)
+    constants = [one for call in elements for one in call]
+    by_class = [getattr(calls, name) for name in _LINES]
+    made: tuple[Callable[..., Any], ...] = space["make"](
+        kernel, inside, part, tuple_from_array, *by_class, *constants
+    )
+    return made
+
+
+@cache
+def train_kernel(layout: Layout) -> Callable[..., float]:
+    """Return the compiled function of all trains of a layout: one, so that it compiles once.
+
+    Its arguments are an operation, the state, the oil's temperature [K], numbers and memory of
+    the assembly, then `size`, `least_rate` and `work`:
+
+    RATES
+        Rates of all integrated states into `work`.
+    RENEW
+        What elements keep is found again for this state.
+    ENERGY, WRITE
+        The energy [J]; WRITE writes the outputs into `work` before.
+    ADVANCE
+        A time of `size` [s] with at least `least_rate` steps a second; returns a status.
+    SETTLE
+        Static equilibrium in `size` coordinates, near the state. `work` has room for the rates,
+        then the places of the coordinates, what each own state gains by them, row by row, their
+        scales, the forces that stay out of balance [N, N.m], and work space of `settle_work_size`.
+    """
+    made = dict(zip(_LINES, _called(layout.calls), strict=True))
+    begin, expand, each_step, after_step = (made[name] for name in _IN_TIME)
+    step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
+    add_forces, write = made["add_forces"], made["write"]
+    bodies, own, first_mobility, n, n_state = layout[1:]
+
+    @inside
+    def forces(s: Array, oil: LubricantState, numbers: Array, memory: Array, ds: Array) -> None:
+        for i in range(n):
+            ds[i] = 0.0
+        add_forces(s, oil, numbers, memory, ds)
+
+    @kernel
+    def rates(s: Array, oil: LubricantState, numbers: Array, memory: Array, ds: Array) -> None:
+        forces(s, oil, numbers, memory, ds)
+        for body in range(bodies):
+            at = BODY_STATES * body
+            mobility = first_mobility + N_COORDINATES * body
+            for i in range(N_COORDINATES):
+                ds[at + i] = s[at + RATE + i]
+                ds[at + RATE + i] *= numbers[mobility + i]
+
+    @kernel
+    def unbalanced(u: Array, problem: Any, out: Array) -> None:
+        s, oil, numbers, memory, places, relations, base, ds = problem
+        for i in range(u.size):
+            s[int(places[i])] = base[i] + u[i]
+        for k in range(own):
+            found = base[u.size + k]
+            for i in range(u.size):
+                found += relations[k * u.size + i] * u[i]
+            s[BODY_STATES * bodies + k] = found
+        for body in range(bodies):  # angles move own states alone: periodic data stay
+            s[BODY_STATES * body + RZ] = 0.0
+        expand(s, oil, numbers, memory)
+        forces(s, oil, numbers, memory, ds)
+        for i in range(u.size):
+            out[i] = ds[int(places[i]) + RATE]
+
+    newton = damped_newton(unbalanced)
+
+    @kernel
+    def settle(
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, m: int, work: Array
+    ) -> None:
+        places, relations = part(work, n, m), part(work, n + m, m * own)
+        scales, out = part(work, n + m * (own + 1), m), part(work, n + m * (own + 2), m)
+        at = n + m * (own + 3)
+        u, base = part(work, at, m), part(work, at + m, m + own)
+        for i in range(m):
+            u[i] = 0.0
+            base[i] = s[int(places[i])]
+        for k in range(own):
+            base[m + k] = s[BODY_STATES * bodies + k]
+        problem = (s, oil, numbers, memory, places, relations, base, part(work, 0, n))
+        at += 2 * m + own
+        newton(u, scales, problem, part(work, at, work.size - at))
+        unbalanced(u, problem, out)
+
+    @kernel
+    def rk4_step(
+        s: Array, h: float, oil: LubricantState, numbers: Array, memory: Array, stages: Array
+    ) -> None:
+        trial = part(stages, 0, n_state)
+        slope = part(stages, n_state, n)
+        total = part(stages, n_state + n, n)
+        rates(s, oil, numbers, memory, slope)
+        for i in range(n):
+            total[i] = slope[i]
+            trial[i] = s[i] + 0.5 * h * slope[i]
+        rates(trial, oil, numbers, memory, slope)
+        for i in range(n):
+            total[i] += 2.0 * slope[i]
+            trial[i] = s[i] + 0.5 * h * slope[i]
+        rates(trial, oil, numbers, memory, slope)
+        for i in range(n):
+            total[i] += 2.0 * slope[i]
+            trial[i] = s[i] + h * slope[i]
+        rates(trial, oil, numbers, memory, slope)
+        for i in range(n):
+            s[i] += h / 6.0 * (total[i] + slope[i])
+
+    @kernel
+    def status_of(s: Array) -> int:
+        total = 0.0
+        for i in range(n):
+            total += abs(s[i])
+        if not total < math.inf:
+            return NOT_FINITE
+        for body in range(bodies):
+            at = BODY_STATES * body
+            if max(abs(s[at]), max(abs(s[at + 1]), abs(s[at + 2]))) > DIVERGED:
+                return NOT_FINITE
+            if abs(s[at + W]) > MAX_SPEED:
+                return TOO_FAST
+            if abs(s[at + N_COORDINATES - 1]) > MAX_ANGLE:
+                return TOO_FAR
+        return OK
+
+    @kernel
+    def advance(
+        s: Array,
+        duration: float,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        least_rate: float,
+        work: Array,
+    ) -> int:
+        wanted = duration * max(least_rate, step_rate(s, oil, numbers, memory))
+        if not wanted < MAX_STEPS:
+            return TOO_MANY_STEPS
+        steps = max(1, math.ceil(wanted))
+        h = duration / steps
+        cost = 0.0
+        for _ in range(steps):
+            rest = h
+            while rest > 0.0:
+                cost += each_step(s, oil, numbers, memory, rest)
+                if cost > MAX_STEPS:
+                    return TOO_MANY_STEPS
+                for i in range(n, n_state):
+                    work[i] = s[i]
+                piece = min(rest, time_to_jump(s, oil, numbers, memory))
+                rk4_step(s, piece, oil, numbers, memory, work)
+                rest -= piece
+            after_step(s, oil, numbers, memory, h)
+            status = status_of(s)
+            if status != OK:
+                return status
+        return OK
+
+    @kernel
+    def kinetic_energy(s: Array, numbers: Array) -> float:
+        twice = 0.0
+        for body in range(bodies):
+            at = BODY_STATES * body + RATE
+            mobility = first_mobility + N_COORDINATES * body
+            for i in range(N_COORDINATES):
+                if numbers[mobility + i] > 0.0:
+                    twice += s[at + i] * s[at + i] / numbers[mobility + i]
+        return 0.5 * twice
+
+    @kernel
+    def operate(
+        operation: int,
+        s: Array,
+        temperature: float,
+        numbers: Array,
+        memory: Array,
+        size: float,
+        least_rate: float,
+        work: Array,
+    ) -> float:
+        given: LubricantParameters = tuple_from_array(numbers, LubricantParameters)
+        oil = lubricant_state(given, temperature)
+        if operation == RATES:
+            rates(s, oil, numbers, memory, work)
+            return 0.0
+        if operation == SETTLE:
+            settle(s, oil, numbers, memory, int(size), work)
+            return 0.0
+        begin(s, oil, numbers, memory)
+        if operation == ADVANCE:
+            return float(advance(s, size, oil, numbers, memory, least_rate, work))
+        if operation == RENEW:
+            each_step(s, oil, numbers, memory, 0.0)
+        expand(s, oil, numbers, memory)
+        if operation == WRITE:
+            write(s, oil, numbers, memory, work)
+        return kinetic_energy(s, numbers) + stored_energy(s, oil, numbers, memory)
+
+    return operate

@@ -1,0 +1,100 @@
+"""Bodies and elements as a user lists them, before they are assembled."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_option
+from gearlube_core.dynamics.train.element import COORDINATES
+from gearlube_core.number import Number, check_fields
+
+NO_NUMBERS: Array = np.empty(0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Body:
+    """A rigid body of a train that turns about an axis parallel to z.
+
+    Parameters
+    ----------
+    name : str
+    mass : float
+        [kg]
+    inertia, polar_inertia : float
+        About a diameter and about the axis [kg m2].
+    held : tuple of str
+        Coordinates that do not move, among x, y, z, rx, ry, rz.
+
+    Notes
+    -----
+    Products of rotation and tilt (gyroscopic moments) are left out, as in [he_2007].
+    """
+
+    name: str
+    mass: Annotated[float, Number("kg", 1e-4, 1e6)]
+    inertia: Annotated[float, Number("kg m2", 1e-9, 1e6)]
+    polar_inertia: Annotated[float, Number("kg m2", 1e-9, 1e6)]
+    held: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        for one in self.held:
+            check_option(f"held of {self.name}", one, COORDINATES)
+
+    @classmethod
+    def spinning(cls, name: str, polar_inertia: float) -> Body:
+        """Return a body that can only turn, such as a rotor or a hub."""
+        held = tuple(one for one in COORDINATES if one != "rz")
+        return cls(name=name, mass=1.0, inertia=1.0, polar_inertia=polar_inertia, held=held)
+
+    @property
+    def mobility(self) -> Array:
+        """Acceleration per force or moment of each coordinate, 0 where held, shape (6,)."""
+        resisting = (*3 * (self.mass,), *2 * (self.inertia,), self.polar_inertia)
+        pairs = zip(COORDINATES, resisting, strict=True)
+        return np.array([0.0 if name in self.held else 1.0 / one for name, one in pairs])
+
+
+class Element(ABC):
+    """What acts on bodies: derive a frozen dataclass, and give it a NamedTuple of kernels."""
+
+    name: str
+    on: ClassVar[tuple[str, ...]]  # fields that name the bodies
+    beside: ClassVar[tuple[str, ...]] = ()  # fields that name other elements, or None
+    states: ClassVar[tuple[str, ...]] = ()  # own integrated states that stay in steady turning
+    angles: ClassVar[tuple[str, ...]] = ()  # own integrated states that turn on
+    works: ClassVar[tuple[str, ...]] = ()  # energies put into the train
+    losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
+    outputs: ClassVar[tuple[str, ...]] = ()
+
+    @abstractmethod
+    def numbers(self) -> tuple[Any, ...]:
+        """Return a NamedTuple of floats whose methods are the kernels of `element`."""
+
+    def variants(self) -> tuple[type, ...]:
+        """Return the classes of parts among `numbers` that are of any class."""
+        return ()
+
+    def sizes(self) -> tuple[int, ...]:
+        """Return whole numbers that the kernels find at the end of `at`."""
+        return ()
+
+    def memory(self) -> Array:
+        """Return what the kernels take as `memory`: a new array."""
+        return NO_NUMBERS
+
+    def kept(self, load: float = 0.0) -> Array:
+        """Return what is kept between steps, at rest under a load on the own state [N or N.m]."""
+        return NO_NUMBERS
+
+    def guess(self, load: float) -> tuple[float, ...]:
+        """Return about what the own states are at rest under a load on them [N or N.m].
+
+        They set the scale of the search too, so that they must not be zero.
+        """
+        return ()

@@ -1,0 +1,363 @@
+"""Trains of elements: against closed forms, the helical pair alone, and balances."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from gearlube_core.bearings.bearing_type import Bearing
+from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, churning_torque
+from gearlube_core.dynamics.helical_pair.march import state as pair_state
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+from gearlube_core.dynamics.train.elements.drag import Churning, Seal
+from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
+from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
+from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
+from gearlube_core.dynamics.train.elements.port import Port
+from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
+from gearlube_core.dynamics.train.helical_pair import helical_pair, spring_support
+from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.part import Body
+from gearlube_core.errors import ConvergenceError, ParameterError, StepError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.coulomb_brake import CoulombBrake
+
+PAIR = helical_march_parameters(HelicalGearFile.named("he_2007"))
+PLANE, RATIO = PAIR.pair.plane, PAIR.pair.ratio
+OIL = Lubricant.named("mohammadpour_2015")
+KELVIN = 333.15
+LOAD = {"input": 226.0, "output": 280.0}
+
+
+def two_rotors(*, brake: float = 0.0, damping: float = 0.0) -> Train:
+    rotors = [Body.spinning("engine", 0.2), Body.spinning("load", 2.0)]
+    shaft = HalfShaft(name="shaft", first="engine", second="load", stiffness=1e4, damping=damping)
+    stopping = CoulombBrake(name="brake", body="load", torque=brake)
+    return Train(rotors, [shaft, Port(name="motor", body="engine"), stopping], OIL)
+
+
+def test_two_rotors_on_a_shaft_swing_as_the_closed_form():
+    train = two_rotors()
+    train.initialise({"engine": 100.0}, {"motor": 0.0}, KELVIN)
+    frequencies, shapes = train.modes()
+    omega = math.sqrt(1e4 * (1.0 / 0.2 + 1.0 / 2.0))
+    assert frequencies == pytest.approx([0.0, omega / (2.0 * math.pi)], abs=1e-4)
+    assert shapes[0, 1] / shapes[1, 1] == pytest.approx(-10.0, rel=1e-6)  # inverse of the inertias
+    # a torque that steps on: twist T/I1/omega^2 (1 - cos), beside the common acceleration
+    for _ in range(40):
+        train.step(1e-3, {"motor": 50.0}, KELVIN)
+    twist = 50.0 / 0.2 / omega**2 * (1.0 - math.cos(omega * 0.04))
+    # RK4 with 16 steps a period: its phase is behind by (2 pi/16)^4/120 of the angle
+    assert train.state("shaft.twist") == pytest.approx(twist, rel=1e-3)
+    momentum = 0.2 * train.state("engine.rz.rate") + 2.0 * train.state("load.rz.rate")
+    assert momentum == pytest.approx(100.0 * 2.2 + 50.0 * 0.04, rel=1e-12)
+    assert train.outputs()["shaft.torque"] == pytest.approx(1e4 * train.state("shaft.twist"))
+
+
+def test_a_brake_from_outside_the_package_stops_a_rotor_after_its_angle():
+    # w0^2 I / (2 T) for both rotors as one, which a stiff shaft makes of them
+    train = two_rotors(brake=40.0, damping=20.0)
+    train.initialise({"engine": 10.0}, {"motor": 0.0}, KELVIN)
+    start = train.energy
+    for _ in range(800):
+        train.step(1e-3, {"motor": 0.0}, KELVIN)
+    assert abs(train.state("load.rz.rate")) < 0.01
+    assert train.state("load.rz") == pytest.approx(10.0**2 * 2.2 / (2.0 * 40.0), rel=5e-3)
+    assert sum(train.lost.values()) == pytest.approx(start - train.energy, rel=1e-7)
+
+
+def of_pair(train: Train, s: np.ndarray) -> np.ndarray:
+    """Return the train's state of a state of `HelicalPairModel`."""
+    made = train.get_state()[:-2]
+    members = (
+        ("U_P", "TH_P", "PHI_P", "V_P", "OM_P", "W_P", -1.0),
+        ("U_G", "TH_G", "PHI_G", "V_G", "OM_G", "W_G", 1.0),
+    )
+    for i, (u, th, phi, v, om, w, sense) in enumerate(members):
+        at = {name: getattr(pair_state, name) for name in (u, th, phi, v, om, w)}
+        made[12 * i : 12 * i + 3] = s[at[u] : at[u] + 3]
+        made[12 * i + 3 : 12 * i + 5] = s[at[th] : at[th] + 2]
+        made[12 * i + 5] = sense * s[at[phi]]
+        made[12 * i + 6 : 12 * i + 9] = s[at[v] : at[v] + 3]
+        made[12 * i + 9 : 12 * i + 11] = s[at[om] : at[om] + 2]
+        made[12 * i + 11] = sense * s[at[w]]
+    made[24] = s[pair_state.PSI]
+    made[25], made[26] = s[pair_state.PINION_WORK], -s[pair_state.WHEEL_WORK]
+    made[27:30] = s[pair_state.FRICTION : pair_state.FRICTION + 3]
+    made[30:32] = tuple(LOAD.values())
+    made[32] = s[pair_state.LOAD_TORQUE]
+    made[33:] = s[pair_state.REFRESHED :]
+    return made
+
+
+def test_the_pair_in_a_train_is_the_pair_alone_to_the_last_bit():
+    alone = HelicalPairModel(PAIR)
+    speed = 104.7
+    alone.initialise(
+        pinion_speed=speed, pinion_torque=226.0, wheel_torque=280.0, oil_temperature=KELVIN
+    )
+    train = Train(*helical_pair(PAIR), PAIR.oil)
+    train.initialise({"wheel": speed / RATIO}, LOAD, KELVIN)
+    # both search an equilibrium, to 1e-6 of the forces
+    assert train.outputs()["mesh.dte"] == pytest.approx(alone.output("mesh.dte"), rel=1e-5)
+    free = train.modes()[0]
+    assert free[0] < 1e-3 * free[1]
+    assert free[1:] == pytest.approx(alone.natural_frequencies(), rel=1e-5)
+    control = alone.step_control
+    rate = control.highest_frequency * control.steps_per_highest_period
+    train.set_state(np.array([*of_pair(train, alone.state_view), KELVIN, rate]))
+    rng = np.random.default_rng(38)
+    for k in range(120):
+        # torques that part the teeth and turn them over
+        load = {"input": 226.0 * math.cos(0.05 * k), "output": 280.0 * rng.uniform(-1.0, 1.0)}
+        train.step(1e-4, load, KELVIN)
+        alone.step(1e-4, *load.values(), KELVIN)
+        LOAD_NOW = np.array([*load.values()])
+        wanted = of_pair(train, alone.state_view)
+        wanted[30:32] = LOAD_NOW
+        assert np.array_equal(train.get_state()[:-2], wanted), k
+    assert alone.output("mesh.coast_contact") in (0.0, 1.0)
+
+
+def e_axle(turned: float = 0.0, friction: str = "film", hand: bool = True) -> Train:
+    """Return two stages: a rotor's shaft, a countershaft and a differential with two wheels.
+
+    Gears are those of he_2007 twice, masses and shafts invented. Bearings are alike in x and y, so
+    that the whole can be turned about z.
+    """
+    pair = replace(PAIR, friction=friction)
+    support = PAIR.constants().motion.gear
+    even = support._replace(K_yy=support.K_xx, K_ax=support.K_ay, c_y=support.c_x,
+                            c_ax=support.c_ay, K_x_ay=0.0, K_y_ax=0.0)  # fmt: skip
+    bodies = [
+        Body(name="input", mass=3.0, inertia=0.004, polar_inertia=0.02),
+        Body(name="counter", mass=6.0, inertia=0.02, polar_inertia=0.01),
+        Body(name="differential", mass=9.0, inertia=0.03, polar_inertia=0.04),
+        Body.spinning("left", 1.0),
+        Body.spinning("right", 1.0),
+    ]
+    first = HelicalMesh(
+        name="first", pinion="input", gear="counter", parameters=pair, angle=0.3 + turned,
+        right_hand=not hand, gear_arm=-0.03,
+    )  # fmt: skip
+    second = HelicalMesh(
+        name="second", pinion="counter", gear="differential", parameters=pair, angle=2.0 + turned,
+        drives_forward=True, right_hand=hand, pinion_arm=0.03,
+    )  # fmt: skip
+    elements = [
+        Port(name="motor", body="input", sign=-1.0),
+        Port(name="left wheel", body="left"),
+        Port(name="right wheel", body="right"),
+        first,
+        second,
+        *(spring_support(f"{b.name} bearings", b.name, even) for b in bodies[:3]),
+        HalfShaft(name="left shaft", first="differential", second="left", stiffness=8e3),
+        HalfShaft(name="right shaft", first="differential", second="right", stiffness=6e3),
+    ]
+    return Train(bodies, elements, PAIR.oil)
+
+
+def loads(torque: float) -> dict[str, float]:
+    each = 0.5 * torque * RATIO**2
+    return {"motor": torque, "left wheel": each, "right wheel": each}
+
+
+def test_two_stages_carry_torque_speed_and_thrust_as_rigid_gears_do():
+    train = e_axle(friction="off")
+    train.initialise({"left": -50.0, "right": -50.0}, loads(200.0), KELVIN)
+    speeds = [train.state(f"{body.name}.rz.rate") for body in train.bodies]
+    expected = np.array([-(RATIO**2), RATIO, -1.0, -1.0, -1.0])
+    assert speeds == pytest.approx(50.0 * expected, rel=1e-9)
+    found = train.outputs()
+    # without friction each mesh carries the torque of its pinion at its base radius, but for the
+    # work of lines that move under load, 1e-4 of it
+    for mesh, torque in (("first", 200.0), ("second", 200.0 * RATIO)):
+        across = math.hypot(found[f"{mesh}.force.x"], found[f"{mesh}.force.y"])
+        assert across == pytest.approx(torque / PLANE.r_bp, rel=1e-4)
+        axial = abs(found[f"{mesh}.force.z"])
+        assert axial == pytest.approx(across * PLANE.sin_b / PLANE.cos_b, rel=1e-9)
+    # a left-hand pinion that turns about -z is pushed towards +z; so is a right-hand one about +z
+    assert found["first.force.z"] > 0.0
+    assert found["second.force.z"] > 0.0
+    both = found["left shaft.torque"] + found["right shaft.torque"]
+    assert both == pytest.approx(-200.0 * RATIO**2, rel=1e-4)
+    # the countershaft feels the first mesh's reaction and the second one's action: with gears of
+    # one hand they pull apart, as every countershaft is made
+    other = e_axle(friction="off", hand=False)
+    other.initialise({"left": -50.0, "right": -50.0}, loads(200.0), KELVIN)
+    assert other.outputs()["first.force.z"] == pytest.approx(-found["first.force.z"], rel=1e-4)
+
+
+def test_energy_of_two_stages_is_balanced_while_torques_swing():
+    train = e_axle()
+    train.initialise({"left": -50.0, "right": -50.0}, loads(200.0), KELVIN)
+    start = train.energy
+    for k in range(100):
+        train.step(1e-3, loads(200.0 * (1.0 + 0.3 * math.sin(0.6 * k))), KELVIN)
+    put_in = 200.0 * 50.0 * RATIO**2 * 0.1
+    lost = train.lost
+    assert min(lost.values()) >= 0.0
+    assert lost["friction"] > 0.005 * put_in
+    missing = train.work - sum(lost.values()) - (train.energy - start)
+    assert abs(missing) < 1e-6 * put_in
+
+
+def test_a_train_turned_about_its_axes_moves_as_before():
+    before, after = e_axle(), e_axle(turned=1.1)
+    for train in (before, after):
+        train.initialise({"left": -50.0, "right": -50.0}, loads(200.0), KELVIN)
+        for k in range(20):
+            train.step(5e-4, loads(200.0 - 10.0 * k), KELVIN)
+    found, turned = before.outputs(), after.outputs()
+    assert turned["first.dte"] == pytest.approx(found["first.dte"], rel=1e-6)
+    x, y = found["second.force.x"], found["second.force.y"]
+    rotated = x * math.cos(1.1) - y * math.sin(1.1)
+    assert turned["second.force.x"] == pytest.approx(rotated, rel=1e-6)
+    assert before.state("counter.x") == pytest.approx(
+        after.state("counter.x") * math.cos(1.1) + after.state("counter.y") * math.sin(1.1),
+        rel=1e-5,
+    )
+
+
+class SpringsOfShaft(NamedTuple):
+    """Linear springs without a cage, and a drag of their own; all floats."""
+
+    stiffness: float  # of either bearing [N/m]
+    drag: float  # of either [N.m]
+    cage_ratio: float = 0.0
+
+    @kernel
+    def shaft_forces(self, motion, f_ref, oil):
+        k = self.stiffness
+        F = (-k * motion.r1, -k * motion.r2, -k * motion.axial)
+        return F[0], F[1], F[2], F[0], F[1], F[2], 0.0
+
+    @kernel
+    def shaft_energy(self, motion, oil):
+        square = motion.r1 * motion.r1 + motion.r2 * motion.r2 + motion.axial * motion.axial
+        return self.stiffness * square
+
+    @kernel
+    def shaft_drag(self, speed, axial_load, radial_load, law, oil):
+        return math.copysign(self.drag, speed)
+
+
+class Springs(Bearing):
+    """A bearing type that is not registered."""
+
+    def parameters(self) -> SpringsOfShaft:
+        return SpringsOfShaft(1.5e8, 0.2)
+
+
+def on_bearings(bearings: tuple[Bearing, Bearing], law: str) -> Train:
+    """Return the pair of he_2007 on bearings of any type, with a seal and churning."""
+    bodies, elements = helical_pair(PAIR)
+    bodies = [replace(body, held=("rx", "ry")) for body in bodies]
+    opposed = [
+        OpposedBearings(name=f"{body.name} bearings", body=body.name, bearing=one,
+                        torque_loss=law, orders=25.0)
+        for body, one in zip(bodies, bearings, strict=True)
+    ]  # fmt: skip
+    drags = [
+        Seal(name="seal", body="pinion", torque=0.3),
+        Churning(name="sump", body="wheel", law="changenet_velex_2007", ring_diameter=0.2,
+                 ring_width=0.03, immersion=0.04, oil_volume=1e-3),
+    ]  # fmt: skip
+    return Train(bodies, [*elements[:3], *opposed, *drags], PAIR.oil)
+
+
+@pytest.mark.parametrize(
+    ("bearings", "law"),
+    [
+        pytest.param(lambda: (Springs(), Springs()), "palmgren", id="springs"),
+        pytest.param(lambda: mohammadpour_2015_axle().bearings, "zhou_hoeprich_1991", id="rollers",
+                     marks=pytest.mark.slow),
+    ],
+)  # fmt: skip
+def test_bearings_seals_and_churning_of_the_axle_serve_the_helical_pair(bearings, law):
+    train, load = on_bearings(bearings(), law), {"input": 200.0, "output": 240.0}
+    train.initialise({"wheel": 100.0}, load, KELVIN)
+    found = train.outputs()
+    for axis in "xyz":  # at rest the bearings of the pinion bear what its mesh exerts
+        force = found[f"mesh.force.{axis}"]
+        assert found[f"pinion bearings.force.{axis}"] == pytest.approx(-force, abs=0.01)
+    start = train.energy
+    for _ in range(30):
+        train.step(1e-3, load, KELVIN)
+    lost, before = train.lost, train.outputs()
+    # the torque of a seal does not depend on the speed
+    assert lost["seals"] == pytest.approx(0.3 * -train.state("pinion.rz"), rel=1e-3)
+    missing = train.work - sum(lost.values()) - (train.energy - start)
+    # forces of bearings are expanded about states near by: 1e-5 of what passes through
+    assert abs(missing) < 1e-5 * 200.0 * 100.0 * RATIO * 0.03
+    # in one more step, bearings and sump lose their torques times the mean speeds
+    names = [body.name for body in train.bodies]
+    speed = {name: 0.5 * train.state(f"{name}.rz.rate") for name in names}
+    train.step(1e-3, load, KELVIN)
+    speed = {name: half + 0.5 * train.state(f"{name}.rz.rate") for name, half in speed.items()}
+    drag = sum(before[f"{name} bearings.torque"] * w for name, w in speed.items())
+    assert train.lost["bearing_torque"] - lost["bearing_torque"] == pytest.approx(
+        1e-3 * drag, rel=0.02
+    )
+    sump = ChurningConstants(CHURNING_LAWS.index("changenet_velex_2007"), 0.2, 0.03, 0.04, 1e-3)
+    nu = PAIR.oil.dynamic_viscosity(KELVIN) / PAIR.oil.density
+    torque = churning_torque(speed["wheel"], nu, PAIR.oil.density, sump)
+    churned = train.lost["churning"] - lost["churning"]
+    assert churned == pytest.approx(1e-3 * torque * speed["wheel"], rel=0.01)
+
+
+def test_a_train_goes_on_from_a_saved_state_to_the_last_bit():
+    train = on_bearings((Springs(), Springs()), "palmgren")
+    train.initialise({"wheel": 100.0}, {"input": 200.0, "output": 240.0}, KELVIN)
+    for k in range(5):
+        train.step(1e-3, {"input": 200.0 + k, "output": 240.0}, KELVIN)
+    saved, before = train.get_state(), train.outputs()
+
+    def go_on() -> np.ndarray:
+        for k in range(5):
+            train.step(1e-3, {"input": 180.0 - k, "output": 240.0}, KELVIN)
+        return train.get_state()
+
+    first = go_on()
+    train.set_state(saved)
+    assert train.outputs() == before
+    assert np.array_equal(go_on(), first)
+
+
+def test_what_cannot_be_a_train_is_named():
+    rotor, port = Body.spinning("rotor", 0.1), Port(name="motor", body="rotor")
+    with pytest.raises(ParameterError, match="bodies must have names of their own, got 'rotor'"):
+        Train([rotor, rotor], [port], OIL)
+    with pytest.raises(ParameterError, match=r"motor names 'shaft', which is not .* are: rotor"):
+        Train([rotor], [replace(port, body="shaft")], OIL)
+    with pytest.raises(ParameterError, match="mass must be within"):
+        Body(name="rotor", mass=-1.0, inertia=1.0, polar_inertia=1.0)
+    loose = Train([rotor, Body.spinning("load", 1.0)], [port], OIL)
+    with pytest.raises(ParameterError, match="leave 1 free"):
+        loose.initialise({"rotor": 1.0}, {"motor": 0.0}, KELVIN)
+    train = two_rotors()
+    with pytest.raises(ParameterError, match="every port, which are motor; wrong is moter"):
+        train.initialise({"engine": 1.0}, {"motor": 0.0, "moter": 0.0}, KELVIN)
+    with pytest.raises(ParameterError, match="speeds must name bodies of the train, got 'wheel'"):
+        train.initialise({"wheel": 1.0}, {"motor": 0.0}, KELVIN)
+    train.initialise({"engine": 1.0}, {"motor": 0.0}, KELVIN)
+    saved = train.get_state()
+    with pytest.raises(StepError, match="turns faster than"):
+        train.step(0.1, {"motor": 1e7}, KELVIN)
+    assert np.array_equal(train.get_state(), saved)
+
+
+def test_teeth_without_bearings_have_no_rest():
+    bodies, elements = helical_pair(PAIR)
+    loose = [SpringSupport(name=one.name, body=one.body) for one in elements[3:]]
+    train = Train(bodies, [*elements[:3], *loose], PAIR.oil)
+    with pytest.raises(ConvergenceError, match="no static equilibrium: forces on"):
+        train.initialise({"wheel": 80.0}, LOAD, KELVIN)
