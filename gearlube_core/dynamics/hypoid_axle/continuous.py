@@ -12,12 +12,12 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
     blend_mesh,
-    follow_flank,
     gap_rotation,
     place_at_load,
     series_size,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
+from gearlube_core.dynamics.hypoid_axle.rhs import follow_flank_of, mesh_motion
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     MICRO,
@@ -103,7 +103,7 @@ def write_event_indicators(
     out[2] = 1.0
     if table.levels[0] < 0.0:
         m = mesh_series(mesh.series, mesh.n_orders, p.z_p, s[PHI_P])
-        out[2] = gap_rotation(s, m, p, mesh.series, mesh.n_orders) * MICRO
+        out[2] = gap_rotation(mesh_motion(s), m, p, mesh.series, mesh.n_orders) * MICRO
 
 
 @kernel
@@ -120,4 +120,4 @@ def change_side(s: Array, table: MeshLevels, p: MeshForceConstants, work: Array)
         at_window = series_size(table)
         mesh = place_at_load(table, work[0:at_window], work[at_window:])
         blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
-        follow_flank(s, table, p, mesh)
+        follow_flank_of(s, table, p, mesh)

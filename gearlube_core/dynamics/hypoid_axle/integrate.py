@@ -28,7 +28,6 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
     blend_mesh,
-    follow_flank,
     place_at_load,
     series_size,
 )
@@ -38,6 +37,7 @@ from gearlube_core.dynamics.hypoid_axle.rhs import (
     StepInputs,
     axle_rhs,
     expand_bearings,
+    follow_flank_of,
     mesh_motion,
 )
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -379,7 +379,7 @@ def advance(
             rk4_step(s, h / parts, first, inputs, mesh, oil, p, scratch, stages)
             s[FRICTION_BOUND] += h / parts * scratch[BOUND_POWER]
             if table.levels[0] < 0.0:
-                follow_flank(s, table, p.mesh, mesh)
+                follow_flank_of(s, table, p.mesh, mesh)
         rate = stages[N_STATE + X]
         s[DRAG_BOUND] += h * drag.bound
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:

@@ -8,17 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
-from gearlube_core.dynamics.hypoid_axle.state import (
-    LOAD_TORQUE,
-    MICRO,
-    PHI_P,
-    SIDE,
-    U_G,
-    U_P,
-    UM,
-    X,
-)
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshMotion
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import (
@@ -86,20 +76,16 @@ def blend_mesh(load_torque: float, side: float, table: MeshLevels, mesh: MeshAtL
 
 @kernel
 def lateral_and_unloaded(
-    s: Array, m: MeshSeries, series: Array, n_orders: int, z_p: float
+    motion: MeshMotion, m: MeshSeries, series: Array, n_orders: int, z_p: float
 ) -> float:
     """Return n.(u_p - u_g) - e [m]: what the transmission error holds besides the rotation."""
-    lateral = (
-        m.n_x * (s[U_P] - s[U_G])
-        + m.n_y * (s[U_P + 1] - s[U_G + 1])
-        + m.n_z * (s[U_P + 2] - s[U_G + 2])
-    )
-    return lateral * UM - transmission_error(series, n_orders, z_p, s[PHI_P])
+    lateral = m.n_x * motion.d_x + m.n_y * motion.d_y + m.n_z * motion.d_z
+    return lateral - transmission_error(series, n_orders, z_p, motion.angle)
 
 
 @kernel
 def gap_rotation(
-    s: Array, m: MeshSeries, p: MeshForceConstants, series: Array, n_orders: int
+    motion: MeshMotion, m: MeshSeries, p: MeshForceConstants, series: Array, n_orders: int
 ) -> float:
     """Return how far the pinion stands from the middle of the gap [m], along the line of action.
 
@@ -108,28 +94,29 @@ def gap_rotation(
 
     Parameters
     ----------
-    s : ndarray of shape (N_STATE,)
+    motion : MeshMotion
     m : MeshSeries
-        At s[PHI_P]; read where neither flank touches.
+        At motion.angle; read where neither flank touches.
     p : MeshForceConstants
     series : ndarray of shape (N_SERIES * (2 n_orders + 1),)
         Coefficients at the present load.
     """
-    x = s[X] * UM
-    rotation = x + 0.5 * p.backlash
-    if -p.backlash < x < 0.0:
-        rotation -= lateral_and_unloaded(s, m, series, n_orders, p.z_p)
+    rotation = motion.x + 0.5 * p.backlash
+    if -p.backlash < motion.x < 0.0:
+        rotation -= lateral_and_unloaded(motion, m, series, n_orders, p.z_p)
     return rotation
 
 
 @kernel
 def follow_flank(
-    s: Array,
+    motion: MeshMotion,
+    load_torque: float,
+    side: float,
     table: MeshLevels,
     p: MeshForceConstants,
     mesh: MeshAtLoad,
-) -> None:
-    """Take the mesh data of the other side when the teeth have crossed the middle of the gap.
+) -> tuple[float, float]:
+    """Return transmission error [m] and side; the other side where teeth crossed the gap's middle.
 
     On either side x + b = R_p theta + n.(u_p - u_g) - e, with theta the rotation of the pinion
     against the gear from the middle of the gap: theta and the displacements decide where both
@@ -141,33 +128,30 @@ def follow_flank(
 
     Parameters
     ----------
-    s : ndarray of shape (N_STATE,)
-        Changed at X and SIDE.
+    motion : MeshMotion
+    load_torque, side : float
+        That the table is read at [N.m], below 0 on the coast flanks.
     table : MeshLevels
         With coast levels.
     p : MeshForceConstants
     mesh : MeshAtLoad
         The table at the present load; rewritten at a change of side.
     """
-    x = s[X] * UM
-    gap = p.backlash
-    on_coast = s[SIDE] < 0.0
+    x, gap, phi = motion.x, p.backlash, motion.angle
+    on_coast = side < 0.0
     if (x <= -gap) if on_coast else (x >= 0.0):
-        return
-    phi = s[PHI_P]
+        return x, side
     old = mesh_series(mesh.series, mesh.n_orders, p.z_p, phi)
     separated = -gap < x < 0.0
-    rotation = gap_rotation(s, old, p, mesh.series, mesh.n_orders)
+    rotation = gap_rotation(motion, old, p, mesh.series, mesh.n_orders)
     if (rotation < 0.0) == on_coast:
-        return
-    s[SIDE] = 1.0 if on_coast else -1.0
-    blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
+        return x, side
+    side = 1.0 if on_coast else -1.0
+    blend_mesh(load_torque, side, table, mesh)
     new = mesh_series(mesh.series, mesh.n_orders, p.z_p, phi)
     if separated:
         x = rotation * new.R_p / old.R_p - 0.5 * gap
-        x += lateral_and_unloaded(s, new, mesh.series, mesh.n_orders, p.z_p)
-        x = min(0.0, max(-gap, x))
-    else:
-        kept = math.sqrt(old.k_m / new.k_m)
-        x = x * kept if x >= 0.0 else (x + gap) * kept - gap
-    s[X] = x * MICRO
+        x += lateral_and_unloaded(motion, new, mesh.series, mesh.n_orders, p.z_p)
+        return min(0.0, max(-gap, x)), side
+    kept = math.sqrt(old.k_m / new.k_m)
+    return (x * kept if x >= 0.0 else (x + gap) * kept - gap), side

@@ -14,8 +14,9 @@ from gearlube_core.bearings.bearing_type import (
 from gearlube_core.bearings.parameters import cage_torque
 from gearlube_core.dynamics.hypoid_axle.flanks import N_FRICTION, flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, follow_flank
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
+    MeshForceConstants,
     MeshMotion,
     mesh_force,
     reference_frequency,
@@ -27,6 +28,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
     CAGE_P,
     CHURNING,
+    LOAD_TORQUE,
     MESH_DAMPING,
     MICRO,
     N_ROLLERS,
@@ -35,6 +37,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PINION_WORK,
     ROLLING,
     SEALS,
+    SIDE,
     U_G,
     U_P,
     UM,
@@ -116,6 +119,14 @@ def mesh_motion(s: Array) -> MeshMotion:
         s[V_P + 1] - s[V_G + 1],
         s[V_P + 2] - s[V_G + 2],
     )
+
+
+@kernel
+def follow_flank_of(s: Array, table: MeshLevels, p: MeshForceConstants, mesh: MeshAtLoad) -> None:
+    """Do what `follow_flank` does in the state `s` of an axle, (N_STATE,), at X and SIDE."""
+    x, side = follow_flank(mesh_motion(s), s[LOAD_TORQUE], s[SIDE], table, p, mesh)
+    if side != s[SIDE]:
+        s[X], s[SIDE] = x * MICRO, side
 
 
 @kernel
