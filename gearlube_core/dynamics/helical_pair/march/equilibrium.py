@@ -10,6 +10,7 @@ from gearlube_core.dynamics.helical_pair.march.integrate import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
+    laws_of_oil,
     mesh_at_torque,
 )
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
@@ -167,7 +168,7 @@ def settle(
     if pinion_torque < 0.0:
         u[0] = -u[0] - flanks.backlash / plane.cos_b
     problem = (data, s, slope, places, forces, pinion_torque)
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, laws_of_oil(*mesh))
     worst = math.inf
     for _ in range(_FILM_PASSES if p.friction_form > 0.0 else 1):
         _solve(u, scales, problem, work[_NEWTON:])

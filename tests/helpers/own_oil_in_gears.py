@@ -1,0 +1,208 @@
+"""The axle and the helical pair in an oil whose laws one file each brings, in Python and in FMUs."""
+
+import json
+import sys
+import tomllib
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from drivetrain.axle_file.read_axle import read_axle
+from fmu_src import helical_pair, hypoid_axle
+from fmu_src.identity import contents
+from fmu_src.native import helical_pair as native_pair
+from fmu_src.native import hypoid_axle as native_axle
+from fmu_src.native.model import OK, Operation
+from gearlube.output.toml_text import toml_text
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle
+from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle, uncertain_of
+from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.chosen_model import check_oil
+from gearlube_core.film_model.model import FLANK, shipped_model
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.oil.formula_laws import log_viscosity_under
+from tests.helpers.oil_with_own_law import SHEET, as_toml
+
+Q, LIMIT = 20.0, 8e6  # [-], Pa
+OIL, TORQUE, SPEED = 353.15, 66.0, 240.0  # K, N.m, rad/s
+INPUTS = [TORQUE, 176.0, OIL]
+PRESSURE = 1e9  # Pa
+PAIR_INPUTS = [226.0, 280.0, OIL]
+PAIR_SPEED = 104.7  # rad/s
+LAWS = {
+    "none": {},
+    "mcewen": {"viscosity_law": "mcewen", "law_numbers": {"q": Q}},
+    "gecim_winer": {"shear_law": "gecim_winer", "law_numbers": {"limit": LIMIT}},
+}
+
+
+def imported():
+    import_module("tests.helpers.mcewen_law")
+    import_module("tests.helpers.gecim_winer_law")
+
+
+def axle_file(folder, laws, model=""):
+    """An axle on smooth flanks, so that the oil alone carries, with its oil file beside it."""
+    Path(folder, "oil.toml").write_text(as_toml({**SHEET, "eyring_stress_mpa": 4.0, **laws}))
+    path = Path(folder, "axle.toml")
+    path.write_text(
+        '[gear_set]\nmesh_table = "mohammadpour_2015"\nroughness_rms_um = 0.02\n'
+        f'[oil]\nfile = "oil.toml"\n{model}'
+    )
+    return path
+
+
+def pair_file(folder, laws):
+    axle_file(folder, laws)
+    data = tomllib.loads(HelicalGearFile.shipped_text("he_2007"))
+    path = Path(folder, "pair.toml")
+    path.write_text(toml_text({**data, "name": "pair", "film": {"oil_file": "oil.toml"}}))
+    return path
+
+
+def axle_in(laws, model=""):
+    with TemporaryDirectory() as folder:
+        return read_axle(axle_file(folder, laws, model)).axle
+
+
+def axle_definition(laws, model=""):
+    with TemporaryDirectory() as folder:
+        return hypoid_axle.definition_with_axle(axle_file(folder, laws, model))
+
+
+def pair_definition(laws):
+    with TemporaryDirectory() as folder:
+        return helical_pair.definition_with(pair_file(folder, laws))
+
+
+def pair_in(laws):
+    with TemporaryDirectory() as folder:
+        return helical_march_parameters(HelicalGearFile.given(str(pair_file(folder, laws))))
+
+
+def started(model, speed, inputs):
+    torque, wheel, oil = inputs
+    model.initialise(
+        pinion_speed=speed, pinion_torque=torque, wheel_torque=wheel, oil_temperature=oil
+    )
+    return model
+
+
+def in_slave(definition, slave, values, inputs):
+    """Outputs of the model that the PythonFMU with these resources starts, after a step."""
+    with TemporaryDirectory() as folder:
+        for name, content in definition.resources.items():
+            Path(folder, name).write_bytes(content)
+        inside = slave.definition_of(Path(folder))
+    given = {v.argument: v.decoded(v.start) for v in inside.variables if v.is_model_parameter}
+    model = inside.start({**given, **values}, inputs)
+    model.step(1e-4, *inputs)
+    return model.outputs.tolist()
+
+
+def refusal(call, *arguments):
+    try:
+        call(*arguments)
+    except ParameterError as error:
+        return str(error)
+    return ""
+
+
+def report():
+    """Write outputs of axle and pair at rest and after a step, by law, as JSON."""
+    imported()
+    found = {}
+    for name, laws in LAWS.items():
+        axle = started(HypoidAxle(axle_in(laws)), SPEED, INPUTS)
+        pair = started(HelicalPairModel(replace(pair_in(laws), roughness_rms=2e-8)), PAIR_SPEED,
+                       PAIR_INPUTS)  # fmt: skip
+        one = found[name] = {"axle": axle.outputs.tolist(), "pair": pair.outputs.tolist()}
+        if name == "none":
+            continue
+        axle.step(1e-4, *INPUTS)
+        pair.step(1e-4, *PAIR_INPUTS)
+        one["axle moving"], one["pair moving"] = axle.outputs.tolist(), pair.outputs.tolist()
+        of_axle, of_pair = axle_definition(laws), pair_definition(laws)
+        slaves = hypoid_axle.HypoidAxle, helical_pair.HelicalPair
+        one["axle FMU"] = in_slave(of_axle, slaves[0], {"pinion_speed": SPEED}, INPUTS)
+        values = {"pinion_speed": PAIR_SPEED, "roughness_rms": 2e-8}
+        one["pair FMU"] = in_slave(of_pair, slaves[1], values, PAIR_INPUTS)
+    sys.stdout.write(json.dumps(found))
+
+
+def report_names():
+    """Write what FMUs, error bars, film models and refusals know of a law, as JSON."""
+    imported()
+    laws = LAWS["mcewen"]
+    definition, pair = axle_definition(laws), pair_definition(laws)
+    variables = {one.name: one for one in definition.variables}
+    of_pair = {one.name: one for one in pair.variables}
+    axle = axle_in(laws)
+    bars = {one.name: one for one in uncertain_of(axle)}
+    moved = {}
+    for name in ("viscosity", "alpha", "oil_q"):
+        oil = changed_axle(bars[name], axle, 2.0, np.ones(1)).oil
+        state = oil.state(oil.alpha_temperature)
+        moved[name] = [
+            state.eta0,
+            state.alpha,
+            log_viscosity_under(state.viscosity, state, PRESSURE),
+        ]
+    oil = axle.oil
+    state = oil.state(oil.alpha_temperature)
+    by_net = axle_in(laws, '[film]\nmodel = "solved"\n')
+    solved = started(HypoidAxle(by_net), SPEED, INPUTS)
+    formula = started(HypoidAxle(axle), SPEED, INPUTS)
+    found = {
+        "literals": [variables["oil.name"].literals, of_pair["oil.name"].literals],
+        "starts": [variables["oil.name"].start, of_pair["oil.name"].start],
+        "by number": [variables["oil.name.number"].maximum, of_pair["oil.name.number"].maximum],
+        "description": variables["oil.name"].description,
+        "code": ["tests/helpers/mcewen_law.py" in contents(one) for one in (definition, pair)],
+        "as given": [state.eta0, state.alpha],
+        "moved": moved,
+        "factors": {name: bars[name].factor for name in moved},
+        "share outside": solved.output("film.share_outside"),
+        "films": [one.output("flank[2].film_thickness") for one in (solved, formula)],
+        "film model": refusal(check_oil, shipped_model(FLANK), oil, axle.solid, "film.flank_model"),
+        "refusals": [refusal(replace(oil, viscosity_law=one()).own_laws) for one in law_classes()],
+        "same": bool(replace(oil, viscosity_law=law_classes()[2]()).own_laws()),
+    }
+    sys.stdout.write(json.dumps(found))
+
+
+def law_classes():
+    """Laws of viscosity that formulas cannot follow, and one that they can by its kernel."""
+    from tests.helpers import laws_over_eta0
+
+    return laws_over_eta0.Steeper, laws_over_eta0.OverEta0, laws_over_eta0.OverEta0Followed
+
+
+def report_native():
+    """Write outputs of native entries and of Python after some steps, as JSON."""
+    from tests.helpers.object_code import LoadedModel
+
+    imported()
+    found = {}
+    for name in ("mcewen", "gecim_winer"):
+        for what, native, definition, inputs, speed in (
+            ("axle", native_axle, axle_definition(LAWS[name]), INPUTS, SPEED),
+            ("pair", native_pair, pair_definition(LAWS[name]), PAIR_INPUTS, PAIR_SPEED),
+        ):
+            values = {"pinion_speed": speed}
+            run = LoadedModel(native.native_model(definition)).instance(values, inputs)
+            assert run(Operation.START) == OK
+            given = {
+                v.argument: v.decoded(v.start) for v in definition.variables if v.is_model_parameter
+            }
+            model = definition.start(given | values, inputs)
+            for _ in range(3):
+                assert run.step(1e-4) == OK
+                model.step(1e-4, *inputs)
+            found[f"{what} {name}"] = [run.outputs.tolist(), model.outputs.tolist()]
+    sys.stdout.write(json.dumps(found))
