@@ -1,4 +1,4 @@
-"""The axle and the helical pair in an oil whose laws one file each brings, in Python and in FMUs."""
+"""The axle and the helical pair in an oil whose laws one file each brings; also in FMUs."""
 
 import json
 import sys
@@ -17,6 +17,7 @@ from fmu_src.native import helical_pair as native_pair
 from fmu_src.native import hypoid_axle as native_axle
 from fmu_src.native.model import OK, Operation
 from gearlube.output.toml_text import toml_text
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
@@ -24,6 +25,8 @@ from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle, uncertain
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import check_oil
 from gearlube_core.film_model.model import FLANK, shipped_model
+from gearlube_core.friction.line_points import line_friction
+from gearlube_core.friction.traction_fit import steel_on_steel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.oil.formula_laws import log_viscosity_under
 from tests.helpers.oil_with_own_law import SHEET, as_toml
@@ -34,8 +37,11 @@ INPUTS = [TORQUE, 176.0, OIL]
 PRESSURE = 1e9  # Pa
 PAIR_INPUTS = [226.0, 280.0, OIL]
 PAIR_SPEED = 104.7  # rad/s
+LINE = 4e5, 0.02, 8.0, 1.5  # N/m, m, m/s, m/s
+SURFACE, SOLID = gear_flanks(2e-8), steel_on_steel()
 LAWS = {
     "none": {},
+    "own_barus": {"viscosity_law": "own_barus"},
     "mcewen": {"viscosity_law": "mcewen", "law_numbers": {"q": Q}},
     "gecim_winer": {"shear_law": "gecim_winer", "law_numbers": {"limit": LIMIT}},
 }
@@ -44,6 +50,7 @@ LAWS = {
 def imported():
     import_module("tests.helpers.mcewen_law")
     import_module("tests.helpers.gecim_winer_law")
+    import_module("tests.helpers.viscosity_laws")
 
 
 def axle_file(folder, laws, model=""):
@@ -118,20 +125,24 @@ def report():
     imported()
     found = {}
     for name, laws in LAWS.items():
-        axle = started(HypoidAxle(axle_in(laws)), SPEED, INPUTS)
-        pair = started(HelicalPairModel(replace(pair_in(laws), roughness_rms=2e-8)), PAIR_SPEED,
-                       PAIR_INPUTS)  # fmt: skip
-        one = found[name] = {"axle": axle.outputs.tolist(), "pair": pair.outputs.tolist()}
-        if name == "none":
+        of_axle = axle_in(laws)
+        axle = started(HypoidAxle(of_axle), SPEED, INPUTS)
+        line = line_friction(*LINE, of_axle.oil.state(OIL), SURFACE, SOLID)
+        one = found[name] = {"axle": axle.outputs.tolist(), "line": line._asdict()}
+        if name == "gecim_winer":
             continue
-        axle.step(1e-4, *INPUTS)
-        pair.step(1e-4, *PAIR_INPUTS)
-        one["axle moving"], one["pair moving"] = axle.outputs.tolist(), pair.outputs.tolist()
-        of_axle, of_pair = axle_definition(laws), pair_definition(laws)
-        slaves = hypoid_axle.HypoidAxle, helical_pair.HelicalPair
-        one["axle FMU"] = in_slave(of_axle, slaves[0], {"pinion_speed": SPEED}, INPUTS)
-        values = {"pinion_speed": PAIR_SPEED, "roughness_rms": 2e-8}
-        one["pair FMU"] = in_slave(of_pair, slaves[1], values, PAIR_INPUTS)
+        smooth = replace(pair_in(laws), roughness_rms=2e-8)
+        pair = started(HelicalPairModel(smooth), PAIR_SPEED, PAIR_INPUTS)
+        one["pair"] = pair.outputs.tolist()
+        if name == "mcewen":
+            axle.step(1e-4, *INPUTS)
+            pair.step(1e-4, *PAIR_INPUTS)
+            one["axle moving"], one["pair moving"] = axle.outputs.tolist(), pair.outputs.tolist()
+            values, slave = {"pinion_speed": SPEED}, hypoid_axle.HypoidAxle
+            one["axle FMU"] = in_slave(axle_definition(laws), slave, values, INPUTS)
+            values = {"pinion_speed": PAIR_SPEED, "roughness_rms": 2e-8}
+            slave = helical_pair.HelicalPair
+            one["pair FMU"] = in_slave(pair_definition(laws), slave, values, PAIR_INPUTS)
     sys.stdout.write(json.dumps(found))
 
 
@@ -148,11 +159,8 @@ def report_names():
     for name in ("viscosity", "alpha", "oil_q"):
         oil = changed_axle(bars[name], axle, 2.0, np.ones(1)).oil
         state = oil.state(oil.alpha_temperature)
-        moved[name] = [
-            state.eta0,
-            state.alpha,
-            log_viscosity_under(state.viscosity, state, PRESSURE),
-        ]
+        under = log_viscosity_under(state.viscosity, state, PRESSURE)
+        moved[name] = [state.eta0, state.alpha, under]
     oil = axle.oil
     state = oil.state(oil.alpha_temperature)
     by_net = axle_in(laws, '[film]\nmodel = "solved"\n')
@@ -171,16 +179,15 @@ def report_names():
         "films": [one.output("flank[2].film_thickness") for one in (solved, formula)],
         "film model": refusal(check_oil, shipped_model(FLANK), oil, axle.solid, "film.flank_model"),
         "refusals": [refusal(replace(oil, viscosity_law=one()).own_laws) for one in law_classes()],
-        "same": bool(replace(oil, viscosity_law=law_classes()[2]()).own_laws()),
     }
     sys.stdout.write(json.dumps(found))
 
 
 def law_classes():
     """Laws of viscosity that formulas cannot follow, and one that they can by its kernel."""
-    from tests.helpers import laws_over_eta0
+    from tests.helpers import viscosity_laws as laws
 
-    return laws_over_eta0.Steeper, laws_over_eta0.OverEta0, laws_over_eta0.OverEta0Followed
+    return laws.Steeper, laws.OverEta0, laws.OverEta0Followed
 
 
 def report_native():

@@ -1,4 +1,4 @@
-"""Laws of viscosity that are no functions of alpha p: tests import them in a process of their own."""
+"""Laws of viscosity that formulas take or refuse; imported in a process of its own."""
 
 from __future__ import annotations
 
@@ -9,6 +9,14 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.named_laws import ViscosityLaw
 
 KAPPA, CHI = 6e-5, 5e-9  # Pa s, 1/Pa
+
+
+class OwnBarus(ViscosityLaw, name="own_barus", text="Barus by another package"):
+    """eta = eta0 exp(alpha p)."""
+
+    def __call__(self, eta0: float, alpha: float) -> Straight:
+        """Return the law for kernels."""
+        return Straight(alpha)
 
 
 class Steeper(ViscosityLaw, name="steeper", text="a law with a slope of its own"):
