@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES as PAIR_NAMES
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, OUTPUT_NAMES, mohammadpour_2015_axle
@@ -17,7 +18,17 @@ from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.oil.oil_file import OilFile
 from tests.helpers.each import each
 from tests.helpers.oil_with_own_law import SHEET
-from tests.helpers.own_oil_in_gears import LIMIT, LINE, OIL, SOLID, SPEED, TORQUE, Q
+from tests.helpers.own_oil_in_gears import (
+    LIMIT,
+    LINE,
+    LOW_LIMIT,
+    OIL,
+    RIB,
+    SOLID,
+    SPEED,
+    TORQUE,
+    Q,
+)
 from tests.helpers.own_process import INTERPRETED, report_of
 
 AXLE = mohammadpour_2015_axle()
@@ -130,12 +141,27 @@ def test_barus_by_another_package_is_the_barus_of_the_formulas(model):
         assert one == pytest.approx(two, rel=1e-9, abs=1e-9), name
 
 
+def test_ribs_have_roelands_s_law_unless_the_oil_brings_another():
+    """Roelands by another package, whose kernel follows the oil's temperature, changes nothing."""
+    rib = {name: found["rib"] for name, found in reported().items()}
+    assert rib["over_eta0_followed"] == pytest.approx(rib["none"], rel=1e-9)
+    # Barus is above Roelands, and McEwen with q = 20 below Barus
+    mu = {name: one["coefficient"] for name, one in rib.items()}
+    assert mu["own_barus"] > 1.05 * mu["none"]
+    assert mu["mcewen"] < 0.95 * mu["own_barus"]
+    # a limit far below the film's stress is all that is left
+    of_rib, load, _ = RIB
+    p = hertz_ellipse(of_rib.R_meridian, of_rib.R_sliding, 0.5 * of_rib.reduced_modulus, load)[2]
+    assert mu["gecim_winer"] == pytest.approx(LOW_LIMIT / p, rel=1e-9)
+
+
 def test_an_fmu_with_the_files_computes_what_the_python_model_computes():
     found = reported()["mcewen"]
     assert found["axle FMU"] == found["axle moving"]
     assert found["pair FMU"] == found["pair moving"]
-    lost = OUTPUT_INDEX["friction.power_loss"]
-    assert found["axle"][lost] < 0.95 * reported()["none"]["axle"][lost]
+    for model, names in (("axle", OUTPUT_NAMES), ("pair", PAIR_NAMES)):
+        lost = names.index("friction.power_loss")
+        assert found[model][lost] < 0.95 * reported()["none"][model][lost]
 
 
 def test_fmus_error_bars_and_film_models_know_the_law():
@@ -171,7 +197,7 @@ def test_fmus_error_bars_and_film_models_know_the_law():
 @pytest.mark.slow
 def test_native_fmus_have_the_laws_of_their_oil_file(tmp_path):
     found = report_of("own_oil_in_gears", "report_native", NUMBA_CACHE_DIR=str(tmp_path))
-    assert len(found) == 4
+    assert set(found) == {"axle", "pair"}
     for name, (native, python) in found.items():
         # other instructions in object code: rounding of some 1e2 operations
         np.testing.assert_allclose(native, python, rtol=1e-9, atol=1e-9, err_msg=name)

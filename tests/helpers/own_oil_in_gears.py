@@ -17,6 +17,7 @@ from fmu_src.native import helical_pair as native_pair
 from fmu_src.native import hypoid_axle as native_axle
 from fmu_src.native.model import OK, Operation
 from gearlube.output.toml_text import toml_text
+from gearlube_core.bearings.losses.rib import RibParameters, rib_friction
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
@@ -31,17 +32,20 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.oil.formula_laws import log_viscosity_under
 from tests.helpers.oil_with_own_law import SHEET, as_toml
 
-Q, LIMIT = 20.0, 8e6  # [-], Pa
+Q, LIMIT, LOW_LIMIT = 20.0, 8e6, 1e5  # [-], Pa, Pa
 OIL, TORQUE, SPEED = 353.15, 66.0, 240.0  # K, N.m, rad/s
 INPUTS = [TORQUE, 176.0, OIL]
 PRESSURE = 1e9  # Pa
 PAIR_INPUTS = [226.0, 280.0, OIL]
 PAIR_SPEED = 104.7  # rad/s
 LINE = 4e5, 0.02, 8.0, 1.5  # N/m, m, m/s, m/s
+RIB = RibParameters(0.03, 0.02, 0.2, 0.3, 0.2, 1.0, 1e-8, 1.9, 0.99, 0.15, 2.3e11), 800.0, 300.0
 SURFACE, SOLID = gear_flanks(2e-8), steel_on_steel()
+NUMBERS = {"q": Q, "limit": LIMIT}
 LAWS = {
     "none": {},
     "own_barus": {"viscosity_law": "own_barus"},
+    "over_eta0_followed": {"viscosity_law": "over_eta0_followed"},
     "mcewen": {"viscosity_law": "mcewen", "law_numbers": {"q": Q}},
     "gecim_winer": {"shear_law": "gecim_winer", "law_numbers": {"limit": LIMIT}},
 }
@@ -100,14 +104,17 @@ def started(model, speed, inputs):
     return model
 
 
+def starts(definition):
+    return {v.argument: v.decoded(v.start) for v in definition.variables if v.is_model_parameter}
+
+
 def in_slave(definition, slave, values, inputs):
     """Outputs of the model that the PythonFMU with these resources starts, after a step."""
     with TemporaryDirectory() as folder:
         for name, content in definition.resources.items():
             Path(folder, name).write_bytes(content)
         inside = slave.definition_of(Path(folder))
-    given = {v.argument: v.decoded(v.start) for v in inside.variables if v.is_model_parameter}
-    model = inside.start({**given, **values}, inputs)
+    model = inside.start(starts(inside) | values, inputs)
     model.step(1e-4, *inputs)
     return model.outputs.tolist()
 
@@ -126,9 +133,16 @@ def report():
     found = {}
     for name, laws in LAWS.items():
         of_axle = axle_in(laws)
+        oil = of_axle.oil
+        if name == "gecim_winer":
+            oil = replace(oil, shear_law=replace(oil.shear_law, limit=LOW_LIMIT))
+        of_rib = rib_friction(*RIB, oil.state(OIL))._asdict()
+        if name == "over_eta0_followed":
+            found[name] = {"rib": of_rib}
+            continue
         axle = started(HypoidAxle(of_axle), SPEED, INPUTS)
         line = line_friction(*LINE, of_axle.oil.state(OIL), SURFACE, SOLID)
-        one = found[name] = {"axle": axle.outputs.tolist(), "line": line._asdict()}
+        one = found[name] = {"axle": axle.outputs.tolist(), "line": line._asdict(), "rib": of_rib}
         if name == "gecim_winer":
             continue
         smooth = replace(pair_in(laws), roughness_rms=2e-8)
@@ -195,21 +209,18 @@ def report_native():
     from tests.helpers.object_code import LoadedModel
 
     imported()
-    found = {}
-    for name in ("mcewen", "gecim_winer"):
-        for what, native, definition, inputs, speed in (
-            ("axle", native_axle, axle_definition(LAWS[name]), INPUTS, SPEED),
-            ("pair", native_pair, pair_definition(LAWS[name]), PAIR_INPUTS, PAIR_SPEED),
-        ):
-            values = {"pinion_speed": speed}
-            run = LoadedModel(native.native_model(definition)).instance(values, inputs)
-            assert run(Operation.START) == OK
-            given = {
-                v.argument: v.decoded(v.start) for v in definition.variables if v.is_model_parameter
-            }
-            model = definition.start(given | values, inputs)
-            for _ in range(3):
-                assert run.step(1e-4) == OK
-                model.step(1e-4, *inputs)
-            found[f"{what} {name}"] = [run.outputs.tolist(), model.outputs.tolist()]
+    laws, found = {**LAWS["mcewen"], **LAWS["gecim_winer"], "law_numbers": NUMBERS}, {}
+    for what, native, definition, inputs, speed in (
+        ("axle", native_axle, axle_definition(laws), INPUTS, SPEED),
+        ("pair", native_pair, pair_definition(laws), PAIR_INPUTS, PAIR_SPEED),
+    ):
+        values = {"pinion_speed": speed}
+        loaded = LoadedModel(native.native_model(definition))  # keeps the code
+        run = loaded.instance(values, inputs)
+        assert run(Operation.START) == OK
+        model = definition.start(starts(definition) | values, inputs)
+        for _ in range(3):
+            assert run.step(1e-4) == OK
+            model.step(1e-4, *inputs)
+        found[what] = [run.outputs.tolist(), model.outputs.tolist()]
     sys.stdout.write(json.dumps(found))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.named_laws import ViscosityLaw
 
-KAPPA, CHI = 6e-5, 5e-9  # Pa s, 1/Pa
+KAPPA, CHI = math.exp(-9.67), 5.1e-9  # Pa s, 1/Pa, of Roelands as Karagiannis 2012 rounds them
 
 
 class OwnBarus(ViscosityLaw, name="own_barus", text="Barus by another package"):
@@ -27,7 +27,7 @@ class Steeper(ViscosityLaw, name="steeper", text="a law with a slope of its own"
         return Straight(30e-9)
 
 
-class OverEta0(ViscosityLaw, name="over_eta0", text="a law of Roelands's kind"):
+class OverEta0(ViscosityLaw, name="over_eta0", text="Roelands by another package"):
     """ln(eta/eta0) = A [(1 + CHI p)^Z - 1], A = ln(eta0/KAPPA), Z = alpha/(A CHI)."""
 
     def __call__(self, eta0: float, alpha: float) -> Power:
