@@ -162,6 +162,8 @@ def test_an_fmu_with_the_files_computes_what_the_python_model_computes():
     for model, names in (("axle", OUTPUT_NAMES), ("pair", PAIR_NAMES)):
         lost = names.index("friction.power_loss")
         assert found[model][lost] < 0.95 * reported()["none"][model][lost]
+        # the mean over a step of 0.1 ms beside the power at its start
+        assert found[f"{model} moving"][lost] == pytest.approx(found[model][lost], rel=0.05)
 
 
 def test_fmus_error_bars_and_film_models_know_the_law():
