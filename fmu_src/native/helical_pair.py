@@ -367,8 +367,7 @@ def native_model(definition: Definition) -> NativeModel:
     """
     cases = helical_cases(definition)
     embedded = embedded_pair(definition.resources)
-    oil = None if embedded is None else embedded.oil
-    laws = () if oil is None else oil.own_laws()
+    laws = embedded.oil.own_laws() if embedded and embedded.oil else ()
     refusals = {
         **WORDS.refusals,
         NO_EQUILIBRIUM: f"no static equilibrium at the pinion torque. {NO_EQUILIBRIUM_CURE}",

@@ -166,6 +166,15 @@ def test_an_fmu_with_the_files_computes_what_the_python_model_computes():
         assert found[f"{model} moving"][lost] == pytest.approx(found[model][lost], rel=0.05)
 
 
+def test_mean_losses_of_the_axle_fall_with_the_law_as_those_of_a_step_do():
+    lost = {law: reported()[law]["viscous loss"] for law in ("none", "own_barus", "mcewen")}
+    assert lost["own_barus"] == pytest.approx(lost["none"], rel=1e-9)
+    place = OUTPUT_INDEX["friction.power_loss"]
+    powers = [reported()[law]["axle"][place] for law in ("mcewen", "none")]
+    # four angles of the mesh cycle against one
+    assert lost["mcewen"] / lost["none"] == pytest.approx(powers[0] / powers[1], rel=0.02)
+
+
 def test_fmus_error_bars_and_film_models_know_the_law():
     found = report_of("own_oil_in_gears", "report_names", **INTERPRETED)
     assert found["literals"] == [["custom"], ["custom"]]

@@ -22,6 +22,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle, uncertain_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import check_oil
@@ -148,6 +149,8 @@ def report():
         smooth = replace(pair_in(laws), roughness_rms=2e-8)
         pair = started(HelicalPairModel(smooth), PAIR_SPEED, PAIR_INPUTS)
         one["pair"] = pair.outputs.tolist()
+        lost = axle_losses(of_axle, torques=[TORQUE], speeds=[SPEED], temperatures=[OIL], angles=4)
+        one["viscous loss"] = lost.power[0, 0, 0, LOSS_SOURCES.index("friction_viscous")]
         if name == "mcewen":
             axle.step(1e-4, *INPUTS)
             pair.step(1e-4, *PAIR_INPUTS)
