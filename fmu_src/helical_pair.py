@@ -11,7 +11,7 @@ from typing import Any
 from fmu_src.definition import Definition, Value
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
-from fmu_src.variable import Variable
+from fmu_src.variable import Variable, with_own_oil
 from gearlube_core.checks import read_content
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL, stated_oil
@@ -36,6 +36,7 @@ from gearlube_core.mesh_table.line_mesh_file import (
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
 from gearlube_core.oil.oil_file import described_oil_of, read_oil_content
+from gearlube_core.part import files_of
 from gearlube_core.units import rpm_to_rads
 
 GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU's resources
@@ -290,19 +291,19 @@ def _definition_with(
         DEFINITION,
         description=f"{DEFINITION.description}; gear file {gear.name} "
         f"({pair.pinion_teeth}/{pair.gear_teeth} teeth){of_mesh}",
-        variables=tuple(_starting(v, starts, own_oil=bool(embedded.oil)) for v in HELICAL_PAIR),
+        variables=tuple(_starting(v, starts, embedded.oil) for v in HELICAL_PAIR),
         start=partial(start_pair, embedded=embedded),
         resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}) | dict(others),
+        sources=files_of(*embedded.oil.laws) if embedded.oil else (),
     )
 
 
-def _starting(variable: Variable, starts: Mapping[str, float], *, own_oil: bool) -> Variable:
-    """Return a variable with the start value of a pair; an oil of its own is a new literal."""
-    if own_oil and variable.argument == "oil":
-        literals = (*variable.literals, CUSTOM)
-        return replace(variable, literals=literals, start=float(len(literals)))
-    if own_oil and variable.option_of == "oil.name":
-        return replace(variable, maximum=(variable.maximum or 0.0) + 1.0)
+def _starting(
+    variable: Variable, starts: Mapping[str, float], own_oil: Lubricant | None
+) -> Variable:
+    """Return a variable with the start value of a pair, see `with_own_oil`."""
+    if own_oil is not None:
+        variable = with_own_oil(variable, own_oil, CUSTOM)
     return replace(variable, start=starts.get(variable.name, variable.start))
 
 

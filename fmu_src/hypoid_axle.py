@@ -18,7 +18,7 @@ from fmu_src.axle_arguments import (
 )
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
-from fmu_src.variable import MEMBERS, Variable, declared
+from fmu_src.variable import MEMBERS, Variable, declared, with_own_oil
 from fmu_src.variables import FRICTION_VARIANTS, HYPOID_AXLE, SHARED_PRELOAD
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import read_content
@@ -37,6 +37,7 @@ from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.number import numbers_of
 from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
 from gearlube_core.oil.oil_file import described_oil_of, read_oil_content
+from gearlube_core.part import files_of
 from gearlube_core.rough_patch.asperity_file import FILE_IN_FMU as ASPERITIES_IN_FMU
 from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
 
@@ -225,7 +226,7 @@ def _definition_with(
         ),
         start=partial(start_axle, base=base),
         resources=resources,
-        sources=(*base.friction_law.files, *base.bearing.files),
+        sources=files_of(base.friction_law, base.bearing, *base.oil.laws),
     )
 
 
@@ -248,11 +249,8 @@ def _starting(
             return _of_bearing(variable, base, starts.get(variable.argument, 0.0))
         if variable.option_of == "bearing.approach":
             return replace(variable, maximum=1.0)
-    own_oil = starts["oil"] == CUSTOM_OIL
-    if own_oil and variable.argument == "oil":
-        variable = replace(variable, literals=(*variable.literals, CUSTOM_OIL))
-    if own_oil and variable.option_of == "oil.name":
-        variable = replace(variable, maximum=(variable.maximum or 0.0) + 1.0)
+    if starts["oil"] == CUSTOM_OIL:
+        variable = with_own_oil(variable, base.oil, CUSTOM_OIL)
     value = starts.get(variable.argument)
     if value is None:
         return variable

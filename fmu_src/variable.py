@@ -9,6 +9,7 @@ from typing import Any, Literal, get_args, get_type_hints
 from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import Output, numbers_of
+from gearlube_core.oil.lubricant import Lubricant
 
 VariableType = Literal["Real", "Integer", "Boolean", "Enumeration"]
 Causality = Literal["parameter", "input", "output", "local"]
@@ -309,3 +310,22 @@ def ranges() -> tuple[Variable, ...]:
         output("range.temperature", "K", f"Film temperature {at}", 300.0, "degC"),
         output("range.pressure", "Pa", f"Largest Hertz pressure {at}", 1e9, "GPa"),
     )  # fmt: skip
+
+
+def with_own_oil(variable: Variable, oil: Lubricant, custom: str) -> Variable:
+    """Return oil.name or its number as of a file with an oil of its own; other variables as is.
+
+    The oil is a new literal, `custom`. With a law of its own it is the only one: the FMU is
+    compiled for it.
+    """
+    alone = bool(oil.own_laws())
+    if variable.option_of == "oil.name":
+        return replace(variable, maximum=1.0 if alone else (variable.maximum or 0.0) + 1.0)
+    if variable.name != "oil.name":
+        return variable
+    literals = (custom,) if alone else (*variable.literals, custom)
+    text = variable.description
+    if alone:
+        laws = " and ".join(law.name for law in oil.laws if not law.ships)
+        text += f", of the file alone: {', '.join(variable.literals)} do not have its law {laws}"
+    return replace(variable, literals=literals, start=float(len(literals)), description=text)

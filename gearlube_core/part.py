@@ -57,9 +57,10 @@ class Kind(Generic[_Base]):
         for found in iter_modules(spec.submodule_search_locations if spec else None):
             if fnmatch(found.name, self.files):
                 import_module(f"{self.package}.{found.name}")
-        return [name for name, one in self.parts.items() if self._is_ours(one)]
+        return [name for name, one in self.parts.items() if self.is_ours(one)]
 
-    def _is_ours(self, part: type[_Base]) -> bool:
+    def is_ours(self, part: type[_Base]) -> bool:
+        """Return whether a part stands in the package."""
         return part.__module__.startswith(f"{self.package}.")
 
     def known(self, wanted: str = "") -> Mapping[str, type[_Base]]:
@@ -142,9 +143,19 @@ class Part(ABC):
         ]  # fmt: skip
 
     @property
+    def ships(self) -> bool:
+        """Whether the part stands in the package."""
+        return self.kind.is_ours(type(self))
+
+    @property
     def files(self) -> tuple[str, ...]:
         """The file of the part; none of one that was typed into an interpreter."""
         try:
             return (inspect.getfile(type(self)),)
         except (OSError, TypeError):
             return ()
+
+
+def files_of(*parts: Part) -> tuple[str, ...]:
+    """Return the files of parts."""
+    return tuple(file for part in parts for file in part.files)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from fmu_src.definition import Definition
+from fmu_src.helical_pair import embedded_pair
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
 from fmu_src.native.helical_cases import (
     GIVEN_FLOATS,
@@ -84,6 +86,7 @@ from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import OilLaws
 
 _PARAMETERS = {v.argument: v for v in HELICAL_PAIR if v.is_model_parameter}
 _PLACE = {argument: place for place, argument in enumerate(_PARAMETERS)}
@@ -251,97 +254,107 @@ def start(
     return OK
 
 
-def entry(
-    operation: int,
-    step: float,
-    data: Any,
-    parameters: Any,
-    inputs: Any,
-    state: Any,
-    work: Any,
-    outputs: Any,
-) -> int:
-    """Start, step or read a pair; see `NativeModel`."""
-    given = array_at(parameters, N_PARAMETERS)
-    fixed = array_at(work, DATA_AT)
-    if operation in (_START, _RESUME):
-        number = case_number(given)
-        place = int(array_at(data, _FILM_MODELS_AT)[number])
-        if place == 0:
-            return MISSING_CASE + number
-        fixed[CASE_AT] = place
-        own_model = N_ARRAY if given[GEAR] == _CUSTOM_GEAR else 0
-        oil_at = _OILS_AT + OIL_FLOATS * (int(given[OIL]) - 1)
-        status = take_parameters(
-            given,
-            array_at(pointer_at(data, oil_at), OIL_FLOATS),
-            array_at(pointer_at(data, _FILM_MODELS_AT + own_model), N_ARRAY),
-            array_at(pointer_at(data, place), HEAD_FLOATS + GIVEN_FLOATS),
-            array_at(work, DATA_AT + LEAST_OFFSET),
+def _entry(laws: tuple[OilLaws, ...]) -> Callable[..., int]:
+    """Return the entry of pairs in an oil with these laws of its own, one tuple or none."""
+
+    def entry(
+        operation: int,
+        step: float,
+        data: Any,
+        parameters: Any,
+        inputs: Any,
+        state: Any,
+        work: Any,
+        outputs: Any,
+    ) -> int:
+        """Start, step or read a pair; see `NativeModel`."""
+        given = array_at(parameters, N_PARAMETERS)
+        fixed = array_at(work, DATA_AT)
+        if operation in (_START, _RESUME):
+            number = case_number(given)
+            place = int(array_at(data, _FILM_MODELS_AT)[number])
+            if place == 0:
+                return MISSING_CASE + number
+            fixed[CASE_AT] = place
+            own_model = N_ARRAY if given[GEAR] == _CUSTOM_GEAR else 0
+            oil_at = _OILS_AT + OIL_FLOATS * (int(given[OIL]) - 1)
+            status = take_parameters(
+                given,
+                array_at(pointer_at(data, oil_at), OIL_FLOATS),
+                array_at(pointer_at(data, _FILM_MODELS_AT + own_model), N_ARRAY),
+                array_at(pointer_at(data, place), HEAD_FLOATS + GIVEN_FLOATS),
+                array_at(work, DATA_AT + LEAST_OFFSET),
+            )
+            if status != OK:
+                return status
+        place = int(fixed[CASE_AT])
+        head = tuple_from_array(array_at(pointer_at(data, place), HEAD_FLOATS), CaseHead)
+        stations, levels, size = int(head.stations), int(head.levels), int(head.size)
+        stations_at = place + HEAD_FLOATS + GIVEN_FLOATS
+        levels_at = stations_at + stations
+        densities_at = levels_at + levels
+        uniform = given[STIFFNESS_MODEL] == 1.0
+        densities = pointer_at(work, DENSITY_AT) if uniform else pointer_at(data, densities_at)
+        mesh = (
+            array_at(pointer_at(data, levels_at), levels),
+            matrix_at(densities, levels, size),
+            matrix_at(pointer_at(data, densities_at + levels * size), levels, size),
+            *laws,
         )
-        if status != OK:
+        pair_data = array_at(pointer_at(work, DATA_AT), data_size(stations, size))
+        if operation in (_START, _RESUME):
+            if uniform:
+                of_gear = array_at(pointer_at(data, densities_at), size)
+                for i in range(size):
+                    fixed[DENSITY_AT + i] = given[DENSITY] if given[DENSITY] > 0.0 else of_gear[i]
+            place_mesh(array_at(pointer_at(data, stations_at), stations), mesh, pair_data)
+        if operation == _RESUME:
+            return OK
+        wanted = array_at(inputs, N_INPUTS)
+        trial = fixed[TRIAL_AT:SCRATCH_AT]
+        scratch = fixed[SCRATCH_AT:DATA_AT]
+        bearings = fixed[BEARINGS_AT:GIVEN_AT]
+        out = array_at(outputs, N_OUTPUTS)
+        own = array_at(state, STATE_SIZE)
+        if operation != _START:
+            status = state_status(own[:N_STATE])
+            if status != OK:
+                return status
+        sets_inputs = operation in (_START, _STEP)
+        if sets_inputs and not within_limits(wanted, fixed[LIMITS_AT:BEARINGS_AT]):
+            return INPUT_OUT_OF_RANGE
+        if operation == _STEP:
+            control = own[CONTROL_AT:]
+            status = step_without_outputs(
+                own[:N_STATE], trial, step, wanted, mesh, pair_data, control, scratch
+            )
+            if status == integrate.OK:
+                for i in range(N_INPUTS):
+                    own[INPUTS_AT + i] = wanted[i]
             return status
-    place = int(fixed[CASE_AT])
-    head = tuple_from_array(array_at(pointer_at(data, place), HEAD_FLOATS), CaseHead)
-    stations, levels, size = int(head.stations), int(head.levels), int(head.size)
-    stations_at = place + HEAD_FLOATS + GIVEN_FLOATS
-    levels_at = stations_at + stations
-    densities_at = levels_at + levels
-    uniform = given[STIFFNESS_MODEL] == 1.0
-    densities = pointer_at(work, DENSITY_AT) if uniform else pointer_at(data, densities_at)
-    mesh = (
-        array_at(pointer_at(data, levels_at), levels),
-        matrix_at(densities, levels, size),
-        matrix_at(pointer_at(data, densities_at + levels * size), levels, size),
-    )
-    pair_data = array_at(pointer_at(work, DATA_AT), data_size(stations, size))
-    if operation in (_START, _RESUME):
-        if uniform:
-            of_gear = array_at(pointer_at(data, densities_at), size)
-            for i in range(size):
-                fixed[DENSITY_AT + i] = given[DENSITY] if given[DENSITY] > 0.0 else of_gear[i]
-        place_mesh(array_at(pointer_at(data, stations_at), stations), mesh, pair_data)
-    if operation == _RESUME:
-        return OK
-    wanted = array_at(inputs, N_INPUTS)
-    trial = fixed[TRIAL_AT:SCRATCH_AT]
-    scratch = fixed[SCRATCH_AT:DATA_AT]
-    bearings = fixed[BEARINGS_AT:GIVEN_AT]
-    out = array_at(outputs, N_OUTPUTS)
-    own = array_at(state, STATE_SIZE)
-    if operation != _START:
-        status = state_status(own[:N_STATE])
-        if status != OK:
-            return status
-    sets_inputs = operation in (_START, _STEP)
-    if sets_inputs and not within_limits(wanted, fixed[LIMITS_AT:BEARINGS_AT]):
-        return INPUT_OUT_OF_RANGE
-    if operation == _STEP:
-        control = own[CONTROL_AT:]
-        status = step_without_outputs(
-            own[:N_STATE], trial, step, wanted, mesh, pair_data, control, scratch
-        )
-        if status == integrate.OK:
-            for i in range(N_INPUTS):
-                own[INPUTS_AT + i] = wanted[i]
-        return status
-    if operation == _START:
-        status = start(given, wanted, mesh, pair_data, trial, scratch, own)
-        if status != OK:
-            return status
-    if operation == _DERIVATIVES:
+        if operation == _START:
+            status = start(given, wanted, mesh, pair_data, trial, scratch, own)
+            if status != OK:
+                return status
+        if operation == _DERIVATIVES:
+            last = own[INPUTS_AT:CONTROL_AT]
+            write_derivatives(own[:N_STATE], last, mesh, pair_data, scratch, out)
+            return OK
+        if operation == _EVENT:
+            event(own[:N_STATE], own[CONTROL_AT - 1], mesh, pair_data)
+            return OK
+        if operation == _MOTION and own[TIME_IN_STEP] > 0.0:  # before, powers are rates
+            constants: MarchConstants = tuple_from_array(pair_data, MarchConstants)
+            write_motion(own[:N_STATE], scratch, constants.teeth, bearings, out)
+            return OK
         last = own[INPUTS_AT:CONTROL_AT]
-        write_derivatives(own[:N_STATE], last, mesh, pair_data, scratch, out)
+        write_outputs(own[:N_STATE], last, mesh, pair_data, bearings, scratch, out)
         return OK
-    if operation == _EVENT:
-        event(own[:N_STATE], own[CONTROL_AT - 1], mesh, pair_data)
-        return OK
-    if operation == _MOTION and own[TIME_IN_STEP] > 0.0:  # before, powers are rates
-        constants: MarchConstants = tuple_from_array(pair_data, MarchConstants)
-        write_motion(own[:N_STATE], scratch, constants.teeth, bearings, out)
-        return OK
-    write_outputs(own[:N_STATE], own[INPUTS_AT:CONTROL_AT], mesh, pair_data, bearings, scratch, out)
-    return OK
+
+    return entry
+
+
+_PLAIN_ENTRY = _entry(())
 
 
 def native_model(definition: Definition) -> NativeModel:
@@ -353,6 +366,8 @@ def native_model(definition: Definition) -> NativeModel:
         Of `fmu_src.helical_pair`, with the gear file and the line mesh that it carries.
     """
     cases = helical_cases(definition)
+    embedded = embedded_pair(definition.resources)
+    laws = embedded.oil.own_laws() if embedded and embedded.oil else ()
     refusals = {
         **WORDS.refusals,
         NO_EQUILIBRIUM: f"no static equilibrium at the pinion torque. {NO_EQUILIBRIUM_CURE}",
@@ -365,7 +380,7 @@ def native_model(definition: Definition) -> NativeModel:
     }
     return NativeModel(
         definition=definition,
-        entry=entry,
+        entry=_entry(laws) if laws else _PLAIN_ENTRY,
         data=cases.data,
         state_size=STATE_SIZE,
         control_at=CONTROL_AT,

@@ -56,6 +56,7 @@ from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.friction.thermal_eyring_data import PRESSURES
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import OilLaws
 
 MODAL_WITHOUT_LOSS, PRINTED_FILM = 6, 7  # statuses, beside those of the kernels
 REFUSALS: Mapping[int, str] = {
@@ -198,8 +199,17 @@ def _chosen_mesh(data: Array, at: _Places, work: Array) -> MeshFields:
     )
 
 
-def _entry(kinds: _Classes, at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
-    """Return the entry of a model with these bearings and flanks, whose data and work lie so."""
+def _entry(
+    kinds: _Classes,
+    laws: tuple[OilLaws, ...],
+    at: _Places,
+    n_parameters: int,
+    at_speed: int,
+) -> Callable[..., int]:
+    """Return the entry of a model with these bearings, flanks and own laws of the oil.
+
+    `at` says how its data and work lie.
+    """
     bearing, law = kinds
     kernels = axle_kernels(bearing, law)
     static_state, step_control = kernels.static_state, kernels.step_control
@@ -228,7 +238,7 @@ def _entry(kinds: _Classes, at: _Places, n_parameters: int, at_speed: int) -> Ca
             status = _write_parameters(given_parameters, constants, at, bearing, law, values)
             if status != OK or operation == _RESUME:
                 return status
-        mesh = _chosen_mesh(constants, at, values)
+        mesh = _chosen_mesh(constants, at, values) + laws
         packed = values[0 : at.settings]
         s = kept[0:N_STATE]
         if operation not in (_START, _RESUME):
@@ -383,9 +393,10 @@ def native_model(definition: Definition) -> NativeModel:
     )
     unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))
     parameters = [v.argument for v in definition.variables if v.is_model_parameter]
+    at_speed = parameters.index("pinion_speed")
     return NativeModel(
         definition=definition,
-        entry=_entry(kinds, at, len(parameters), parameters.index("pinion_speed")),
+        entry=_entry(kinds, by_default.oil.own_laws(), at, len(parameters), at_speed),
         data=data,
         state_size=_STATE_SIZE,
         control_at=_CONTROL_AT,

@@ -14,7 +14,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.groups import FilmInlet, film_inlet
 from gearlube_core.film_model.model import FLANK, LINE, ROLLER, FilmModel, model_names
 from gearlube_core.film_model.solved_film import MODULUS_MARGIN
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA
 from gearlube_core.units import kelvin_to_celsius
 
@@ -145,6 +145,8 @@ def check_oil(model: FilmModel, oil: Lubricant, solid: Solid, what: str) -> None
 
 def _misfits(model: FilmModel, oil: Lubricant, solid: Solid) -> list[str]:
     """Return what keeps the model from saying anything, in words; empty where it does."""
+    if oil.own_laws():
+        return [f"{law.kind.what} {law.name} (model: roelands, eyring)" for law in oil.laws]
     of_solid = solid_parameters(solid, solid)
     modulus = of_solid.contact_modulus
     if abs(modulus / model.contact_modulus - 1.0) >= MODULUS_MARGIN:
@@ -183,7 +185,7 @@ def _span(values: list[float]) -> str:
 
 
 def _inlet_of(oil: Lubricant, temperature: float, solid: Any) -> FilmInlet:
-    state = lubricant_state(oil.parameters(), temperature)
+    state = oil.state(temperature)
     inlet: FilmInlet = film_inlet(
         solid.contact_modulus,
         state.eta0,

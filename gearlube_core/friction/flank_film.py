@@ -16,11 +16,13 @@ from gearlube_core.film_model.solved_film import solved_film_at
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import has_own_law
 from gearlube_core.oil.lubricant import LubricantState
 
 # behind the numbers of the model: the oil that the numbers behind it belong to, and these
 _OIL = net.N_ARRAY
-_INLET = _OIL + count_floats(LubricantState) + 1
+_OIL_FLOATS = 10  # of LubricantState, without its laws
+_INLET = _OIL + _OIL_FLOATS + 1
 N_FLANK_MODEL = _INLET + count_floats(FilmInlet)
 _LEAST_FRICTION = 1e-12  # so that there is a logarithm without sliding
 
@@ -69,9 +71,10 @@ def _inlet(
 ) -> FilmInlet:
     """Return oil and solids as the film model takes them; kept until the oil changes."""
     oil = film_model[_OIL:_INLET]
-    known = oil[len(lubricant)] == limiting_slope
-    for i in range(len(lubricant)):
-        known = known and oil[i] == lubricant[i]
+    given = lubricant[:_OIL_FLOATS]
+    known = oil[_OIL_FLOATS] == limiting_slope
+    for i in range(_OIL_FLOATS):
+        known = known and oil[i] == given[i]
     if not known:
         inlet = film_inlet(
             solid.contact_modulus,
@@ -88,8 +91,8 @@ def _inlet(
             solid.density * solid.heat_capacity,
         )
         tuple_to_array(inlet, film_model[_INLET:])
-        tuple_to_array(lubricant, oil)
-        oil[len(lubricant)] = limiting_slope
+        tuple_to_array(given, oil)
+        oil[_OIL_FLOATS] = limiting_slope
     return tuple_from_array(film_model[_INLET:], FilmInlet)
 
 
@@ -118,6 +121,8 @@ def flank_model_film(
     film_model : ndarray, shape (N_FLANK_MODEL,)
         Of `flank_film_model`; written into.
     """
+    if has_own_law(lubricant):
+        return NO_MODEL_FILM
     place = film_place(
         ellipse.R_x,
         ellipse.R_y,

@@ -34,6 +34,7 @@ from gearlube_core.friction.mixed_friction import (
 )
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
+from gearlube_core.oil.formula_laws import mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
@@ -78,7 +79,8 @@ def formula_doubt(
     """
     p, h = formula.mean_pressure, formula.film_thickness
     newtonian_ratio = lubricant.eta0 * slip / (h * lubricant.tau0)
-    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, lubricant.alpha * p)
+    exponent = mean_slope(lubricant.viscosity, lubricant, p) * p
+    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, exponent)
     most = FORMULA_FRICTION_TOP * stress / p * load
     W_a, A_a = asperity_contact(
         load, load / p, h * (1.0 - FORMULA_FILM_BOUND) / surface.sigma, surface, solid, form

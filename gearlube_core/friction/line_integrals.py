@@ -18,7 +18,7 @@ from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LinePoints
 from gearlube_core.friction.solved_line import bounded_line_friction
 from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, LubricantState
 
 _QUANTITIES = 10
 
@@ -240,7 +240,7 @@ def friction_along_lines(
         load.ravel(),
         float(pinion_speed),
         points.pair.plane,
-        lubricant_state(lubricant.parameters(), float(oil_temperature)),
+        lubricant.state(float(oil_temperature)),
         surface,
         solid,
         np.empty(0) if film_model is None else film_model,

@@ -28,6 +28,7 @@ from gearlube_core.friction.evans_johnson_1986 import (
 )
 from gearlube_core.friction.flank_data import AS_PRINTED, PRINTED_TRACTION, ZHOU_HOEPRICH_SHARE
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import bounded_stress, mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
 SPEED_FLOOR = 1.0e-6  # m/s, film and heat of a resting contact are those at this floor
@@ -282,12 +283,14 @@ def mixed_friction(
         mean_pressure,
         slip,
         lubricant.eta0,
-        lubricant.alpha,
+        mean_slope(lubricant.viscosity, lubricant, mean_pressure),
         beta,
         lubricant.tau0,
         lubricant.conductivity,
         zeta,
     )
+    p = mean_pressure
+    mu = bounded_stress(lubricant.shear, mu, p, lubricant, p, slip, film_thickness)
     return friction_with_asperities(
         mu,
         load,

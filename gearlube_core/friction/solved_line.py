@@ -27,6 +27,7 @@ from gearlube_core.friction.mixed_friction import (
 )
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
+from gearlube_core.oil.formula_laws import has_own_law, mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
@@ -124,9 +125,9 @@ def line_formula_doubt(
     asperities.
     """
     p, h = formula.mean_pressure, formula.film_thickness
-    stress = lubricant.tau0 * eyring_stress_ratio(
-        lubricant.eta0 * slip / (h * lubricant.tau0), lubricant.alpha * p
-    )
+    exponent = mean_slope(lubricant.viscosity, lubricant, p) * p
+    newtonian_ratio = lubricant.eta0 * slip / (h * lubricant.tau0)
+    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, exponent)
     most = LINE_FORMULA_FRICTION_TOP * stress / p * line_load
     thinner = h * (1.0 - LINE_FORMULA_FILM_BOUND) / surface.sigma
     W_a, A_a = asperity_contact(line_load, line_load / p, thinner, surface, solid, CONSISTENT)
@@ -171,7 +172,7 @@ def line_with_film(
     w_film = max(w, LINE_LOAD_FLOOR)
     speed = max(abs(entrainment_speed), SPEED_FLOOR)
     slip = abs(sliding_speed)
-    out, doubt = film.outside, 0.0
+    out, doubt = 1.0 if has_own_law(lubricant) else film.outside, 0.0
     formula = LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if out > 0.0:
         formula = line_friction(

@@ -23,7 +23,8 @@ from gearlube_core.friction.traction_measurements import (
     film_point,
     traction_coefficient,
 )
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.formula_laws import mean_slope
+from gearlube_core.oil.lubricant import Lubricant
 
 STRESS_RANGE = (0.1e6, 100e6)  # Pa, of the search
 _STARTS = tuple(1e6 * 2.0 ** (0.5 * k) for k in range(11))  # Pa, the best of them
@@ -91,10 +92,10 @@ def film_points(
     """
     for temperature in np.unique(measured.temperature):
         oil.check_temperature(float(temperature), "temperature_degc, in K,")
-    pair, parameters = solid or steel_on_steel(), oil.parameters()
+    pair = solid or steel_on_steel()
     return [
         film_point(
-            lubricant_state(parameters, float(temperature)),
+            oil.state(float(temperature)),
             pair,
             contact=contact,
             radius=radius,
@@ -245,7 +246,7 @@ def _in_range(point: FilmPoint, stress: float) -> bool:
         point.film_thickness,
         point.mean_pressure,
         state.eta0,
-        state.alpha,
+        mean_slope(state.viscosity, state, point.mean_pressure),
         state.beta,
         stress,
         state.conductivity,

@@ -23,6 +23,7 @@ from gearlube_core.friction.evans_johnson_1986 import (
     viscous_friction_coefficient,
 )
 from gearlube_core.input_file.table import Table, read_table
+from gearlube_core.oil.formula_laws import mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 from gearlube_core.units import celsius_to_kelvin
 
@@ -144,7 +145,7 @@ def traction_coefficient(point: FilmPoint, eyring_stress: float, limit: float) -
         point.mean_pressure,
         point.sliding_speed,
         state.eta0,
-        state.alpha,
+        mean_slope(state.viscosity, state, point.mean_pressure),
         state.beta,
         eyring_stress,
         state.conductivity,

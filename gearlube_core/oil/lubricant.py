@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields, replace
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Positive, check_fields
+from gearlube_core.oil.film_laws import log_viscosity
+from gearlube_core.oil.formula_laws import (
+    FORMULA_LAWS,
+    OilLaws,
+    OverAlpha,
+    law_at,
+)
 from gearlube_core.oil.library import (
     LIBRARY_PATH,
     LOWEST_VISCOSITY,
@@ -23,6 +30,10 @@ from gearlube_core.oil.walther_1931 import (
     walther_viscosity,
 )
 from gearlube_core.part import Part
+
+_LAW_PRESSURE = 1e9  # Pa, where laws of two temperatures are compared
+_LAW_TOLERANCE = 1e-6  # of ln(eta/eta0); rounding of a power is 1e-12
+_SLOPE_TOLERANCE = 1e-3  # of alpha; the constants of Roelands in use differ by 4e-5
 
 
 class LubricantParameters(NamedTuple):
@@ -71,8 +82,8 @@ class Lubricant:
         The true value lies between value/factor and value * factor with 95 % (k = 2) [-]; None:
         not known.
     viscosity_law, density_law, shear_law
-        Laws of films, see `film_laws`; None: those of `film_oil_of`. Formulas of films and friction
-        know an oil by its other data alone.
+        Laws of solved films, see `film_laws`; None: those of `film_oil_of`. Formulas of films and
+        friction take laws of viscosity and shear from outside the package, see `own_laws`.
 
     Notes
     -----
@@ -194,6 +205,72 @@ class Lubricant:
         """Pressure exponent of the Roelands law [-]."""
         return roelands_exponent(self.dynamic_viscosity(self.alpha_temperature), self.alpha)
 
+    def state(self, temperature: float) -> LubricantState:
+        """Return the properties at a temperature [K], with the laws of its own."""
+        made: LubricantState = lubricant_state(self.parameters(), temperature, *self.own_laws())
+        return made
+
+    @property
+    def laws(self) -> tuple[Part, ...]:
+        """The laws of films that the oil names."""
+        named = (self.viscosity_law, self.density_law, self.shear_law)
+        return tuple(law for law in named if law is not None)
+
+    def own_laws(self) -> tuple[OilLaws, ...]:
+        """Return what formulas take of laws from outside the package: one tuple, or none.
+
+        Raises
+        ------
+        ParameterError
+            A viscosity law has another slope at ambient pressure than alpha, or at another
+            temperature it is not the law that kernels make of it.
+
+        Notes
+        -----
+        Kernels take ln(eta/eta0) as a function of alpha p, and alpha of each temperature. A law
+        that is none brings the kernel `law_at`, see `formula_laws`.
+        """
+        laws, viscosity, shear = FORMULA_LAWS, self.viscosity_law, self.shear_law
+        if viscosity is not None and not viscosity.ships:
+            law = self._law_for(self.alpha_temperature)
+            if not hasattr(law, "law_at"):
+                law = OverAlpha(law, float(self.alpha))
+            laws = laws._replace(viscosity=law)
+            self._check_law(laws, viscosity.name)
+        if shear is not None and not shear.ships:
+            made: Any = shear
+            laws = laws._replace(shear=made(float(self.eyring_stress)))
+        return () if laws is FORMULA_LAWS else (laws,)
+
+    def _law_for(self, temperature: float) -> Any:
+        """Return the viscosity law for kernels, made for a temperature [K]."""
+        law: Any = self.viscosity_law
+        eta0 = self.dynamic_viscosity(temperature)
+        alpha = pressure_viscosity_coefficient(eta0, self.roelands_z)
+        return law.at(self, temperature)[0](eta0, alpha)
+
+    def _check_law(self, laws: OilLaws, name: str) -> None:
+        for temperature in (self.alpha_temperature, self.temperature_low, self.temperature_high):
+            state = lubricant_state(self.parameters(), float(temperature), laws)
+            slope = log_viscosity(state.viscosity, 0.0, 1.0)[1]
+            if not abs(slope - state.alpha) <= _SLOPE_TOLERANCE * state.alpha:
+                raise ParameterError(
+                    f"The slope of ln eta at ambient pressure by the viscosity law {name} must be "
+                    f"alpha, {1e9 * state.alpha:.4g} 1/GPa at {temperature:g} K, got "
+                    f"{1e9 * slope:.4g} 1/GPa. Give the oil the alpha of the law."
+                )
+            made = log_viscosity(self._law_for(temperature), _LAW_PRESSURE, 1.0)[0]
+            found = log_viscosity(state.viscosity, _LAW_PRESSURE, 1.0)[0]
+            if not abs(found - made) <= _LAW_TOLERANCE * abs(made):
+                raise ParameterError(
+                    f"ln(eta/eta0) of the viscosity law {name} must depend on "
+                    "alpha p alone for formulas of films and friction, got "
+                    f"{made:.6g} at {temperature:g} K and {1e-9 * _LAW_PRESSURE:g} GPa, and "
+                    f"{found:.6g} by the law of {self.alpha_temperature:g} K. Give its class for "
+                    "kernels the method law_at(eta0, alpha), which returns the law of another "
+                    "temperature."
+                )
+
     def parameters(self) -> LubricantParameters:
         """Return the data as the tuple of floats that kernels take."""
         return LubricantParameters(
@@ -235,10 +312,14 @@ class LubricantState(NamedTuple):
     conductivity: float  # [W/(m K)]
     temperature: float  # of the oil [K]
     volume_heat: float  # heat capacity by volume [J/(m3 K)]
+    viscosity: Any = FORMULA_LAWS.viscosity  # law over pressure, see `formula_laws`
+    shear: Any = FORMULA_LAWS.shear  # law of shear, likewise
 
 
 @kernel
-def lubricant_state(parameters: LubricantParameters, temperature: float) -> LubricantState:
+def lubricant_state(
+    parameters: LubricantParameters, temperature: float, laws: OilLaws = FORMULA_LAWS
+) -> LubricantState:
     """Return the properties of a lubricant at a temperature.
 
     eta0 = rho nu(T);  alpha = 5.1e-9 Z (ln eta0 + 9.67) at constant Z;
@@ -250,6 +331,8 @@ def lubricant_state(parameters: LubricantParameters, temperature: float) -> Lubr
         Of one lubricant, from `Lubricant.parameters()`.
     temperature
         Absolute oil temperature [K].
+    laws
+        Of the same lubricant, from `Lubricant.own_laws`, if it has any.
 
     Returns
     -------
@@ -276,4 +359,6 @@ def lubricant_state(parameters: LubricantParameters, temperature: float) -> Lubr
         conductivity,
         temperature,
         parameters.density * parameters.heat_capacity,
+        law_at(laws.viscosity, eta0, alpha),
+        laws.shear,
     )

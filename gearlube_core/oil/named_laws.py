@@ -11,8 +11,9 @@ or named as an entry point of the group `gearlube.laws`::
         def __call__(self):
             return Tait(self.K0)
 
-Oil files, case files and `film_oil` take it by its name. Formulas of films and friction know an oil
-by viscosity, pressure-viscosity coefficient and Eyring stress alone.
+Oil files, case files and `film_oil` take it by its name. Formulas of friction, as in axle and pair,
+take laws of viscosity and shear from outside the package, see `formula_laws`. Instead of the laws
+below they have those that their sources print.
 """
 
 from __future__ import annotations

@@ -181,13 +181,17 @@ class OilFile(InputFile):
     limiting_shear_stress_mpa: ShearStrength = None
     boundary_friction: BoundaryFriction = None
     viscosity_law: Annotated[str, OneOf(ViscosityLaw.kind.known)] | None = Field(
-        default=None, description="Law of viscosity over pressure in solved films"
+        default=None,
+        description="Law of viscosity over pressure in solved films; one of your own also in "
+        "formulas",
     )
     density_law: Annotated[str, OneOf(DensityLaw.kind.known)] | None = Field(
         default=None, description="Law of density over pressure in solved films"
     )
     shear_law: Annotated[str, OneOf(ShearLaw.kind.known)] | None = Field(
-        default=None, description="Law of shear with the Eyring stress in solved films"
+        default=None,
+        description="Law of shear with the Eyring stress in solved films; one of your own also in "
+        "formulas",
     )
     law_numbers: dict[str, float] | None = Field(
         default=None, description="Numbers of laws of your own, by name, in SI units"

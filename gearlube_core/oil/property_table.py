@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.oil.base_oils import REFERENCE_DENSITY_DEGC
-from gearlube_core.oil.lubricant import lubricant_state
 from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.units import celsius_to_kelvin, kelvin_to_celsius
 
@@ -52,7 +51,7 @@ def property_table(oil: DescribedOil, rows: int = 0) -> list[OilProperties]:
     degrees = np.linspace(low, high, rows) if rows else np.arange(low, high + 1e-6, 10.0)
     table = []
     for degc in degrees:
-        state = lubricant_state(made.parameters(), celsius_to_kelvin(float(degc)))
+        state = made.state(celsius_to_kelvin(float(degc)))
         density = made.density + slope * (float(degc) - REFERENCE_DENSITY_DEGC)
         eta = state.nu * density
         table.append(

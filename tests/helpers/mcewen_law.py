@@ -19,7 +19,9 @@ from gearlube_core.oil.named_laws import ViscosityLaw
 class McEwenLaw(ViscosityLaw, name="mcewen", text="eta = eta0 (1 + alpha p/q)^q"):
     """eta = eta0 (1 + alpha p/q)^q, McEwen 1952."""
 
-    q: Annotated[float, Number("1", 1.0, 100.0, text="Exponent", source="mineral oils")] = 16.0
+    q: Annotated[
+        float, Number("1", 1.0, 100.0, text="Exponent of McEwen", source="mineral oils", factor=1.2)
+    ] = 16.0
 
     def __call__(self, eta0: float, alpha: float) -> McEwen:
         """Return the law for kernels."""

@@ -40,7 +40,7 @@ def found(monkeypatch, of_speeds):
         assert np.all(np.delete(changed, list(moved_places)) == 0.0)  # the pinion angle above all
 
     monkeypatch.setattr(module, "axle_rhs", axle_rhs)
-    monkeypatch.setattr(module, "lubricant_state", lambda oil, temperature: oil)
+    monkeypatch.setattr(module, "lubricant_state", lambda oil, temperature, laws: oil)
     axle = SimpleNamespace(I_p=0.006, I_g=0.09, m_p=5.0, m_g=28.0, ratio=RATIO, oil="oil")
     means = np.full(N_SERIES, np.nan)
     means[R_P], means[N_X : N_X + 3] = RADIUS, NORMAL

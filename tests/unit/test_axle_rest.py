@@ -53,7 +53,7 @@ def searched(monkeypatch, left, torque=60.0, balance=OPEN):
     means[[R_P, K_M]] = RADIUS, STIFFNESS
     monkeypatch.setattr(module, "_displacements", displacements)
     monkeypatch.setattr(module, "rest_forces", rest_forces)
-    monkeypatch.setattr(module, "lubricant_state", lambda oil, temperature: oil)
+    monkeypatch.setattr(module, "lubricant_state", lambda oil, temperature, laws: oil)
     p = SimpleNamespace(oil="oil", ratio=RATIO, mesh=SimpleNamespace(backlash=BACKLASH))
     mesh = MeshLevels(np.array([50.0]), means, 0, np.zeros(0), 3)
     s = np.full(N_STATE, np.nan)

@@ -173,7 +173,8 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
         "mesh_at_torque": lambda torque, mesh, data: calls.setdefault("torque", torque),
         "march_rates": march_rates,
         "line_sums": line_sums,
-        "lubricant_state": lambda oil, temperature: (oil, temperature),
+        "laws_of_oil": lambda *mesh: "laws",
+        "lubricant_state": lambda oil, temperature, laws: (oil, temperature, laws),
         "write_lines": write_lines,
         "write_ranges": lambda *given: calls.setdefault("ranges", given[:7]),
         "write_event_indicators": lambda *given: None,
@@ -205,7 +206,7 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
     leads = on_drive >= on_coast
     mu_at = MU if leads else MU + FLANK_POINTS
     first_line = outputs.OUTPUT_NAMES.index("line[1].load")
-    assert calls["lines"] == (mu_at, 340.0, ("oil", 340.0), first_line, outputs.BOUNDS)
+    assert calls["lines"] == (mu_at, 340.0, ("oil", 340.0, "laws"), first_line, outputs.BOUNDS)
     torque = max(0.8, max(on_drive, on_coast) * PLANE.r_bp * PLANE.cos_b)
     assert calls["ranges"][0] == pytest.approx(torque if leads else -torque)
     assert calls["ranges"][1:] == (1.0, 2.0, 3.0, 4.0, 5.0, ranges)

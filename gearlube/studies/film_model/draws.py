@@ -11,7 +11,7 @@ from scipy.stats import qmc
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 from gearlube_core.units import celsius_to_kelvin
 
@@ -47,7 +47,7 @@ def widened(box: Box, oils: Sequence[Lubricant]) -> Box:
     box = dict(box)
     for oil in oils:
         for temperature in oil_temperatures(oil):
-            state = lubricant_state(oil.parameters(), temperature)
+            state = oil.state(temperature)
             log_ratio = math.log(state.eta0 / ROELANDS_KAPPA)
             found = {
                 "viscosity [Pa s]": state.eta0,
@@ -114,7 +114,7 @@ def oil_of_library(oil: Lubricant, temperature: float, tau0: float) -> dict[str,
     tau0
         Eyring stress [Pa].
     """
-    state = lubricant_state(oil.parameters(), temperature)
+    state = oil.state(temperature)
     return {
         "eta0": state.eta0,
         "alpha": state.alpha,

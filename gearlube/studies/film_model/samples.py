@@ -23,7 +23,7 @@ from gearlube_core.ehl.gears.hypoid_film import pair_contact
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film_model.groups import FilmContact, contact_groups, film_contact
 from gearlube_core.mesh_table.table import MeshTable
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import rpm_to_rads
 
 _E = STEEL.contact_modulus
@@ -185,7 +185,7 @@ def flank_contact_of(
     tau0
         Eyring stress [Pa].
     """
-    state = lubricant_state(oil.parameters(), temperature)
+    state = oil.state(temperature)
     return film_contact(
         load,
         _E,

@@ -24,7 +24,7 @@ from gearlube_core.friction.line_points import LinePoints, line_points, table_li
 from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, LubricantState
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius
 
 PARTS_OF_LOSS = ("sliding", "rolling")
@@ -247,7 +247,7 @@ def _losses(
         np.ascontiguousarray(load).ravel(),
         speed,
         points.pair.plane,
-        lubricant_state(film.oil.parameters(), film.oil_temperature),
+        film.oil.state(film.oil_temperature),
         constants.solid.contact_modulus,
         powers,
     )

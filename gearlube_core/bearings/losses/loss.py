@@ -32,7 +32,7 @@ from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import ROLLER, FilmModel
-from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, LubricantState
 
 # Factors of the error bar, k = 2. A priori 2: the state of lubrication is not known. More where
 # the misfits of measured bearings ask for it, see docs/bearing.md; timken was not compared.
@@ -164,7 +164,7 @@ def bearing_loss(
     (2.7, 3.0)
     """
     check_condition(geometry, oil, model, speed, axial_load, radial_load, temperature)
-    state = lubricant_state(oil.parameters(), temperature + model.temperature_rise)
+    state = oil.state(temperature + model.temperature_rise)
     rows = geometry.rows
     F_a, F_r = axial_load / rows, radial_load / rows
     factor = UNCALIBRATED[model.law]

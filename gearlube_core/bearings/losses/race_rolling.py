@@ -23,6 +23,7 @@ from gearlube_core.film_model.line_contact import line_place, line_reference_fil
 from gearlube_core.film_model.model import ROLLER, SHIPPED, FilmModel, shipped_model
 from gearlube_core.film_model.rolling import solved_rolling_at
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import has_own_law
 from gearlube_core.oil.lubricant import LubricantState
 
 ROLLER_MODEL = SHIPPED[ROLLER]  # name of the film model in the package
@@ -100,6 +101,8 @@ def solved_race(
     )
     found = solved_rolling_at(film_model, line_load, speed, place, inlet)
     force, film, w = 0.5 * found.friction_coefficient * line_load, found.central_film, found.outside
+    if has_own_law(oil):
+        w = 1.0
     if w > 0.0:
         E = 2.0 * solid.contact_modulus
         number = inlet_heating_number(oil.eta0, oil.beta, speed, oil.conductivity)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from gearlube_core.contact.greenwood_tripp_1971 import asperity_share
@@ -12,12 +11,8 @@ from gearlube_core.film.point_film import central_film_thickness
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import bounded_stress, log_viscosity_under
 from gearlube_core.oil.lubricant import LubricantState
-from gearlube_core.oil.roelands_1966 import (
-    ROELANDS_LOG_VISCOSITY,
-    ROELANDS_PRESSURE,
-    roelands_viscosity,
-)
 
 # where a file does not say
 RIB_HEIGHT = 0.15  # of the contact above the race, over the roller diameter; assumed
@@ -100,8 +95,8 @@ def rib_friction(rib: RibParameters, load: float, speed: float, oil: LubricantSt
     share = asperity_share(ratio, rib.share_b, rib.share_c)
     mu = share * rib.boundary_friction
     if film > 0.0 and share < 1.0:
-        Z = oil.alpha / (ROELANDS_PRESSURE * (math.log(oil.eta0) + ROELANDS_LOG_VISCOSITY))
-        log_viscosity = math.log(roelands_viscosity(oil.eta0, Z, p))
+        log_viscosity = log_viscosity_under(oil.viscosity, oil, p)
         sheared = thermal_eyring_film(log_viscosity, oil.beta, oil.conductivity, oil.tau0, film, v)
-        mu += (1.0 - share) * sheared.stress_ratio * oil.tau0 / p
+        ratio_of_film = bounded_stress(oil.shear, sheared.stress_ratio, oil.tau0, oil, p, v, film)
+        mu += (1.0 - share) * ratio_of_film * oil.tau0 / p
     return RibFriction(mu * load * v, mu, film, ratio, share)

@@ -30,8 +30,8 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshFields,
-    MeshLevels,
     blend_mesh,
+    mesh_levels,
     place_at_load,
     series_size,
 )
@@ -139,7 +139,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         Others as in `start.rest`; inputs, mesh as in `communication_step`.
         """
         p: AxleParameters = tuple_from_array(lossless, AxleParameters, bearing, law)
-        return rest(s, speed, inputs[0], inputs[2], MeshLevels(*mesh), p, work)
+        return rest(s, speed, inputs[0], inputs[2], mesh_levels(*mesh), p, work)
 
     @kernel
     def step_control(
@@ -163,7 +163,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
             steps_per_highest_period,
             inputs[0],
             inputs[2],
-            MeshLevels(*mesh),
+            mesh_levels(*mesh),
             p,
             work,
             control_values,
@@ -182,7 +182,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
     ) -> None:
         """Write derivatives of the forces into `matrix`, as in `force_derivatives`."""
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        table = MeshLevels(*mesh)
+        table = mesh_levels(*mesh)
         force_derivatives(s, of_speeds, torque, oil_temperature, table, p, work, matrix)
 
     @kernel
@@ -197,7 +197,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         work: Array,
     ) -> int:
         """Advance the axle by `duration` [s]; arguments and status as in `communication_step`."""
-        table = MeshLevels(*mesh)
+        table = mesh_levels(*mesh)
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
         control: StepControl = tuple_from_array(control_values, StepControl)
         torques = (inputs[0], inputs[1])
@@ -227,7 +227,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         out: Array,
     ) -> None:
         """Write the outputs of the state `s`; arguments as in `communication_step`."""
-        table = MeshLevels(*mesh)
+        table = mesh_levels(*mesh)
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
         torques = (inputs[0], inputs[1])
         write_outputs(s, torques, inputs[2], table, p, work, rollers, out)
@@ -273,7 +273,7 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
     ) -> None:
         """Write `MOTION_OUTPUTS` of the state that a step has left, as in `outputs`."""
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        write_motion_after_step(s, MeshLevels(*mesh), p, work, out)
+        write_motion_after_step(s, mesh_levels(*mesh), p, work, out)
 
     @kernel
     def group_outputs(
@@ -290,9 +290,9 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
 
         Other arguments as in `outputs`.
         """
-        table = MeshLevels(*mesh)
+        table = mesh_levels(*mesh)
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        oil = lubricant_state(p.oil, inputs[2])
+        oil = lubricant_state(p.oil, inputs[2], table.laws)
         at_series = N_ODE + SCRATCH
         at_window = at_series + series_size(table)
         scratch = work[N_ODE:at_series]
@@ -317,14 +317,14 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
     ) -> None:
         """Write rates and event indicators as in `write_derivatives`; arguments as in `outputs`."""
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        table = MeshLevels(*mesh)
+        table = mesh_levels(*mesh)
         write_derivatives(s, (inputs[0], inputs[1]), inputs[2], table, p, work, out)
 
     @kernel
     def event(s: Array, mesh: MeshFields, parameters: Array, work: Array) -> None:
         """Take the other side's mesh data if the teeth have crossed, as in `change_side`."""
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        change_side(s, MeshLevels(*mesh), p.mesh, work)
+        change_side(s, mesh_levels(*mesh), p.mesh, work)
 
     return AxleKernels(
         static_state,

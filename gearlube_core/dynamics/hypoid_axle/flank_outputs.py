@@ -20,6 +20,7 @@ from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
+from gearlube_core.oil.formula_laws import mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
 FLANK_QUANTITIES = (
@@ -140,7 +141,7 @@ def write_flanks(
                     flank.film_thickness,
                     flank.mean_pressure,
                     oil.eta0,
-                    oil.alpha,
+                    mean_slope(oil.viscosity, oil, flank.mean_pressure),
                     oil.beta,
                     oil.tau0,
                     oil.conductivity,

@@ -100,7 +100,7 @@ def force_derivatives(
     slope = work[_AT_SLOPE:_AT_SERIES]
     series = work[_AT_SERIES:_AT_STATE]
     shifted = work[_AT_STATE:DERIVATIVES_WORK]
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, mesh.laws)
     mean_series(torque, mesh, series)
     series[R_G] = series[R_P] * p.ratio
     at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes, mesh.film_model)

@@ -326,7 +326,7 @@ def advance(
     stages = work[0:at_scratch]
     scratch = work[at_scratch:at_series]
     mesh = place_at_load(table, work[at_series:at_window], work[at_window:])
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, table.laws)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
     wanted = duration / step_limit(p, control, s[W_P], mesh.series[K_M])
     if not wanted < MAX_STEPS:

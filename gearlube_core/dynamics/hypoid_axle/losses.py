@@ -190,7 +190,8 @@ def axle_losses(
     )
     kernel = cycle_kernels(type(p.bearing_p), type(p.flank_law)).losses_along_torque
     constants = flatten(p), flatten(without_losses(p))
-    fields = (*mesh.fields, parameters.film_model(), parameters.roller_model())
+    models = parameters.film_model(), parameters.roller_model()
+    fields = (*mesh.fields, *models, *parameters.oil.own_laws())
     shape = temperatures.size, speeds.size, torques.size
     power, carried = np.full((*shape, N_LOSSES), np.nan), np.full(shape, np.nan)
     found, status = np.full((*shape, N_EXTREMES), np.nan), np.zeros(shape)

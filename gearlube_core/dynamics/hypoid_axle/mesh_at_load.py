@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -18,12 +18,13 @@ from gearlube_core.mesh_table.kernels import (
     mesh_series,
     transmission_error,
 )
+from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws
 
 NO_FILM_MODEL = np.zeros(0)
 
 
 class MeshLevels(NamedTuple):
-    """The mesh table at all its loads, and the film models of flanks and rollers.
+    """The mesh table at all its loads, the film models of flanks and rollers, laws of the oil.
 
     Shapes as in `packed_mesh.PackedMesh`.
     """
@@ -35,6 +36,7 @@ class MeshLevels(NamedTuple):
     n_nodes: int
     film_model: Array = NO_FILM_MODEL  # numbers of a film model, written into; else empty
     roller_model: Array = NO_FILM_MODEL  # likewise of rollers
+    laws: OilLaws = FORMULA_LAWS  # the oil's own
 
 
 @kernel
@@ -43,8 +45,24 @@ def series_size(table: MeshLevels) -> int:
     return table.series.size // table.levels.size
 
 
-# the same as a plain tuple: Python hands that over 0.6 us faster a call
-MeshFields = tuple[Array, Array, int, Array, int, Array, Array]
+# the same as a plain tuple: Python hands that over 0.6 us faster a call; laws of the oil only if
+# it has any of its own
+MeshFields: TypeAlias = tuple[Any, ...]
+
+
+@kernel
+def mesh_levels(
+    levels: Array,
+    series: Array,
+    n_orders: int,
+    windows: Array,
+    n_nodes: int,
+    film_model: Array,
+    roller_model: Array,
+    laws: OilLaws = FORMULA_LAWS,
+) -> MeshLevels:
+    """Return the table of `MeshFields`; kernels know no defaults of a NamedTuple."""
+    return MeshLevels(levels, series, n_orders, windows, n_nodes, film_model, roller_model, laws)
 
 
 class MeshAtLoad(NamedTuple):

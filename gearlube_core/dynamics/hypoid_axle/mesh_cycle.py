@@ -28,6 +28,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshFields,
     MeshLevels,
     blend_mesh,
+    mesh_levels,
     place_at_load,
 )
 from gearlube_core.dynamics.hypoid_axle.output_names import (
@@ -179,7 +180,7 @@ def mesh_cycle(
     at_window = _AT_SERIES + N_SERIES * (2 * table.n_orders + 1)
     data = place_at_load(table, work[_AT_SERIES:at_window], work[at_window:])
     mean = work[_AT_MEAN:_AT_REST]
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, table.laws)
     # drag that takes the load of each roller feels the last hundredth of a micrometre
     rests = _RESTS + 1 if p.drag > PALMGREN else _RESTS
     push = work[_AT_PUSH:_AT_SERIES]
@@ -291,7 +292,7 @@ def cycle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> CycleKer
         found : ndarray of shape (n, N_EXTREMES)
             See `flank_extremes`.
         """
-        table = MeshLevels(*mesh)
+        table = mesh_levels(*mesh)
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
         without: AxleParameters = tuple_from_array(lossless, AxleParameters, bearing, law)
         s, work, output_work, rollers, out = works

@@ -50,7 +50,6 @@ from gearlube_core.dynamics.stepped_model import (
 )
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
-from gearlube_core.oil.lubricant import lubricant_state
 
 MAX_TORQUE = 1e4  # N.m at the pinion: far beyond any car axle
 MAX_WHEEL_TORQUE = 3e4  # N.m
@@ -125,6 +124,7 @@ class HypoidAxle(SteppedModel[StepControl]):
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         self._film_models = parameters.film_model(), parameters.roller_model()
+        self._laws = parameters.oil.own_laws()
         super().__init__(
             states=N_STATE,
             output_names=OUTPUT_NAMES,
@@ -137,7 +137,7 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     def _with_data(self) -> Kernels:
         mesh = self.packed
-        fields: MeshFields = (*mesh.fields, *self._film_models)
+        fields: MeshFields = (*mesh.fields, *self._film_models, *self._laws)
         data = fields, flatten(self.kernel_parameters)
         work, rollers = np.zeros(work_size(mesh.series_size, mesh.nodes)), np.zeros(ROLLERS_MAX)
         p = self.kernel_parameters
@@ -170,8 +170,8 @@ class HypoidAxle(SteppedModel[StepControl]):
         full = self._state.copy()
         full[:N_ODE] = state
         torque_p, torque_g, oil_temperature = self._inputs.tolist()
-        oil = lubricant_state(p.oil, oil_temperature)
-        table = MeshLevels(*mesh.fields, *self._film_models)
+        table = MeshLevels(*mesh.fields, *self._film_models, *self._laws)
+        oil = self.parameters.oil.state(oil_temperature)
         at_load = place_at_load(table, np.zeros(mesh.series_size), np.zeros(mesh.window_size))
         blend_mesh(full[LOAD_TORQUE], full[SIDE], table, at_load)
         slope = np.zeros(N_ODE)

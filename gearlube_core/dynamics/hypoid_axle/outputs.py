@@ -261,7 +261,7 @@ def _write_rates(
     at_window = at_series + series_size(table)
     rates = work[0:N_ODE]
     data = place_at_load(table, work[at_series:at_window], work[at_window:])
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, table.laws)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     scratch = work[N_ODE:at_series]
     if s[TIME_IN_STEP] > 0.0 and p.drag > PALMGREN:  # as the step has taken it
@@ -358,7 +358,7 @@ def write_outputs(
     rates = work[0:N_ODE]
     scratch = work[N_ODE:at_series]
     data = place_at_load(table, work[at_series:at_window], work[at_window:])
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, table.laws)
     raceways = raceways_of(s, oil, p, data.roller_model, scratch)
     write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
     _write_rates(s, torques, oil_temperature, table, p, False, raceways, work, out)

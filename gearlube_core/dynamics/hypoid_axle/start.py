@@ -148,7 +148,7 @@ def rest_under(
     scale = work[_AT_U + N_FREE : _AT_U + 2 * N_FREE]
     out = work[_AT_U + 2 * N_FREE : _AT_SOFT]
     soft = work[_AT_SOFT:_AT_NEWTON]
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, mesh.laws)
     mean_series(torque, mesh, series)
     deflection = torque / series[R_P] / series[K_M]
     for i in range(N_STATE):

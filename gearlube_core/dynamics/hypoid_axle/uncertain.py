@@ -87,11 +87,13 @@ def _of_bearings(name: str) -> Callable[[HypoidAxleParameters, float], HypoidAxl
 
 
 def _of_numbers(axle: HypoidAxleParameters) -> Iterator[Uncertain]:
-    """Yield the numbers of an axle, its friction law and bearings that are declared with a factor.
+    """Yield numbers that are declared with a factor, of axle, friction law, bearings, oil's laws.
 
     Those of the bearings of both shafts are one input.
     """
-    for field, part in (("", axle), ("friction", axle.friction_law), ("bearing", axle.bearing)):
+    laws = [("oil", law) for law in (axle.oil.viscosity_law, axle.oil.shear_law) if law]
+    parts = ("", axle), ("friction", axle.friction_law), ("bearing", axle.bearing), *laws
+    for field, part in parts:
         kind: Any = type(part)
         for name, one in numbers_of(kind).items():
             if one.factor > 1.0:
@@ -111,6 +113,10 @@ def _times(field: str, name: str, axle: HypoidAxleParameters, by: float) -> Hypo
         return changed(axle)  # type: ignore[no-any-return]
     if field == "friction":
         return replace(axle, friction=changed(axle.friction_law))
+    if field == "oil":
+        oil = axle.oil
+        laws = {"viscosity_law": changed(oil.viscosity_law), "shear_law": changed(oil.shear_law)}
+        return replace(axle, oil=replace(oil, **laws))
     other = axle.gear_bearing and changed(axle.gear_bearing)
     return replace(axle, bearing=changed(axle.bearing), gear_bearing=other)
 

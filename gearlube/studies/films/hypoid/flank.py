@@ -27,7 +27,7 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.film_oil_data import film_oil_of
-from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState
 from gearlube_core.units import kelvin_to_celsius
 
 LOADS = ("dynamic", "static")
@@ -92,7 +92,7 @@ class HypoidFlank:
     @property
     def oil(self) -> LubricantState:
         """Oil at its temperature, as the axle sees it."""
-        return lubricant_state(self.parameters.oil.parameters(), self.case.oil_temperature)
+        return self.parameters.oil.state(self.case.oil_temperature)
 
 
 def hypoid_flank(case: HypoidCase) -> HypoidFlank:

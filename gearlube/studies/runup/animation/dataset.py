@@ -32,7 +32,7 @@ from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, PHI_P, SIDE, W
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.kernels import load_bracket, pair_node
 from gearlube_core.mesh_table.table import PAIRS, TOOTH_UNITS, MeshTable
-from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import LubricantState
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset
 from gearlube_core.units import rads_to_rpm
@@ -94,7 +94,7 @@ def roller_variables(frames: Frames, oil_temperature: float) -> Variables:
     ]
     if len(bearings) < 2:
         return {}
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = frames.axle.parameters.oil.state(oil_temperature)
     most = max(int(one.n_rollers) for one in bearings)
     shape = (frames.time.size, len(RINGS), most)
     load, film, angle = (np.full(shape, np.nan) for _ in range(3))

@@ -15,6 +15,7 @@ from gearlube_core.dynamics.helical_pair.march.line_points import refresh_fricti
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
+    laws_of_oil,
     mesh_at_torque,
 )
 from gearlube_core.dynamics.helical_pair.march.state import (
@@ -110,5 +111,5 @@ def event(s: Array, oil_temperature: float, mesh: MeshFields, data: Array) -> No
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     if p.friction_form > 0.0:
         mesh_at_torque(s[LOAD_TORQUE], mesh, data)
-        oil = lubricant_state(p.oil, oil_temperature)
+        oil = lubricant_state(p.oil, oil_temperature, laws_of_oil(*mesh))
         refresh_friction(pair_motion(s), part(s, REFRESHED, N_FRICTION), data, oil)

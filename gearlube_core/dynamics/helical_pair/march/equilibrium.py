@@ -10,6 +10,7 @@ from gearlube_core.dynamics.helical_pair.march.line_points import refresh_fricti
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
+    laws_of_oil,
     mesh_at_torque,
 )
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
@@ -170,7 +171,7 @@ def settle(
     if pinion_torque < 0.0:
         u[0] = -u[0] - flanks.backlash / plane.cos_b
     problem = (data, s, slope, places, forces, pinion_torque)
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, laws_of_oil(*mesh))
     worst = math.inf
     for _ in range(_FILM_PASSES if p.friction_form > 0.0 else 1):
         _solve(u, scales, problem, work[_NEWTON:])

@@ -12,6 +12,7 @@ from gearlube_core.dynamics.helical_pair.march.line_points import refresh_fricti
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
+    laws_of_oil,
     mesh_at_torque,
 )
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
@@ -197,7 +198,7 @@ def advance(
     stages = work
     pinion_torque, wheel_torque = inputs[0], inputs[1]
     mesh_at_torque(s[LOAD_TORQUE], mesh, data)
-    oil = lubricant_state(p.oil, inputs[2])
+    oil = lubricant_state(p.oil, inputs[2], laws_of_oil(*mesh))
     wanted = duration * step_rate(p, control, s[W_P])
     if not wanted < MAX_STEPS:
         return TOO_MANY_STEPS

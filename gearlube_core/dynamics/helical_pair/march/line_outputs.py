@@ -24,6 +24,7 @@ from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.friction.solved_line import BoundedLine
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
 BOUND_QUANTITIES = ("film_bound", "friction_bound")
@@ -202,7 +203,7 @@ def write_lines(
                         state.film_thickness,
                         state.mean_pressure,
                         lubricant.eta0,
-                        lubricant.alpha,
+                        mean_slope(lubricant.viscosity, lubricant, state.mean_pressure),
                         lubricant.beta,
                         lubricant.tau0,
                         lubricant.conductivity,

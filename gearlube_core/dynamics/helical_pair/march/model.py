@@ -119,7 +119,8 @@ class HelicalPairModel(SteppedModel[StepControl]):
         self.constants: MarchConstants = parameters.constants()
         self.mesh = pack_march_mesh(parameters.mesh)
         self._data = pair_data(self.constants, parameters.mesh, parameters.film_model())
-        self._fields: MeshFields = (self.mesh.torque, self.mesh.density, self.mesh.offset)
+        of_mesh = self.mesh.torque, self.mesh.density, self.mesh.offset
+        self._fields: MeshFields = (*of_mesh, *parameters.oil.own_laws())
         self._scratch = np.zeros(EQUILIBRIUM_WORK)
         self._bearings = parameters.bearing_shares()
         super().__init__(

@@ -19,7 +19,11 @@ from gearlube_core.dynamics.helical_pair.march.line_outputs import (
     write_lines,
 )
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
-from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    MeshFields,
+    laws_of_oil,
+    mesh_at_torque,
+)
 from gearlube_core.dynamics.helical_pair.march.rates import flank_wrench, march_rates, turned_wrench
 from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,
@@ -307,7 +311,7 @@ def write_outputs(
     out[COAST_CONTACT] = 1.0 if on_coast.N > 0.0 else 0.0
     touching = on_drive.stiffness + on_coast.stiffness
     out[MESH_STIFFNESS] = plane.cos_b * plane.cos_b * touching
-    oil = lubricant_state(p.oil, oil_temperature)
+    oil = lubricant_state(p.oil, oil_temperature, laws_of_oil(*mesh))
     view = drive if on_drive.N >= on_coast.N else coast
     mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
     found = write_lines(view, mu_at, s, oil_temperature, data, oil, p, LINES, BOUNDS, out)

@@ -29,7 +29,7 @@ from gearlube_core.friction.line_points import LinePoints
 from gearlube_core.friction.solved_line import bounded_line_friction
 from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, LubricantState
 
 
 class FilmConstants(NamedTuple):
@@ -77,7 +77,7 @@ class FilmFriction:
     def constants(self) -> FilmConstants:
         """Return what the kernels take."""
         return FilmConstants(
-            lubricant_state(self.oil.parameters(), self.oil_temperature),
+            self.oil.state(self.oil_temperature),
             gear_flanks(self.roughness_rms),
             solid_parameters(self.solid, self.solid),
             self.film_models[LINE].copied_numbers() if self.film == "solved" else np.empty(0),
