@@ -188,27 +188,59 @@ def bearing_types(wanted: str = "") -> Mapping[str, type[Bearing]]:
 
 
 class _Expanded(NamedTuple):
-    """What stands in the expansion of a type that has none."""
+    """What stands in the expansion of a type that has none: the oil but for laws of its own."""
 
     f_ref: float
-    oil: LubricantState
+    eta0: float
+    alpha: float
+    beta: float
+    nu: float
+    tau0: float
+    tau_l0: float
+    gamma: float
+    conductivity: float
+    temperature: float
+    volume_heat: float
 
 
 @kernel
 def _no_expansion(
     bearings: Any, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: Array
 ) -> None:
-    tuple_to_array(_Expanded(f_ref, oil), expansion)
+    kept = _Expanded(
+        f_ref,
+        oil.eta0,
+        oil.alpha,
+        oil.beta,
+        oil.nu,
+        oil.tau0,
+        oil.tau_l0,
+        oil.gamma,
+        oil.conductivity,
+        oil.temperature,
+        oil.volume_heat,
+    )
+    tuple_to_array(kept, expansion)
 
 
 @kernel
 def _sum_of_forces(
     bearings: Any, motion: ShaftMotion, expansion: Array
 ) -> tuple[float, float, float, float]:
-    kept = tuple_from_array(expansion, _Expanded)
-    F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, lost = shaft_forces(
-        bearings, motion, kept.f_ref, kept.oil
+    kept: _Expanded = tuple_from_array(expansion, _Expanded)
+    oil = LubricantState(
+        kept.eta0,
+        kept.alpha,
+        kept.beta,
+        kept.nu,
+        kept.tau0,
+        kept.tau_l0,
+        kept.gamma,
+        kept.conductivity,
+        kept.temperature,
+        kept.volume_heat,
     )
+    F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, lost = shaft_forces(bearings, motion, kept.f_ref, oil)
     return F1_r1 + F2_r1, F1_r2 + F2_r2, F1_a + F2_a, lost
 
 

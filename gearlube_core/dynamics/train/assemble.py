@@ -8,7 +8,7 @@ the sums, hence of the last digits.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,8 @@ from gearlube_core.dynamics.train.march import Call, Layout
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.oil.formula_laws import FORMULA_LAWS
+from gearlube_core.oil.lubricant import Lubricant
 
 _MOTIONS = (*COORDINATES, *(f"{one}.rate" for one in COORDINATES))
 
@@ -36,13 +38,13 @@ class Assembly(NamedTuple):
     kept: dict[str, int]  # first place of what each element keeps
 
 
-def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: tuple[Any, ...]) -> Assembly:
+def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant) -> Assembly:
     """Return a train of bodies and elements, whose order is the order of its states and sums.
 
     Parameters
     ----------
     bodies, elements
-    oil : LubricantParameters
+    oil : Lubricant
 
     Raises
     ------
@@ -70,7 +72,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: tuple[Any
     for one in elements:
         kept[one.name] = size
         size += one.kept().size
-    numbers, memory, calls, outputs = [flatten(oil)], [], [], list[str]()
+    numbers, memory, calls, outputs = [flatten(oil.parameters())], [], [], list[str]()
     at_number, at_memory = numbers[0].size, 0
     for one in elements:
         constants, room = one.numbers(), one.memory()
@@ -93,9 +95,10 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: tuple[Any
         outputs += [f"{one.name}.{output}" for output in one.outputs]
         at_number += numbers[-1].size
         at_memory += room.size
+    laws = (*oil.own_laws(), FORMULA_LAWS)[0]
     own_states = sum(len(one.states) for one in elements)
     return Assembly(
-        Layout(tuple(calls), len(bodies), own_states, at_number, len(names), size),
+        Layout(tuple(calls), len(bodies), own_states, at_number, len(names), size, laws),
         np.concatenate([*numbers, *(body.mobility for body in bodies)]),
         np.concatenate([*memory, np.zeros(1)]),
         np.concatenate([np.zeros(len(names)), *(one.kept() for one in elements)]),

@@ -24,6 +24,7 @@ from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import OilLaws
 from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
 
 RATES, RENEW, SETTLE, ADVANCE, WRITE, ENERGY = range(6)
@@ -58,6 +59,7 @@ class Layout(NamedTuple):
     first_mobility: int  # among the numbers
     integrated: int
     states: int
+    laws: OilLaws  # of an oil with laws of its own
 
 
 def settle_work_size(layout: Layout, m: int) -> int:
@@ -144,7 +146,7 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
     begin, expand, each_step, after_step = (made[name] for name in _IN_TIME)
     step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
     add_forces, write = made["add_forces"], made["write"]
-    bodies, own, first_mobility, n, n_state = layout[1:]
+    bodies, own, first_mobility, n, n_state, laws = layout[1:]
 
     @inside
     def forces(s: Array, oil: LubricantState, numbers: Array, memory: Array, ds: Array) -> None:
@@ -295,7 +297,7 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         work: Array,
     ) -> float:
         given: LubricantParameters = tuple_from_array(numbers, LubricantParameters)
-        oil = lubricant_state(given, temperature)
+        oil = lubricant_state(given, temperature, laws)
         if operation == RATES:
             rates(s, oil, numbers, memory, work)
             return 0.0

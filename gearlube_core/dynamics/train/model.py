@@ -95,7 +95,7 @@ class Train:
     ) -> None:
         check_within("steps_per_highest_period", steps_per_highest_period, 6, 4096)
         self.bodies, self.elements, self.oil = tuple(bodies), tuple(elements), oil
-        self._made = assemble(bodies, elements, oil.parameters())
+        self._made = assemble(bodies, elements, oil)
         self._operate = train_kernel(self._made.layout)
         n, size = self._made.layout.integrated, self._made.layout.states
         self._n, self._state, self._trial = n, self._made.state.copy(), np.zeros(size)
