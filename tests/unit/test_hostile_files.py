@@ -66,9 +66,8 @@ def test_many_wrong_fields_are_counted_and_the_first_are_named(tmp_path):
 
 def write_bomb(path, blocks):
     """Write an archive of one part, as many blocks of 16 MB of zeros."""
-    kind = zipfile.ZIP_DEFLATED
     with (
-        zipfile.ZipFile(path, "w", kind, compresslevel=1) as file,
+        zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as file,
         file.open("a", "w", force_zip64=True) as part,
     ):
         for _ in range(blocks):
@@ -111,10 +110,8 @@ def zipped(**parts):
 
 
 def npy(shape, zeros=0):
-    stream = io.BytesIO()
-    np.lib.format.write_array_header_1_0(
-        stream, {"descr": "<f8", "fortran_order": False, "shape": shape}
-    )
+    stream, head = io.BytesIO(), {"descr": "<f8", "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(stream, head)
     return stream.getvalue() + bytes(zeros)
 
 
