@@ -7,6 +7,7 @@ import csv
 import io
 import re
 import tokenize
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -48,6 +49,7 @@ def equations() -> list[Equation]:
         return [Equation(**row) for row in csv.DictReader(file)]
 
 
+@cache
 def package_tags() -> list[Tag]:
     """Return all tags in docstrings and comments of the packages and their data files."""
     found: list[Tag] = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from collections.abc import Generator
 from pathlib import Path
@@ -57,6 +58,17 @@ def pytest_unconfigure(config: pytest.Config) -> None:
     """Remove what the processes of this run have shared."""
     if _folder is not None:
         _folder.cleanup()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Collect without looking for garbage: syntax trees and modules take a third longer with it."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 class _LastFileFirst(pytest.Dir):

@@ -63,8 +63,9 @@ COMMANDS = (
     ("vary", "bearing"),
     ("ehl", "compare"),
 )
-# without which a command is refused for that reason alone
+# without which a command is refused for that reason alone, or makes large patches first
 NEEDED = {
+    ("roughness", "flow-factors"): ("--seeds=1", "--points=64"),
     ("roughness", "make"): ("--rq-um=0.4",),
     ("roughness", "stand-in"): ("A",),
     ("vary", "map"): ("--vary", "bearing.preload=2000,3000"),
