@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from gearlube.studies.films.datasets import hypoid
-from gearlube.studies.films.rough import gather
+from gearlube.studies.films.rough import files
 from gearlube_core.ehl.statistics.rough_film import (
     FILM_EDGES,
     PERCENT,
@@ -119,8 +119,8 @@ def test_variables_of_a_rough_film_are_known(monkeypatch):
         zone=FilmZone.line(x, y, 1.5e-5), roughness=2e-8, smooth_film=8e-8, friction=oil,
         solids=lambda film: np.where(film < 5e-9, 1e8, 0.0),
     )  # fmt: skip
-    monkeypatch.setattr(gather, "new_statistics", lambda case: statistics)
-    gathered = gather.Gathered(None)
+    monkeypatch.setattr(files, "new_statistics", lambda case: statistics)
+    gathered = files.Gathered(None)
     film = 1e-9 * np.array([[400.0, 20.0, 3.0, 300.0, 500.0], [400.0, 30.0, 0.5, 200.0, 500.0]])
     pressure = 1e9 * np.array([[0.1, 0.4, 0.9, 0.5, 0.2], [0.2, 0.5, 1.2, 0.4, 0.1]])
     work = {"residual": "1", "load_error": "1", "time_error": "1", "newton_steps": "1",
