@@ -38,6 +38,7 @@ from gearlube_core.dynamics.train.part import Body as TrainBody
 from gearlube_core.dynamics.train.part import Element as TrainElement
 from gearlube_core.dynamics.train.elements.port import Port as Port
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh as HelicalMesh
+from gearlube_core.dynamics.train.elements.hypoid_mesh import HypoidMesh as HypoidMesh
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport as SpringSupport
 from gearlube_core.dynamics.train.elements.opposed_bearings import (
     OpposedBearings as OpposedBearings,
@@ -46,6 +47,7 @@ from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfSh
 from gearlube_core.dynamics.train.elements.drag import Seal as Seal
 from gearlube_core.dynamics.train.elements.drag import Churning as Churning
 from gearlube_core.dynamics.train.helical_pair import helical_pair as helical_pair_train
+from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle as hypoid_axle_train
 
 # -- Oils
 from gearlube_core.oil.lubricant import Lubricant as Lubricant

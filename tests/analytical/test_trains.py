@@ -11,9 +11,7 @@ import pytest
 
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, churning_torque
-from gearlube_core.dynamics.helical_pair.march import state as pair_state
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
@@ -72,59 +70,6 @@ def test_a_brake_from_outside_the_package_stops_a_rotor_after_its_angle():
     assert abs(train.state("load.rz.rate")) < 0.01
     assert train.state("load.rz") == pytest.approx(10.0**2 * 2.2 / (2.0 * 40.0), rel=5e-3)
     assert sum(train.lost.values()) == pytest.approx(start - train.energy, rel=1e-7)
-
-
-def of_pair(train: Train, s: np.ndarray) -> np.ndarray:
-    """Return the train's state of a state of `HelicalPairModel`."""
-    made = train.get_state()[:-2]
-    members = (
-        ("U_P", "TH_P", "PHI_P", "V_P", "OM_P", "W_P", -1.0),
-        ("U_G", "TH_G", "PHI_G", "V_G", "OM_G", "W_G", 1.0),
-    )
-    for i, (u, th, phi, v, om, w, sense) in enumerate(members):
-        at = {name: getattr(pair_state, name) for name in (u, th, phi, v, om, w)}
-        made[12 * i : 12 * i + 3] = s[at[u] : at[u] + 3]
-        made[12 * i + 3 : 12 * i + 5] = s[at[th] : at[th] + 2]
-        made[12 * i + 5] = sense * s[at[phi]]
-        made[12 * i + 6 : 12 * i + 9] = s[at[v] : at[v] + 3]
-        made[12 * i + 9 : 12 * i + 11] = s[at[om] : at[om] + 2]
-        made[12 * i + 11] = sense * s[at[w]]
-    made[24] = s[pair_state.PSI]
-    made[25], made[26] = s[pair_state.PINION_WORK], -s[pair_state.WHEEL_WORK]
-    made[27:30] = s[pair_state.FRICTION : pair_state.FRICTION + 3]
-    made[30:32] = tuple(LOAD.values())
-    made[32] = s[pair_state.LOAD_TORQUE]
-    made[33:] = s[pair_state.REFRESHED :]
-    return made
-
-
-def test_the_pair_in_a_train_is_the_pair_alone_to_the_last_bit():
-    alone = HelicalPairModel(PAIR)
-    speed = 104.7
-    alone.initialise(
-        pinion_speed=speed, pinion_torque=226.0, wheel_torque=280.0, oil_temperature=KELVIN
-    )
-    train = Train(*helical_pair(PAIR), PAIR.oil)
-    train.initialise({"wheel": speed / RATIO}, LOAD, KELVIN)
-    # both search an equilibrium, to 1e-6 of the forces
-    assert train.outputs()["mesh.dte"] == pytest.approx(alone.output("mesh.dte"), rel=1e-5)
-    free = train.modes()[0]
-    assert free[0] < 1e-3 * free[1]
-    assert free[1:] == pytest.approx(alone.natural_frequencies(), rel=1e-5)
-    control = alone.step_control
-    rate = control.highest_frequency * control.steps_per_highest_period
-    train.set_state(np.array([*of_pair(train, alone.state_view), KELVIN, rate]))
-    rng = np.random.default_rng(38)
-    for k in range(120):
-        # torques that part the teeth and turn them over
-        load = {"input": 226.0 * math.cos(0.05 * k), "output": 280.0 * rng.uniform(-1.0, 1.0)}
-        train.step(1e-4, load, KELVIN)
-        alone.step(1e-4, *load.values(), KELVIN)
-        LOAD_NOW = np.array([*load.values()])
-        wanted = of_pair(train, alone.state_view)
-        wanted[30:32] = LOAD_NOW
-        assert np.array_equal(train.get_state()[:-2], wanted), k
-    assert alone.output("mesh.coast_contact") in (0.0, 1.0)
 
 
 def e_axle(turned: float = 0.0, friction: str = "film", hand: bool = True) -> Train:

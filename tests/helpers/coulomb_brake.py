@@ -19,7 +19,9 @@ class _Brake(NamedTuple):
     speed: float  # rad/s, below which the torque falls to zero
 
     @kernel
-    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
         body, lost = at
         w = s[body + W]
         torque = self.torque * math.tanh(w / self.speed)

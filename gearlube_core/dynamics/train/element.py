@@ -46,7 +46,7 @@ def _zero(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -
 
 
 @kernel
-def _smooth(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+def _smooth(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
     return math.inf
 
 
@@ -65,7 +65,7 @@ def _no_outputs(
 
 @by_class()
 def add_forces(
-    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array
+    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
 ) -> None:
     """Add forces and moments to the bodies' rates; write the rates of own states and energies.
 
@@ -77,6 +77,8 @@ def add_forces(
         What the element has for itself: tables, and what it keeps that follows from the state.
     s, ds : ndarray
         State of the train, and its rates.
+    stage : int
+        1 to 4 within an integrator step, 0 for a state by itself, where all is exact.
     """
 
 
@@ -106,6 +108,11 @@ def after_step(
     raise NotImplementedError
 
 
+@by_class(otherwise=_nothing)
+def finish(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+    """Put what is kept in `memory` into the state at the end of a communication step."""
+
+
 @by_class(otherwise=_zero)
 def stored_energy(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
     """Return the elastic energy of the element [J]."""
@@ -119,8 +126,13 @@ def step_rate(element: Any, at: Any, memory: Array, s: Array, oil: LubricantStat
 
 
 @by_class(otherwise=_smooth)
-def time_to_jump(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
-    """Return after what time [s] a step must end because forces jump there; infinite for none."""
+def time_to_jump(
+    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
+) -> float:
+    """Return after what time [s] a part of a step of `h` [s] must end; infinite for no parts.
+
+    Forces jump there, or bend so sharply that a whole step is too long.
+    """
     raise NotImplementedError
 
 

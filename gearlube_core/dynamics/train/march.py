@@ -67,7 +67,7 @@ def settle_work_size(layout: Layout, m: int) -> int:
     return layout.integrated + m * (layout.own + 5) + layout.own + newton_work_size(m)
 
 
-_IN_TIME = "begin", "expand", "each_step", "after_step"
+_IN_TIME = "begin", "expand", "each_step", "after_step", "finish"
 _NUMBERS = "step_rate", "time_to_jump", "stored_energy"
 _GIVEN = "s, oil, numbers, memory"
 # kernels of all elements: what they take more, a line for each element, what they return
@@ -77,9 +77,10 @@ _LINES = {
     "each_step": (", h", "total += {call}", "total"),
     "after_step": (", h", "{call}", "None"),
     "step_rate": ("", "total = max(total, {call})", "total"),
-    "time_to_jump": ("", "total = min(total, {call})", "total"),
+    "finish": ("", "{call}", "None"),
+    "time_to_jump": (", h", "total = min(total, {call})", "total"),
     "stored_energy": ("", "total += {call}", "total"),
-    "add_forces": (", ds", "{call}", "None"),
+    "add_forces": (", stage, ds", "{call}", "None"),
     "write": (", out", "{call}", "None"),
 }
 
@@ -143,20 +144,24 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         scales, the forces that stay out of balance [N, N.m], and work space of `settle_work_size`.
     """
     made = dict(zip(_LINES, _called(layout.calls), strict=True))
-    begin, expand, each_step, after_step = (made[name] for name in _IN_TIME)
+    begin, expand, each_step, after_step, finish = (made[name] for name in _IN_TIME)
     step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
     add_forces, write = made["add_forces"], made["write"]
     bodies, own, first_mobility, n, n_state, laws = layout[1:]
 
     @inside
-    def forces(s: Array, oil: LubricantState, numbers: Array, memory: Array, ds: Array) -> None:
+    def forces(
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, stage: int, ds: Array
+    ) -> None:
         for i in range(n):
             ds[i] = 0.0
-        add_forces(s, oil, numbers, memory, ds)
+        add_forces(s, oil, numbers, memory, stage, ds)
 
     @kernel
-    def rates(s: Array, oil: LubricantState, numbers: Array, memory: Array, ds: Array) -> None:
-        forces(s, oil, numbers, memory, ds)
+    def rates(
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, stage: int, ds: Array
+    ) -> None:
+        forces(s, oil, numbers, memory, stage, ds)
         for body in range(bodies):
             at = BODY_STATES * body
             mobility = first_mobility + N_COORDINATES * body
@@ -177,7 +182,7 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         for body in range(bodies):  # angles move own states alone: periodic data stay
             s[BODY_STATES * body + RZ] = 0.0
         expand(s, oil, numbers, memory)
-        forces(s, oil, numbers, memory, ds)
+        forces(s, oil, numbers, memory, 0, ds)
         for i in range(u.size):
             out[i] = ds[int(places[i]) + RATE]
 
@@ -208,19 +213,19 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         trial = part(stages, 0, n_state)
         slope = part(stages, n_state, n)
         total = part(stages, n_state + n, n)
-        rates(s, oil, numbers, memory, slope)
+        rates(s, oil, numbers, memory, 1, slope)
         for i in range(n):
             total[i] = slope[i]
             trial[i] = s[i] + 0.5 * h * slope[i]
-        rates(trial, oil, numbers, memory, slope)
+        rates(trial, oil, numbers, memory, 2, slope)
         for i in range(n):
             total[i] += 2.0 * slope[i]
             trial[i] = s[i] + 0.5 * h * slope[i]
-        rates(trial, oil, numbers, memory, slope)
+        rates(trial, oil, numbers, memory, 3, slope)
         for i in range(n):
             total[i] += 2.0 * slope[i]
             trial[i] = s[i] + h * slope[i]
-        rates(trial, oil, numbers, memory, slope)
+        rates(trial, oil, numbers, memory, 4, slope)
         for i in range(n):
             s[i] += h / 6.0 * (total[i] + slope[i])
 
@@ -265,13 +270,14 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
                     return TOO_MANY_STEPS
                 for i in range(n, n_state):
                     work[i] = s[i]
-                piece = min(rest, time_to_jump(s, oil, numbers, memory))
+                piece = min(rest, time_to_jump(s, oil, numbers, memory, h))
                 rk4_step(s, piece, oil, numbers, memory, work)
                 rest -= piece
             after_step(s, oil, numbers, memory, h)
             status = status_of(s)
             if status != OK:
                 return status
+        finish(s, oil, numbers, memory)
         return OK
 
     @kernel
@@ -299,7 +305,7 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         given: LubricantParameters = tuple_from_array(numbers, LubricantParameters)
         oil = lubricant_state(given, temperature, laws)
         if operation == RATES:
-            rates(s, oil, numbers, memory, work)
+            rates(s, oil, numbers, memory, 0, work)
             return 0.0
         if operation == SETTLE:
             settle(s, oil, numbers, memory, int(size), work)

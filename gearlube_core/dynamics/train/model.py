@@ -196,6 +196,13 @@ class Train:
         """Energy that has become heat since the start, by its name [J]."""
         return {name: float(self._state[at]) for name, at in self._made.losses.items()}
 
+    def rates(self) -> Array:
+        """Return d/dt of the integrated states, in the order of `state_names`, exact."""
+        found, s = np.zeros(self._n), self._state.copy()
+        self._call(RENEW, s, found)
+        self._call(RATES, s, found)
+        return found
+
     def get_state(self) -> Array:
         """Return everything that the future depends on."""
         return np.concatenate([self._state, [self._temperature, self._least_rate]])
@@ -251,8 +258,11 @@ class Train:
 
     def _relations(self) -> Array:
         """Return rates of the own states over rates of all coordinates, (own, 6 x bodies)."""
-        layout, s, slope = self._made.layout, self._made.state.copy(), np.zeros(self._n)
+        layout, s, slope = self._made.layout, self._state.copy(), np.zeros(self._n)
         first = BODY_STATES * layout.bodies
+        for i in range(layout.bodies):
+            s[BODY_STATES * i + RATE : BODY_STATES * (i + 1)] = 0.0
+        self._call(RENEW, s, slope)
         found = np.zeros((layout.own, N_COORDINATES * layout.bodies))
         for j in range(found.shape[1]):
             at = BODY_STATES * (j // N_COORDINATES) + RATE + j % N_COORDINATES
@@ -344,6 +354,7 @@ class Train:
         """Return M^-1 K of the free coordinates about the present state, which turns on."""
         layout, first = self._made.layout, BODY_STATES * self._made.layout.bodies
         relations, s = self._relations(), self._state.copy()
+        self._call(RENEW, s, np.zeros(self._n))
         for i in range(layout.bodies):
             s[BODY_STATES * i + RATE : BODY_STATES * i + W] = 0.0
         matrix, slope = np.zeros((self._free.size, self._free.size)), np.zeros(self._n)

@@ -18,7 +18,7 @@ NO_NUMBERS: Array = np.empty(0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Body:
-    """A rigid body of a train that turns about an axis parallel to z.
+    """A rigid body of a train that turns about one axis: z, or its own where an element says so.
 
     Parameters
     ----------
@@ -33,6 +33,12 @@ class Body:
     Notes
     -----
     Products of rotation and tilt (gyroscopic moments) are left out, as in [he_2007].
+
+    Examples
+    --------
+    >>> rotor = Body.spinning("rotor", 0.02)
+    >>> round(float(rotor.mobility[5]), 3)  # 1/(kg m2)
+    50.0
     """
 
     name: str
@@ -61,7 +67,14 @@ class Body:
 
 
 class Element(ABC):
-    """What acts on bodies: derive a frozen dataclass, and give it a NamedTuple of kernels."""
+    """What acts on bodies: derive a frozen dataclass, and give it a NamedTuple of kernels.
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.train.elements.drag import Seal
+    >>> issubclass(Seal, Element), Seal.on, Seal.losses
+    (True, ('body',), ('seals',))
+    """
 
     name: str
     on: ClassVar[tuple[str, ...]]  # fields that name the bodies

@@ -43,7 +43,9 @@ class _Seal(NamedTuple):
         return 0.0
 
     @kernel
-    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
         _brake(at, memory, s, ds)
 
 
@@ -57,7 +59,9 @@ class _Churning(NamedTuple):
         return 0.0
 
     @kernel
-    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
         _brake(at, memory, s, ds)
 
 
@@ -78,6 +82,12 @@ class Seal(_Brake):
     name, body : str
     torque : float
         [N.m], 0 to 100.
+
+    Examples
+    --------
+    >>> from gearlube_core.drag import seal_torque
+    >>> round(Seal(name="seal", body="input", torque=seal_torque(0.04)).numbers().torque, 3)
+    0.149
     """
 
     name: str
@@ -108,6 +118,13 @@ class Churning(_Brake):
         Depth of the lowest tooth below the oil at rest [m].
     oil_volume : float
         [m3]
+
+    Examples
+    --------
+    >>> sump = Churning(name="sump", body="gear", law="boness_1989", ring_diameter=0.2,
+    ...                 ring_width=0.03, immersion=0.04, oil_volume=1e-3)
+    >>> sump.numbers().gear.immersion
+    0.04
     """
 
     name: str

@@ -21,7 +21,9 @@ class _HalfShaft(NamedTuple):
     damping: float  # [N.m s/rad]
 
     @inside
-    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
         first, second, twist, lost = at
         rate = s[first + W] - s[second + W]
         torque = self.stiffness * s[twist] + self.damping * rate
@@ -59,6 +61,12 @@ class HalfShaft(Element):
         [N.m/rad], 1 to 1e9.
     damping : float
         [N.m s/rad], 0 to 1e6.
+
+    Examples
+    --------
+    >>> shaft = HalfShaft(name="left", first="differential", second="wheel", stiffness=8e3)
+    >>> shaft.guess(160.0)  # rad under 160 N.m
+    (0.02,)
     """
 
     name: str

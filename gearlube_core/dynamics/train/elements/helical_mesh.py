@@ -85,7 +85,9 @@ class _HelicalMesh(NamedTuple):
         return cost
 
     @inside
-    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
         data = _data(at, memory)
         constants: MarchConstants = tuple_from_array(data, MarchConstants)
         plane = constants.motion.flanks.plane
@@ -132,7 +134,9 @@ class _HelicalMesh(NamedTuple):
         return frequency * self.steps_per_period
 
     @kernel
-    def time_to_jump(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+    def time_to_jump(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
+    ) -> float:
         data = _data(at, memory)
         constants: MarchConstants = tuple_from_array(data, MarchConstants)
         m = _motion(self, at, s)
@@ -224,6 +228,15 @@ class HelicalMesh(Element):
         Mid-face along z from the centre of each body [m].
     torque_of : str, optional
         Port whose torque selects the level of the line mesh; default: that of the mesh.
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.helical_pair.march import gear_file_march
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> pair = gear_file_march.helical_march_parameters(HelicalGearFile.named("he_2007"))
+    >>> mesh = HelicalMesh(name="stage 1", pinion="input", gear="counter", parameters=pair)
+    >>> mesh.numbers().axes.over  # the pinion drives about -z
+    1.0
     """
 
     name: str

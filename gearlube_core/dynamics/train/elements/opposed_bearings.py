@@ -96,16 +96,17 @@ class _OpposedBearings(NamedTuple):
         return cost
 
     @kernel
-    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
         body, cage, damping, drag = at[0], at[1], at[2], at[3]
         m = _motion(at, s)
         f_1, f_2, f_a, lost = expanded_forces(self.bearings, m, part(memory, 0, N_EXPANSION))
         v = body + RATE
-        ds[v] += f_1
-        ds[v + 1] += f_2
-        ds[v + 2] += f_a
-        of_cage = self.bearings.cage_ratio * cage_torque(m.r1, m.r2, f_1, f_2)
-        ds[v + RZ] += of_cage - memory[_DRAG]
+        ds[v + at[5]] += f_1
+        ds[v + at[6]] += f_2
+        ds[v + at[7]] += f_a
+        ds[v + RZ] += self.bearings.cage_ratio * cage_torque(m.r1, m.r2, f_1, f_2) - memory[_DRAG]
         ds[cage] = self.bearings.cage_ratio * m.speed
         ds[damping] += lost
         ds[drag] += memory[_DRAG] * m.speed
@@ -120,7 +121,7 @@ class _OpposedBearings(NamedTuple):
     ) -> None:
         m = _motion(at, s)
         f_1, f_2, f_a, _ = expanded_forces(self.bearings, m, part(memory, 0, N_EXPANSION))
-        out[first], out[first + 1], out[first + 2] = f_1, f_2, f_a
+        out[first + at[5]], out[first + at[6]], out[first + at[7]] = f_1, f_2, f_a
         out[first + 3] = _drag_near(self, m, oil, part(s, at[4], _N_KEPT))
 
 
@@ -192,10 +193,10 @@ def _renew_drag(self: _OpposedBearings, m: ShaftMotion, oil: LubricantState, kep
 
 @kernel
 def _motion(at: Any, s: Array) -> ShaftMotion:
-    u = at[0]
-    v = u + RATE
+    u, v = at[0], at[0] + RATE
+    r1, r2, axial = at[5], at[6], at[7]
     return ShaftMotion(
-        s[u], s[u + 1], s[u + 2], s[v], s[v + 1], s[v + 2], s[at[1]], s[u + W]
+        s[u + r1], s[u + r2], s[u + axial], s[v + r1], s[v + r2], s[v + axial], s[at[1]], s[u + W]
     )  # fmt: skip
 
 
@@ -226,6 +227,17 @@ class OpposedBearings(Element):
         Lower clamp of that frequency [Hz], 1 to 1e4.
     steps_per_highest_period : int
         Of the train, which decides how long an expansion of the forces serves.
+    axes : tuple of 3 int
+        Which of x, y, z are the two radial axes, the first one turned towards the second, and the
+        axial one: (0, 1, 2) for a shaft along z.
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+    >>> bearing = mohammadpour_2015_axle().bearing
+    >>> pair = OpposedBearings(name="bearings", body="input", bearing=bearing)
+    >>> pair.losses
+    ('bearing_damping', 'bearing_torque')
     """
 
     name: str
@@ -235,6 +247,7 @@ class OpposedBearings(Element):
     orders: Annotated[float, Number("1", 1.0, 1000.0)] = 20.0
     least_frequency: Annotated[float, Number("Hz", 1.0, 1e4)] = 50.0
     steps_per_highest_period: int = 16
+    axes: tuple[int, int, int] = (0, 1, 2)
     on: ClassVar = ("body",)
     angles: ClassVar = ("cage",)
     losses: ClassVar = ("bearing_damping", "bearing_torque")
@@ -264,6 +277,10 @@ class OpposedBearings(Element):
             float(self.least_frequency),
             reach,
         )
+
+    def sizes(self) -> tuple[int, ...]:
+        """Return the axes."""
+        return self.axes
 
     def memory(self) -> Array:
         """Return room for the expansion of the forces and the drag."""

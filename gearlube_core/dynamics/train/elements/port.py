@@ -18,7 +18,9 @@ class _Port(NamedTuple):
     sign: float  # of its torque about z
 
     @inside
-    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
         body, work, given = at
         torque = self.sign * s[given]
         ds[body + RATE + RZ] += torque
@@ -35,6 +37,11 @@ class Port(Element):
     body : str
     sign : float
         +1 where a positive torque acts about +z, -1 about -z.
+
+    Examples
+    --------
+    >>> Port(name="motor", body="rotor", sign=-1.0).numbers().sign
+    -1.0
     """
 
     name: str

@@ -37,7 +37,9 @@ class _Support(NamedTuple):
     c_ay: float
 
     @inside
-    def add_forces(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
         u, lost = at
         v = u + RATE
         x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
@@ -78,6 +80,12 @@ class SpringSupport(Element):
     Notes
     -----
     `support_stiffness` gives the stiffness of two bearings on a shaft, [he_2007 (28)].
+
+    Examples
+    --------
+    >>> springs = SpringSupport(name="bearings", body="input", K_xx=4e8, K_yy=4e8, K_zz=1e8)
+    >>> springs.numbers().K_xx
+    400000000.0
     """
 
     name: str

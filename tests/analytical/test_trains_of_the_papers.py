@@ -1,0 +1,149 @@
+"""The gears of the papers as trains, against their own models."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gearlube_core.dynamics.helical_pair.march import state as pair_state
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle import state as axle_state
+from gearlube_core.dynamics.train.helical_pair import helical_pair
+from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
+from gearlube_core.dynamics.train.model import Train
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+
+PAIR = helical_march_parameters(HelicalGearFile.named("he_2007"))
+RATIO, KELVIN = PAIR.pair.ratio, 333.15
+LOAD = {"input": 226.0, "output": 280.0}
+
+
+def of_pair(train: Train, s: np.ndarray) -> np.ndarray:
+    """Return the train's state of a state of `HelicalPairModel`."""
+    made = train.get_state()[:-2]
+    members = (
+        ("U_P", "TH_P", "PHI_P", "V_P", "OM_P", "W_P", -1.0),
+        ("U_G", "TH_G", "PHI_G", "V_G", "OM_G", "W_G", 1.0),
+    )
+    for i, (u, th, phi, v, om, w, sense) in enumerate(members):
+        at = {name: getattr(pair_state, name) for name in (u, th, phi, v, om, w)}
+        made[12 * i : 12 * i + 3] = s[at[u] : at[u] + 3]
+        made[12 * i + 3 : 12 * i + 5] = s[at[th] : at[th] + 2]
+        made[12 * i + 5] = sense * s[at[phi]]
+        made[12 * i + 6 : 12 * i + 9] = s[at[v] : at[v] + 3]
+        made[12 * i + 9 : 12 * i + 11] = s[at[om] : at[om] + 2]
+        made[12 * i + 11] = sense * s[at[w]]
+    made[24] = s[pair_state.PSI]
+    made[25], made[26] = s[pair_state.PINION_WORK], -s[pair_state.WHEEL_WORK]
+    made[27:30] = s[pair_state.FRICTION : pair_state.FRICTION + 3]
+    made[30:32] = tuple(LOAD.values())
+    made[32] = s[pair_state.LOAD_TORQUE]
+    made[33:] = s[pair_state.REFRESHED :]
+    return made
+
+
+def test_the_pair_in_a_train_is_the_pair_alone_to_the_last_bit():
+    alone = HelicalPairModel(PAIR)
+    speed = 104.7
+    alone.initialise(
+        pinion_speed=speed, pinion_torque=226.0, wheel_torque=280.0, oil_temperature=KELVIN
+    )
+    train = Train(*helical_pair(PAIR), PAIR.oil)
+    train.initialise({"wheel": speed / RATIO}, LOAD, KELVIN)
+    # both search an equilibrium, to 1e-6 of the forces
+    assert train.outputs()["mesh.dte"] == pytest.approx(alone.output("mesh.dte"), rel=1e-5)
+    free = train.modes()[0]
+    assert free[0] < 1e-3 * free[1]
+    assert free[1:] == pytest.approx(alone.natural_frequencies(), rel=1e-5)
+    control = alone.step_control
+    rate = control.highest_frequency * control.steps_per_highest_period
+    train.set_state(np.array([*of_pair(train, alone.state_view), KELVIN, rate]))
+    rng = np.random.default_rng(38)
+    for k in range(120):
+        # torques that part the teeth and turn them over
+        load = {"input": 226.0 * math.cos(0.05 * k), "output": 280.0 * rng.uniform(-1.0, 1.0)}
+        train.step(1e-4, load, KELVIN)
+        alone.step(1e-4, *load.values(), KELVIN)
+        LOAD_NOW = np.array([*load.values()])
+        wanted = of_pair(train, alone.state_view)
+        wanted[30:32] = LOAD_NOW
+        assert np.array_equal(train.get_state()[:-2], wanted), k
+    assert alone.output("mesh.coast_contact") in (0.0, 1.0)
+
+
+def of_axle(train: Train, s: np.ndarray) -> np.ndarray:
+    """Return the train's state of a state of `HypoidAxle`, whose lengths are in micrometres."""
+    made = train.get_state()[:-2]
+    members = (
+        (axle_state.U_P, axle_state.V_P, axle_state.PHI_P, axle_state.W_P),
+        (axle_state.U_G, axle_state.V_G, axle_state.PHI_G, axle_state.W_G),
+    )
+    for i, (u, v, phi, w) in enumerate(members):
+        made[12 * i : 12 * i + 3] = 1e-6 * s[u : u + 3]
+        made[12 * i + 6 : 12 * i + 9] = s[v : v + 3]
+        made[12 * i + 5], made[12 * i + 11] = s[phi], s[w]
+    made[24] = 1e-6 * s[axle_state.X]
+    made[25:27] = s[axle_state.CAGE_P], s[axle_state.CAGE_G]
+    kept = len(train.state_names)
+    made[kept : kept + 2] = 50.0, 178.0
+    made[kept + 2 : kept + 4] = s[axle_state.LOAD_TORQUE], s[axle_state.SIDE]
+    return made
+
+
+@pytest.mark.slow
+def test_the_axle_of_a_list_is_the_axle():
+    given = replace(mohammadpour_2015_axle(), pinion_seal_torque=0.15, wheel_seal_torque=0.3)
+    axle, train = HypoidAxle(given), Train(*hypoid_axle(given), given.oil)
+    kelvin, load = 363.15, {"input": 50.0, "output": 178.0}
+    axle.initialise(pinion_speed=300.0, pinion_torque=50.0, wheel_torque=178.0,
+                    oil_temperature=kelvin)  # fmt: skip
+    train.initialise({"gear": 300.0 / given.mesh.ratio}, load, kelvin)
+    # rates in states about it, teeth parted in some: round-off of micrometres and of sums
+    rng, n = np.random.default_rng(5), axle_state.N_ODE
+    for k in range(60):
+        axle.step(1e-4, *load.values(), kelvin)
+        s = np.array(axle.state_view)
+        s[:n] *= 1.0 + 0.1 * rng.normal(size=n)
+        # the bearings of the gear take the mesh frequency from its own speed
+        s[axle_state.W_G] = s[axle_state.W_P] / given.mesh.ratio
+        s[axle_state.X] = rng.uniform(-120.0, -20.0) if k % 6 == 0 else s[axle_state.X]
+        wanted = of_axle(train, np.concatenate([axle.derivative(s[:n]), s[n:]]))
+        control = train.get_state()[-2:]
+        train.set_state(np.array([*of_axle(train, s), *control]))
+        found = train.rates()
+        for name in ("pinion", "gear"):
+            for one in ("x.rate", "y.rate", "z.rate", "rz.rate"):
+                place = train.state_names.index(f"{name}.{one}")
+                size = max(abs(wanted[place]), 1.0)
+                assert abs(found[place] - wanted[place]) < 1e-9 * size, (k, name, one)
+        place = train.state_names.index("mesh.transmission_error")
+        assert found[place] == pytest.approx(wanted[place], rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.slow
+def test_the_axle_of_a_list_moves_as_the_axle_and_loses_what_it_is_given():
+    given = replace(mohammadpour_2015_axle(), pinion_seal_torque=0.15, churning="boness_1989")
+    axle = HypoidAxle(given)
+    train = Train(*hypoid_axle(given), given.oil, steps_per_highest_period=17)
+    kelvin, wheel = 363.15, 50.0 * given.mesh.ratio
+    axle.initialise(pinion_speed=300.0, pinion_torque=50.0, wheel_torque=wheel,
+                    oil_temperature=kelvin)  # fmt: skip
+    train.initialise({"gear": 84.0}, {"input": 50.0, "output": wheel}, kelvin)
+    rate = 17.0 * axle.step_control.highest_frequency
+    train.set_state(np.array([*of_axle(train, axle.state_view), kelvin, rate]))
+    start, errors = train.energy, []
+    for k in range(200):
+        torque = 50.0 * (1.0 + 0.5 * math.sin(0.1 * k))
+        axle.step(1e-4, torque, wheel, kelvin)
+        train.step(1e-4, {"input": torque, "output": wheel}, kelvin)
+        errors.append((axle.output("mesh.dte"), train.outputs()["mesh.dte"]))
+    alone, listed = np.array(errors).T
+    # bearings are expanded when each has moved, not when either has; 6e-6 was found
+    assert np.max(abs(listed - alone)) < 5e-5 * np.ptp(alone)
+    missing = train.work - sum(train.lost.values()) - (train.energy - start)
+    assert abs(missing) < 1e-5 * 50.0 * 300.0 * 0.02
