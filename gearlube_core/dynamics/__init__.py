@@ -1,1 +1,1 @@
-"""Gear dynamics: hypoid axle, torsional hypoid pair, helical pair."""
+"""Gear dynamics: hypoid axle, torsional hypoid pair, helical pair, trains of elements."""
