@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.hypoid_mesh import HypoidMesh
@@ -38,6 +39,7 @@ def hypoid_axle(parameters: HypoidAxleParameters) -> tuple[list[Body], list[Elem
     mesh = HypoidMesh(
         name="mesh", pinion="pinion", gear="gear", parameters=given, torque_of="input"
     )
+    at_rest = reference_frequency(given.kernel_parameters().mesh, 0.0)
     teeth = float(given.mesh.pinion_teeth), float(given.mesh.gear_teeth)
     bearings = [
         OpposedBearings(
@@ -46,7 +48,7 @@ def hypoid_axle(parameters: HypoidAxleParameters) -> tuple[list[Body], list[Elem
             bearing=bearing,
             torque_loss=given.bearing_torque_loss,
             orders=orders,
-            least_frequency=given.frequency_floor,
+            least_frequency=at_rest,
             steps_per_highest_period=given.steps_per_highest_period,
             axes=axes,
         )
