@@ -259,8 +259,11 @@ def test_bearings_seals_and_churning_of_the_axle_serve_the_helical_pair(bearings
     assert churned == pytest.approx(1e-3 * torque * speed["wheel"], rel=0.01)
 
 
-def test_a_train_goes_on_from_a_saved_state_to_the_last_bit():
+@pytest.mark.parametrize("rollers", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_a_train_goes_on_from_a_saved_state_to_the_last_bit(rollers):
     train = on_bearings((Springs(), Springs()), "palmgren")
+    if rollers:  # whose drag is kept
+        train = on_bearings(mohammadpour_2015_axle().bearings, "zhou_hoeprich_1991")
     train.initialise({"wheel": 100.0}, {"input": 200.0, "output": 240.0}, KELVIN)
     for k in range(5):
         train.step(1e-3, {"input": 200.0 + k, "output": 240.0}, KELVIN)
