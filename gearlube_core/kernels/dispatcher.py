@@ -7,11 +7,14 @@ functions that Python calls become machine code, which saves a third of its comp
 
 from __future__ import annotations
 
+import itertools
+import secrets
 from collections.abc import Callable
 from typing import Any, TypeVar
 
 from numba import types
 from numba.core import config
+from numba.core.bytecode import FunctionIdentity
 from numba.core.compiler import Compiler
 from numba.core.registry import CPUDispatcher
 
@@ -19,6 +22,11 @@ from gearlube_core.kernels.compiled_cache import LinkedCache, SourceCache, cache
 from gearlube_core.kernels.linked_code import LinkedCodeCompiler
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
+
+# numba names the code of functions that are made at run time by a count in each process. Code of
+# two processes on disk then has equal names, and a third process that loads both runs one for the
+# other. A count that begins anywhere keeps them apart.
+FunctionIdentity._unique_ids = itertools.count(secrets.randbits(48))
 
 
 class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
