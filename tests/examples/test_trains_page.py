@@ -21,9 +21,8 @@ def test_the_code_of_the_page_runs(capsys):
     assert 5e-6 < dte < 3e-5
     # 0.5 to 1.2 % of 15.4 kW in each of two meshes, for a millisecond
     assert 0.15 < lost < 0.37
-    for name in ("train", "driven", "braked"):
-        train = space[name]
-        assert abs(train.work - sum(train.lost.values())) < 50.0
+    # the propshaft carries what the motor gives
+    assert space["driven"].outputs()["propshaft.torque"] == pytest.approx(50.0, rel=1e-6)
     before = space["braked"].lost["brake"]
     space["braked"].step(1e-3, space["torques"], 333.15)
     # 5 N.m at the speed of the input, 50 rad/s times the ratio squared

@@ -97,7 +97,7 @@ def each_step(
     element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
 ) -> float:
     """Renew what is kept over one integrator step of `h` [s]; return its cost in steps."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(otherwise=_no_step)
@@ -105,7 +105,7 @@ def after_step(
     element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
 ) -> float:
     """Change what a step of `h` [s] has left, such as filtered loads; the number means nothing."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(otherwise=_nothing)
@@ -116,13 +116,13 @@ def finish(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) 
 @by_class(otherwise=_zero)
 def stored_energy(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
     """Return the elastic energy of the element [J]."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(otherwise=_zero)
 def step_rate(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
     """Return the least number of integrator steps a second that the element asks for now."""
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(otherwise=_smooth)
@@ -133,7 +133,7 @@ def time_to_jump(
 
     Forces jump there, or bend so sharply that a whole step is too long.
     """
-    raise NotImplementedError
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 
 @by_class(otherwise=_no_outputs)

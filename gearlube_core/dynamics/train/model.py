@@ -138,14 +138,14 @@ class Train:
         ConvergenceError
             No static equilibrium is found.
         """
+        before = self._state.copy(), self._temperature, self._least_rate
         self._take(torques, oil_temperature)
-        before = self._state.copy()
         self._state[:] = self._made.state
         self._put(torques)
         try:
             self._rest(speeds)
         except (ConvergenceError, ParameterError):
-            self._state[:] = before
+            self._state[:], self._temperature, self._least_rate = before
             raise
 
     def step(self, h: float, torques: Mapping[str, float], oil_temperature: float) -> None:
@@ -159,15 +159,14 @@ class Train:
             The step cannot be made; the train is then as before.
         """
         check_within("step size", h, 1e-9, 0.1, "s")
+        before, trial, temperature = self._state, self._trial, self._temperature
         self._take(torques, oil_temperature)
-        trial = self._trial
         trial[:] = self._state
-        before = self._state
         self._state = trial
         self._put(torques)
         status = int(self._call(ADVANCE, trial, self._work, h))
         if status != OK:
-            self._state = before
+            self._state, self._temperature = before, temperature
             raise StepError(f"step of {h:g} s refused: {_REFUSED[status]}.")
         self._trial = before
 

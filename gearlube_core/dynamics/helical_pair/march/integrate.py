@@ -52,8 +52,8 @@ TOO_FAST = 3
 # Steps in one communication interval, or their cost: 0.7 s of computing. The unit is a step with
 # as many stations along a line as the line mesh of he_2007 has.
 MAX_STEPS = 150_000
-_STATIONS = 14.0
-_REFRESH_COST, _SOLVED_REFRESH_COST = 1.0, 4.0  # of friction by the formulas and by solved films
+STATIONS = 14.0
+REFRESH_COST, SOLVED_REFRESH_COST = 1.0, 4.0  # of friction by the formulas and by solved films
 # Relative change of the load level that the line mesh follows at once
 LOAD_REACH = 1e-3
 # Of a mesh period: vibration moves the phase in a step by less than the first, in a step as long as
@@ -210,8 +210,8 @@ def advance(
     for i in range(N_STATE):
         stages[i] = s[i]
     at_load = s[LOAD_TORQUE]
-    refresh_cost = _SOLVED_REFRESH_COST if p.film == SOLVED else _REFRESH_COST
-    step_cost = max(1.0, p.motion.flanks.stations / _STATIONS)
+    refresh_cost = SOLVED_REFRESH_COST if p.film == SOLVED else REFRESH_COST
+    step_cost = max(1.0, p.motion.flanks.stations / STATIONS)
     follows = -math.expm1(-h / LOAD_FILTER_TIME)
     cost = 0.0
     for _ in range(steps):

@@ -278,7 +278,7 @@ def refresh_flank(
     lubricant: LubricantState,
     p: MarchConstants,
 ) -> None:
-    """Compute the friction coefficients of one flank anew, `mu` of shape (FLANK_POINTS,)."""
+    """Compute the friction coefficients of one flank again, `mu` of shape (FLANK_POINTS,)."""
     lines = int(p.motion.flanks.lines)
     for line in range(lines):
         slot = POINTS_PER_LINE * pair_slot(view.phase, line, lines)
@@ -289,7 +289,7 @@ def refresh_flank(
 
 @kernel
 def refresh_friction(m: PairMotion, kept: Array, data: Array, lubricant: LubricantState) -> bool:
-    """Compute the friction coefficients that a state keeps anew if they are due; return whether.
+    """Renew the friction coefficients that a state keeps if they are due; return whether.
 
     They are due so many times in a mesh period, and when a flank comes into contact or leaves it.
 

@@ -12,6 +12,9 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     LOAD_FILTER_TIME,
     LOAD_REACH,
+    REFRESH_COST,
+    SOLVED_REFRESH_COST,
+    STATIONS,
     time_to_jump,
 )
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
@@ -44,6 +47,7 @@ from gearlube_core.dynamics.train.element import (
     unseen_turn,
 )
 from gearlube_core.dynamics.train.part import Element
+from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.array_rows import rows
 from gearlube_core.kernels.flat_tuples import tuple_from_array
@@ -53,8 +57,6 @@ from gearlube_core.oil.lubricant import LubricantState
 
 # places of `at` behind both bodies, the relative rotation, and both losses
 _PSI, _HEAT, _DAMPING, _KEPT, _PORT, _LEVELS, _SIZE, _DATA, _DATA_SIZE = range(2, 11)
-_STATIONS = 14.0  # of a line, whose evaluation is the unit of cost
-_REFRESH_COST = 1.0  # of friction by the formulas
 _LEAST_PRESSED = 1e-9  # m
 _TORQUE = 0  # place in the memory: torque on the pinion in the last stage [N.m]
 _TABLE = 1  # torque levels, then density and offset at each, then the pair data
@@ -77,11 +79,11 @@ class _HelicalMesh(NamedTuple):
         level, before = s[at[_KEPT]], data[LEVEL]
         if abs(level - before) > LOAD_REACH * (1.0 + before):
             _follow_level(at, memory, level)
-        cost = max(1.0, p.motion.flanks.stations / _STATIONS)
+        cost = max(1.0, p.motion.flanks.stations / STATIONS)
         if p.friction_form > 0.0:
             kept = part(s, at[_KEPT] + 1, N_FRICTION)
             if refresh_friction(_motion(self, at, s), kept, data, oil):
-                cost += _REFRESH_COST
+                cost += SOLVED_REFRESH_COST if p.film == SOLVED else REFRESH_COST
         return cost
 
     @inside
