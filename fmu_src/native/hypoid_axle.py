@@ -14,9 +14,12 @@ from fmu_src.hypoid_axle import car_axle_in
 from fmu_src.native.model import Exchange, NativeModel, Operation
 from fmu_src.native.parameter_map import (
     AxleSettings,
+    KernelClasses,
     ParameterMap,
     axle_settings,
+    derived_places,
     parameter_map,
+    place_of_each,
     write_packed,
 )
 from fmu_src.object_code import array_at
@@ -114,31 +117,6 @@ _N_SETTINGS = count_floats(AxleSettings)
 _STIFFNESSES = len(get_args(MeshStiffness))
 
 
-class _Classes(NamedTuple):
-    """What the kernels of a model are compiled for."""
-
-    bearing: type[ShaftBearings]
-    law: type[FlankLaw]
-
-
-def _place_of_each(kinds: _Classes) -> Any:
-    """Return `AxleParameters` with the place of each float among the packed ones."""
-    count = count_floats(AxleParameters, *kinds)
-    return tuple_from_array(np.arange(float(count)), AxleParameters, *kinds)
-
-
-def _derived(place: Any, p: AxleParameters) -> frozenset[int]:
-    """Return the places of the packed floats that are written here or by the bearings."""
-    found = {int(place.preload_g), int(place.mesh.modal_damping)}
-    pairs = (p.bearing_p, place.bearing_p, p.preload_p), (p.bearing_g, place.bearing_g, p.preload_g)
-    for bearing, places, preload in pairs:
-        places = flatten(places)
-        written = np.full(places.size, np.nan)
-        write_derived(bearing, preload, written)
-        found |= set(map(int, places[~np.isnan(written)]))
-    return frozenset(found)
-
-
 @kernel
 def _write_parameters(
     parameters: Array,
@@ -200,7 +178,7 @@ def _chosen_mesh(data: Array, at: _Places, work: Array) -> MeshFields:
 
 
 def _entry(
-    kinds: _Classes,
+    kinds: KernelClasses,
     laws: tuple[OilLaws, ...],
     at: _Places,
     n_parameters: int,
@@ -314,7 +292,7 @@ def _mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], lis
 
 
 def _places(found: ParameterMap, mesh: PackedMesh, place: Any) -> _Places:
-    """Return the layout of data and work; `place` is that of `_place_of_each`."""
+    """Return the layout of data and work; `place` is that of `place_of_each`."""
     ends = np.cumsum([array.size for array in found.arrays]).tolist()
     n_parameters = flatten(place).size
     levels = ends[3] + n_parameters
@@ -374,9 +352,9 @@ def native_model(definition: Definition) -> NativeModel:
         return np.concatenate([flatten(one.kernel_parameters()), flatten(axle_settings(one))])
 
     p = by_default.kernel_parameters()
-    kinds = _Classes(type(p.bearing_p), type(p.flank_law))
-    place = _place_of_each(kinds)
-    found = parameter_map(definition.variables, pack, _derived(place, p))
+    kinds = KernelClasses(type(p.bearing_p), type(p.flank_law))
+    place = place_of_each(kinds)
+    found = parameter_map(definition.variables, pack, derived_places(place, p))
     packed_mesh, series, windows = _mesh_data(by_default)
     at = _places(found, packed_mesh, place)
     unknown = tuple_from_array(np.full(at.settings, np.nan), AxleParameters, *kinds)

@@ -10,13 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
 from fmu_src.definition import Value
 from fmu_src.variable import Variable
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import ShaftBearings, write_derived
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     HypoidAxleParameters,
@@ -24,7 +26,9 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
     Radii,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.friction.thermal_eyring_data import PRESSURES
+from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 
 Pack = Callable[[Mapping[str, Value]], Array]  # parameters by `Variable.argument` -> packed floats
@@ -189,3 +193,28 @@ def write_packed(
                 out[i] = rows[row + i]
     for k in range(numbers.size // 2):
         out[int(numbers[2 * k])] = parameters[int(numbers[2 * k + 1])]
+
+
+class KernelClasses(NamedTuple):
+    """What the kernels of a model are compiled for."""
+
+    bearing: type[ShaftBearings]
+    law: type[FlankLaw]
+
+
+def place_of_each(kinds: KernelClasses) -> Any:
+    """Return `AxleParameters` with the place of each float among the packed ones."""
+    count = count_floats(AxleParameters, *kinds)
+    return tuple_from_array(np.arange(float(count)), AxleParameters, *kinds)
+
+
+def derived_places(place: Any, p: AxleParameters) -> frozenset[int]:
+    """Return the places of the packed floats that are written here or by the bearings."""
+    found = {int(place.preload_g), int(place.mesh.modal_damping)}
+    pairs = (p.bearing_p, place.bearing_p, p.preload_p), (p.bearing_g, place.bearing_g, p.preload_g)
+    for bearing, places, preload in pairs:
+        places = flatten(places)
+        written = np.full(places.size, np.nan)
+        write_derived(bearing, preload, written)
+        found |= set(map(int, places[~np.isnan(written)]))
+    return frozenset(found)

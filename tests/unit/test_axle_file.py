@@ -3,26 +3,22 @@
 import math
 import re
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import reduce
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
-from drivetrain.axle_file.section import ModelSection
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError, TableError
-from gearlube_core.input_file.field_notes import Declared, field_notes
+from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.netcdf import write_mesh_table
-from gearlube_core.number import Number
 from tests.helpers.axle_files import BARE, MESH, car_axle
 from tests.helpers.each import each
 
@@ -388,27 +384,3 @@ def test_a_mesh_table_lies_beside_the_file_and_gives_the_final_drive(tmp_path, m
     path.write_text('[gear_set]\nmesh_table = "none"\n')
     with pytest.raises(TableError, match=r"No mesh table is called 'none'.*ends in \.nc"):
         read_axle(path)
-
-
-@dataclass(frozen=True)
-class Arm:
-    """A model with a number, for the section below."""
-
-    length: Annotated[float, Number("m", 1e-3, 0.2)]
-    parts: Annotated[int, Number("1", 2, 9)]
-
-
-class OfArm(ModelSection):
-    """A section whose limits are those that the model declares."""
-
-    length_mm: Annotated[float, Declared(Arm, "length_mm")] | None = None
-    pieces: Annotated[int, Declared(Arm, "pieces", "parts")] | None = None
-
-
-@pytest.mark.parametrize(("field", "low", "high"), [("length_mm", 1.0, 200.0), ("pieces", 2, 9)])
-def test_limits_of_a_field_are_those_of_the_number_of_the_model_in_its_unit(field, low, high):
-    assert field_notes(OfArm)[field].limits == f"{low:g} to {high:g}"
-    assert [getattr(OfArm(**{field: end}), field) for end in (low, high)] == [low, high]
-    for outside in (low - 1, high + 1, math.nan, "3", True):
-        with pytest.raises(ValidationError):
-            OfArm(**{field: outside})
