@@ -296,6 +296,8 @@ def test_what_cannot_be_a_train_is_named():
         train.initialise({"engine": 1.0}, {"motor": 0.0, "moter": 0.0}, KELVIN)
     with pytest.raises(ParameterError, match="speeds must name bodies of the train, got 'wheel'"):
         train.initialise({"wheel": 1.0}, {"motor": 0.0}, KELVIN)
+    with pytest.raises(ParameterError, match=r"fit together .* apart\. Give one of them"):
+        train.initialise({"engine": 1.0, "load": 2.0}, {"motor": 0.0}, KELVIN)
     train.initialise({"engine": 1.0}, {"motor": 0.0}, KELVIN)
     saved = train.get_state()
     with pytest.raises(StepError, match="turns faster than"):

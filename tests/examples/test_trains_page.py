@@ -13,7 +13,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "trains.md"
 
 @pytest.mark.slow
 def test_the_code_of_the_page_runs(capsys):
-    space: dict[str, Any] = {}
+    space: dict[str, Any] = {"__name__": "__main__"}  # as a script of its own
     for block in re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL):
         exec(block, space)  # own text
     dte, lost = map(float, capsys.readouterr().out.split())

@@ -42,6 +42,7 @@ from gearlube_core.oil.lubricant import Lubricant
 
 _DIFFERENCE = 1e-8  # m and rad, of coordinates in a linearisation
 _SETTLED = 1e-6  # of the largest force of a member at rest
+_SAME_SPEED = 1e-6  # of the largest speed
 _PASSES = 4  # friction of films depends on the loads, weakly
 _LEAST_RATE = 1e3  # integrator steps a second, of a train without a mode that vibrates
 _REFUSED = {
@@ -293,6 +294,12 @@ class Train:
             raise ParameterError(
                 f"speeds must fix all bodies that turn, got those of {', '.join(speeds)}, which "
                 f"leave {turning.size - rank} free. Give more, or connect the bodies."
+            )
+        apart = np.abs(rows @ found - np.concatenate(wanted)).max(initial=0.0)
+        if apart > _SAME_SPEED * max(1.0, *map(abs, speeds.values())):
+            raise ParameterError(
+                "speeds must fit together through meshes and shafts, got "
+                f"{dict(speeds)}, which are {apart:.3g} rad/s apart. Give one of them."
             )
         out = np.zeros(len(names))
         out[turning] = found
