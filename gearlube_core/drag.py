@@ -22,11 +22,19 @@ SealMaterial = Literal["fkm", "nbr"]
 _PER_MILLIMETRE = {"fkm": 3.737e-3, "nbr": 2.429e-3}
 
 # as a user gives them, with limits and units
-RingDiameter = Annotated[float, Number("m", 0.01, 3.0, "165 mm is 0.165 m.")]
-RingWidth = Annotated[float, Number("m", 1e-3, 1.0, "30 mm is 0.03 m.")]
-Immersion = Annotated[float, Number("m", 0.0, 3.0, "40 mm is 0.04 m.")]
-OilVolume = Annotated[float, Number("m3", 1e-5, 1.0, "1.2 l is 1.2e-3 m3.")]
-SealTorque = Annotated[float, Number("N.m", 0.0, 100.0, "0.15 N.m is usual.")]
+RingDiameter = Annotated[
+    float, Number("m", 0.01, 3.0, "165 mm is 0.165 m.", "Outside diameter", shown="mm")
+]
+RingWidth = Annotated[
+    float, Number("m", 1e-3, 1.0, "30 mm is 0.03 m.", "Width of the teeth", shown="mm")
+]
+Immersion = Annotated[
+    float, Number("m", 0.0, 3.0, "40 mm is 0.04 m.", "Depth of the lowest tooth", shown="mm")
+]
+OilVolume = Annotated[
+    float, Number("m3", 1e-5, 1.0, "1.2 l is 1.2e-3 m3.", "Volume of the oil", shown="l")
+]
+SealTorque = Annotated[float, Number("N.m", 0.0, 100.0, "0.15 N.m is usual.", "Torque of the seal")]
 
 
 class ChurningConstants(NamedTuple):

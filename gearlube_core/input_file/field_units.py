@@ -33,6 +33,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_n_m": "N.m",
     "_n_m_per_rad": "N.m/rad",
     "_n_m_s_per_rad": "N.m.s/rad",
+    "_n_s_per_m": "N.s/m",
     "_n_per_mm": "N/mm",
     "_n_per_um": "N/um",
     "_kn_per_rad": "kN/rad",
@@ -64,6 +65,7 @@ _SLIPS: dict[str, tuple[tuple[str, float], ...]] = {
     "kN": (("N", 1e-3), ("MN", 1e3)),
     "N.m": (("kN.m", 1e3), ("N.mm", 1e-3)),
     "N/mm": (("N/m", 1e-3), ("kN/mm", 1e3)),
+    "N.s/m": (("N.s/mm", 1e3),),
     "N/um": (("N/m", 1e-6), ("N/mm", 1e-3), ("kN/um", 1e3)),
     "N.m/rad": (("N.m/deg", 180.0 / math.pi), ("kN.m/rad", 1e3), ("N.mm/rad", 1e-3)),
     "N.m.s/rad": (("N.m.s/deg", 180.0 / math.pi), ("N.mm.s/rad", 1e-3)),
@@ -89,6 +91,8 @@ _POWERS = {
     "GPa": 9,
     "N/mm": 3,
     "N/um": 6,
+    "kN/rad": 3,
+    "kN.m/rad": 3,
     "1/GPa": -9,
 }
 _SI_WORDS = {"stiffness_constant": "N/m^n"}  # units that no ending writes

@@ -164,10 +164,15 @@ class InputFile(Section):
         return []
 
     @classmethod
+    def file_fields(cls, data: Mapping[str, Any]) -> tuple[str, ...]:
+        """Return the dotted fields of these data that name a file, or what ships."""
+        return cls.files
+
+    @classmethod
     def _places(cls, data: dict[str, Any], folder: Path) -> dict[str, Path]:
         """Return the paths of files that data name, by field; write them into the data."""
         places = {}
-        for field in cls.files:
+        for field in cls.file_fields(data):
             *sections, key = field.split(".")
             section: Any = data
             for part in sections:

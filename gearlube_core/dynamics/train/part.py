@@ -12,8 +12,15 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.number import Number, check_fields
+from gearlube_core.part import Kind
 
 NO_NUMBERS: Array = np.empty(0)
+ELEMENTS: Kind[Any] = Kind(
+    what="element",
+    group="gearlube.elements",
+    package="gearlube_core.dynamics.train.elements",
+    files="*",
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,9 +49,11 @@ class Body:
     """
 
     name: str
-    mass: Annotated[float, Number("kg", 1e-4, 1e6)]
-    inertia: Annotated[float, Number("kg m2", 1e-9, 1e6)]
-    polar_inertia: Annotated[float, Number("kg m2", 1e-9, 1e6)]
+    mass: Annotated[float, Number("kg", 1e-4, 1e6, text="Mass")]
+    inertia: Annotated[float, Number("kg.m2", 1e-9, 1e6, text="Moment of inertia about a diameter")]
+    polar_inertia: Annotated[
+        float, Number("kg.m2", 1e-9, 1e6, text="Moment of inertia about the axis")
+    ]
     held: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -66,8 +75,12 @@ class Body:
         return np.array([0.0 if name in self.held else 1.0 / one for name, one in pairs])
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Element(ABC):
     """What acts on bodies: derive a frozen dataclass, and give it a NamedTuple of kernels.
+
+    One with a `kind`, its name in files, registers itself. Its fields are then the fields of the
+    file: a `Number` with its unit, a text, a part such as a bearing.
 
     Examples
     --------
@@ -77,6 +90,7 @@ class Element(ABC):
     """
 
     name: str
+    kind: ClassVar[str] = ""
     on: ClassVar[tuple[str, ...]]  # fields that name the bodies
     beside: ClassVar[tuple[str, ...]] = ()  # fields that name other elements, or None
     states: ClassVar[tuple[str, ...]] = ()  # own integrated states that stay in steady turning
@@ -84,6 +98,10 @@ class Element(ABC):
     works: ClassVar[tuple[str, ...]] = ()  # energies put into the train
     losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
     outputs: ClassVar[tuple[str, ...]] = ()
+
+    def __init_subclass__(cls) -> None:
+        if kind := cls.__dict__.get("kind"):
+            ELEMENTS.add(cls, kind)
 
     @abstractmethod
     def numbers(self) -> tuple[Any, ...]:

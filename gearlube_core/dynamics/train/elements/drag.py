@@ -93,6 +93,7 @@ class Seal(_Brake):
     name: str
     body: str
     torque: SealTorque
+    kind: ClassVar = "seal"
     losses: ClassVar = ("seals",)
 
     def __post_init__(self) -> None:
@@ -134,6 +135,7 @@ class Churning(_Brake):
     ring_width: RingWidth
     immersion: Immersion
     oil_volume: OilVolume
+    kind: ClassVar = "churning"
     losses: ClassVar = ("churning",)
 
     def __post_init__(self) -> None:

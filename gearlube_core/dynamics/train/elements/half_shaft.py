@@ -72,8 +72,11 @@ class HalfShaft(Element):
     name: str
     first: str
     second: str
-    stiffness: Annotated[float, Number("N.m/rad", 1.0, 1e9)]
-    damping: Annotated[float, Number("N.m s/rad", 0.0, 1e6)] = 0.0
+    stiffness: Annotated[float, Number("N.m/rad", 1.0, 1e9, text="Torque per twist")]
+    damping: Annotated[
+        float, Number("N.m.s/rad", 0.0, 1e6, text="Torque per difference of the speeds")
+    ] = 0.0
+    kind: ClassVar = "half_shaft"
     on: ClassVar = ("first", "second")
     states: ClassVar = ("twist",)
     losses: ClassVar = ("shaft_damping",)

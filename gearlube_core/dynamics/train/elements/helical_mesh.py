@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -53,10 +53,21 @@ from gearlube_core.kernels.array_rows import rows
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
 # places of `at` behind both bodies, the relative rotation, and both losses
 _PSI, _HEAT, _DAMPING, _KEPT, _PORT, _LEVELS, _SIZE, _DATA, _DATA_SIZE = range(2, 11)
+_ANGLE = Number(
+    "rad",
+    -7.0,
+    7.0,
+    text="Direction from the pinion's axis to the gear's, from x towards y",
+    shown="deg",
+)
+_ARM = Number(
+    "m", -10.0, 10.0, text="Place of mid-face along z, from the centre of the body", shown="mm"
+)
 _LEAST_PRESSED = 1e-9  # m
 _TORQUE = 0  # place in the memory: torque on the pinion in the last stage [N.m]
 _TABLE = 1  # torque levels, then density and offset at each, then the pair data
@@ -245,12 +256,13 @@ class HelicalMesh(Element):
     pinion: str
     gear: str
     parameters: HelicalMarchParameters
-    angle: float = math.pi / 2.0
+    angle: Annotated[float, _ANGLE] = math.pi / 2.0
     drives_forward: bool = False
     right_hand: bool = False
-    pinion_arm: float = 0.0
-    gear_arm: float = 0.0
+    pinion_arm: Annotated[float, _ARM] = 0.0
+    gear_arm: Annotated[float, _ARM] = 0.0
     torque_of: str | None = None
+    kind: ClassVar = "helical_mesh"
     on: ClassVar = ("pinion", "gear")
     beside: ClassVar = ("torque_of",)
     states: ClassVar = ("rotation",)
@@ -258,6 +270,9 @@ class HelicalMesh(Element):
     outputs: ClassVar = (
         "dte", "force.x", "force.y", "force.z", "friction", "tilt", "load_torque",
     )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     def sizes(self) -> tuple[int, ...]:
         """Return the sizes of the line mesh."""

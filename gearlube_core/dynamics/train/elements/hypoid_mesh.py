@@ -281,6 +281,7 @@ class HypoidMesh(Element):
     gear: str
     parameters: HypoidAxleParameters
     torque_of: str | None = None
+    kind: ClassVar = "hypoid_mesh"
     on: ClassVar = ("pinion", "gear")
     beside: ClassVar = ("torque_of",)
     states: ClassVar = ("transmission_error",)

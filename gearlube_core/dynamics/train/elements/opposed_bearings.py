@@ -244,10 +244,15 @@ class OpposedBearings(Element):
     body: str
     bearing: Bearing
     torque_loss: str = "none"
-    orders: Annotated[float, Number("1", 1.0, 1000.0)] = 20.0
-    least_frequency: Annotated[float, Number("Hz", 1.0, 1e4)] = 50.0
+    orders: Annotated[
+        float, Number("1", 1.0, 1000.0, text="Cycles in a turn for the hysteresis of the rollers")
+    ] = 20.0
+    least_frequency: Annotated[
+        float, Number("Hz", 1.0, 1e4, text="Lower clamp of the frequency of these cycles")
+    ] = 50.0
     steps_per_highest_period: int = 16
     axes: tuple[int, int, int] = (0, 1, 2)
+    kind: ClassVar = "opposed_bearings"
     on: ClassVar = ("body",)
     angles: ClassVar = ("cage",)
     losses: ClassVar = ("bearing_damping", "bearing_torque")

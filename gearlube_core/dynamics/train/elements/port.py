@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, W
 from gearlube_core.dynamics.train.part import Element
+from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.inlining import inside
+from gearlube_core.number import Number, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
 
@@ -46,9 +48,17 @@ class Port(Element):
 
     name: str
     body: str
-    sign: float = 1.0
+    sign: Annotated[
+        float, Number("1", -1.0, 1.0, text="1: a positive torque acts about +z, -1: about -z")
+    ] = 1.0
+    kind: ClassVar = "port"
     on: ClassVar = ("body",)
     works: ClassVar = ("work",)
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if abs(self.sign) != 1.0:
+            raise ParameterError(f"sign of {self.name} must be 1 or -1, got {self.sign:g}.")
 
     def numbers(self) -> _Port:
         """Return the constants of the kernels."""

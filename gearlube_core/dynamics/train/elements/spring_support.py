@@ -15,11 +15,11 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
-_STIFFNESS = Number("N/m", 0.0, 1e13)
-_TILTING = Number("N.m/rad", 0.0, 1e10)
-_COUPLING = Number("N/rad", -1e12, 1e12)
-_DAMPING = Number("N s/m", 0.0, 1e9)
-_TILT_DAMPING = Number("N.m s/rad", 0.0, 1e9)
+_STIFFNESS = Number("N/m", 0.0, 1e13, text="Stiffness of a displacement", shown="N/um")
+_TILTING = Number("N.m/rad", 0.0, 1e10, text="Stiffness of a tilt")
+_COUPLING = Number("N/rad", -1e12, 1e12, text="Force per tilt", shown="kN/rad")
+_DAMPING = Number("N.s/m", 0.0, 1e9, text="Damping of a displacement")
+_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e9, text="Damping of a tilt")
 
 
 class _Support(NamedTuple):
@@ -90,6 +90,7 @@ class SpringSupport(Element):
 
     name: str
     body: str
+    kind: ClassVar = "spring_support"
     K_xx: Annotated[float, _STIFFNESS] = 0.0
     K_yy: Annotated[float, _STIFFNESS] = 0.0
     K_zz: Annotated[float, _STIFFNESS] = 0.0

@@ -1,0 +1,1 @@
+"""Trains from files: bodies and elements as a user writes them."""

@@ -1,0 +1,185 @@
+"""The section of a body or an element in a train file: its fields are those of its dataclass.
+
+A `Number` becomes a field with its unit, limits and text; a text, a choice, a list or a truth value
+stays what it is. A part that is read from other files, such as the gears of a mesh, has a section
+of its own in READERS.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, dataclass, fields, replace
+from functools import cache
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Generic, Literal, TypeVar, get_type_hints
+
+from pydantic import Field, ValidationError, create_model
+
+from drivetrain.axle_file.bearing_section import BearingSection
+from drivetrain.axle_file.read_axle import read_axle
+from gearlube_core.bearings.bearing_type import Bearing
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.parameters import (
+    Film,
+    Friction,
+    HelicalMarchParameters,
+)
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.errors import GearLubeError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.input_file.field_notes import Declared, field_notes, sentence
+from gearlube_core.input_file.field_units import attribute_of, field_value, si_value, unit_ending
+from gearlube_core.input_file.input_file import Section
+from gearlube_core.mesh_table.line_mesh_file import named_line_mesh, read_line_mesh
+from gearlube_core.number import numbers_of
+
+Text = Annotated[str, Field(min_length=1)]
+_Value = TypeVar("_Value")
+_Part = TypeVar("_Part", Body, Element)
+
+
+class HelicalGears(Section):
+    """Gears of a helical mesh."""
+
+    files: ClassVar[tuple[str, ...]] = ("gear_file", "line_mesh")
+
+    gear_file: Text = Field(
+        description="Gear file (.toml) of the pair, or the name of a shipped one"
+    )
+    line_mesh: Text | None = Field(
+        default=None,
+        description="Line mesh (.nc) of `gearlube helical`, or the name of a shipped pair that has "
+        "one; left out: the stiffness of ISO 6336-1",
+    )
+    friction: Friction | None = Field(default=None, description="Friction of the flanks; film")
+    film: Film | None = Field(
+        default=None, description="Films by formulas or solved films; left out: as in the gear file"
+    )
+
+    def read(self) -> HelicalMarchParameters:
+        """Return gears, stiffness and friction."""
+        mesh = None
+        if self.line_mesh is not None:
+            path = Path(self.line_mesh)
+            mesh = read_line_mesh(path) if path.suffix else named_line_mesh(self.line_mesh)
+        options = self.model_dump(include={"friction", "film"}, exclude_none=True)
+        found = helical_march_parameters(HelicalGearFile.given(self.gear_file), line_mesh=mesh)
+        return replace(found, **options)
+
+
+class HypoidGears(Section):
+    """Gears of a hypoid mesh."""
+
+    files: ClassVar[tuple[str, ...]] = ("axle_file",)
+
+    axle_file: Text = Field(
+        description="Axle file (.toml) whose mesh, friction and films are taken, or the name of a "
+        "shipped one"
+    )
+
+    def read(self) -> HypoidAxleParameters:
+        """Return mesh table, damping, friction and films."""
+        return read_axle(self.axle_file).axle
+
+
+@dataclass(frozen=True)
+class _Reader(Generic[_Value]):
+    """How a field that is a part is read.
+
+    Its fields stand in the section of the element itself, or, `nested`, in one of their own.
+    """
+
+    section: type[Section]
+    read: Callable[[Any], _Value]
+    nested: bool = False
+
+
+READERS: Mapping[type, _Reader[Any]] = {
+    HelicalMarchParameters: _Reader(HelicalGears, HelicalGears.read),
+    HypoidAxleParameters: _Reader(HypoidGears, HypoidGears.read),
+    Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
+}
+_WORDS = {
+    "held": "Coordinates that do not move, among x, y, z, rx, ry, rz",
+    "torque_of": "Port whose torque chooses the level of the mesh's table; left out: the torque "
+    "of the mesh itself",
+    "drives_forward": "Whether the pinion drives about +z; else about -z",
+    "right_hand": "Whether the pinion's teeth are right-handed",
+    "torque_loss": "Law of the drag, as model.bearing_torque_loss of an axle file",
+    "axes": "Places of the two radial axes and the axial one among x, y, z, counted from 0",
+    "steps_per_highest_period": "That of the train, which decides how long an expansion of the "
+    "bearing's forces serves",
+    "law": "Law of the churning loss",
+}
+
+
+def _section_of(kind: Any) -> type[Section]:
+    hints: dict[str, Any] = get_type_hints(kind)
+    numbers = numbers_of(kind)
+    bodies = getattr(kind, "on", ())
+    model: dict[str, Any] = {}
+    base: type[Section] = Section
+    for field in fields(kind):
+        name, hint, default = field.name, hints[field.name], field.default
+        given: dict[str, Any] = {} if default is MISSING else {"default": default}
+        if name == "name":
+            continue
+        if name in numbers:
+            number = numbers[name]
+            key = name + unit_ending(number.shown or number.unit)
+            if default is not MISSING:
+                given["default"] = field_value(key, default)
+            declared: Any = Annotated[hint, Declared(kind, key, name)]
+            model[key] = declared, Field(description=number.text, **given)
+        elif hint in READERS and not READERS[hint].nested:
+            base = READERS[hint].section
+        elif hint in READERS:
+            model[name] = READERS[hint].section, Field(description="See the axle file")
+        else:
+            text = f"Name of the body: {name}" if name in bodies else _WORDS.get(name, name)
+            if "tuple" in str(hint):
+                given["strict"] = False
+            model[name] = hint, Field(description=text, **given)
+    if issubclass(kind, Element):
+        model["kind"] = Literal[kind.kind], Field(description="Kind of the element")
+    return create_model(kind.__name__, __base__=base, **model)
+
+
+section_of: Callable[[Any], type[Section]] = cache(_section_of)  # of a body or a kind of element
+
+
+def read_part(
+    kind: type[_Part], name: str, data: Mapping[str, Any], head: str
+) -> tuple[_Part | None, list[str]]:
+    """Return a body or an element of a file's section, or None and what is wrong with it.
+
+    `head` names the section in these sentences.
+    """
+    section = section_of(kind)
+    try:
+        given = section.model_validate(dict(data))
+    except ValidationError as reason:
+        notes = field_notes(section)
+        return None, [f"{head}.{sentence(error, notes)}" for error in reason.errors()]
+    hints, numbers = get_type_hints(kind), numbers_of(kind)
+    keys = {attribute_of(key): key for key in section.model_fields}
+    found: dict[str, Any] = {"name": name}
+    try:
+        for field in fields(kind):
+            reader = READERS.get(hints[field.name])
+            key = keys.get(field.name, field.name)
+            if field.name in numbers:
+                found[field.name] = si_value(key, getattr(given, key))
+            elif reader is not None:
+                found[field.name] = reader.read(getattr(given, key) if reader.nested else given)
+            elif field.name != "name":
+                found[field.name] = getattr(given, key)
+        return kind(**found), []
+    except GearLubeError as reason:
+        return None, [f"{head}: {reason}"]
+
+
+def files_in(kind: type[Element]) -> tuple[str, ...]:
+    """Return the fields of an element that name files."""
+    return getattr(section_of(kind), "files", ())

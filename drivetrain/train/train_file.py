@@ -1,0 +1,212 @@
+"""The train file: a drivetrain as a list of bodies and elements."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import Field
+
+from drivetrain.train.part_section import files_in, read_part
+from gearlube_core.dynamics.train.elements.port import Port
+from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
+from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.oil.oil_file import Temperature, read_oil
+from gearlube_core.units import ZERO_CELSIUS, rpm_to_rads
+
+_NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
+_RESERVED = ("oil", "range", "energy", "efficiency", "start")  # words of the FMU's own variables
+_TOLD = 20  # wrong fields in an error
+Text = Annotated[str, Field(min_length=1)]
+_FASTEST = 1e5  # 1/min
+Speed = Annotated[float, Field(ge=-_FASTEST, le=_FASTEST, allow_inf_nan=False)]
+Torque = Annotated[float, Field(ge=-1e7, le=1e7, allow_inf_nan=False)]
+
+
+class OilSection(Section):
+    """The oil of all elements."""
+
+    name: Text = Field(description="Name of a shipped oil, or an oil file (.toml)")
+
+
+class StartSection(Section):
+    """The state at the start: a static equilibrium, turning."""
+
+    oil_temperature_degc: Temperature = Field(default=60.0, description="Temperature of the oil")
+    speed_rpm: dict[str, Speed] = Field(
+        description="Speeds about z of as many bodies as can turn independently, by their names; "
+        "all others follow"
+    )
+    torque_n_m: dict[str, Torque] = Field(
+        description="Torques of the ports by their names; those left out are 0. The first body "
+        "with a speed bears what they leave"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrainCase:
+    """A train with what it starts from.
+
+    Parameters
+    ----------
+    name : str
+    train : Train
+    speeds : mapping
+        Of bodies [rad/s].
+    torques : mapping
+        Of all ports [N.m].
+    oil_temperature : float
+        [K]
+    """
+
+    name: str
+    train: Train
+    speeds: Mapping[str, float]
+    torques: Mapping[str, float]
+    oil_temperature: float
+
+    def start(self) -> Train:
+        """Return the train in static equilibrium, turning.
+
+        Raises
+        ------
+        ParameterError, ConvergenceError
+            See `Train.initialise`.
+        """
+        self.train.initialise(self.speeds, self.torques, self.oil_temperature)
+        return self.train
+
+
+class TrainFile(InputFile):
+    """Train file: the bodies of a drivetrain and the elements that act on them.
+
+    Examples
+    --------
+    >>> TrainFile.shipped()
+    ('e_axle',)
+    >>> axle = TrainFile.named("e_axle").case().start()
+    >>> round(axle.state("motor.rz.rate"), 1)  # rad/s
+    -837.8
+    """
+
+    package: ClassVar[str] = "drivetrain.train"
+    title: ClassVar[str] = "train file"
+    files: ClassVar[tuple[str, ...]] = ("oil.name",)
+
+    name: Text = Field(description="Name of the drivetrain; that of its FMU without signs")
+    source: Text | None = Field(default=None, description="Where the numbers come from")
+    steps_per_highest_period: Annotated[int, Field(ge=6, le=4096)] = Field(
+        default=16, description="Integrator steps per period of the highest mode"
+    )
+    oil: OilSection
+    start: StartSection
+    bodies: dict[str, dict[str, Any]] = Field(description="The bodies by name, each a section")
+    elements: dict[str, dict[str, Any]] = Field(
+        description="The elements by name, each a section with its kind; their order is that of "
+        "the sums"
+    )
+
+    @classmethod
+    def from_data(cls, data: dict[str, Any], where: str) -> Self:
+        """Return the file of parsed TOML `data`, checked with all that it names.
+
+        Raises
+        ------
+        ParameterError
+            Names every field that is wrong.
+        """
+        found = super().from_data(data, where)
+        wrong = found._parts()[2]
+        if wrong:
+            more = f" And {len(wrong) - _TOLD} more." if len(wrong) > _TOLD else ""
+            raise ParameterError(
+                f"{where} has {len(wrong)} wrong field(s). {' '.join(wrong[:_TOLD])}{more}"
+            )
+        try:
+            found.case()
+        except GearLubeError as reason:
+            raise ParameterError(f"{where}: {reason}") from None
+        return found
+
+    @classmethod
+    def file_fields(cls, data: Mapping[str, Any]) -> tuple[str, ...]:
+        """Return the dotted fields that name a file, those of the elements too."""
+        found, elements, known = list(cls.files), data.get("elements"), ELEMENTS.known()
+        for name, given in elements.items() if isinstance(elements, dict) else ():
+            kind = given.get("kind") if isinstance(given, dict) else None
+            if isinstance(kind, str) and kind in known and "." not in name:
+                found += [f"elements.{name}.{key}" for key in files_in(known[kind])]
+        return tuple(found)
+
+    def _parts(self) -> tuple[list[Body], list[Element], list[str]]:
+        """Return bodies and elements, and what is wrong with them, in sentences."""
+        wrong = [
+            f"{section}.{name} must have a name of letters, digits and _, at most 63, that is "
+            f"none of {', '.join(_RESERVED)}."
+            for section in ("bodies", "elements")
+            for name in getattr(self, section)
+            if not _NAME.fullmatch(name) or name in _RESERVED
+        ]
+        wrong += [
+            f"elements.{name} has the name of a body. Give it a name of its own."
+            for name in self.elements
+            if name in self.bodies
+        ]
+        bodies, elements = [], []
+        for name, given in self.bodies.items():
+            body, problems = read_part(Body, name, given, f"bodies.{name}")
+            wrong += problems
+            bodies += [body] if body else []
+        for name, given in self.elements.items():
+            kind = given.get("kind", "")
+            known = ELEMENTS.known(str(kind))
+            if kind not in known:
+                wrong.append(
+                    f"elements.{name}.kind must be one of {', '.join(known)}, got {kind!r}. One "
+                    f"of your own must be imported first, or be an entry point of {ELEMENTS.group}."
+                )
+                continue
+            element, problems = read_part(known[kind], name, given, f"elements.{name}")
+            wrong += problems
+            elements += [element] if element else []
+        return bodies, elements, wrong
+
+    def case(self) -> TrainCase:
+        """Return the train with what it starts from.
+
+        Raises
+        ------
+        GearLubeError
+            A file that an element names is wrong, or the parts do not fit together.
+        """
+        bodies, elements, _ = self._parts()
+        ports = [one.name for one in elements if isinstance(one, Port)]
+        for field, names, there in (
+            ("start.torque_n_m", self.start.torque_n_m, ports),
+            ("start.speed_rpm", self.start.speed_rpm, list(self.bodies)),
+        ):
+            for name in names:
+                if name not in there:
+                    known = ", ".join(there) or "none"
+                    raise ParameterError(
+                        f"{field}.{name} names nothing of the train. There are: {known}."
+                    )
+        if not self.start.speed_rpm:
+            raise ParameterError("start.speed_rpm must name a body with its speed, got none.")
+        train = Train(
+            bodies,
+            elements,
+            read_oil(self.oil.name).lubricant,
+            steps_per_highest_period=self.steps_per_highest_period,
+        )
+        return TrainCase(
+            name=self.name,
+            train=train,
+            speeds={name: rpm_to_rads(one) for name, one in self.start.speed_rpm.items()},
+            torques={name: self.start.torque_n_m.get(name, 0.0) for name in ports},
+            oil_temperature=self.start.oil_temperature_degc + ZERO_CELSIUS,
+        )
