@@ -14,9 +14,12 @@ from docs.measured.make import lines_rows
 from docs.page import Page
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
+from drivetrain.train.part_section import section_of
+from drivetrain.train.train_file import TrainFile
 from fmu_src.axle_arguments import start_arguments
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.bearings.bearing_file import BearingFile
+from gearlube_core.dynamics.train.part import ELEMENTS, Body
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.case.rough_case import RoughCase
@@ -50,6 +53,7 @@ PAGES: dict[str, tuple[type[InputFile], ...]] = {
     "measured_file": (MeasuredFile,),
     "oil_file": (OilFile,),
     "problem_file": (OptimisationFile,),
+    "train_file": (TrainFile,),
 }
 _TABLE = re.compile(r"(?<=^### )(.*\n\n\| Field \| Unit \|.*\n.*\n)(?:\|.*\n)+", re.MULTILINE)
 _CLASS = "by class"
@@ -95,7 +99,7 @@ def refreshed(name: str) -> Page:
     else:
         text, *chapters = re.split(r"^(?=## Fields)", page.text, flags=re.MULTILINE)
     for model, chapter in zip(PAGES[name], chapters, strict=True):
-        notes = field_notes(model)
+        notes = field_notes(model) | _OTHER_NOTES.get(name, dict)()
         text += _TABLE.sub(lambda found: found[1] + _rows(found[1], notes, defaults), chapter)  # noqa: B023
     page.text = text
     if name in _OTHER_TABLES:
@@ -104,8 +108,8 @@ def refreshed(name: str) -> Page:
 
 
 def _rows(heading: str, notes: Mapping[str, FieldNote], defaults: Mapping[str, str]) -> str:
-    bracket = re.match(r"\[([\w.]+)\]", heading)
-    section = bracket[1] if bracket else ""
+    bracket = re.match(r'\[([\w.]+)\](?:, kind = "(\w+)")?', heading)
+    section = ".".join(filter(None, bracket.groups())) if bracket else ""
     rows = ""
     for name, note in notes.items():
         if name.rpartition(".")[0] == section:
@@ -172,11 +176,23 @@ def _oils(page: Page) -> None:
     page.rows("Name | nu 40", oils)
 
 
+def _train_parts() -> dict[str, FieldNote]:
+    """Return the fields of a body and of all kinds of elements."""
+    shipped = {f"elements.NAME.{kind}": one for kind, one in ELEMENTS.known().items()}
+    return {
+        f"{section}.{name}": note
+        for section, kind in ({"bodies.NAME": Body} | shipped).items()
+        for name, note in field_notes(section_of(kind)).items()
+        if name != "kind"
+    }
+
+
 def _spectrum(page: Page) -> None:
     page.rows("Order of the pinion | | Teeth alike", lines_rows())
 
 
 _DEFAULTS = {"axle_file": _axle_defaults, "oil_file": lambda: _OIL_DEFAULTS}
+_OTHER_NOTES = {"train_file": _train_parts}
 _OTHER_TABLES = {
     "axle_file": _run_time_parameters,
     "measured_file": _spectrum,

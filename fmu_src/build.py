@@ -209,6 +209,7 @@ def build_models(
     line_mesh: Path | None = None,
     *,
     axle: str | Path | None = None,
+    train: str | Path | None = None,
     native: NativeOptions | None = None,
 ) -> list[Path]:
     """Build the FMUs asked for and return their paths.
@@ -224,6 +225,8 @@ def build_models(
         Go into HelicalPair.fmu.
     axle : path, optional
         Axle file of HypoidAxle.fmu and of the car, or the name of a shipped one.
+    train : path, optional
+        Train file, or the name of a shipped one: an FMU with the name of the train, native only.
     native : NativeOptions, optional
         Of native FMUs; by default FMUs that compute in the installed package.
 
@@ -244,7 +247,12 @@ def build_models(
     }
     given = {name: owners for name, (path, owners) in needs.items() if path is not None}
     of_files = {owner for owners in given.values() for owner in owners}
-    wanted = {model} if model else of_files or set(MODELS)
+    if train is not None and (model is not None or native is None):
+        raise ParameterError(
+            f"--train cannot be combined with {'--model' if model else '--python'}: it builds the "
+            "FMU of the train, which is native only. Leave one of them out."
+        )
+    wanted = {model} if model else of_files or set(() if train else MODELS)
     for name, owners in given.items():
         if not wanted & set(owners):
             raise ParameterError(f"{name} can only be given with --model {owners[0]}, got {model}.")
@@ -264,6 +272,10 @@ def build_models(
     from fmu_src.native.models import native_model
 
     models = [native_model(definition) for definition in definitions]
+    if train is not None:
+        from fmu_src.native.train import train_model
+
+        models.append(train_model(train))
     if "driveline" in wanted:
         models.append(driveline_model(_car(axle)))
     return [path for one in models for path in build_native(one, out_dir, native)]

@@ -77,6 +77,7 @@ _INPUTS = {
     "OIL": "oil file",
     "CASE": "case file",
     "PROBLEM": "problem file",
+    "TRAIN": "train file",
 }
 
 

@@ -101,6 +101,11 @@ READERS: Mapping[type, _Reader[Any]] = {
     Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
 }
 _WORDS = {
+    "body": "Body on which it acts",
+    "pinion": "Body that carries the pinion",
+    "gear": "Body that carries the gear",
+    "first": "One of the two bodies",
+    "second": "The other one",
     "held": "Coordinates that do not move, among x, y, z, rx, ry, rz",
     "torque_of": "Port whose torque chooses the level of the mesh's table; left out: the torque "
     "of the mesh itself",
@@ -117,7 +122,6 @@ _WORDS = {
 def _section_of(kind: Any) -> type[Section]:
     hints: dict[str, Any] = get_type_hints(kind)
     numbers = numbers_of(kind)
-    bodies = getattr(kind, "on", ())
     model: dict[str, Any] = {}
     base: type[Section] = Section
     for field in fields(kind):
@@ -137,7 +141,7 @@ def _section_of(kind: Any) -> type[Section]:
         elif hint in READERS:
             model[name] = READERS[hint].section, Field(description="See the axle file")
         else:
-            text = f"Name of the body: {name}" if name in bodies else _WORDS.get(name, name)
+            text = _WORDS.get(name, f"Body: {name}")
             if "tuple" in str(hint):
                 given["strict"] = False
             model[name] = hint, Field(description=text, **given)

@@ -42,6 +42,14 @@ def build_fmu(
     line_mesh: Annotated[
         Path | None, typer.Option(help="Line mesh (.nc) of that helical pair.")
     ] = None,
+    train: Annotated[
+        str | None,
+        typer.Option(
+            help="Train file (.toml) of a drivetrain, or the name of a shipped one: an FMU with "
+            "its name.",
+            metavar="TRAIN",
+        ),
+    ] = None,
     fmi: Annotated[
         list[str] | None,
         typer.Option(help="Version of FMI, 2 or 3; may be repeated. Default: both."),
@@ -58,7 +66,7 @@ def build_fmu(
         ),
     ] = False,
 ) -> None:
-    """Build HypoidAxle.fmu, HelicalPair.fmu and Driveline.fmu; they need no Python."""
+    """Build HypoidAxle.fmu, HelicalPair.fmu, Driveline.fmu or a drivetrain; they need no Python."""
     from fmu_src.native.build_target import compile_for_any_machine
 
     if not python:
@@ -92,6 +100,8 @@ def build_fmu(
             if axle is not None:
                 check_one_table(mesh_table)
             bring_gears_up_to_date(axle)
-            paths = build_models(out, model, mesh_table, gear, line_mesh, axle=axle, native=native)
+            paths = build_models(
+                out, model, mesh_table, gear, line_mesh, axle=axle, train=train, native=native
+            )
     built = " and ".join(str(path) for path in paths)
     _LOGGER.info("Built %s in %.1f s.", built, time.monotonic() - began)

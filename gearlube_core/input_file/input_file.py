@@ -80,6 +80,11 @@ _KINDS = (
         "gearlube design makes a gear file of it.",
     ),
     _FileKind(
+        "a train file",
+        ("bodies", "elements"),
+        "gearlube drivetrain and build-fmu --train take it.",
+    ),
+    _FileKind(
         "an oil file",
         ("base_oil",),
         "gearlube oil shows it; an axle file names it in [oil] as file, other commands as --oil.",

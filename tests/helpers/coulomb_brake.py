@@ -37,6 +37,7 @@ class CoulombBrake(Element):
     body: str
     torque: Annotated[float, Number("N.m", 0.0, 1e5)]
     speed: Annotated[float, Number("rad/s", 1e-3, 10.0)] = 0.1
+    kind: ClassVar = "coulomb_brake"
     on: ClassVar = ("body",)
     losses: ClassVar = ("brake",)
 

@@ -60,8 +60,8 @@ from gearlube_core.oil.lubricant import LubricantState
 _PSI, _HEAT, _DAMPING, _KEPT, _PORT, _LEVELS, _SIZE, _DATA, _DATA_SIZE = range(2, 11)
 _ANGLE = Number(
     "rad",
-    -7.0,
-    7.0,
+    -2.0 * math.pi,
+    2.0 * math.pi,
     text="Direction from the pinion's axis to the gear's, from x towards y",
     shown="deg",
 )

@@ -15,11 +15,15 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
-_STIFFNESS = Number("N/m", 0.0, 1e13, text="Stiffness of a displacement", shown="N/um")
-_TILTING = Number("N.m/rad", 0.0, 1e10, text="Stiffness of a tilt")
-_COUPLING = Number("N/rad", -1e12, 1e12, text="Force per tilt", shown="kN/rad")
-_DAMPING = Number("N.s/m", 0.0, 1e9, text="Damping of a displacement")
-_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e9, text="Damping of a tilt")
+_STIFFNESS = Number("N/m", 0.0, 1e13, text="Stiffness along {}", shown="N/um")
+_TILTING = Number("N.m/rad", 0.0, 1e10, text="Stiffness against tilting about {}")
+_COUPLING = Number("N/rad", -1e12, 1e12, text="Force along {} per tilt about {}", shown="kN/rad")
+_DAMPING = Number("N.s/m", 0.0, 1e9, text="Damper along {}")
+_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e9, text="Damper against tilting about {}")
+
+
+def _about(number: Number, *axes: str) -> Number:
+    return number._replace(text=number.text.format(*axes))
 
 
 class _Support(NamedTuple):
@@ -91,18 +95,18 @@ class SpringSupport(Element):
     name: str
     body: str
     kind: ClassVar = "spring_support"
-    K_xx: Annotated[float, _STIFFNESS] = 0.0
-    K_yy: Annotated[float, _STIFFNESS] = 0.0
-    K_zz: Annotated[float, _STIFFNESS] = 0.0
-    K_ax: Annotated[float, _TILTING] = 0.0
-    K_ay: Annotated[float, _TILTING] = 0.0
-    K_x_ay: Annotated[float, _COUPLING] = 0.0
-    K_y_ax: Annotated[float, _COUPLING] = 0.0
-    c_x: Annotated[float, _DAMPING] = 0.0
-    c_y: Annotated[float, _DAMPING] = 0.0
-    c_z: Annotated[float, _DAMPING] = 0.0
-    c_ax: Annotated[float, _TILT_DAMPING] = 0.0
-    c_ay: Annotated[float, _TILT_DAMPING] = 0.0
+    K_xx: Annotated[float, _about(_STIFFNESS, "x")] = 0.0
+    K_yy: Annotated[float, _about(_STIFFNESS, "y")] = 0.0
+    K_zz: Annotated[float, _about(_STIFFNESS, "z")] = 0.0
+    K_ax: Annotated[float, _about(_TILTING, "x")] = 0.0
+    K_ay: Annotated[float, _about(_TILTING, "y")] = 0.0
+    K_x_ay: Annotated[float, _about(_COUPLING, "x", "y")] = 0.0
+    K_y_ax: Annotated[float, _about(_COUPLING, "y", "x")] = 0.0
+    c_x: Annotated[float, _about(_DAMPING, "x")] = 0.0
+    c_y: Annotated[float, _about(_DAMPING, "y")] = 0.0
+    c_z: Annotated[float, _about(_DAMPING, "z")] = 0.0
+    c_ax: Annotated[float, _about(_TILT_DAMPING, "x")] = 0.0
+    c_ay: Annotated[float, _about(_TILT_DAMPING, "y")] = 0.0
     on: ClassVar = ("body",)
     losses: ClassVar = ("bearing_damping",)
 

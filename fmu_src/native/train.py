@@ -1,0 +1,189 @@
+"""The native model of a train: one entry over the kernel of its list."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from fmu_src.native.model import OK, NativeModel, Operation
+from fmu_src.object_code import array_at, pointer_at
+from fmu_src.train import definition_with_train
+from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, RZ, W
+from gearlube_core.dynamics.train.march import ADVANCE, START, WRITE, train_kernel, work_size
+from gearlube_core.dynamics.train.model import MOST_TORQUE, REFUSALS, Train
+
+_START, _STEP, _OUTPUTS, _RESUME, _MOTION = map(int, tuple(Operation)[:5])
+
+
+class _Places(NamedTuple):
+    """Where the parts of `data`, `state` and `work` begin, and sizes; whole numbers."""
+
+    numbers: int  # in data, of which it is the first
+    memory: int
+    first: int  # the state before a start
+    ports: int  # places of the ports in the state
+    bodies: int  # number of the body of each speed; the first bears what the torques leave
+    motion: int  # pairs of places, in the outputs and in the state
+    limits: int
+    data_end: int
+    # sizes
+    states: int
+    n_ports: int
+    n_speeds: int
+    n_motion: int
+    n_bodies: int
+    inputs: int  # in state, behind that of the train; then the rate of the integrator's steps
+    state_end: int
+    own_memory: int  # in work, behind the limits of the inputs
+    trial: int
+    scratch: int
+    work_end: int
+    outputs: int
+    per_period: int
+
+
+def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
+    """Return the entry of a train whose kernel is `operate`."""
+
+    def entry(
+        operation: int,
+        step: float,
+        data: Any,
+        parameters: Any,
+        inputs: Any,
+        state: Any,
+        work: Any,
+        outputs: Any,
+    ) -> int:
+        fixed = array_at(data, at.data_end)
+        numbers = array_at(data, at.memory)
+        room = array_at(work, at.work_end)
+        memory = array_at(pointer_at(work, at.own_memory), at.trial - at.own_memory)
+        if operation in (_START, _RESUME):
+            for i in range(2 * (at.n_ports + 1)):
+                room[i] = fixed[at.limits + i]
+            for i in range(memory.size):
+                memory[i] = fixed[at.memory + i]
+            if operation == _RESUME:
+                return OK
+        kept = array_at(state, at.state_end)
+        given = array_at(inputs, at.n_ports + 1)
+        trial = array_at(pointer_at(work, at.trial), at.states)
+        scratch = array_at(pointer_at(work, at.scratch), at.work_end - at.scratch)
+        if operation in (_START, _STEP):
+            rate = 0.0
+            for i in range(at.states):
+                trial[i] = fixed[at.first + i] if operation == _START else kept[i]
+            for i in range(at.n_ports):
+                trial[int(fixed[at.ports + i])] = given[i]
+            temperature = given[at.n_ports]
+            if operation == _START:
+                speeds = array_at(parameters, at.n_speeds)
+                scratch[0] = fixed[at.bodies]
+                for i in range(at.n_bodies):
+                    scratch[1 + i] = np.nan
+                for i in range(at.n_speeds):
+                    scratch[1 + int(fixed[at.bodies + i])] = speeds[i]
+                per_period = float(at.per_period)
+                status = int(
+                    operate(START, trial, temperature, numbers, memory, per_period, 0.0, scratch)
+                )
+                rate = scratch[0]
+            else:
+                rate = kept[at.state_end - 1]
+                status = int(
+                    operate(ADVANCE, trial, temperature, numbers, memory, step, rate, scratch)
+                )
+            if status != OK:
+                return status
+            for i in range(at.states):
+                kept[i] = trial[i]
+            for i in range(at.n_ports + 1):
+                kept[at.inputs + i] = given[i]
+            kept[at.state_end - 1] = rate
+            if operation == _STEP:
+                return OK
+        out = array_at(outputs, at.outputs)
+        if operation == _MOTION:
+            for i in range(at.n_motion):
+                to, of = int(fixed[at.motion + 2 * i]), int(fixed[at.motion + 2 * i + 1])
+                out[to] = kept[of]
+            return OK
+        s = array_at(state, at.states)
+        temperature = kept[at.inputs + at.n_ports]
+        operate(WRITE, s, temperature, numbers, memory, 0.0, kept[at.state_end - 1], out)
+        return OK
+
+    return entry
+
+
+def _motion(train: Train) -> dict[str, int]:
+    """Return the outputs that stand in the state as they are, with their places."""
+    found = {}
+    for i, body in enumerate(train.bodies):
+        first = BODY_STATES * i
+        found |= {f"{body.name}.angle": first + RZ, f"{body.name}.speed": first + W}
+        for j, one in enumerate(COORDINATES[:-1]):
+            word = "displacement" if j < 3 else "tilt"
+            if one not in body.held:
+                found[f"{body.name}.{word}.{one[-1]}"] = first + j
+    return found
+
+
+def train_model(path: str | Path) -> NativeModel:
+    """Return the train of a train file for a native FMU, see `definition_with_train`."""
+    definition, case = definition_with_train(path)
+    train = case.train
+    made = train.made
+    names = [body.name for body in train.bodies]
+    motion = _motion(train)
+    pairs = [(definition.output_names.index(name), at) for name, at in motion.items()]
+    oil = train.oil
+    limits = [-MOST_TORQUE, MOST_TORQUE] * len(case.torques)
+    parts = [
+        made.numbers,
+        made.memory,
+        made.state,
+        np.array([made.kept[name] for name in case.torques], float),
+        np.array([names.index(name) for name in case.speeds], float),
+        np.array(pairs, float).ravel(),
+        np.array([*limits, oil.temperature_low, oil.temperature_high]),
+    ]
+    starts = np.cumsum([0, *(part.size for part in parts)]).tolist()
+    n_inputs, states = len(case.torques) + 1, made.state.size
+    own_memory = 2 * n_inputs
+    trial = own_memory + made.memory.size
+    scratch = trial + states
+    room = max(work_size(made.layout), 1 + len(names), len(definition.output_names))
+    at = _Places(
+        *starts,
+        states=states,
+        n_ports=len(case.torques),
+        n_speeds=len(case.speeds),
+        n_motion=len(pairs),
+        n_bodies=len(names),
+        inputs=states,
+        state_end=states + n_inputs + 1,
+        own_memory=own_memory,
+        trial=trial,
+        scratch=scratch,
+        work_end=scratch + room,
+        outputs=len(definition.output_names),
+        per_period=train.steps_per_highest_period,
+    )
+    return NativeModel(
+        definition=definition,
+        entry=_entry(train_kernel(made.layout), at),
+        data=np.concatenate(parts),
+        state_size=at.state_end,
+        control_at=at.state_end - 1,
+        work_size=at.work_end,
+        limits_at=0,
+        ranges_at=0,
+        ranges=(),
+        refusals=REFUSALS,
+        motion=frozenset(motion),
+    )

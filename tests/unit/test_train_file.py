@@ -1,0 +1,181 @@
+"""Train files: what they make of their fields, and what they say of wrong ones."""
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from drivetrain.train.part_section import section_of
+from drivetrain.train.train_file import TrainFile
+from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
+from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
+from gearlube_core.dynamics.train.part import ELEMENTS
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.kernels.flat_tuples import flatten
+from tests.helpers.coulomb_brake import CoulombBrake
+from tests.helpers.each import each
+
+TEXT = TrainFile.shipped_text("e_axle")
+
+
+def read(*changes):
+    text = TEXT
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    return TrainFile.from_data(tomllib.loads(text), "my.toml")
+
+
+def test_fields_are_taken_in_the_units_of_their_names():
+    train = read().case().train
+    by_name = {one.name: one for one in train.elements}
+    assert by_name["motor_bearings"].K_xx == 4e8  # 400 N/um
+    assert by_name["stage_1"].gear_arm == -0.03  # -30 mm
+    assert by_name["stage_1"].angle == pytest.approx(np.radians(17.0), rel=1e-15)
+    assert train.bodies[3].mobility.tolist() == [0.0] * 5 + [1.0]  # held but for its turning
+
+
+def test_the_start_is_in_rpm_newton_metres_and_degrees_celsius():
+    case = read().case()
+    assert case.speeds["left_hub"] == pytest.approx(-5203.0 * np.pi / 30.0, rel=1e-15)
+    assert case.torques == {"motor_torque": 200.0, "left_wheel": 153.0, "right_wheel": 153.0}
+    assert case.oil_temperature == pytest.approx(333.15)
+
+
+def test_a_port_without_a_torque_has_none():
+    case = read((", right_wheel = 153.0", "")).case()
+    assert case.torques["right_wheel"] == 0.0
+
+
+def test_every_kind_of_element_has_fields_in_a_file():
+    kinds = ELEMENTS.known()
+    assert set(kinds) >= {"port", "helical_mesh", "hypoid_mesh", "spring_support", "half_shaft",
+                          "opposed_bearings", "seal", "churning"}  # fmt: skip
+    for kind, part in kinds.items():
+        assert field_notes(section_of(part))["kind"].limits == kind
+
+
+def test_the_hypoid_axle_as_a_file_is_its_list():
+    """The paper's axle written by hand has the elements of the builder, number by number."""
+    paper = mohammadpour_2015_axle()
+    bodies, elements = hypoid_axle(paper)
+    bearing = elements[3].bearing
+    data = {
+        "name": "axle",
+        "oil": {"name": "mohammadpour_2015"},
+        "start": {"speed_rpm": {"gear": 300.0}, "torque_n_m": {"input": 50.0, "output": 178.0}},
+        "bodies": {
+            one.name: {
+                "mass_kg": one.mass,
+                "inertia_kg_m2": 1.0,
+                "polar_inertia_kg_m2": one.polar_inertia,
+                "held": ["rx", "ry"],
+            }
+            for one in bodies
+        },
+        "elements": {
+            "input": {"kind": "port", "body": "pinion"},
+            "output": {"kind": "port", "body": "gear", "sign": -1.0},
+            "mesh": {
+                "kind": "hypoid_mesh",
+                "pinion": "pinion",
+                "gear": "gear",
+                "torque_of": "input",
+                "axle_file": "mohammadpour_2015",
+            },
+            "pinion_bearings": {
+                "kind": "opposed_bearings",
+                "body": "pinion",
+                "orders": elements[3].orders,
+                "axes": [2, 1, 0],
+                "bearing": {"preload_n": bearing.preload_force()},
+            },
+        },
+    }
+    train = TrainFile.from_data(data, "axle.toml").case().train
+    assert train.bodies == tuple(bodies)
+    assert train.elements[:2] == tuple(elements[:2])
+    made = train.elements[3]
+    assert isinstance(made, OpposedBearings)
+    assert made.bearing.parameters() == pytest.approx(bearing.parameters(), rel=1e-12)
+    assert made.axes == elements[3].axes
+    np.testing.assert_array_equal(train.elements[2].memory(), elements[2].memory())
+    np.testing.assert_array_equal(
+        flatten(train.elements[2].numbers()), flatten(elements[2].numbers())
+    )
+
+
+def test_an_element_from_outside_the_package_has_a_section():
+    data = tomllib.loads(TEXT)
+    data["elements"]["brake"] = {"kind": "coulomb_brake", "body": "motor", "torque_n_m": 5.0}
+    train = TrainFile.from_data(data, "my.toml").case().train
+    assert train.elements[-1] == CoulombBrake(name="brake", body="motor", torque=5.0)
+
+
+WRONG = {
+    "a misspelt field": (
+        ("stiffness_n_m_per_rad = 8000.0", "stifness_n_m_per_rad = 8000.0"),
+        "elements.left_shaft.stifness_n_m_per_rad is not a field of this file; is it "
+        "stiffness_n_m_per_rad?",
+    ),
+    "another unit": (
+        ("K_xx_n_per_um = 400.0", "K_xx_n_per_um = 4e8"),
+        "elements.motor_bearings.K_xx_n_per_um must be a number, 0 to 1e+07 N/um, got "
+        "400000000.0. Stiffness along x. Is it in N/m? 4e+08 N/m is 400 N/um.",
+    ),
+    "an unknown kind": (
+        ('kind = "half_shaft"', 'kind = "halfshaft"'),
+        "elements.left_shaft.kind must be one of",
+    ),
+    "no kind": (('kind = "seal"\n', ""), "elements.seal.kind must be one of"),
+    "a body that is not there": (
+        ('second = "left_hub"', 'second = "hub"'),
+        "left_shaft names 'hub', which is not among the bodies of the train. There are: motor,",
+    ),
+    "a name with a blank": (
+        ("[elements.seal]", '[elements."my seal"]'),
+        "elements.my seal must have a name of letters, digits and _",
+    ),
+    "a name of the FMU": (("[elements.seal]", "[elements.oil]"), "elements.oil must have a name"),
+    "one name twice": (("[elements.seal]", "[elements.motor]"), "has the name of a body"),
+    "a gear file that is not there": (
+        ('gear_file = "he_2007"', 'gear_file = "nope.toml"'),
+        "elements.stage_1: The gear file nope.toml was not found",
+    ),
+    "a sign": (("sign = -1.0", "sign = 0.5"), "sign of motor_torque must be 1 or -1, got 0.5."),
+    "a torque of no port": (
+        ("motor_torque = 200.0", "seal = 200.0"),
+        "start.torque_n_m.seal names nothing of the train. There are: motor_torque, left_wheel",
+    ),
+    "no speed": (("left_hub = -5203.0", ""), "start.speed_rpm must name a body with its speed"),
+    "a mass as a text": (
+        ("mass_kg = 3.0", 'mass_kg = "3"'),
+        "bodies.motor.mass_kg must be a number, 0.0001 to 1e+06 kg, got '3'.",
+    ),
+    "a section of another file": (("[bodies.motor]", "[bodis.motor]"), "is it bodies?"),
+}
+
+
+@each("change, words", WRONG.values())
+def test_what_is_wrong_is_named_with_its_limit_and_a_cure(change, words):
+    with pytest.raises(ParameterError) as caught:
+        read(change)
+    assert words in str(caught.value)
+    assert str(caught.value).startswith("my.toml")
+
+
+def test_all_that_is_wrong_is_said_at_once():
+    with pytest.raises(ParameterError, match=r"my\.toml has 2 wrong field\(s\)") as caught:
+        read(WRONG["another unit"][0], WRONG["a mass as a text"][0])
+    assert "bodies.motor.mass_kg" in str(caught.value)
+
+
+def test_paths_count_from_the_folder_of_the_file(tmp_path):
+    (tmp_path / "gears.toml").write_text(HelicalGearFile.shipped_text("he_2007"))
+    path = tmp_path / "train.toml"
+    path.write_text(TEXT.replace('"he_2007"', '"gears.toml"', 1))
+    stage = TrainFile.from_toml(path).case().train.elements[3]
+    assert stage.parameters.pair.ratio == pytest.approx(1.24)
