@@ -155,6 +155,12 @@ COMMANDS = (
         panel=_AXLE,
     ),
     LazyCommand(
+        name="drivetrain",
+        target="gearlube.studies.drivetrain.command:drivetrain",
+        summary="Run a drivetrain from a list of bodies, meshes, bearings and shafts.",
+        panel=_GEARS,
+    ),
+    LazyCommand(
         name="design",
         target="gearlube.studies.design.command:design",
         summary="Design a hypoid or bevel pair: from a blank to machine settings.",

@@ -1,0 +1,62 @@
+"""The command `gearlube drivetrain`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlube.cli.example import print_example
+from gearlube.cli.options import ExampleOption, OverwriteOption
+from gearlube.cli.study_run import empty_table, study_run
+
+_TARGET = "drivetrain.train.train_file:TrainFile"
+
+
+def drivetrain(
+    file: Annotated[
+        str,
+        typer.Argument(
+            help="Train file (.toml), or the name of a shipped one: e_axle.", metavar="TRAIN"
+        ),
+    ] = "e_axle",
+    duration_ms: Annotated[
+        float, typer.Option(help="Length of the run [ms].", metavar="MS")
+    ] = 100.0,
+    step_us: Annotated[
+        float, typer.Option(help="Time between two rows of the results [us].", metavar="US")
+    ] = 100.0,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_drivetrain"),
+    overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
+) -> None:
+    """Run a drivetrain of bodies and elements: modes, transmission errors, losses.
+
+    Writes drivetrain.nc with all outputs over time, report.html and figures.
+    """
+    if example:
+        print_example(_TARGET, "e_axle")
+        return
+    from drivetrain.train.train_file import TrainFile
+    from gearlube.report.inputs import file_inputs
+    from gearlube.studies.drivetrain.report import losses, report, save_figures
+    from gearlube.studies.drivetrain.run import run_drivetrain
+
+    with study_run("drivetrain", out, overwrite=overwrite) as run:
+        given = TrainFile.given(file)
+        with run.results() as progress:
+            dataset = run_drivetrain(
+                given.case(),
+                duration=1e-3 * duration_ms,
+                step=1e-6 * step_us,
+                folder=out,
+                progress=progress,
+            )
+            figures = save_figures(dataset, out / "figures")
+        table = empty_table("Power lost, mean of the second half", "kind", ">W")
+        for name, power in losses(dataset).items():
+            table.add_row(name.replace("_", " "), f"{power:.4g}")
+        run.show(table)
+        run.written("drivetrain.nc", "figures")
+        run.finish(report(dataset, figures, file_inputs(given)))

@@ -1,0 +1,221 @@
+"""Figures and report of a drivetrain."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import (
+    GOOD,
+    NOTE,
+    WARNING,
+    Column,
+    Figure,
+    Finding,
+    Input,
+    Number,
+    Report,
+    Table,
+)
+from gearlube_core.storage.atomic_file import write_figure
+from gearlube_core.units import rads_to_rpm
+
+_BALANCED = 1e-3  # share of the energy that may be missing before the report warns
+_DTE, _LOSS = ".dte", ".power_loss"
+_LIMITS = (
+    "Shafts are rigid bodies, and bearings stand on ground, not on a housing.",
+    "The run begins at a static equilibrium with the friction of its first moment; what swings at "
+    "first is the passage to the steady motion. Numbers are those of the second half of the run.",
+)
+
+
+def settled(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the second half of a run."""
+    return dataset.isel(time=slice(dataset.sizes["time"] // 2, None))
+
+
+def losses(dataset: xr.Dataset) -> dict[str, float]:
+    """Return the mean losses in the second half of a run by name, the largest first [W]."""
+    half = settled(dataset)
+    found = {
+        str(name).removesuffix(_LOSS): float(half[name].mean())
+        for name in half.data_vars
+        if str(name).endswith(_LOSS) and "." not in str(name).removesuffix(_LOSS)
+    }
+    return dict(sorted(found.items(), key=lambda one: -one[1]))
+
+
+def transmission_errors(dataset: xr.Dataset) -> dict[str, float]:
+    """Return peak-to-peak transmission errors of all meshes in the second half of a run [m]."""
+    half = settled(dataset)
+    return {
+        str(name).removesuffix(_DTE): float(half[name].max() - half[name].min())
+        for name in half.data_vars
+        if str(name).endswith(_DTE)
+    }
+
+
+def _motion_figure(dataset: xr.Dataset) -> Any:
+    half = settled(dataset)
+    names = [str(name) for name in half.data_vars if str(name).endswith(_DTE)]
+    with house_style():
+        figure = new_figure(7.2, 0.6 + 2.0 * max(1, len(names)))
+        panels = figure.subplots(max(1, len(names)), 1, squeeze=False, sharex=True).ravel()
+        for ax, name, colour in zip(
+            panels, names, (SERIES * len(names))[: len(names)], strict=False
+        ):
+            ax.plot(1e3 * half["time"], 1e6 * half[name], color=colour)
+            ax.set(title=name.removesuffix(_DTE), ylabel="transmission error [µm]")
+        panels[-1].set_xlabel("time [ms]")
+    return figure
+
+
+def _loss_figure(dataset: xr.Dataset) -> Any:
+    found = {name: value for name, value in losses(dataset).items() if value > 0.0}
+    with house_style():
+        figure = new_figure(7.2, 1.2 + 0.35 * len(found))
+        ax = figure.subplots()
+        ax.barh([one.replace("_", " ") for one in found], list(found.values()), color=SERIES[0])
+        ax.invert_yaxis()
+        ax.set(xlabel="mean power lost [W]")
+    return figure
+
+
+def _mode_figure(dataset: xr.Dataset) -> Any:
+    frequency = dataset["frequency"].values
+    with house_style():
+        figure = new_figure(7.2, 1.4 + 0.24 * len(frequency))
+        ax = figure.subplots()
+        left = np.zeros(len(frequency))
+        for i, body in enumerate(dataset["body"].values):
+            share = dataset["share"].values[:, i]
+            ax.barh(range(len(frequency)), share, left=left, label=str(body),
+                    color=SERIES[i % len(SERIES)], hatch="" if i < len(SERIES) else "//")  # fmt: skip
+            left += share
+        ax.set_yticks(range(len(frequency)), [f"{one:.4g} Hz" for one in frequency])
+        ax.invert_yaxis()
+        ax.set(xlabel="share in the kinetic energy [-]", xlim=(0.0, 1.0))
+        figure.legend(ncols=min(5, dataset.sizes["body"]), loc="outside lower center")
+    return figure
+
+
+_FIGURES = {
+    "transmission_error": (
+        _motion_figure,
+        "Transmission error of every mesh",
+        "Second half of the run. A mesh that swings far more than the others is near a resonance.",
+    ),
+    "losses": (
+        _loss_figure,
+        "Where the power goes",
+        "Mean of the second half of the run; losses of one kind are summed over all elements.",
+    ),
+    "modes": (
+        _mode_figure,
+        "Natural frequencies, and which bodies move",
+        "Undamped, about the state at the start, with the meshes in contact. A bar of one colour "
+        "is a mode of one body on its bearings.",
+    ),
+}
+
+
+def save_figures(dataset: xr.Dataset, folder: Path) -> dict[str, Path]:
+    """Draw every figure into `folder` as PNG; return the files by name."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {}
+    for name, (draw, *_) in _FIGURES.items():
+        files[name] = folder / f"{name}.png"
+        write_figure(draw(dataset), files[name])
+    return files
+
+
+def findings(dataset: xr.Dataset) -> list[Finding]:
+    """Return the findings of a run, the most important first."""
+    found = [
+        Finding(WARNING, f"{one.partition('. ')[0].rstrip('.')}.", one.partition(". ")[2])
+        for one in str(dataset.attrs["exceeded"]).splitlines()
+    ]
+    lost = losses(dataset)
+    efficiency = float(settled(dataset)["efficiency"].mean())
+    if lost:
+        name, most = next(iter(lost.items()))
+        share = f", {100.0 * efficiency:.2f} % efficiency" if efficiency > 0.0 else ""
+        found.append(
+            Finding(
+                NOTE,
+                f"The drivetrain loses {quantity_text(sum(lost.values()), 'W')}{share}.",
+                f"Most is {name.replace('_', ' ')}: {quantity_text(most, 'W')}.",
+            )
+        )
+    for mesh, swing in transmission_errors(dataset).items():
+        found.append(
+            Finding(NOTE, f"The transmission error of {mesh} swings by {1e6 * swing:.3g} µm.")
+        )
+    missing = float(dataset.attrs["imbalance"])
+    words = f"{100.0 * missing:.2g} % of the energy that passed through is unaccounted for."
+    if missing > _BALANCED:
+        found.append(Finding(WARNING, words, "Take more steps_per_highest_period."))
+    else:
+        found.append(Finding(GOOD, f"The energy balance closes: {words}"))
+    return found
+
+
+def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input]) -> Report:
+    """Return the report of a run."""
+    half, lost = settled(dataset), losses(dataset)
+    speeds = [
+        (str(body), float(rads_to_rpm(half[f"{body}.speed"].values.mean())))
+        for body in dataset["body"].values
+    ]
+    modes = [
+        [float(frequency), str(dataset["body"].values[np.argmax(share)]), float(share.max())]
+        for frequency, share in zip(
+            dataset["frequency"].values, dataset["share"].values, strict=True
+        )
+    ]
+    end = 1e3 * float(dataset["time"][-1])
+    return Report(
+        study="drivetrain",
+        title=str(dataset.attrs["name"]),
+        subtitle=f"Modes, and a run of {end:.4g} ms from the static equilibrium.",
+        findings=findings(dataset),
+        numbers=[
+            Number("power lost", sum(lost.values()), "W"),
+            Number("efficiency", 100.0 * float(half["efficiency"].mean()), "%", 4),
+            *(
+                Number(f"transmission error of {mesh}, peak to peak", 1e6 * swing, "µm")
+                for mesh, swing in transmission_errors(dataset).items()
+            ),
+        ],
+        figures=[
+            Figure(name=name, title=title, caption=words, picture=figures[name].read_bytes())
+            for name, (_, title, words) in _FIGURES.items()
+        ],
+        tables=[
+            Table(
+                title="Speeds",
+                columns=[Column("body"), Column("speed", "rpm", 5)],
+                rows=speeds,
+                caption="Mean of the second half of the run, about +z.",
+            ),
+            Table(
+                title="Modes",
+                columns=[
+                    Column("frequency", "Hz", 4),
+                    Column("body that moves most"),
+                    Column("its share in the kinetic energy", "", 2),
+                ],
+                rows=modes,
+                folded=True,
+            ),
+        ],
+        inputs=inputs,
+        limits=_LIMITS,
+        files=("drivetrain.nc", "figures/"),
+    )

@@ -1,0 +1,133 @@
+"""Run a drivetrain in time and find its modes: from a train file to a dataset."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from drivetrain.train.train_file import TrainCase
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
+from gearlube_core.dynamics.train.element import N_COORDINATES
+from gearlube_core.dynamics.train.model import Train
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import write_dataset
+
+FILE = "drivetrain.nc"
+MOST_POINTS = 200_000
+_RIGID = 1.0  # Hz, below which a mode is a turning of the whole train
+
+
+def run_drivetrain(
+    case: TrainCase,
+    *,
+    duration: float = 0.1,
+    step: float = 1e-4,
+    folder: Path | None = None,
+    progress: Progress = no_progress,
+) -> xr.Dataset:
+    """Return the motion of a drivetrain from its equilibrium, and its modes.
+
+    Parameters
+    ----------
+    case : TrainCase
+        The train with its speeds, torques and oil temperature, which stay as they are.
+    duration, step : float
+        Of the run, and of a communication step [s]; at most 200,000 steps of at most 0.1 s.
+    folder : Path, optional
+        Folder for FILE.
+    progress : callable, optional
+        Called with the share that is done [-] and a sentence on what runs.
+
+    Returns
+    -------
+    xarray.Dataset
+        The outputs over `time` [s], units in their attributes; `frequency` [Hz] over `mode` and
+        `share` [-] of each body in the kinetic energy of a mode. `exceeded` in the attributes has
+        a sentence for each range that was left, `imbalance` the share of the energy that has passed
+        through and is neither stored nor lost.
+
+    Raises
+    ------
+    ParameterError
+        A number is out of range.
+    ConvergenceError
+        No static equilibrium is found.
+    StepError
+        A step cannot be made.
+
+    Examples
+    --------
+    >>> from drivetrain.train.train_file import TrainFile
+    >>> motion = run_drivetrain(TrainFile.named("e_axle").case(), duration=2e-4)
+    >>> motion.sizes["time"], motion["motor.speed"].units
+    (3, 'rad/s')
+    """
+    check_within("duration", duration, 1e-6, 1e4, "s")
+    check_within("step", step, max(1e-7, duration / MOST_POINTS), min(0.1, duration), "s")
+    progress(0.0, "finding the equilibrium; a new list of elements is compiled first")
+    train = case.start()
+    before = train.energy
+    frequency, share = mode_shares(train)
+    steps = math.ceil(duration / step - 1e-9)
+    rows = np.empty((steps + 1, len(train.described)))
+    rows[0] = list(train.outputs().values())
+    exceeded: dict[str, str] = {}
+    for k in range(1, steps + 1):
+        train.step(step, case.torques, case.oil_temperature)
+        rows[k] = list(train.outputs().values())
+        exceeded = train.exceeded() | exceeded
+        progress(k / steps, f"{1e3 * k * step:.4g} of {1e3 * steps * step:.4g} ms")
+    time = xr.DataArray(np.arange(steps + 1) * step, dims="time", attrs={"units": "s"})
+    dataset = xr.Dataset(
+        {
+            one.name: ("time", rows[:, i], {"units": one.unit, "long_name": one.text})
+            for i, one in enumerate(train.described)
+        }
+        | {
+            "frequency": ("mode", frequency, {"units": "Hz", "long_name": "natural frequency"}),
+            "share": (
+                ("mode", "body"),
+                share,
+                {"units": "1", "long_name": "share of the body in the kinetic energy"},
+            ),
+        },
+        coords={"time": time, "body": [body.name for body in train.bodies]},
+        attrs={
+            "name": case.name,
+            "imbalance": _imbalance(train, before),
+            "exceeded": "\n".join(exceeded.values()),
+        },
+    )
+    if folder is not None:
+        write_dataset(dataset, folder / FILE)
+    return dataset
+
+
+def mode_shares(train: Train) -> tuple[Array, Array]:
+    """Return the frequencies of the modes that vibrate [Hz] and the bodies' shares in each.
+
+    Shares are those in the kinetic energy, shape (modes, bodies).
+    """
+    frequency, shapes = train.modes()
+    vibrates = frequency > _RIGID
+    mobility = np.concatenate([body.mobility for body in train.bodies])
+    body_of = np.arange(mobility.size) // N_COORDINATES
+    free = mobility > 0.0
+    energy = shapes**2 / mobility[free][:, None]
+    share = np.array([energy[body_of[free] == i].sum(axis=0) for i in range(len(train.bodies))])
+    return frequency[vibrates], share.T[vibrates]
+
+
+def _imbalance(train: Train, before: float) -> float:
+    """Return what is neither stored nor lost of the energy that has passed through, as a share.
+
+    `before` is the energy of the train at the start [J].
+    """
+    outputs = train.outputs()
+    works = [v for name, v in outputs.items() if name.startswith("energy.") and ".work" in name]
+    missing = train.work - sum(train.lost.values()) - (train.energy - before)
+    return abs(missing) / max(1e-9, sum(map(abs, works)))

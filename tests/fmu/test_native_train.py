@@ -1,0 +1,225 @@
+"""FMUs of trains: against closed forms, against the train in Python, and with an own element."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from drivetrain.train.train_file import TrainFile
+from fmu_src.build import build_models
+from fmu_src.check import problems
+from fmu_src.native.build import NativeOptions
+from fmu_src.native.platforms import platform_of_this_machine
+from fmu_src.train import definition_with_train
+from gearlube_core.errors import ParameterError
+from tests.helpers.coulomb_brake import CoulombBrake
+
+FIRST, SECOND, STIFFNESS, DAMPING, BRAKE = 0.2, 2.0, 1e4, 2.0, 3.0  # kg m2, N.m/rad, N.m s/rad, N.m
+ROTORS = f"""
+name = "two rotors on a shaft"
+steps_per_highest_period = 64
+
+[oil]
+name = "mohammadpour_2015"
+
+[start]
+speed_rpm = {{ engine = 1000.0 }}
+torque_n_m = {{ drive = 0.0 }}
+
+[bodies.engine]
+mass_kg = 1.0
+inertia_kg_m2 = 1.0
+polar_inertia_kg_m2 = {FIRST}
+held = ["x", "y", "z", "rx", "ry"]
+
+[bodies.load]
+mass_kg = 1.0
+inertia_kg_m2 = 1.0
+polar_inertia_kg_m2 = {SECOND}
+held = ["x", "y", "z", "rx", "ry"]
+
+[elements.drive]
+kind = "port"
+body = "engine"
+
+[elements.shaft]
+kind = "half_shaft"
+first = "engine"
+second = "load"
+stiffness_n_m_per_rad = {STIFFNESS}
+damping_n_m_s_per_rad = {DAMPING}
+"""
+WITH_BRAKE = f"""{ROTORS}
+[elements.brake]
+kind = "{CoulombBrake.kind}"
+body = "load"
+torque_n_m = {BRAKE}
+"""
+
+
+def built(text: str, folder: Path) -> list[Path]:
+    path = folder / "train.toml"
+    path.write_text(text)
+    options = NativeOptions(platforms=[platform_of_this_machine()])
+    return build_models(folder, train=path, native=options)
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """Two rotors with a brake of another package: FMI 2 and FMI 3."""
+    return built(WITH_BRAKE, tmp_path_factory.mktemp("train"))
+
+
+def test_the_fmu_has_the_name_of_the_train_and_passes_the_checker(fmus: list[Path]) -> None:
+    assert [path.name for path in fmus] == ["TwoRotorsOnAShaft.fmu", "TwoRotorsOnAShaft_FMI3.fmu"]
+    assert [problems(path) for path in fmus] == [[], []]
+
+
+def test_its_inputs_are_the_ports_and_the_oil(fmus: list[Path]) -> None:
+    description = fmpy.read_model_description(str(fmus[0]))
+    inputs = {v.name: v.start for v in description.modelVariables if v.causality == "input"}
+    assert {name: float(start) for name, start in inputs.items()} == {
+        "drive.torque": 0.0,
+        "oil.temperature": pytest.approx(333.15),
+    }
+    parameters = [v.name for v in description.modelVariables if v.causality == "parameter"]
+    assert parameters == ["engine.speed_start"]
+
+
+@pytest.mark.parametrize("version", [0, 1])
+def test_a_step_of_torque_twists_the_shaft_as_in_closed_form(
+    fmus: list[Path], version: int
+) -> None:
+    """Relative motion is a damped oscillator under T/I1; the whole turns under T - brake.
+
+    The brake acts on the second rotor from the start, where it already twists the shaft, at a
+    speed far above that below which its torque falls. 64 steps a period leave 1e-6 of the swing.
+    """
+    torque, h, steps = 40.0, 1e-3, 20
+    found = fmpy.simulate_fmu(
+        str(fmus[version]),
+        stop_time=steps * h,
+        output_interval=h,
+        step_size=h,
+        start_values={"engine.speed_start": 100.0},
+        input=np.array([(0.0, torque)], dtype=[("time", float), ("drive.torque", float)]),
+        output=["shaft.torque", "engine.speed", "load.speed", "drive.power", "efficiency"],
+    )
+    t = found["time"]
+    reduced = FIRST * SECOND / (FIRST + SECOND)
+    w0 = math.sqrt(STIFFNESS / reduced)
+    zeta = DAMPING / (2.0 * math.sqrt(STIFFNESS * reduced))
+    w = w0 * math.sqrt(1.0 - zeta * zeta)
+    mean = 100.0 + (torque - BRAKE) * t / (FIRST + SECOND)
+    momentum = FIRST * found["engine.speed"] + SECOND * found["load.speed"]
+    assert momentum / (FIRST + SECOND) == pytest.approx(mean, rel=1e-9)
+    # at the start the first body of the start speeds bears what the brake leaves
+    rest = BRAKE / STIFFNESS
+    steady = (torque * SECOND + BRAKE * FIRST) / (FIRST + SECOND) / STIFFNESS
+    decay = np.exp(-zeta * w0 * t)
+    swing = decay * (np.cos(w * t) + zeta / math.sqrt(1.0 - zeta**2) * np.sin(w * t))
+    twist = steady + (rest - steady) * swing
+    rate = (steady - rest) * decay * np.sin(w * t) * w0 / math.sqrt(1.0 - zeta**2)
+    expected = STIFFNESS * twist + DAMPING * rate
+    np.testing.assert_allclose(found["shaft.torque"], expected, atol=1e-5 * torque)
+
+
+def test_it_computes_what_the_train_computes_in_python(fmus: list[Path], tmp_path: Path) -> None:
+    path = tmp_path / "train.toml"
+    path.write_text(WITH_BRAKE)
+    definition, _ = definition_with_train(path)
+    inputs = [40.0, 333.15]
+    model = definition.start_model({"engine.speed_start": 100.0}, inputs)
+    for _ in range(20):
+        model.step(1e-3, *inputs)
+    found = fmpy.simulate_fmu(
+        str(fmus[0]),
+        stop_time=0.02,
+        output_interval=1e-3,
+        start_values={"engine.speed_start": 100.0, "drive.torque": 40.0},
+        output=definition.output_names,
+    )
+    last = np.array([found[name][-1] for name in definition.output_names])
+    np.testing.assert_allclose(last, model.outputs, rtol=1e-12, atol=1e-12)
+
+
+def test_a_saved_state_goes_on_as_if_nothing_had_been(fmus: list[Path]) -> None:
+    from fmpy import extract, read_model_description
+    from fmpy.fmi2 import FMU2Slave
+
+    description = read_model_description(str(fmus[0]))
+    references = {v.name: v.valueReference for v in description.modelVariables}
+    asked = [
+        references[name] for name in ("shaft.torque", "load.speed", "shaft_damping.power_loss")
+    ]
+    fmu = FMU2Slave(
+        guid=description.guid,
+        unzipDirectory=extract(str(fmus[0])),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+    )
+    fmu.instantiate()
+    fmu.setupExperiment(startTime=0.0)
+    fmu.enterInitializationMode()
+    fmu.setReal([references["drive.torque"]], [10.0])
+    fmu.exitInitializationMode()
+    fmu.setReal([references["drive.torque"]], [60.0])
+    fmu.doStep(0.0, 1e-3)
+    state = fmu.getFMUState()
+    fmu.doStep(1e-3, 1e-3)
+    wanted = fmu.getReal(asked)
+    fmu.setFMUState(state)
+    saved = fmu.getReal(asked)
+    fmu.doStep(1e-3, 1e-3)
+    assert fmu.getReal(asked) == wanted
+    assert saved != wanted
+    fmu.terminate()
+    fmu.freeInstance()
+
+
+def test_a_torque_beyond_its_limit_is_refused(fmus: list[Path]) -> None:
+    with pytest.raises(Exception, match="fmi2"):
+        fmpy.simulate_fmu(str(fmus[0]), stop_time=1e-3, start_values={"drive.torque": 1e9})
+
+
+def test_what_cannot_be_combined_is_said(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="--train cannot be combined with --python"):
+        build_models(tmp_path, train="e_axle")
+    with pytest.raises(ParameterError, match="--train cannot be combined with --model"):
+        build_models(tmp_path, "driveline", train="e_axle", native=NativeOptions())
+
+
+@pytest.mark.slow
+def test_the_two_stage_axle_as_fmu_moves_as_in_python(tmp_path: Path) -> None:
+    """Machine code for this processor and for any may round differently: 1e-9 over 20 ms."""
+    (fmu, _) = build_models(
+        tmp_path, train="e_axle", native=NativeOptions(platforms=[platform_of_this_machine()])
+    )
+    definition, case = definition_with_train("e_axle")
+    inputs = [*case.torques.values(), case.oil_temperature]
+    model = (
+        definition.start_model({}, inputs)
+        if not case.speeds
+        else definition.start_model(
+            {f"{name}.speed_start": value for name, value in case.speeds.items()}, inputs
+        )
+    )
+    for _ in range(20):
+        model.step(1e-3, *inputs)
+    found = fmpy.simulate_fmu(
+        str(fmu), stop_time=0.02, output_interval=1e-3, output=definition.output_names
+    )
+    last = np.array([found[name][-1] for name in definition.output_names])
+    scale = np.maximum(np.abs(model.outputs), 1e-9)
+    assert np.max(np.abs(last - model.outputs) / scale) < 1e-6
+
+
+def test_the_shipped_file_is_complete() -> None:
+    data = tomllib.loads(TrainFile.shipped_text("e_axle"))
+    assert set(data["start"]["torque_n_m"]) == {
+        name for name, one in data["elements"].items() if one["kind"] == "port"
+    }
