@@ -60,6 +60,49 @@ def test_two_rotors_on_a_shaft_swing_as_the_closed_form():
     assert train.outputs()["shaft.torque"] == pytest.approx(1e4 * train.state("shaft.twist"))
 
 
+def test_outputs_of_two_rotors_follow_from_torque_speed_and_time():
+    train = two_rotors(brake=3.0)
+    units = {one.name: one.unit for one in train.output_records}
+    energies = [f"energy.{one}" for one in ("motor.work", "shaft_damping", "brake", "stored")]
+    assert list(units) == [
+        *(f"{b}.{one}" for b in ("engine", "load") for one in ("angle", "speed", "acceleration")),
+        "shaft.torque", "shaft_damping.power_loss", "brake.power_loss", "motor.power",
+        "efficiency", *energies,
+    ]  # fmt: skip
+    assert [units[one] for one in ("engine.speed", "motor.power", *energies)] == [
+        "rad/s", "W", "J", "J", "J", "J",
+    ]  # fmt: skip
+    train.initialise({"engine": 100.0}, {"motor": 3.0}, KELVIN)
+    found = train.outputs()  # before the first step those of the instant
+    assert found["motor.power"] == pytest.approx(300.0, rel=1e-12)
+    assert found["brake.power_loss"] == pytest.approx(300.0, rel=1e-9)
+    assert found["efficiency"] == pytest.approx(0.0, abs=1e-9)
+    assert found["energy.stored"] == pytest.approx(0.5 * 2.2 * 1e4 + 0.5 * 9.0 / 1e4, rel=1e-12)
+    for _ in range(3):
+        before = found
+        train.step(2e-3, {"motor": 50.0}, KELVIN)
+        found = train.outputs()
+        turned = found["engine.angle"] - before["engine.angle"]
+        assert found["motor.power"] == pytest.approx(50.0 * turned / 2e-3, rel=1e-9)
+        braked = found["load.angle"] - before["load.angle"]
+        assert found["brake.power_loss"] == pytest.approx(3.0 * braked / 2e-3, rel=1e-6)
+        share = found["brake.power_loss"] / found["motor.power"]
+        assert found["efficiency"] == pytest.approx(1.0 - share, rel=1e-12)
+        accelerating = (50.0 - found["shaft.torque"]) / 0.2
+        assert found["engine.acceleration"] == pytest.approx(accelerating, rel=1e-9)
+    # a step too short for a mean leaves the means, and a saved state keeps them
+    train.step(5e-8, {"motor": 70.0}, KELVIN)
+    after, other = train.outputs(), two_rotors(brake=3.0)
+    for name in ("motor.power", "brake.power_loss", "efficiency"):
+        assert after[name] == pytest.approx(found[name], rel=1e-9)
+    other.set_state(train.get_state())
+    assert other.outputs() == after
+    # driven by its load, the motor takes work
+    train.step(2e-3, {"motor": -50.0}, KELVIN)
+    assert train.outputs()["motor.power"] < -4e3
+    assert train.outputs()["efficiency"] == 0.0
+
+
 def test_a_brake_from_outside_the_package_stops_a_rotor_after_its_angle():
     # w0^2 I / (2 T) for both rotors as one, which a stiff shaft makes of them
     train = two_rotors(brake=40.0, damping=20.0)
@@ -269,15 +312,16 @@ def test_a_train_goes_on_from_a_saved_state_to_the_last_bit(rollers):
         train.step(1e-3, {"input": 200.0 + k, "output": 240.0}, KELVIN)
     saved, before = train.get_state(), train.outputs()
 
-    def go_on() -> np.ndarray:
+    def go_on(one: Train) -> np.ndarray:
         for k in range(5):
-            train.step(1e-3, {"input": 180.0 - k, "output": 240.0}, KELVIN)
-        return train.get_state()
+            one.step(1e-3, {"input": 180.0 - k, "output": 240.0}, KELVIN)
+        return one.get_state()
 
-    first = go_on()
-    train.set_state(saved)
-    assert train.outputs() == before
-    assert np.array_equal(go_on(), first)
+    first = go_on(train)
+    for one in (Train(train.bodies, train.elements, train.oil), train):
+        one.set_state(saved)
+        assert one.outputs() == before  # and reading them leaves the motion as it is
+        assert np.array_equal(go_on(one), first)
 
 
 def test_what_cannot_be_a_train_is_named():

@@ -43,8 +43,22 @@ def of_pair(train: Train, s: np.ndarray) -> np.ndarray:
     made[27:30] = s[pair_state.FRICTION : pair_state.FRICTION + 3]
     made[30:32] = tuple(LOAD.values())
     made[32] = s[pair_state.LOAD_TORQUE]
-    made[33:] = s[pair_state.REFRESHED :]
+    friction = s[pair_state.REFRESHED :]
+    made[33 : 33 + friction.size] = friction
     return made
+
+
+_AS_ALONE = {
+    "wheel.speed": "wheel.speed",
+    "wheel.displacement.z": "wheel.displacement.z",
+    "mesh.dte": "mesh.dte",
+    "mesh.force.y": "mesh.force.y",
+    "energy.friction": "energy.friction",
+    "energy.stored": "energy.stored",
+    "friction.power_loss": "friction.power_loss",
+    "mesh_damping.power_loss": "damping.power_loss",
+    "bearing_damping.power_loss": "bearing.power_loss",
+}
 
 
 def test_the_pair_in_a_train_is_the_pair_alone_to_the_last_bit():
@@ -72,6 +86,13 @@ def test_the_pair_in_a_train_is_the_pair_alone_to_the_last_bit():
         wanted = of_pair(train, alone.state_view)
         wanted[30:32] = tuple(load.values())
         assert np.array_equal(train.get_state()[:-2], wanted), k
+        found = train.outputs()
+        for name, other in _AS_ALONE.items():
+            # differences of energies, whose sums have other orders
+            assert found[name] == pytest.approx(alone.output(other), rel=1e-9, abs=1e-9), name
+        if min(found["input.power"], found["output.power"]) < 0.0:  # one drives, not both
+            efficiency = alone.output("pair.efficiency")
+            assert found["efficiency"] == pytest.approx(efficiency, rel=1e-9)
         met |= {name for name in ("mesh.separated", "mesh.coast_contact") if alone.output(name)}
     assert met == {"mesh.separated", "mesh.coast_contact"}  # both were among the states
 

@@ -1,8 +1,9 @@
 """A list of bodies and elements put together: places in the state, numbers and memory.
 
 State of a train: twelve states of each body, own states and angles of the elements, the energies,
-and behind these integrated states what elements keep between steps. Order of the list is order of
-the sums, hence of the last digits.
+and behind these integrated states what elements keep between steps, then marks of the energies at
+the start of the last step and its length. Order of the list is order of the sums, hence of the last
+digits.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES
-from gearlube_core.dynamics.train.march import Call, Layout
+from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, Call, Layout
+from gearlube_core.dynamics.train.outputs import train_outputs
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.number import Output
 from gearlube_core.oil.formula_laws import FORMULA_LAWS
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -34,7 +36,7 @@ class Assembly(NamedTuple):
     names: tuple[str, ...]  # of the integrated states
     works: dict[str, int]  # places of the energies put in
     losses: dict[str, int]  # of those lost
-    outputs: tuple[str, ...]
+    outputs: tuple[Output, ...]
     kept: dict[str, int]  # first place of what each element keeps
 
 
@@ -72,8 +74,8 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
     for one in elements:
         kept[one.name] = size
         size += one.kept().size
-    numbers, memory, calls, outputs = [flatten(oil.parameters())], [], [], list[str]()
-    at_number, at_memory = numbers[0].size, 0
+    numbers, memory, calls = [flatten(oil.parameters())], [], []
+    at_number, at_memory, at_output = numbers[0].size, 0, 0
     for one in elements:
         constants, room = one.numbers(), one.memory()
         beside = [getattr(one, field) for field in one.beside]
@@ -91,21 +93,25 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         of_numbers = at_number, numbers[-1].size
         of_memory = at_memory, room.size
         kind, variants = type(constants), one.variants()
-        calls.append(Call(kind, variants, places, *of_numbers, *of_memory, len(outputs)))
-        outputs += [f"{one.name}.{output}" for output in one.outputs]
+        calls.append(Call(kind, variants, places, *of_numbers, *of_memory, at_output))
+        at_output += len(one.outputs)
         at_number += numbers[-1].size
         at_memory += room.size
     laws = (*oil.own_laws(), FORMULA_LAWS)[0]
     own_states = sum(len(one.states) for one in elements)
+    energies = len(works) + len(losses)
+    sizes = len(names), size + energies + 1, size, at_output, len(works), energies
     return Assembly(
-        Layout(tuple(calls), len(bodies), own_states, at_number, len(names), size, laws),
+        Layout(tuple(calls), len(bodies), own_states, at_number, *sizes, laws),
         np.concatenate([*numbers, *(body.mobility for body in bodies)]),
         np.concatenate([*memory, np.zeros(1)]),
-        np.concatenate([np.zeros(len(names)), *(one.kept() for one in elements)]),
+        np.concatenate(
+            [np.zeros(len(names)), *(one.kept() for one in elements), np.zeros(energies + 1)]
+        ),
         tuple(names),
         works,
         losses,
-        tuple(outputs),
+        train_outputs(bodies, elements, works, losses),
         kept,
     )
 

@@ -19,6 +19,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import OilLaws
 from gearlube_core.oil.lubricant import LubricantState
 
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
@@ -26,6 +27,35 @@ N_COORDINATES = 6
 RATE = 6  # from a coordinate of a body to its rate
 BODY_STATES = 12
 RZ, W = 5, 11  # angle [rad] and speed [rad/s] about the shaft's axis z
+
+
+class Call(NamedTuple):
+    """How an element is called."""
+
+    numbers: type  # NamedTuple class of its constants
+    variants: tuple[type, ...]  # classes of its parts, see `tuple_from_array`
+    at: tuple[int, ...]
+    first_number: int
+    n_numbers: int
+    first_memory: int
+    n_memory: int
+    first_output: int
+
+
+class Layout(NamedTuple):
+    """What is compiled for: all of it constant."""
+
+    calls: tuple[Call, ...]
+    bodies: int
+    own: int  # states of elements, behind those of the bodies
+    first_mobility: int  # among the numbers
+    integrated: int
+    states: int
+    kept: int  # end of what elements keep, then a mark of each energy and the length of the step
+    outputs: int  # of elements
+    works: int  # of the energies, which are the last integrated states, first those put in
+    energies: int
+    laws: OilLaws  # of an oil with laws of its own
 
 
 @kernel

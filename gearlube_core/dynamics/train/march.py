@@ -5,7 +5,8 @@ the number of elements alone: their classes and places are constants of the comp
 the list is order of the sums, hence of the bits.
 
 State of a train: twelve states of each body, the elements' own states, the energies, and behind
-these N integrated states what elements keep between steps.
+these N integrated states what elements keep between steps, a mark of each energy at the start of
+the last communication step, and its length, for mean powers.
 """
 
 from __future__ import annotations
@@ -13,18 +14,27 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.mean_power import LEAST_WINDOW
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.dynamics.train import element as calls
-from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, RZ, W
+from gearlube_core.dynamics.train.element import (
+    BODY_STATES,
+    N_COORDINATES,
+    RATE,
+    RZ,
+    Call,
+    Layout,
+    W,
+)
+from gearlube_core.dynamics.train.outputs import outputs_kernel, write_work_size
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.formula_laws import OilLaws
 from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
 
 RATES, RENEW, SETTLE, ADVANCE, WRITE, ENERGY = range(6)
@@ -37,29 +47,9 @@ MAX_STEPS = 150_000  # in one communication interval, or their cost
 DIVERGED = 0.1  # m, displacement of a body: supports long broken
 
 
-class Call(NamedTuple):
-    """How an element is called."""
-
-    numbers: type  # NamedTuple class of its constants
-    variants: tuple[type, ...]  # classes of its parts, see `tuple_from_array`
-    at: tuple[int, ...]
-    first_number: int
-    n_numbers: int
-    first_memory: int
-    n_memory: int
-    first_output: int
-
-
-class Layout(NamedTuple):
-    """What is compiled for: all of it constant."""
-
-    calls: tuple[Call, ...]
-    bodies: int
-    own: int  # states of elements, behind those of the bodies
-    first_mobility: int  # among the numbers
-    integrated: int
-    states: int
-    laws: OilLaws  # of an oil with laws of its own
+def work_size(layout: Layout) -> int:
+    """Return the length of `work` for ADVANCE and WRITE."""
+    return max(write_work_size(layout), layout.states + 2 * layout.integrated)
 
 
 def settle_work_size(layout: Layout, m: int) -> int:
@@ -146,8 +136,10 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
     made = dict(zip(_LINES, _called(layout.calls), strict=True))
     begin, expand, each_step, after_step, finish = (made[name] for name in _IN_TIME)
     step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
-    add_forces, write = made["add_forces"], made["write"]
-    bodies, own, first_mobility, n, n_state, laws = layout[1:]
+    add_forces = made["add_forces"]
+    bodies, own, first_mobility, n, n_state, n_kept = layout[1:7]
+    energies, laws = layout.energies, layout.laws
+    first_energy = n - energies
 
     @inside
     def forces(
@@ -261,6 +253,11 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
             return TOO_MANY_STEPS
         steps = max(1, math.ceil(wanted))
         h = duration / steps
+        for i in range(energies):
+            now = s[first_energy + i]
+            s[n_kept + i] = now if duration >= LEAST_WINDOW else s[n_kept + i] - now
+        if duration >= LEAST_WINDOW:
+            s[n_state - 1] = duration
         cost = 0.0
         for _ in range(steps):
             rest = h
@@ -268,7 +265,7 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
                 cost += each_step(s, oil, numbers, memory, rest)
                 if cost > MAX_STEPS:
                     return TOO_MANY_STEPS
-                for i in range(n, n_state):
+                for i in range(n, n_kept):
                     work[i] = s[i]
                 piece = min(rest, time_to_jump(s, oil, numbers, memory, h))
                 rk4_step(s, piece, oil, numbers, memory, work)
@@ -278,6 +275,9 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
             if status != OK:
                 return status
         finish(s, oil, numbers, memory)
+        for i in range(energies):  # a short step leaves the means as they were, see `keep_means`
+            if duration < LEAST_WINDOW:
+                s[n_kept + i] += s[first_energy + i]
         return OK
 
     @kernel
@@ -290,6 +290,8 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
                 if numbers[mobility + i] > 0.0:
                     twice += s[at + i] * s[at + i] / numbers[mobility + i]
         return 0.5 * twice
+
+    write_all = outputs_kernel(layout, each_step, expand, rates, made["write"])
 
     @kernel
     def operate(
@@ -316,8 +318,9 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         if operation == RENEW:
             each_step(s, oil, numbers, memory, 0.0)
         expand(s, oil, numbers, memory)
+        stored = kinetic_energy(s, numbers) + stored_energy(s, oil, numbers, memory)
         if operation == WRITE:
-            write(s, oil, numbers, memory, work)
-        return kinetic_energy(s, numbers) + stored_energy(s, oil, numbers, memory)
+            write_all(s, oil, numbers, memory, stored, work)
+        return stored
 
     return operate

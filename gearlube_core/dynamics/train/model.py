@@ -35,9 +35,11 @@ from gearlube_core.dynamics.train.march import (
     WRITE,
     settle_work_size,
     train_kernel,
+    work_size,
 )
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
+from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
 
 _DIFFERENCE = 1e-8  # m and rad, of coordinates in a linearisation
@@ -100,7 +102,8 @@ class Train:
         self._operate = train_kernel(self._made.layout)
         n, size = self._made.layout.integrated, self._made.layout.states
         self._n, self._state, self._trial = n, self._made.state.copy(), np.zeros(size)
-        self._work = np.zeros(size + 2 * n)
+        self._work = np.zeros(work_size(self._made.layout))
+        self._output_names = tuple(one.name for one in self._made.outputs)
         self._per_period, self._least_rate = float(steps_per_highest_period), _LEAST_RATE
         self._temperature = math.nan
         ports = (one.name for one in elements if isinstance(one, Port))
@@ -172,10 +175,18 @@ class Train:
         self._trial = before
 
     def outputs(self) -> dict[str, float]:
-        """Return the outputs of all elements in the present state, SI units, by name."""
-        out = np.zeros(len(self._made.outputs))
-        self._call(WRITE, self._state, out)
-        return dict(zip(self._made.outputs, out.tolist(), strict=True))
+        """Return all outputs in the present state, SI units, by name, see `output_records`.
+
+        Powers are means over the last step of at least 1e-7 s; before the first one, those now.
+        """
+        names = self._output_names
+        self._call(WRITE, self._state, self._work)
+        return dict(zip(names, self._work[: len(names)].tolist(), strict=True))
+
+    @property
+    def output_records(self) -> tuple[Output, ...]:
+        """Name, unit and words of every output, in order."""
+        return self._made.outputs
 
     def state(self, name: str) -> float:
         """Return one of `state_names`; "body.rz" is an angle, "body.rz.rate" a speed."""

@@ -11,7 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import COORDINATES
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.part import Kind
 
 NO_NUMBERS: Array = np.empty(0)
@@ -97,7 +97,7 @@ class Element(ABC):
     angles: ClassVar[tuple[str, ...]] = ()  # own integrated states that turn on
     works: ClassVar[tuple[str, ...]] = ()  # energies put into the train
     losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
-    outputs: ClassVar[tuple[str, ...]] = ()
+    outputs: ClassVar[tuple[Output, ...]] = ()  # named without the element
 
     def __init_subclass__(cls) -> None:
         if kind := cls.__dict__.get("kind"):

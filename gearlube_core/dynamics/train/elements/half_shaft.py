@@ -10,7 +10,7 @@ from gearlube_core.dynamics.train.element import RATE, RZ, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
 _STILL = 1e-9  # rad
@@ -80,7 +80,7 @@ class HalfShaft(Element):
     on: ClassVar = ("first", "second")
     states: ClassVar = ("twist",)
     losses: ClassVar = ("shaft_damping",)
-    outputs: ClassVar = ("torque",)
+    outputs: ClassVar = (Output("torque", "N.m", "torque on the second body", 100.0),)
 
     def __post_init__(self) -> None:
         check_fields(self)

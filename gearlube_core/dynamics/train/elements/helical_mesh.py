@@ -53,7 +53,7 @@ from gearlube_core.kernels.array_rows import rows
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
 # places of `at` behind both bodies, the relative rotation, and both losses
@@ -268,8 +268,12 @@ class HelicalMesh(Element):
     states: ClassVar = ("rotation",)
     losses: ClassVar = ("friction", "mesh_damping")
     outputs: ClassVar = (
-        "dte", "force.x", "force.y", "force.z", "friction", "tilt", "load_torque",
-    )  # fmt: skip
+        Output("dte", "m", "dynamic transmission error along the line of action", 1e-5, "um"),
+        *(Output(f"force.{c}", "N", f"force along {c} on the pinion", 1e3) for c in "xyz"),
+        Output("friction", "W", "power lost in friction now", 100.0),
+        Output("tilt", "rad", "tilt of the pinion against the gear", 1e-5),
+        Output("load_torque", "N.m", "torque that selects the line mesh", 100.0),
+    )
 
     def __post_init__(self) -> None:
         check_fields(self)

@@ -41,6 +41,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M
+from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import LubricantState
 
 # places of `at` behind both bodies
@@ -68,6 +69,8 @@ class _HypoidMesh(NamedTuple):
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         _blend(at, memory, s)
+        now = _now(at, memory)
+        memory[_RATE] = mesh_force(_motion(at, s), now.series, now.n_orders, self.mesh).x_rate
         memory[_ANEW] = 1.0
         if at[_FILM] > 0:
             friction = _friction(at, memory)
@@ -286,7 +289,12 @@ class HypoidMesh(Element):
     beside: ClassVar = ("torque_of",)
     states: ClassVar = ("transmission_error",)
     losses: ClassVar = ("friction_viscous", "friction_boundary", "friction_rolling", "mesh_damping")
-    outputs: ClassVar = ("dte", "force", "stiffness", "load_torque")
+    outputs: ClassVar = (
+        Output("dte", "m", "dynamic transmission error", 1e-5, "um"),
+        Output("force", "N", "normal mesh force", 1e3),
+        Output("stiffness", "N/m", "mesh stiffness", 1e8),
+        Output("load_torque", "N.m", "torque that selects the mesh data", 100.0),
+    )
 
     def variants(self) -> tuple[type, ...]:
         """Return the class of the friction law."""

@@ -27,7 +27,7 @@ from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
 # places in the memory behind the expansion: steps since then, 0 for none; displacements of then
@@ -256,7 +256,10 @@ class OpposedBearings(Element):
     on: ClassVar = ("body",)
     angles: ClassVar = ("cage",)
     losses: ClassVar = ("bearing_damping", "bearing_torque")
-    outputs: ClassVar = ("force.x", "force.y", "force.z", "torque")
+    outputs: ClassVar = (
+        *(Output(f"force.{c}", "N", f"force along {c} on the body", 1e3) for c in "xyz"),
+        Output("torque", "N.m", "drag"),
+    )
 
     def __post_init__(self) -> None:
         check_fields(self)

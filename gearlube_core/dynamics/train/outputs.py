@@ -1,0 +1,159 @@
+"""Outputs of a train: what they are, and the kernel that writes them all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.mean_power import mean_power
+from gearlube_core.dynamics.train.element import (
+    BODY_STATES,
+    N_COORDINATES,
+    RATE,
+    RZ,
+    Layout,
+    W,
+)
+from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Output
+from gearlube_core.oil.lubricant import LubricantState
+
+_IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
+_MEAN = "mean over the last step"
+# of a body: about its axis, and along and about the coordinates that it does not hold
+_TURNING = (
+    Output("angle", "rad", "rotation about z"),
+    Output("speed", "rad/s", "speed about z", 100.0),
+    Output("acceleration", "rad/s2", "acceleration about z", 1e3),
+)
+_MOVING = {
+    **{c: Output(f"displacement.{c}", "m", f"displacement along {c}", 1e-6, "um") for c in "xyz"},
+    **{f"r{c}": Output(f"tilt.{c}", "rad", f"tilt about {c}", 1e-5) for c in "xy"},
+}
+
+
+def train_outputs(
+    bodies: Sequence[Body],
+    elements: Sequence[Element],
+    works: Iterable[str],
+    losses: Iterable[str],
+) -> tuple[Output, ...]:
+    """Return all outputs of a train, in the order of the kernel.
+
+    Parameters
+    ----------
+    bodies, elements
+    works, losses : iterable of str
+        Labels of the energies put in and lost.
+
+    Raises
+    ------
+    ParameterError
+        Two outputs have one name.
+    """
+    made = []
+    for body in bodies:
+        moving = (one for name, one in _MOVING.items() if name not in body.held)
+        made += [_of(body.name, one) for one in (*_TURNING, *moving)]
+    made += [_of(one.name, output) for one in elements for output in one.outputs]
+    words = {label: label.replace("_", " ") for label in losses}
+    made += [
+        Output(f"{label}.power_loss", "W", f"power lost in {word}, {_MEAN}", 10.0)
+        for label, word in words.items()
+    ]
+    ports = {label: label.removesuffix(".work") for label in works}
+    made += [
+        Output(f"{port}.power", "W", f"power put in by {port}, {_MEAN}", 1e3)
+        for port in ports.values()
+    ]
+    made.append(
+        Output("efficiency", "1", f"1 - losses over the power put in, {_MEAN}; 0 without power")
+    )
+    made += [Output(f"energy.{one}", "J", f"work put in by {ports[one]}", 100.0) for one in ports]
+    made += [Output(f"energy.{one}", "J", f"energy lost in {words[one]}", 100.0) for one in words]
+    made.append(Output("energy.stored", "J", "kinetic and elastic energy", 100.0))
+    names = [one.name for one in made]
+    for name in names:
+        if names.count(name) > 1:
+            raise ParameterError(
+                f"outputs of a train must have names of their own, got {name!r} twice. Rename the "
+                "body or the element."
+            )
+    return tuple(made)
+
+
+def _of(name: str, one: Output) -> Output:
+    return one._replace(name=f"{name}.{one.name}", text=f"{one.text} of {name}")
+
+
+def write_work_size(layout: Layout) -> int:
+    """Return the length of `work` for the kernel of `outputs_kernel`."""
+    bodies = (len(_TURNING) + len(_MOVING)) * layout.bodies
+    outputs = bodies + layout.outputs + 2 * layout.energies + 2
+    return outputs + layout.states + layout.integrated
+
+
+def outputs_kernel(
+    layout: Layout,
+    each_step: Callable[..., Any],
+    expand: Callable[..., Any],
+    rates: Callable[..., Any],
+    write: Callable[..., Any],
+) -> Callable[..., None]:
+    """Return the kernel that writes the outputs into the first places of `work`.
+
+    The arguments are kernels of all elements. Rates are those with which the next step begins, so
+    accelerations and the powers before the first step are. The state stays as it is.
+    """
+    bodies, first_mobility = layout.bodies, layout.first_mobility
+    n, n_state, n_kept, n_outputs = layout[4:8]
+    works, energies = layout.works, layout.energies
+    first = n - energies
+
+    @kernel
+    def write_all(
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, stored: float, work: Array
+    ) -> None:
+        at = work.size - n_state - n
+        begun, slope = part(work, at, n_state), part(work, at + n_state, n)
+        for i in range(n_state):
+            begun[i] = s[i]
+        each_step(begun, oil, numbers, memory, 0.0)
+        expand(begun, oil, numbers, memory)
+        rates(begun, oil, numbers, memory, 0, slope)
+        k = 0
+        for body in range(bodies):
+            u = BODY_STATES * body
+            work[k], work[k + 1], work[k + 2] = s[u + RZ], s[u + W], slope[u + RATE + RZ]
+            k += 3
+            for i in range(N_COORDINATES - 1):
+                if numbers[first_mobility + N_COORDINATES * body + i] > 0.0:
+                    work[k] = s[u + i]
+                    k += 1
+        write(s, oil, numbers, memory, part(work, k, n_outputs))
+        k += n_outputs
+        duration = s[n_state - 1]
+        lost = put_in = 0.0
+        for i in range(works, energies):
+            power = mean_power(s, slope, first + i, n_kept + i, duration)
+            work[k] = power
+            lost += power
+            k += 1
+        for i in range(works):
+            power = mean_power(s, slope, first + i, n_kept + i, duration)
+            work[k] = power
+            put_in += max(power, 0.0)
+            k += 1
+        idle = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
+        work[k] = 1.0 - lost / put_in if put_in > idle else 0.0
+        k += 1
+        for i in range(energies):
+            work[k] = s[first + i]
+            k += 1
+        work[k] = stored
+
+    return write_all
