@@ -20,7 +20,7 @@ from gearlube_core.input_file.field_units import (
     field_value,
     in_other_units,
 )
-from gearlube_core.number import numbers_of
+from gearlube_core.number import Number, numbers_of
 
 _LIMITS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _KINDS = {
@@ -68,14 +68,16 @@ class OneOf:
 
 @dataclass(frozen=True)
 class Declared:
-    """Mark of a field's type: its limits are those of a number that a model declares."""
+    """Mark of a field's type: its limits are those of a number, or of one that a model declares."""
 
-    model: type
+    model: type | Number
     field: str
     number: str = ""  # name in the model, where it is not that of the field without its unit
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        number = numbers_of(self.model)[self.number or attribute_of(self.field)]
+        number = self.model
+        if not isinstance(number, Number):
+            number = numbers_of(number)[self.number or attribute_of(self.field)]
         low, high = (field_value(self.field, end) for end in (number.low, number.high))
         if source is int:
             return core_schema.int_schema(ge=int(low), le=int(high))

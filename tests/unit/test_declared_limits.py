@@ -25,9 +25,12 @@ class OfArm(ModelSection):
 
     length_mm: Annotated[float, Declared(Arm, "length_mm")] | None = None
     pieces: Annotated[int, Declared(Arm, "pieces", "parts")] | None = None
+    width_um: Annotated[float, Declared(Number("m", 2e-6, 7e-5), "width_um")] | None = None
 
 
-@pytest.mark.parametrize(("field", "low", "high"), [("length_mm", 1.0, 200.0), ("pieces", 2, 9)])
+@pytest.mark.parametrize(
+    ("field", "low", "high"), [("length_mm", 1.0, 200.0), ("pieces", 2, 9), ("width_um", 2.0, 70.0)]
+)
 def test_limits_of_a_field_are_those_of_the_number_of_the_model_in_its_unit(field, low, high):
     assert field_notes(OfArm)[field].limits == f"{low:g} to {high:g}"
     assert [getattr(OfArm(**{field: end}), field) for end in (low, high)] == [low, high]

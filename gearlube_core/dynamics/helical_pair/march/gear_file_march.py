@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
     gear_file_film_model,
@@ -111,10 +110,7 @@ def helical_march_parameters(
     >>> dry.pinion.support.first.K_xx  # N/m, half of both bearings together
     1000000000.0
     """
-    limits = STIFFNESS_DENSITY
-    check_within(
-        "stiffness_density", stiffness_density, limits.low, limits.high, limits.unit, limits.cure
-    )
+    STIFFNESS_DENSITY.check("stiffness_density", stiffness_density)
     instead = bearings or ReplacedBearings()
     pair = gear.helical_pair()
     if line_mesh is None:

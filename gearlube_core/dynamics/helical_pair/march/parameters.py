@@ -10,6 +10,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
     BEARING_FIELDS,
@@ -149,7 +150,7 @@ class HelicalMarchParameters(MarchScalars):
     friction_coefficient: Annotated[float, FRICTION] = 0.05
     film: Film = "formula"
     line_film_model: FilmModel | None = None
-    roughness_rms: Annotated[float, Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")] = 0.5e-6
+    roughness_rms: Annotated[float, ROUGHNESS] = 0.5e-6
     solid: Solid = STEEL_MOHAMMADPOUR_2015
     mesh_damping_ratio: Annotated[float, DAMPING_RATIO] = 0.05
     support_damping_ratio: Annotated[float, DAMPING_RATIO] = 0.05

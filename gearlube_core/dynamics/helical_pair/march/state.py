@@ -13,7 +13,7 @@ from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number
-from gearlube_core.oil.lubricant import LubricantParameters
+from gearlube_core.oil.lubricant import LIMITING_SLOPE, LubricantParameters
 
 PSI = 0  # r_bp phi_p - r_bg phi_g: relative rotation along the line of action [m]
 W_P, W_G = 1, 2  # speeds of pinion and gear, forward positive [rad/s]
@@ -251,7 +251,7 @@ class MarchScalars(FlankScalars):
     """
 
     friction_updates_per_mesh_period: Annotated[int, Number("1", 4, 4096)] = 16
-    film_limiting_slope: Annotated[float, Number("1", 0.0, 1.0, "0.05 is usual.")] = 0.0
+    film_limiting_slope: Annotated[float, LIMITING_SLOPE] = 0.0
 
 
 class MotionConstants(NamedTuple):
