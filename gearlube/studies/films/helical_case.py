@@ -17,7 +17,7 @@ from gearlube_core.helical_geometry.meshing_steps import (
     meshing_steps,
     position_of_line,
 )
-from gearlube_core.input_file.field_units import from_si
+from gearlube_core.input_file.field_units import limits_in
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
@@ -101,8 +101,7 @@ class HelicalLineCase:
             check_within(f"nodes {name} the line", count, 17, 2049)
         check_option("spacing", spacing, tuple(GRADINGS))
         if self.roughness_um is not None:
-            low, high = (from_si("um", end) for end in (ROUGHNESS.low, ROUGHNESS.high))
-            check_within("roughness_um", self.roughness_um, low, high, "um")
+            check_within("roughness_um", self.roughness_um, *limits_in("um", ROUGHNESS), "um")
         return HelicalFilm(
             modified=modified,
             steps=meshing_steps(modified, _STEP, _SMALLEST_SHARE)
