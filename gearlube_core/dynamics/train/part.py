@@ -11,7 +11,8 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import COORDINATES
-from gearlube_core.number import Number, check_fields
+from gearlube_core.helical_geometry.gear_body import INERTIA, MASS
+from gearlube_core.number import check_fields
 
 NO_NUMBERS: Array = np.empty(0)
 
@@ -42,9 +43,9 @@ class Body:
     """
 
     name: str
-    mass: Annotated[float, Number("kg", 1e-4, 1e6)]
-    inertia: Annotated[float, Number("kg m2", 1e-9, 1e6)]
-    polar_inertia: Annotated[float, Number("kg m2", 1e-9, 1e6)]
+    mass: Annotated[float, MASS]
+    inertia: Annotated[float, INERTIA]
+    polar_inertia: Annotated[float, INERTIA]
     held: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

@@ -19,7 +19,7 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
 from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport, replaced_bearing
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.helical_geometry.gear_body import SupportStiffness
+from gearlube_core.helical_geometry.gear_body import POSITION, STIFFNESS, SupportStiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.number import Number, check_fields
@@ -28,7 +28,7 @@ from gearlube_core.oil.lubricant import Lubricant
 DENSITY_WITH_MESH_WORDS = "stiffness_density must be 0 with a line mesh"
 _NO_BEARING = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _ZERO = "0 takes the value of the gear file."
-_STIFFNESS = Number("N/m", 0.0, 1e12, _ZERO)
+_STIFFNESS = STIFFNESS._replace(cure=_ZERO)
 STIFFNESS_DENSITY = Number("N/m2", 0.0, 1e12, _ZERO)  # along contact lines
 
 
@@ -39,7 +39,7 @@ class ReplacedBearings:
     Parameters
     ----------
     radial_stiffness, axial_stiffness : float
-        Stiffness of both bearings of a member together [N/m], 0 to 1e12; 0: those of the file.
+        Stiffness of both bearings of a member together [N/m], 0 to 1e13; 0: those of the file.
     bearing_distance : float
         Distance from mid-face to each bearing [m], 0 to 10; 0: that of the file.
 
@@ -58,7 +58,7 @@ class ReplacedBearings:
 
     radial_stiffness: Annotated[float, _STIFFNESS] = 0.0
     axial_stiffness: Annotated[float, _STIFFNESS] = 0.0
-    bearing_distance: Annotated[float, Number("m", 0.0, 10.0, _ZERO)] = 0.0
+    bearing_distance: Annotated[float, POSITION._replace(low=0.0, cure=_ZERO)] = 0.0
 
     def __post_init__(self) -> None:
         check_fields(self)

@@ -9,7 +9,6 @@ from typing import Annotated, Literal
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_within
 from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
@@ -29,7 +28,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     MarchScalars,
 )
 from gearlube_core.dynamics.helical_pair.parameters import (
-    DAMPING_RATIO,
     FRICTION,
     check_line_mesh,
     effective_mass,
@@ -41,6 +39,7 @@ from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import FILM_MODELS
+from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO, INERTIA, MASS
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -71,15 +70,13 @@ class Body:
     support : ShaftSupport
     """
 
-    mass: float
-    inertia: float
-    polar_inertia: float
+    mass: Annotated[float, MASS]
+    inertia: Annotated[float, INERTIA]
+    polar_inertia: Annotated[float, INERTIA]
     support: ShaftSupport
 
     def __post_init__(self) -> None:
-        check_within("mass", self.mass, 1e-4, 1e6, "kg")
-        for name in ("inertia", "polar_inertia"):
-            check_within(name, getattr(self, name), 1e-9, 1e6, "kg m2")
+        check_fields(self)
 
     def given(self) -> GivenBody:
         """Return the floats for the kernels."""

@@ -11,6 +11,7 @@ from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import plane_strain
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.helical_geometry.gear_body import BACKLASH
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number
 from gearlube_core.oil.lubricant import LIMITING_SLOPE, LubricantParameters
@@ -49,10 +50,10 @@ class FlankScalars:
     Parameters
     ----------
     backlash : float
-        Normal backlash [m], 0 to 2e-3.
+        Normal backlash [m], 0 to 0.01.
     """
 
-    backlash: Annotated[float, Number("m", 0.0, 2e-3, "100 um is 1e-4 m.")]
+    backlash: Annotated[float, BACKLASH]
 
 
 class FlankConstants(NamedTuple):

@@ -10,14 +10,12 @@ from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE, coupling_limit
 from gearlube_core.dynamics.train.element import RATE
 from gearlube_core.dynamics.train.part import Element
+from gearlube_core.helical_geometry.gear_body import COUPLING, STIFFNESS, TILTING
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
-_STIFFNESS = Number("N/m", 0.0, 1e13)
-_TILTING = Number("N.m/rad", 0.0, 1e10)
-_COUPLING = Number("N/rad", -1e12, 1e12)
 _DAMPING = Number("N s/m", 0.0, 1e9)
 _TILT_DAMPING = Number("N.m s/rad", 0.0, 1e9)
 
@@ -71,7 +69,7 @@ class SpringSupport(Element):
     K_xx, K_yy, K_zz : float
         Stiffness against displacement [N/m], 0 to 1e13.
     K_ax, K_ay : float
-        Against tilting about x and y [N.m/rad], 0 to 1e10.
+        Against tilting about x and y [N.m/rad], 0 to 1e13.
     K_x_ay, K_y_ax : float
         Symmetric coupling of x with tilting about y, and of y with tilting about x [N/rad].
     c_x, c_y, c_z, c_ax, c_ay : float
@@ -90,13 +88,13 @@ class SpringSupport(Element):
 
     name: str
     body: str
-    K_xx: Annotated[float, _STIFFNESS] = 0.0
-    K_yy: Annotated[float, _STIFFNESS] = 0.0
-    K_zz: Annotated[float, _STIFFNESS] = 0.0
-    K_ax: Annotated[float, _TILTING] = 0.0
-    K_ay: Annotated[float, _TILTING] = 0.0
-    K_x_ay: Annotated[float, _COUPLING] = 0.0
-    K_y_ax: Annotated[float, _COUPLING] = 0.0
+    K_xx: Annotated[float, STIFFNESS] = 0.0
+    K_yy: Annotated[float, STIFFNESS] = 0.0
+    K_zz: Annotated[float, STIFFNESS] = 0.0
+    K_ax: Annotated[float, TILTING] = 0.0
+    K_ay: Annotated[float, TILTING] = 0.0
+    K_x_ay: Annotated[float, COUPLING] = 0.0
+    K_y_ax: Annotated[float, COUPLING] = 0.0
     c_x: Annotated[float, _DAMPING] = 0.0
     c_y: Annotated[float, _DAMPING] = 0.0
     c_z: Annotated[float, _DAMPING] = 0.0
