@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal, NamedTuple, get_args
 
-from gearlube_core.checks import check_option, check_within
+from gearlube_core.checks import check_option
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number
 
@@ -34,7 +34,10 @@ Immersion = Annotated[
 OilVolume = Annotated[
     float, Number("m3", 1e-5, 1.0, "1.2 l is 1.2e-3 m3.", "Volume of the oil", shown="l")
 ]
-SealTorque = Annotated[float, Number("N.m", 0.0, 100.0, "0.15 N.m is usual.", "Torque of the seal")]
+SealTorque = Annotated[
+    float, Number("N.m", 0.0, 100.0, "0.15 N.m a seal is usual.", "Torque of the seal")
+]
+SHAFT_DIAMETER = Number("m", 5e-3, 0.5, "40 mm is 0.04 m.")  # under a seal's lip
 
 
 class ChurningConstants(NamedTuple):
@@ -179,7 +182,7 @@ def seal_torque(diameter: float, material: SealMaterial = "fkm") -> float:
     >>> round(seal_torque(0.040), 3)
     0.149
     """
-    check_within("diameter", diameter, 5e-3, 0.5, "m", "40 mm is 0.04 m.")
+    SHAFT_DIAMETER.check("diameter", diameter)
     check_option("material", material, get_args(SealMaterial))
     return 1e3 * diameter * _PER_MILLIMETRE[material]
 

@@ -39,6 +39,10 @@ class Number(NamedTuple):
     fmi: str = ""  # name of its parameter of the FMU, if it is one
     shown: str = ""  # unit in files, if it is another
 
+    def check(self, name: str, value: float) -> None:
+        """Raise ParameterError when a value is outside of the interval."""
+        check_within(name, value, self.low, self.high, self.unit, self.cure)
+
 
 class Output(NamedTuple):
     """A number that a model computes, as an output of its FMU."""
@@ -89,7 +93,7 @@ def check_fields(parameters: object) -> None:
         if value is None and getattr(kind, name, 0) is None:
             continue
         if isinstance(one, Number):
-            check_within(name, value, one.low, one.high, one.unit, one.cure)
+            one.check(name, value)
         elif isinstance(one, Positive):
             check_positive(name, value, one.unit, one.cure)
         else:

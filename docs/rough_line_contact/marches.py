@@ -131,6 +131,7 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "his columns, 32 rows": (A, HIS_COLUMNS | {"solver.rows": 32} | filtered(54.0)),
     "his columns, 64 rows": (A, HIS_COLUMNS | {"solver.rows": 64} | filtered(27.0)),
     "his columns, 128 rows": (A, HIS_COLUMNS | {"solver.rows": 128} | filtered(13.5)),
+    "his columns, 256 rows": (A, HIS_COLUMNS | {"solver.rows": 256} | filtered(6.75)),
 }
 
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.section import ModelSection
-from gearlube_core.drag import ChurningLaw, SealMaterial, seal_torque
+from gearlube_core.drag import SHAFT_DIAMETER, ChurningLaw, SealMaterial, seal_torque
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Declared, Usual
@@ -42,7 +42,7 @@ Size = Annotated[float, _axle("ring_diameter_mm"), Usual(50.0, 1000.0)]
 Width = Annotated[float, _axle("ring_width_mm"), Usual(5.0, 200.0)]
 Depth = Annotated[float, _axle("immersion_mm"), Usual(2.0, 500.0)]
 Litres = Annotated[float, _axle("oil_volume_l"), Usual(0.2, 50.0)]
-ShaftSize = Annotated[float, Field(ge=5.0, le=500.0, allow_inf_nan=False), Usual(10.0, 200.0)]
+ShaftSize = Annotated[float, Declared(SHAFT_DIAMETER, "pinion_diameter_mm"), Usual(10.0, 200.0)]
 Torque = Annotated[float, _axle("pinion_torque_n_m", "pinion_seal_torque"), Usual(0.01, 20.0)]
 
 DEFAULT_CHURNING = "changenet_velex_2007"

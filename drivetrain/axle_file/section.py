@@ -13,6 +13,7 @@ from gearlube_core.input_file.field_units import (
     attribute_of,
     field_value,
     from_si,
+    limits_in,
     si_value,
     to_si,
     unit_ending,
@@ -35,9 +36,10 @@ class PartField(NamedTuple):
         """Return what is wrong with a value in the file; "" for nothing."""
         if isinstance(value, bool | str) or not isinstance(value, float | int):
             return f"{key} must be a number, got {value!r}; {self.number.text}"
-        low, high = (from_si(self.unit, end) for end in (self.number.low, self.number.high))
         try:
-            check_within(key, value, low, high, self.unit, self.number.cure)
+            check_within(
+                key, value, *limits_in(self.unit, self.number), self.unit, self.number.cure
+            )
         except ParameterError as reason:
             return str(reason).removesuffix(".")
         return ""

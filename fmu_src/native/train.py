@@ -122,7 +122,7 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
 
 def _motion(train: Train) -> dict[str, int]:
     """Return the outputs that stand in the state as they are, with their places."""
-    found = {}
+    found: dict[str, int] = {}
     for i, body in enumerate(train.bodies):
         first = BODY_STATES * i
         found |= {f"{body.name}.angle": first + RZ, f"{body.name}.speed": first + W}
@@ -159,7 +159,7 @@ def train_model(path: str | Path) -> NativeModel:
     scratch = trial + states
     room = max(work_size(made.layout), 1 + len(names), len(definition.output_names))
     at = _Places(
-        *starts,
+        **dict(zip(_Places._fields, starts, strict=False)),
         states=states,
         n_ports=len(case.torques),
         n_speeds=len(case.speeds),

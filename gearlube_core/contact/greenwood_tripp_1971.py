@@ -9,6 +9,7 @@ import numpy as np
 from scipy.special import gamma, pbdv
 
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number
 
 LAMBDA_CRITICAL = 3.0  # Mohammadpour et al. 2015, below [mohammadpour_2015 (19)]
 # of rollers on a race, the values of [wingertszahn_2023]; none for gear flanks are known
@@ -86,6 +87,10 @@ def asperity_share(film_ratio: float, B: float, C: float) -> float:
     Source: [zhou_hoeprich_1991 (45)]
     """
     return math.exp(-B * max(film_ratio, 0.0) ** C)
+
+
+# composite root-mean-square roughness of two flanks
+ROUGHNESS = Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")
 
 
 class SurfaceParameters(NamedTuple):

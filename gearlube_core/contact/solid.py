@@ -8,6 +8,8 @@ from typing import Annotated, NamedTuple
 
 from gearlube_core.number import Number, check_fields
 
+YOUNGS_MODULUS = Number("Pa", 1e6, 2e12, "210 GPa is 2.1e11 Pa.")
+
 
 class SolidParameters(NamedTuple):
     """Data of a pair of equal solids for the kernels; all floats, SI."""
@@ -36,7 +38,7 @@ class Solid:
         [J/(kg K)].
     """
 
-    youngs_modulus: Annotated[float, Number("Pa", 1e6, 2e12, "210 GPa is 2.1e11 Pa.")]
+    youngs_modulus: Annotated[float, YOUNGS_MODULUS]
     poisson_ratio: Annotated[float, Number("1", 0.0, 0.5)]
     density: Annotated[float, Number("kg/m3", 100.0, 3e4, "7.85 g/cm3 is 7850 kg/m3.")]
     conductivity: Annotated[float, Number("W/(m K)", 0.01, 3000.0)]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number
 
+BACKLASH = Number("m", 0.0, 2e-3, "150 um is 1.5e-4 m.")  # of hypoid gears
 DAMPING_BUILD_UP = 0.5e-6  # m, small against the 2 to 8 um of a loaded mesh
 
 

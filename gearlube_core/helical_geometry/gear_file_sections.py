@@ -8,6 +8,16 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from gearlube_core.helical_geometry.gear_body import (
+    BACKLASH,
+    COUPLING,
+    DAMPING_RATIO,
+    INERTIA,
+    MASS,
+    POSITION,
+    STIFFNESS,
+    TILTING,
+)
 from gearlube_core.helical_geometry.modification import (
     WIDEST_RELIEF,
     Crown,
@@ -35,7 +45,7 @@ Depth = Annotated[
     float, Field(gt=0.0, le=1e3 * WIDEST_RELIEF, allow_inf_nan=False), Usual(0.05, 30.0)
 ]
 Step = Annotated[Width, Usual(1e-3, 20.0)]
-Backlash = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False), Usual(1e-3, 1.5)]
+Backlash = Annotated[float, Declared(BACKLASH, "backlash_mm"), Usual(1e-3, 1.5)]
 Removal = Annotated[float, Declared(Crown, "crown_um", "amount"), Usual(0.5, 300.0)]
 Slope = Annotated[float, Declared(FlankModification, "lead_slope_um"), Usual(0.5, 300.0)]
 Share = Annotated[float, Declared(TipRelief, "k")]
@@ -44,12 +54,15 @@ Start = Annotated[float, Declared(Crown, "crown_start_mm", "start"), Usual(0.1, 
 Facets = Annotated[int, Field(ge=0, le=10000)]
 Shift = Annotated[float, Field(ge=-LARGEST_SHIFT, le=LARGEST_SHIFT, allow_inf_nan=False)]
 Fillet = Annotated[float, _pair("fillet_factor")]
-Mass = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False), Usual(0.02, 5000.0)]
-Inertia = Annotated[float, Field(gt=0.0, le=1e13, allow_inf_nan=False), Usual(1.0, 1e9)]
-Stiffness = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False), Usual(5.0, 20000.0)]
-Tilt = Annotated[float, Field(ge=0.0, le=1e9, allow_inf_nan=False), Usual(1.0, 1e6)]
-Coupling = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False), Usual(1.0, 1e7)]
-Damping = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Mass = Annotated[float, Declared(MASS, "mass_kg"), Usual(0.02, 5000.0)]
+Inertia = Annotated[float, Declared(INERTIA, "polar_inertia_kg_mm2"), Usual(1.0, 1e9)]
+Distance = Annotated[float, Declared(POSITION, "distance_mm"), Field(gt=0.0), Usual(5.0, 2000.0)]
+Stiffness = Annotated[
+    float, Declared(STIFFNESS, "stiffness_x_n_per_um"), Field(gt=0.0), Usual(5.0, 20000.0)
+]
+Tilt = Annotated[float, Declared(TILTING, "tilt_x_knm_per_rad"), Usual(1.0, 1e6)]
+Coupling = Annotated[float, Declared(COUPLING, "coupling_x_kn_per_rad"), Usual(1.0, 1e7)]
+Damping = Annotated[float, Declared(DAMPING_RATIO, "mesh")]
 Torque = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False), Usual(0.5, 200000.0)]
 Speed = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False), Usual(10.0, 50000.0)]
 Viscosity = Annotated[float, Field(ge=1e-4, le=10.0, allow_inf_nan=False), Usual(0.001, 2.0)]
@@ -169,7 +182,7 @@ class Flank(Section):
 class Bearing(Section):
     """Shaft and bearing on one side of a member, as springs at one place."""
 
-    distance_mm: Length = Field(
+    distance_mm: Distance = Field(
         description="Distance from mid-face; bearing 1 is on the side z > 0, bearing 2 on the "
         "side z < 0"
     )

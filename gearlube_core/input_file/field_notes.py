@@ -17,10 +17,11 @@ from pydantic_core import PydanticKnownError, core_schema
 from gearlube_core.input_file.field_units import (
     attribute_of,
     field_unit,
-    field_value,
     in_other_units,
+    limits_in,
+    unit_of,
 )
-from gearlube_core.number import numbers_of
+from gearlube_core.number import Number, numbers_of
 
 _LIMITS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _KINDS = {
@@ -68,15 +69,17 @@ class OneOf:
 
 @dataclass(frozen=True)
 class Declared:
-    """Mark of a field's type: its limits are those of a number that a model declares."""
+    """Mark of a field's type: its limits are those of a number, or of one that a model declares."""
 
-    model: type
+    model: type | Number
     field: str
     number: str = ""  # name in the model, where it is not that of the field without its unit
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        number = numbers_of(self.model)[self.number or attribute_of(self.field)]
-        low, high = (field_value(self.field, end) for end in (number.low, number.high))
+        number = self.model
+        if not isinstance(number, Number):
+            number = numbers_of(number)[self.number or attribute_of(self.field)]
+        low, high = limits_in(unit_of(self.field), number)
         if source is int:
             return core_schema.int_schema(ge=int(low), le=int(high))
         return core_schema.float_schema(ge=low, le=high, allow_inf_nan=False)
@@ -320,7 +323,7 @@ def _limits(value: Any) -> str:
     low, above, high = (value.get(k) for k in ("minimum", "exclusiveMinimum", "maximum"))
     if high is None:
         return ""
-    return f"above {above:g} to {high:g}" if low is None else f"{low:g} to {high:g}"
+    return f"{low:g} to {high:g}" if above is None else f"above {above:g} to {high:g}"
 
 
 def _usual(value: Any) -> tuple[float, float] | None:

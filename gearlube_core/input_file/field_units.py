@@ -7,6 +7,7 @@ from decimal import Decimal
 from functools import cache
 from typing import Any
 
+from gearlube_core.number import Number
 from gearlube_core.units import ZERO_CELSIUS
 
 _UNITS = {  # of names' endings; the longest that fits counts
@@ -85,14 +86,15 @@ _SLIPS: dict[str, tuple[tuple[str, float], ...]] = {
 _POWERS = {
     "mm": -3,
     "um": -6,
+    "kg.mm2": -6,
     "l": -3,
     "kN": 3,
+    "kN/rad": 3,
+    "kN.m/rad": 3,
     "MPa": 6,
     "GPa": 9,
     "N/mm": 3,
     "N/um": 6,
-    "kN/rad": 3,
-    "kN.m/rad": 3,
     "1/GPa": -9,
 }
 _SI_WORDS = {"stiffness_constant": "N/m^n"}  # units that no ending writes
@@ -169,6 +171,15 @@ def from_si(unit: str, value: Any) -> Any:
     if unit == "degC":
         return float(f"{value - ZERO_CELSIUS:.12g}")
     return _scaled(value, -_POWERS[unit]) if unit in _POWERS else value
+
+
+def limits_in(unit: str, number: Number) -> tuple[float, float]:
+    """Return the limits of a number in a unit of a file.
+
+    >>> limits_in("um", Number("m", 1e-9, 2e-5))
+    (0.001, 20.0)
+    """
+    return from_si(unit, number.low), from_si(unit, number.high)
 
 
 def in_other_units(unit: str, value: float) -> list[tuple[str, float]]:

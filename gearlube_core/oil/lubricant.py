@@ -31,6 +31,8 @@ from gearlube_core.oil.walther_1931 import (
 )
 from gearlube_core.part import Part
 
+# of the limiting shear stress of a solved film over pressure; 0: no limit
+LIMITING_SLOPE = Number("1", 0.0, 1.0, "0.05 is usual.")
 _LAW_PRESSURE = 1e9  # Pa, where laws of two temperatures are compared
 _LAW_TOLERANCE = 1e-6  # of ln(eta/eta0); rounding of a power is 1e-12
 _SLOPE_TOLERANCE = 1e-3  # of alpha; the constants of Roelands in use differ by 4e-5

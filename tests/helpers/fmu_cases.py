@@ -178,11 +178,11 @@ HELICAL_PAIR = Case(
     },
     integers={"solver.steps_per_mesh_period": 128},
     bad_parameters=[
-        ("support.radial_stiffness", -1.0, "radial_stiffness must be within 0 to 1e+12 N/m"),
+        ("support.radial_stiffness", -1.0, "radial_stiffness must be within 0 to 1e+13 N/m"),
         ("support.radial_stiffness", float("nan"), "got nan"),
         ("support.bearing_distance", 50.8, "support.bearing_distance must be within 0 to 10 m"),
         ("flank.roughness_rms", 0.5, "flank.roughness_rms must be within 1e-09 to 2e-05 m"),
-        ("mesh.backlash", -1e-4, "mesh.backlash must be within 0 to 0.002 m"),
+        ("mesh.backlash", -1e-4, "mesh.backlash must be within 0 to 0.01 m"),
         ("friction.coefficient", 1.5, "friction.coefficient must be within 0 to 1, got 1.5"),
         ("mesh.stiffness_density", 1e13, "must be within 0 to 1e+12 N/m2"),
         ("gear.name", 5, "2 (jamali_2015_a), 3 (jamali_2015_b), 4 (custom), got 5"),

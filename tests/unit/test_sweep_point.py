@@ -8,6 +8,7 @@ import pytest
 from gearlube.studies.sweep.recording import revolutions_to_record
 from gearlube.studies.sweep.scalars import separation_class
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
+from gearlube_core.errors import ParameterError
 from tests.helpers.each import each
 from tests.helpers.sweep_stand_in import (
     CAGE_ORDER,
@@ -154,3 +155,11 @@ def test_settings_that_differ_in_anything_have_different_keys():
         quick_sweep_settings(SETTINGS).key(**base),
     ]
     assert len({key, *others}) == 6
+
+
+def test_a_sweep_takes_the_roughness_and_backlash_that_its_axle_takes():
+    taken = SweepSettings(roughness_rms=2e-5, backlash=0.0)
+    assert (taken.roughness_rms, taken.backlash) == (2e-5, 0.0)
+    for beyond in ({"roughness_rms": 2.1e-5}, {"backlash": -1e-9}, {"backlash": 2.1e-3}):
+        with pytest.raises(ParameterError, match=f"{next(iter(beyond))} must be within"):
+            SweepSettings(**beyond)

@@ -95,8 +95,8 @@ def _mode_figure(dataset: xr.Dataset) -> Any:
         left = np.zeros(len(frequency))
         for i, body in enumerate(dataset["body"].values):
             share = dataset["share"].values[:, i]
-            ax.barh(range(len(frequency)), share, left=left, label=str(body),
-                    color=SERIES[i % len(SERIES)], hatch="" if i < len(SERIES) else "//")  # fmt: skip
+            look = {"color": SERIES[i % len(SERIES)], "hatch": "" if i < len(SERIES) else "//"}
+            ax.barh(range(len(frequency)), share, left=left, label=str(body), **look)
             left += share
         ax.set_yticks(range(len(frequency)), [f"{one:.4g} Hz" for one in frequency])
         ax.invert_yaxis()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gearlube_core.checks import check_option, check_within
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.ehl.gears.helical_film import GRADINGS, HelicalFilm
 from gearlube_core.errors import ParameterError
@@ -16,6 +17,7 @@ from gearlube_core.helical_geometry.meshing_steps import (
     meshing_steps,
     position_of_line,
 )
+from gearlube_core.input_file.field_units import limits_in
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
@@ -99,7 +101,7 @@ class HelicalLineCase:
             check_within(f"nodes {name} the line", count, 17, 2049)
         check_option("spacing", spacing, tuple(GRADINGS))
         if self.roughness_um is not None:
-            check_within("roughness_um", self.roughness_um, 1e-3, 20.0, "um")
+            check_within("roughness_um", self.roughness_um, *limits_in("um", ROUGHNESS), "um")
         return HelicalFilm(
             modified=modified,
             steps=meshing_steps(modified, _STEP, _SMALLEST_SHARE)

@@ -13,6 +13,8 @@ from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
+from gearlube_core.dynamics.flank_force import BACKLASH
 from gearlube_core.friction.flank_friction import friction_laws
 from gearlube_core.number import Number, Positive, check_fields
 from gearlube_core.oil.lubricant import Lubricant
@@ -92,8 +94,8 @@ class SweepSettings:
     conductance_at_100_kmh: float = 18.0
     driver: str = "vehicle"
     oil: str = "mohammadpour_2015"
-    roughness_rms: Annotated[float, Number("m", 1e-9, 1e-5, "0.5 um is 0.5e-6 m.")] = 0.5e-6
-    backlash: Annotated[float, Number("m", 1e-9, 2e-3, "150 um is 150e-6 m.")] = 150e-6
+    roughness_rms: Annotated[float, ROUGHNESS] = 0.5e-6
+    backlash: Annotated[float, BACKLASH] = 150e-6
     equations: str = "consistent"
     radii: str = "consistent"
     mesh_stiffness: str = "tangent"

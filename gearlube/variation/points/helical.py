@@ -22,6 +22,7 @@ from gearlube.variation.points.of_file import (
     order_values,
     value,
 )
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS as RMS_ROUGHNESS
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
 from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from gearlube_core.errors import ParameterError
@@ -31,12 +32,15 @@ from gearlube_core.helical_contact.mesh_cycle import run_cycle
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.input_file.field_units import limits_in
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 OIL = operand("oil", "", "Shipped oil or an oil file", USUAL_OIL, kind="text")
 TEMPERATURE = operand("oil.temperature_degc", "degC", "Of the oil", 80.0, -60.0, 250.0)
-ROUGHNESS = operand("roughness_rms_um", "um", "Of both flanks together", 0.5, 0.01, 10.0)
+ROUGHNESS = operand(
+    "roughness_rms_um", "um", "Of both flanks together", 0.5, *limits_in("um", RMS_ROUGHNESS)
+)
 FRICTION = operand(
     "friction", "", "Of the vibrating pair: film, or constant with friction.coefficient",
     "film", kind="text",

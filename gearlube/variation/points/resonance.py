@@ -20,7 +20,9 @@ from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
 from gearlube.variation.points.of_file import ORDERS, operand, value
 from gearlube.variation.scatter import scatter_of
+from gearlube_core.dynamics.flank_force import BACKLASH
 from gearlube_core.errors import ConvergenceError
+from gearlube_core.input_file.field_units import limits_in
 from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 
@@ -34,7 +36,10 @@ FIRST = operand("range.first", "1", "Mesh over natural frequency", 0.2, 0.05, 3.
 LAST = operand("range.last", "1", "Mesh over natural frequency", 1.6, 0.05, 3.0)
 # name of the parameter: operand, SI units in its unit
 _OF_PAIR = {
-    "backlash": (operand("backlash_um", "um", "Total, along the line", 150.0, 0.0, 2e3), 1e-6),
+    "backlash": (
+        operand("backlash_um", "um", "Total, along the line", 150.0, *limits_in("um", BACKLASH)),
+        1e-6,
+    ),
     "damping": (operand("damping_n_s_m", "N.s/m", "Of the mesh", 2278.1, 0.0, 1e6), 1.0),
     "pinion_inertia": (
         operand("pinion.inertia_kg_mm2", "kg.mm2", "About its axis", 1734.0, 1e-3, 1e9),

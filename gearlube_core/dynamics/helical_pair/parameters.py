@@ -25,6 +25,7 @@ from gearlube_core.dynamics.helical_pair.supports import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import line_count
+from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.number import Number, Positive, check_fields
@@ -37,7 +38,7 @@ BearingMoments = Literal["consistent", "as_printed"]
 SupportDamping = Literal["total", "as_printed"]
 MeshSign = Literal["compression", "as_printed"]
 _MOST_LINES = 100
-DAMPING_RATIO, FRICTION = Number("1", 0.0, 1.0, "Five percent is usual."), Number("1", 0.0, 1.0)
+FRICTION = Number("1", 0.0, 1.0)
 
 
 def pack_lines(mesh: LineMesh, torque: float, divisions: int) -> MeshArrays:

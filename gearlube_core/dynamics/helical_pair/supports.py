@@ -4,19 +4,26 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, get_args
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_finite, check_option, check_positive, check_within
+from gearlube_core.checks import check_positive, check_within
+from gearlube_core.contact.solid import YOUNGS_MODULUS
 from gearlube_core.dynamics.helical_pair.kernel_parameters import SupportArrays
-from gearlube_core.helical_geometry.gear_body import SupportStiffness
+from gearlube_core.helical_geometry.gear_body import (
+    COUPLING,
+    POSITION,
+    STIFFNESS,
+    TILTING,
+    SupportStiffness,
+)
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Positive, check_fields
 
 Series = Literal["beam", "term_by_term"]
 COUPLING_CURE = "A larger coupling would give energy away; raise the stiffness against tilting."
-_STIFF = 1e13  # N/m, no bearing is as stiff
 _X, _Y, _Z, _THX, _THY = range(5)
 BEARING_FORCES = tuple(
     f"{kind}_{axis}{member}" for member in "pg" for kind in "FM" for axis in "xyz"
@@ -137,23 +144,17 @@ class Bearing:
     [he_2007 (26)]; its K_xz and K_z_theta_y drop out of (27) and are left out here.
     """
 
-    position: float
-    K_xx: float
-    K_yy: float
-    K_zz: float
-    K_theta_x: float = 0.0
-    K_theta_y: float = 0.0
-    K_x_theta_y: float = 0.0
-    K_y_theta_x: float = 0.0
+    position: Annotated[float, POSITION]
+    K_xx: Annotated[float, STIFFNESS]
+    K_yy: Annotated[float, STIFFNESS]
+    K_zz: Annotated[float, STIFFNESS]
+    K_theta_x: Annotated[float, TILTING] = 0.0
+    K_theta_y: Annotated[float, TILTING] = 0.0
+    K_x_theta_y: Annotated[float, COUPLING] = 0.0
+    K_y_theta_x: Annotated[float, COUPLING] = 0.0
 
     def __post_init__(self) -> None:
-        check_within("position", self.position, -10.0, 10.0, "m", "Give metres, not millimetres.")
-        for name in ("K_xx", "K_yy", "K_zz"):
-            check_within(name, getattr(self, name), 0.0, _STIFF, "N/m")
-        for name in ("K_theta_x", "K_theta_y"):
-            check_within(name, getattr(self, name), 0.0, _STIFF, "N.m/rad")
-        for name in ("K_x_theta_y", "K_y_theta_x"):
-            check_finite(name, getattr(self, name), "N/rad")
+        check_fields(self)
         for a, b, c in (("xx", "theta_y", "x_theta_y"), ("yy", "theta_x", "y_theta_x")):
             limit = coupling_limit(float(getattr(self, f"K_{a}")), float(getattr(self, f"K_{b}")))
             check_within(f"K_{c}", getattr(self, f"K_{c}"), -limit, limit, "N/rad", COUPLING_CURE)
@@ -177,14 +178,12 @@ class ShaftEnds:
     [he_2007 (25)], taken per side: 3 E I/l^3, 3 E I/l^2, 3 E I/l, A E/l.
     """
 
-    radius: float
-    youngs_modulus: float
+    radius: Annotated[float, Positive("m", "Give metres, not millimetres.")]
+    youngs_modulus: Annotated[float, YOUNGS_MODULUS]
     series: Series = "beam"
 
     def __post_init__(self) -> None:
-        check_positive("radius", self.radius, "m", "Give metres, not millimetres.")
-        check_within("youngs_modulus", self.youngs_modulus, 1e9, 1e12, "Pa", "Steel: 2.07e11 Pa.")
-        check_option("series", self.series, get_args(Series))
+        check_fields(self)
 
     @property
     def bending(self) -> float:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftBearings, without_loss
-from gearlube_core.drag import ChurningConstants
+from gearlube_core.drag import ChurningConstants, SealTorque
+from gearlube_core.dynamics.flank_force import BACKLASH
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.friction.flank_law import FlankLaw
@@ -37,9 +38,9 @@ class AxleScalars(MeshForceScalars):
     gear_inertia: Annotated[float, _INERTIA]
     pinion_mass: Annotated[float, _MASS]
     gear_mass: Annotated[float, _MASS]
-    backlash: Annotated[float, Number("m", 0.0, 2e-3, "150 um is 1.5e-4 m.")]
-    pinion_seal_torque: Annotated[float, Number("N.m", 0.0, 100.0, "0.15 N.m is usual.")] = 0.0
-    wheel_seal_torque: Annotated[float, Number("N.m", 0.0, 100.0, "0.3 N.m is usual.")] = 0.0
+    backlash: Annotated[float, BACKLASH]
+    pinion_seal_torque: SealTorque = 0.0
+    wheel_seal_torque: SealTorque = 0.0
 
 
 class AxleParameters(NamedTuple):

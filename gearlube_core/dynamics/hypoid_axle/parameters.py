@@ -13,6 +13,7 @@ from gearlube_core.checks import check_option
 from gearlube_core.contact.greenwood_tripp_1971 import (
     FLANK_SIGMA_OVER_BETA,
     FLANK_XI_BETA_SIGMA,
+    ROUGHNESS,
     SurfaceParameters,
 )
 from gearlube_core.contact.solid import (
@@ -52,7 +53,7 @@ from gearlube_core.friction.flank_laws import FILM_MODELS, MixedFlankFriction
 from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS, FlankRolling
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.number import Number, check_fields, constants_of
-from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant import LIMITING_SLOPE, Lubricant
 
 Equations = Literal["consistent", "as_printed"]
 Radii = Literal["consistent", "paper", "mean"]
@@ -164,7 +165,7 @@ class HypoidAxleParameters(AxleScalars):
     gear_bearing: Bearing | None = None
     oil: Lubricant
     solid: Solid
-    roughness_rms: Annotated[float, Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")]
+    roughness_rms: Annotated[float, ROUGHNESS]
     xi_beta_sigma: Annotated[float, Number("1", 1e-4, 10.0)] = FLANK_XI_BETA_SIGMA
     sigma_over_beta: Annotated[float, Number("1", 1e-9, 10.0)] = FLANK_SIGMA_OVER_BETA
     equations: Equations = "consistent"
@@ -176,7 +177,7 @@ class HypoidAxleParameters(AxleScalars):
     film: Film = "formula"
     flank_film_model: FilmModel | None = None
     roller_film_model: FilmModel | None = None
-    film_limiting_slope: Annotated[float, Number("1", 0.0, 1.0, "0.05 is usual.")] = 0.0
+    film_limiting_slope: Annotated[float, LIMITING_SLOPE] = 0.0
     flank_bulk_resistance: Annotated[float, Number("K/W", 0.0, 10.0, "Try 0.03 K/W.")] = 0.0
     rolling: FlankRolling = "none"
     bearing_torque_loss: str = DEFAULT_LAW

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from gearlube_core.checks import check_within
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
+from gearlube_core.dynamics.flank_force import BACKLASH
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     EVANS_JOHNSON,
     FRICTION_OFF,
@@ -106,7 +108,7 @@ class HypoidTorsionalParameters:
     pinion_inertia: Annotated[float, Positive("kg m2")]
     gear_inertia: Annotated[float, Positive("kg m2")]
     pinion_torque: float
-    backlash: Annotated[float, Number("m", 0.0, 2e-3, "150 um is 1.5e-4 m.")]
+    backlash: Annotated[float, BACKLASH]
     form: Form
     radii: Radii
     mesh_stiffness: MeshStiffness
@@ -122,7 +124,7 @@ class HypoidTorsionalParameters:
     oil: Lubricant
     oil_temperature: float
     solid: Solid
-    roughness_rms: Annotated[float, Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")]
+    roughness_rms: Annotated[float, ROUGHNESS]
     film: Film = "consistent"
     film_temperature: FilmTemperature = "inlet"
     flash_temperature: bool = False

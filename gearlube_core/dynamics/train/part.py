@@ -11,7 +11,8 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import COORDINATES
-from gearlube_core.number import Number, Output, check_fields
+from gearlube_core.helical_geometry.gear_body import INERTIA, MASS
+from gearlube_core.number import Output, check_fields
 from gearlube_core.part import Kind
 
 NO_NUMBERS: Array = np.empty(0)
@@ -49,11 +50,9 @@ class Body:
     """
 
     name: str
-    mass: Annotated[float, Number("kg", 1e-4, 1e6, text="Mass")]
-    inertia: Annotated[float, Number("kg.m2", 1e-9, 1e6, text="Moment of inertia about a diameter")]
-    polar_inertia: Annotated[
-        float, Number("kg.m2", 1e-9, 1e6, text="Moment of inertia about the axis")
-    ]
+    mass: Annotated[float, MASS]
+    inertia: Annotated[float, INERTIA._replace(text="Moment of inertia about a diameter")]
+    polar_inertia: Annotated[float, INERTIA._replace(text="Moment of inertia about the axis")]
     held: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

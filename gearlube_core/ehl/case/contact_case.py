@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import Solid, reduced_modulus
 from gearlube_core.ehl.case.sections import (
     Body,
@@ -42,7 +43,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings, Sides
 from gearlube_core.ehl.point.solver import check_cavitation
 from gearlube_core.ehl.point.thermal.solver import check_thermal
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.units import MILLIMETRE
 
 _GIGA, _MICRO = 1e9, 1e-6
@@ -53,7 +54,7 @@ PartLength = Annotated[float, Field(ge=0.01, le=100.0, allow_inf_nan=False), Usu
 LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False), Usual(1.0, 5000.0)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False), Usual(0.1, 100000.0)]
 Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False), Usual(0.001, 100.0)]
-Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False), Usual(0.005, 5.0)]
+Roughness = Annotated[float, Declared(ROUGHNESS, "roughness_um"), Usual(0.005, 5.0)]
 Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
 
 

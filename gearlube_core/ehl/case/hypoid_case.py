@@ -7,9 +7,10 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.ehl.case.sections import FilmCase, Heat, Text, Wedge
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.input_file.field_notes import Usual
+from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.mesh_table.netcdf import read_mesh_table, shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
@@ -18,7 +19,7 @@ from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 Speed = Annotated[float, Field(ge=1.0, le=47000.0, allow_inf_nan=False), Usual(10.0, 20000.0)]
 Torque = Annotated[float, Field(ge=-10000.0, le=10000.0, allow_inf_nan=False), Usual(1.0, 5000.0)]
 Temperature = Annotated[float, Field(ge=-60.0, le=200.0, allow_inf_nan=False), Usual(-50.0, 180.0)]
-Roughness = Annotated[float, Field(ge=0.01, le=10.0, allow_inf_nan=False), Usual(0.02, 5.0)]
+Roughness = Annotated[float, Declared(ROUGHNESS, "roughness_um"), Usual(0.02, 5.0)]
 Share = Annotated[float, Field(ge=0.01, le=0.9, allow_inf_nan=False)]
 Phase = Annotated[float, Field(ge=-1.5, le=1.5, allow_inf_nan=False)]
 Nodes = Annotated[int, Field(ge=17, le=1025)]

@@ -16,6 +16,7 @@ from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
 from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
+from gearlube_core.oil.lubricant import LIMITING_SLOPE
 from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.oil.oil_heat import OilHeat
@@ -55,7 +56,7 @@ PressureViscosity = Annotated[
     float, Field(ge=0.0, le=1000.0, allow_inf_nan=False), Usual(1.0, 60.0)
 ]
 Stress = Annotated[float, Field(ge=0.01, le=1e6, allow_inf_nan=False), Usual(0.5, 1000.0)]
-Slope = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Slope = Annotated[float, Declared(LIMITING_SLOPE, "limiting_stress_slope")]
 _solid = partial(Declared, Solid)
 Density = Annotated[float, _solid("density_kg_m3"), Usual(900.0, 20000.0)]
 OilDensity = Annotated[float, Field(ge=100.0, le=3000.0, allow_inf_nan=False), Usual(700.0, 1300.0)]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
     gear_file_film_model,
@@ -20,7 +19,7 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
 from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport, replaced_bearing
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.helical_geometry.gear_body import SupportStiffness
+from gearlube_core.helical_geometry.gear_body import POSITION, STIFFNESS, SupportStiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.number import Number, check_fields
@@ -29,7 +28,7 @@ from gearlube_core.oil.lubricant import Lubricant
 DENSITY_WITH_MESH_WORDS = "stiffness_density must be 0 with a line mesh"
 _NO_BEARING = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _ZERO = "0 takes the value of the gear file."
-_STIFFNESS = Number("N/m", 0.0, 1e12, _ZERO)
+_STIFFNESS = STIFFNESS._replace(cure=_ZERO)
 STIFFNESS_DENSITY = Number("N/m2", 0.0, 1e12, _ZERO)  # along contact lines
 
 
@@ -40,7 +39,7 @@ class ReplacedBearings:
     Parameters
     ----------
     radial_stiffness, axial_stiffness : float
-        Stiffness of both bearings of a member together [N/m], 0 to 1e12; 0: those of the file.
+        Stiffness of both bearings of a member together [N/m], 0 to 1e13; 0: those of the file.
     bearing_distance : float
         Distance from mid-face to each bearing [m], 0 to 10; 0: that of the file.
 
@@ -59,7 +58,7 @@ class ReplacedBearings:
 
     radial_stiffness: Annotated[float, _STIFFNESS] = 0.0
     axial_stiffness: Annotated[float, _STIFFNESS] = 0.0
-    bearing_distance: Annotated[float, Number("m", 0.0, 10.0, _ZERO)] = 0.0
+    bearing_distance: Annotated[float, POSITION._replace(low=0.0, cure=_ZERO)] = 0.0
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -111,10 +110,7 @@ def helical_march_parameters(
     >>> dry.pinion.support.first.K_xx  # N/m, half of both bearings together
     1000000000.0
     """
-    limits = STIFFNESS_DENSITY
-    check_within(
-        "stiffness_density", stiffness_density, limits.low, limits.high, limits.unit, limits.cure
-    )
+    STIFFNESS_DENSITY.check("stiffness_density", stiffness_density)
     instead = bearings or ReplacedBearings()
     pair = gear.helical_pair()
     if line_mesh is None:

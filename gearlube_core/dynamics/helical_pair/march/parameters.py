@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_within
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
     BEARING_FIELDS,
@@ -28,7 +28,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     MarchScalars,
 )
 from gearlube_core.dynamics.helical_pair.parameters import (
-    DAMPING_RATIO,
     FRICTION,
     check_line_mesh,
     effective_mass,
@@ -40,6 +39,7 @@ from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import FILM_MODELS
+from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO, INERTIA, MASS
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -70,15 +70,13 @@ class Body:
     support : ShaftSupport
     """
 
-    mass: float
-    inertia: float
-    polar_inertia: float
+    mass: Annotated[float, MASS]
+    inertia: Annotated[float, INERTIA]
+    polar_inertia: Annotated[float, INERTIA]
     support: ShaftSupport
 
     def __post_init__(self) -> None:
-        check_within("mass", self.mass, 1e-4, 1e6, "kg")
-        for name in ("inertia", "polar_inertia"):
-            check_within(name, getattr(self, name), 1e-9, 1e6, "kg m2")
+        check_fields(self)
 
     def given(self) -> GivenBody:
         """Return the floats for the kernels."""
@@ -149,7 +147,7 @@ class HelicalMarchParameters(MarchScalars):
     friction_coefficient: Annotated[float, FRICTION] = 0.05
     film: Film = "formula"
     line_film_model: FilmModel | None = None
-    roughness_rms: Annotated[float, Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")] = 0.5e-6
+    roughness_rms: Annotated[float, ROUGHNESS] = 0.5e-6
     solid: Solid = STEEL_MOHAMMADPOUR_2015
     mesh_damping_ratio: Annotated[float, DAMPING_RATIO] = 0.05
     support_damping_ratio: Annotated[float, DAMPING_RATIO] = 0.05

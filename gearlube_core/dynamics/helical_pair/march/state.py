@@ -11,9 +11,10 @@ from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import plane_strain
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.helical_geometry.gear_body import BACKLASH
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number
-from gearlube_core.oil.lubricant import LubricantParameters
+from gearlube_core.oil.lubricant import LIMITING_SLOPE, LubricantParameters
 
 PSI = 0  # r_bp phi_p - r_bg phi_g: relative rotation along the line of action [m]
 W_P, W_G = 1, 2  # speeds of pinion and gear, forward positive [rad/s]
@@ -49,10 +50,10 @@ class FlankScalars:
     Parameters
     ----------
     backlash : float
-        Normal backlash [m], 0 to 2e-3.
+        Normal backlash [m], 0 to 0.01.
     """
 
-    backlash: Annotated[float, Number("m", 0.0, 2e-3, "100 um is 1e-4 m.")]
+    backlash: Annotated[float, BACKLASH]
 
 
 class FlankConstants(NamedTuple):
@@ -251,7 +252,7 @@ class MarchScalars(FlankScalars):
     """
 
     friction_updates_per_mesh_period: Annotated[int, Number("1", 4, 4096)] = 16
-    film_limiting_slope: Annotated[float, Number("1", 0.0, 1.0, "0.05 is usual.")] = 0.0
+    film_limiting_slope: Annotated[float, LIMITING_SLOPE] = 0.0
 
 
 class MotionConstants(NamedTuple):

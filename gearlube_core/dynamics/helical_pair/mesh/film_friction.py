@@ -8,8 +8,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_option, check_within
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters, gear_flanks
+from gearlube_core.checks import check_option
+from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS, SurfaceParameters, gear_flanks
 from gearlube_core.contact.solid import Solid, SolidParameters, solid_parameters
 from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
@@ -72,7 +72,7 @@ class FilmFriction:
         if self.line_film_model is not None:
             of_kind(self.line_film_model, LINE, "line_film_model")
         self.oil.check_temperature(self.oil_temperature, "oil_temperature")
-        check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
+        ROUGHNESS.check("roughness_rms", self.roughness_rms)
 
     def constants(self) -> FilmConstants:
         """Return what the kernels take."""

@@ -10,20 +10,18 @@ from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE, coupling_limit
 from gearlube_core.dynamics.train.element import RATE
 from gearlube_core.dynamics.train.part import Element
+from gearlube_core.helical_geometry.gear_body import COUPLING, STIFFNESS, TILTING
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
-_STIFFNESS = Number("N/m", 0.0, 1e13, text="Stiffness along {}", shown="N/um")
-_TILTING = Number("N.m/rad", 0.0, 1e10, text="Stiffness against tilting about {}")
-_COUPLING = Number("N/rad", -1e12, 1e12, text="Force along {} per tilt about {}", shown="kN/rad")
-_DAMPING = Number("N.s/m", 0.0, 1e9, text="Damper along {}")
-_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e9, text="Damper against tilting about {}")
+_DAMPING = Number("N.s/m", 0.0, 1e9)
+_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e9)
 
 
-def _about(number: Number, *axes: str) -> Number:
-    return number._replace(text=number.text.format(*axes))
+def _worded(number: Number, text: str, shown: str = "") -> Number:
+    return number._replace(text=text, shown=shown)
 
 
 class _Support(NamedTuple):
@@ -75,7 +73,7 @@ class SpringSupport(Element):
     K_xx, K_yy, K_zz : float
         Stiffness against displacement [N/m], 0 to 1e13.
     K_ax, K_ay : float
-        Against tilting about x and y [N.m/rad], 0 to 1e10.
+        Against tilting about x and y [N.m/rad], 0 to 1e13.
     K_x_ay, K_y_ax : float
         Symmetric coupling of x with tilting about y, and of y with tilting about x [N/rad].
     c_x, c_y, c_z, c_ax, c_ay : float
@@ -95,18 +93,18 @@ class SpringSupport(Element):
     name: str
     body: str
     kind: ClassVar = "spring_support"
-    K_xx: Annotated[float, _about(_STIFFNESS, "x")] = 0.0
-    K_yy: Annotated[float, _about(_STIFFNESS, "y")] = 0.0
-    K_zz: Annotated[float, _about(_STIFFNESS, "z")] = 0.0
-    K_ax: Annotated[float, _about(_TILTING, "x")] = 0.0
-    K_ay: Annotated[float, _about(_TILTING, "y")] = 0.0
-    K_x_ay: Annotated[float, _about(_COUPLING, "x", "y")] = 0.0
-    K_y_ax: Annotated[float, _about(_COUPLING, "y", "x")] = 0.0
-    c_x: Annotated[float, _about(_DAMPING, "x")] = 0.0
-    c_y: Annotated[float, _about(_DAMPING, "y")] = 0.0
-    c_z: Annotated[float, _about(_DAMPING, "z")] = 0.0
-    c_ax: Annotated[float, _about(_TILT_DAMPING, "x")] = 0.0
-    c_ay: Annotated[float, _about(_TILT_DAMPING, "y")] = 0.0
+    K_xx: Annotated[float, _worded(STIFFNESS, "Stiffness along x", "N/um")] = 0.0
+    K_yy: Annotated[float, _worded(STIFFNESS, "Stiffness along y", "N/um")] = 0.0
+    K_zz: Annotated[float, _worded(STIFFNESS, "Stiffness along z", "N/um")] = 0.0
+    K_ax: Annotated[float, _worded(TILTING, "Stiffness against tilting about x")] = 0.0
+    K_ay: Annotated[float, _worded(TILTING, "Stiffness against tilting about y")] = 0.0
+    K_x_ay: Annotated[float, _worded(COUPLING, "Force along x per tilt about y", "kN/rad")] = 0.0
+    K_y_ax: Annotated[float, _worded(COUPLING, "Force along y per tilt about x", "kN/rad")] = 0.0
+    c_x: Annotated[float, _worded(_DAMPING, "Damper along x")] = 0.0
+    c_y: Annotated[float, _worded(_DAMPING, "Damper along y")] = 0.0
+    c_z: Annotated[float, _worded(_DAMPING, "Damper along z")] = 0.0
+    c_ax: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about x")] = 0.0
+    c_ay: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about y")] = 0.0
     on: ClassVar = ("body",)
     losses: ClassVar = ("bearing_damping",)
 
