@@ -177,6 +177,14 @@ def _is_count(value: float, low: float, high: float) -> bool:
 
 
 @kernel
+def _all_finite(values: Array, start: int, end: int) -> bool:
+    finite = True
+    for i in range(start, end):
+        finite = finite and abs(values[i]) < 1e300
+    return finite
+
+
+@kernel
 def _case_length(case: Any, uniform: bool, places: CasePlaces) -> tuple[int, int]:
     """Return the lengths of a case and of its pair data; 0, 0 if its sizes cannot be."""
     head: CaseHead = tuple_from_array(array_at(case, HEAD_FLOATS), CaseHead)
@@ -205,8 +213,6 @@ def check_cases(data: Any, lengths: Array, places: CasePlaces) -> int:
         return 1
     values = array_at(data, int(lengths[0]))
     fits = True
-    for i in range(values.size):
-        fits = fits and abs(values[i]) < 1e300
     fits = fits and _is_count(values[places.film_models + UNITS], 1.0, float(WIDTH))
     fits = fits and _is_count(values[places.film_models + N_ARRAY + UNITS], 1.0, float(WIDTH))
     for number in range(places.film_models):
@@ -220,6 +226,9 @@ def check_cases(data: Any, lengths: Array, places: CasePlaces) -> int:
             length, own = _case_length(pointer_at(data, int(place)), uniform, places)
             fits = length > 0 and place + length <= lengths[0]
             fits = fits and places.work + own <= lengths[1]
+            if fits:
+                mesh = int(place) + HEAD_FLOATS + GIVEN_FLOATS
+                fits = _all_finite(values, mesh, int(place) + length)
     return 0 if fits else 1
 
 
