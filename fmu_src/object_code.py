@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
 from numba import cfunc, types
-from numba.core import cgutils
+from numba.core import cgutils, config
 from numba.core.types import Type
 from numba.extending import intrinsic
 from numba.np import arrayobj
@@ -89,6 +89,13 @@ def _pointer_at(typingctx: Any, pointer: Type, place: Type) -> Any:
 array_at: Any = intrinsic(_array_at)
 matrix_at: Any = intrinsic(_matrix_at)
 pointer_at: Any = intrinsic(_pointer_at)
+
+
+def cpu_of_kernels() -> str:
+    """Return the processor that intermediate code is made for: it depends on that one's vectors."""
+    if config.CPU_NAME:
+        return f"{config.CPU_NAME} {config.CPU_FEATURES}"
+    return f"{llvm.get_host_cpu_name()} {llvm.get_host_cpu_features().flatten()}"
 
 
 def intermediate_code(entry: Callable[..., Any], signature: Any, name: str) -> str:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from uuid import UUID
 
@@ -15,9 +16,12 @@ from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
 from fmu_src.identity import licence_texts, source_digest, write_archive
 from fmu_src.model_description import model_description
+from fmu_src.native.kept import PREBUILT, keep_library, kept_library, one_builds
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
 from fmu_src.native.model_description_3 import ICON, model_description_3, terminals
+from fmu_src.native.model_file import MODEL_FILE, model_body, model_file
 from fmu_src.native.platforms import (
+    BUILD_OPTIONS,
     FMI2_FOLDERS,
     PLATFORM_NAMES,
     PLATFORMS,
@@ -28,8 +32,8 @@ from fmu_src.native.platforms import (
     shared_library,
     universal_library,
 )
-from fmu_src.native.sources import c_sources
-from fmu_src.object_code import intermediate_code, object_code
+from fmu_src.native.sources import c_sources, model_sizes
+from fmu_src.object_code import cpu_of_kernels, intermediate_code, object_code
 from gearlube_core.checks import check_option
 from gearlube_core.kernels.source_code import code_of
 from gearlube_core.kernels.source_files import source_files
@@ -53,7 +57,8 @@ FMI_VERSIONS = ("2", "3")
 _PACKAGE = Path(__file__).parents[1]
 _SOURCES = f"""C sources of the FMI functions in this FMU, with the headers of the standard.
 
-They call the physics by one function, {ENTRY}. Its object code is made from kernels in
+They read the model, its variables and its constants, from resources/{MODEL_FILE}, and
+call the physics by one function, {ENTRY}. Its object code is made from kernels in
 Python (gearlube_core, in gearlube {version("gearlube")}) and is not here, so these files
 alone do not build the library. `gearlube build-fmu` of that version builds this archive again, with
 the same bytes if its inputs are the same.
@@ -100,15 +105,25 @@ def _description(model: NativeModel, guid: str) -> bytes:
     return model_description(model.definition, guid, native=True, exchange=model.exchange)
 
 
+def library_kind(model: NativeModel) -> str:
+    """Return the token of a model's library and file: equal for models that share a library."""
+    digest = hashlib.sha256(model_sizes(model, "").encode())
+    if model.entry is not None:
+        digest.update(_entry_digest(model.entry))
+        digest.update(model.kind.encode() if model.kind else model_body(model)[0])
+    for name, text in model.c_code.items():
+        digest.update(f"{name}\0{text}\0".encode())
+    return digest.hexdigest()[:32]
+
+
 def native_guid(model: NativeModel) -> UUID:
     """Return the GUID: equal code and data have an equal GUID, on every machine."""
     digest = hashlib.sha256(_description(model, ""))
-    for name, text in sorted(c_sources(model, "").items()):
+    for name, text in sorted(c_sources(model, library_kind(model)).items()):
         digest.update(f"{name}\0{text}\0".encode())
-    for name, text in model.c_code.items():
-        digest.update(f"{name}\0{text}\0".encode())
+    digest.update(model_body(model)[0])
     if model.entry is not None:
-        digest.update(source_digest(model.definition) + _entry_digest(model.entry))
+        digest.update(source_digest(model.definition))
     return UUID(bytes=digest.digest()[:16])
 
 
@@ -131,36 +146,80 @@ def libraries(
 ) -> dict[str, bytes]:
     """Return the shared library of a model for each platform, by the platform's name.
 
+    A library that ships, or has been built before for a model of the same kind, is taken.
+
     Raises
     ------
     GearLubeError
-        The linker is missing, or fails for a platform.
+        A library must be built, and the linker is missing, or fails for a platform.
     """
+    name = model.definition.name
+    if model.entry is not None and not model.kind:
+        report(f"{name}: laws of its own, so a library for this model alone, which is not kept")
+        return dict(_built(model, platforms, report))
+    shipped = prebuilt_folder(model)
+    found = {one.name: kept_library(shipped, one.name) for one in platforms}
+    missing = [one for one in platforms if not found[one.name]]
+    if missing:
+        with one_builds(_key(model)) as folder:
+            found |= {one.name: kept_library(folder, one.name) for one in missing}
+            missing = [one for one in missing if not found[one.name]]
+            for platform, library in _built(model, missing, report):
+                keep_library(folder, platform, library)
+                found[platform] = library
+    taken = [one.name for one in platforms if one not in missing]
+    if taken:
+        report(f"{name}: libraries of earlier builds for {', '.join(taken)}")
+    return {one.name: found[one.name] or b"" for one in platforms}
+
+
+def prebuilt_folder(model: NativeModel) -> Path:
+    """Return the folder in the package of the libraries of a model's kind, if they ship."""
+    digest = hashlib.sha256(repr(BUILD_OPTIONS).encode())
+    for name, text in sorted(c_sources(model, library_kind(model)).items()):
+        digest.update(f"{name}\0{text}\0".encode())
+    return PREBUILT / digest.hexdigest()[:32]
+
+
+def _key(model: NativeModel) -> str:
+    """Return a digest of all that makes the libraries of a model."""
+    compilers = [version(name) for name in ("numba", "llvmlite") if model.entry is not None]
+    if find_spec("ziglang"):
+        compilers.append(version("ziglang"))
+    text = [prebuilt_folder(model).name, compilers, cpu_of_kernels(), sorted(fmi_headers().items())]
+    return hashlib.sha256(repr(text).encode()).hexdigest()[:32]
+
+
+def _built(
+    model: NativeModel, platforms: Sequence[Platform], report: Callable[[str], None]
+) -> Iterator[tuple[str, bytes]]:
+    """Give the name of each platform with its library, built from the kernels."""
+    if not platforms:
+        return
     check_linker()
     name = model.definition.name
-    sources = c_sources(model, str(native_guid(model))) | fmi_headers()
+    sources = c_sources(model, library_kind(model)) | fmi_headers()
     report(f"{name}: compiling the kernels")
     code = model.entry and intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
     headers = {file: text for file, text in sources.items() if file.endswith(".h")}
-    built = {}
     for platform in platforms:
         report(f"{name}: linking for {platform.name}")
         if code:
             kernels, _ = object_code(code, platform.target)
         else:
             kernels = c_object(platform, model.c_code, headers)
-        built[platform.name] = shared_library(platform, sources, kernels, name)
-    return built
+        yield platform.name, shared_library(platform, sources, kernels, name)
 
 
 def _common_content(model: NativeModel) -> dict[str, bytes]:
-    definition = model.definition
+    definition, kind = model.definition, library_kind(model)
     page = index_html(definition, model.ranges, native=True)
     content = {"documentation/index.html": page.encode(), **licence_texts("native")}
-    sources = c_sources(model, str(native_guid(model))) | fmi_headers()
+    sources = c_sources(model, kind) | fmi_headers()
     for name, text in (sources | {"README.txt": _SOURCES}).items():
         content[f"documentation/sources/{name}"] = text.encode()
     content |= {f"resources/{name}": data for name, data in definition.resources.items()}
+    content[f"resources/{MODEL_FILE}"] = model_file(model, kind, native_guid(model))
     return content
 
 

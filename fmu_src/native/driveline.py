@@ -165,7 +165,7 @@ def driveline_model(car: DrivelineParameters | None = None) -> NativeModel:
             slave="slave_base",
             shipped_data=(),
         ),
-        c_code=_c_code(car),
+        c_code=_c_code(car, [v.range for v in variables if v.causality == "input"]),
         data=data,
         state_size=_N + _N_INPUTS + 3,
         control_at=_N + _N_INPUTS,
@@ -180,7 +180,7 @@ def driveline_model(car: DrivelineParameters | None = None) -> NativeModel:
     )  # fmt: skip
 
 
-def _c_code(car: DrivelineParameters) -> dict[str, str]:
+def _c_code(car: DrivelineParameters, limits: Sequence[tuple[float, float]]) -> dict[str, str]:
     """Return the C code of the entry and of one communication step in each gear."""
     import casadi as ca
 
@@ -212,6 +212,8 @@ def _c_code(car: DrivelineParameters) -> dict[str, str]:
         "SPEEDS": _SPEEDS,
         "ROW": _ROW,
         "WORK": work,
+        "LOWEST_INPUTS": f"{{{', '.join(repr(low) for low, _ in limits)}}}",
+        "HIGHEST_INPUTS": f"{{{', '.join(repr(high) for _, high in limits)}}}",
         "LONGEST_PART": repr(LONGEST_INNER_STEP * (1.0 + 1e-9)),
     }
     lines = [f"#define {name} {value}" for name, value in places.items()]

@@ -22,13 +22,15 @@ enum { GEAR_AT = MEMORY + GL_INPUTS, PINION_AT, ENGINE_AT };
 /* s; nothing moves in it, and the means over a shorter step are lost to underflow */
 static const double SHORTEST_STEP = 1e-290;
 
+static const double LOWEST[] = LOWEST_INPUTS, HIGHEST[] = HIGHEST_INPUTS;
+
 enum { LIMITS = 3, GEAR_SIZE = LIMITS + SPEEDS * ROW, GEARS_AT = 2 };
 
 static void fill_work(const double *data, double *work)
 {
     for (int i = 0; i < GL_INPUTS; i++) {
-        work[GL_LIMITS_AT + 2 * i] = gl_variables[gl_inputs[i]].low;
-        work[GL_LIMITS_AT + 2 * i + 1] = gl_variables[gl_inputs[i]].high;
+        work[GL_LIMITS_AT + 2 * i] = LOWEST[i];
+        work[GL_LIMITS_AT + 2 * i + 1] = HIGHEST[i];
     }
     memcpy(work + GL_RANGES_AT, data, 2 * sizeof *data);
 }

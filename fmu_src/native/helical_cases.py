@@ -12,13 +12,14 @@ The place of a case is zero where the FMU has no such pair.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fmu_src.definition import Definition
 from fmu_src.helical_pair import EmbeddedPair, chosen_pair, embedded_pair, line_model_of
 from fmu_src.helical_variables import CUSTOM
+from fmu_src.object_code import array_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
@@ -30,10 +31,13 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 )
 from gearlube_core.dynamics.helical_pair.march.model import torque_limits
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.model import LINE, shipped_model
-from gearlube_core.kernels.flat_tuples import count_floats, flatten
+from gearlube_core.film_model.net import N_ARRAY, UNITS, WIDTH
+from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import Lubricant
 
 STIFFNESS_MODELS = 2
@@ -53,6 +57,17 @@ class CaseHead(NamedTuple):
 
 
 HEAD_FLOATS = count_floats(CaseHead)
+_MOST = 1e6  # of anything in a line mesh
+
+
+class CasePlaces(NamedTuple):
+    """Where the parts of the constants begin, and what else all cases have in common."""
+
+    film_models: int  # as many numbers of cases lie before
+    oils: int
+    cases: int
+    work: int  # without pair data
+    uniform_size: int  # room for the density of the stiffness model uniform
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,3 +169,73 @@ def _case(parameters: HelicalMarchParameters) -> tuple[Array, int]:
         [flatten(head), flatten(parameters.given()), station, mesh.torque, *fields]
     )
     return block, data_size(station.size, size)
+
+
+@kernel
+def _is_count(value: float, low: float, high: float) -> bool:
+    return low <= value <= high and value == float(int(value))
+
+
+@kernel
+def _all_finite(values: Array, start: int, end: int) -> bool:
+    finite = True
+    for i in range(start, end):
+        finite = finite and abs(values[i]) < 1e300
+    return finite
+
+
+@kernel
+def _case_length(case: Any, uniform: bool, places: CasePlaces) -> tuple[int, int]:
+    """Return the lengths of a case and of its pair data; 0, 0 if its sizes cannot be."""
+    head: CaseHead = tuple_from_array(array_at(case, HEAD_FLOATS), CaseHead)
+    given: GivenPair = tuple_from_array(
+        array_at(pointer_at(case, HEAD_FLOATS), GIVEN_FLOATS), GivenPair
+    )
+    fits = _is_count(head.levels, 1.0, _MOST) and _is_count(head.stations, 2.0, _MOST)
+    fits = fits and _is_count(head.size, 2.0, _MOST) and _is_count(given.lines, 1.0, LINES_MAX)
+    fits = fits and _is_count(given.phases, 1.0, _MOST) and given.stations == head.stations
+    if not (fits and given.lines * given.phases * given.stations == head.size):
+        return 0, 0
+    levels, stations, size = int(head.levels), int(head.stations), int(head.size)
+    if uniform and levels * size > places.uniform_size:
+        return 0, 0
+    length = HEAD_FLOATS + GIVEN_FLOATS + stations + levels + 2 * levels * size
+    return length, data_size(stations, size)
+
+
+@kernel
+def check_cases(data: Any, lengths: Array, places: CasePlaces) -> int:
+    """Return 0 if constants of this length can be used, else 1; `data` is a C pointer.
+
+    `lengths` are those of data and work.
+    """
+    if not places.cases <= lengths[0] <= 1e9:
+        return 1
+    values = array_at(data, int(lengths[0]))
+    fits = True
+    fits = fits and _is_count(values[places.film_models + UNITS], 1.0, float(WIDTH))
+    fits = fits and _is_count(values[places.film_models + N_ARRAY + UNITS], 1.0, float(WIDTH))
+    for number in range(places.film_models):
+        place = values[number]
+        if not fits or place == 0.0:
+            continue
+        last = lengths[0] - HEAD_FLOATS - GIVEN_FLOATS
+        fits = _is_count(place, float(places.cases), last)
+        if fits:
+            uniform = number % STIFFNESS_MODELS == 0
+            length, own = _case_length(pointer_at(data, int(place)), uniform, places)
+            fits = length > 0 and place + length <= lengths[0]
+            fits = fits and places.work + own <= lengths[1]
+            if fits:
+                mesh = int(place) + HEAD_FLOATS + GIVEN_FLOATS
+                fits = _all_finite(values, mesh, int(place) + length)
+    return 0 if fits else 1
+
+
+@kernel
+def within_limits(inputs: Array, limits: Array) -> bool:
+    """Return whether every input is within its limits."""
+    within = True
+    for i in range(inputs.size):
+        within = within and limits[2 * i] <= inputs[i] <= limits[2 * i + 1]
+    return within

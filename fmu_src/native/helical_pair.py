@@ -16,7 +16,10 @@ from fmu_src.native.helical_cases import (
     OIL_FLOATS,
     STIFFNESS_MODELS,
     CaseHead,
+    CasePlaces,
+    check_cases,
     helical_cases,
+    within_limits,
 )
 from fmu_src.native.model import OK, Exchange, NativeModel, Operation
 from fmu_src.object_code import array_at, matrix_at, pointer_at
@@ -154,6 +157,9 @@ COUPLING_TOO_LARGE = 8
 MISSING_CASE = 10  # and its number
 
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
+_CHECK = int(Operation.CHECK)
+_CASES_AT = _OILS_AT + OIL_FLOATS * len(_PARAMETERS["oil"].literals)
+_PLACES = CasePlaces(_FILM_MODELS_AT, _OILS_AT, _CASES_AT, DATA_AT, _UNIFORM_SIZE)
 
 
 @kernel
@@ -215,15 +221,6 @@ def take_parameters(
 
 
 @kernel
-def within_limits(inputs: Array, limits: Array) -> bool:
-    """Return whether every input is within its limits."""
-    within = True
-    for i in range(N_INPUTS):
-        within = within and limits[2 * i] <= inputs[i] <= limits[2 * i + 1]
-    return within
-
-
-@kernel
 def start(
     parameters: Array,
     inputs: Array,
@@ -268,6 +265,8 @@ def _entry(laws: tuple[OilLaws, ...]) -> Callable[..., int]:
         outputs: Any,
     ) -> int:
         """Start, step or read a pair; see `NativeModel`."""
+        if operation == _CHECK:
+            return check_cases(data, array_at(parameters, 2), _PLACES)
         given = array_at(parameters, N_PARAMETERS)
         fixed = array_at(work, DATA_AT)
         if operation in (_START, _RESUME):
@@ -381,6 +380,7 @@ def native_model(definition: Definition) -> NativeModel:
     return NativeModel(
         definition=definition,
         entry=_entry(laws) if laws else _PLAIN_ENTRY,
+        kind="" if laws else "laws of the package",
         data=cases.data,
         state_size=STATE_SIZE,
         control_at=CONTROL_AT,

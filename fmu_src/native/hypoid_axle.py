@@ -11,6 +11,18 @@ import numpy as np
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.definition import Definition, Value
 from fmu_src.hypoid_axle import car_axle_in
+from fmu_src.native.axle_data import (
+    N_SIZES,
+    AxleStructure,
+    MeshSizes,
+    axle_structure,
+    check_axle_data,
+    counting_floats,
+    kind_of_classes,
+    mesh_data,
+    mesh_ends,
+    scratch_size,
+)
 from fmu_src.native.model import Exchange, NativeModel, Operation
 from fmu_src.native.parameter_map import (
     AxleSettings,
@@ -22,12 +34,11 @@ from fmu_src.native.parameter_map import (
     place_of_each,
     write_packed,
 )
-from fmu_src.object_code import array_at
+from fmu_src.object_code import array_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings, write_derived
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import output_names
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels, state_status
 from gearlube_core.dynamics.hypoid_axle.continuous import (
@@ -36,27 +47,22 @@ from gearlube_core.dynamics.hypoid_axle.continuous import (
     UNITS_OF_STATES,
 )
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import NO_MODES, NO_MODES_WORDS
-from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
+from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields
 from gearlube_core.dynamics.hypoid_axle.mesh_force import equivalent_mass, modal_damping
-from gearlube_core.dynamics.hypoid_axle.model import START_WORK, STEP_REFUSALS
+from gearlube_core.dynamics.hypoid_axle.model import STEP_REFUSALS
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     NO_MODAL_LOSS,
     PRINTED_WITH_SOLVED_FILM,
-    HypoidAxleParameters,
     MeshStiffness,
-    Radii,
 )
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE, OK
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, TIME_IN_STEP
-from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model
 from gearlube_core.friction.flank_law import FlankLaw
-from gearlube_core.friction.thermal_eyring_data import PRESSURES
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import OilLaws
@@ -70,6 +76,7 @@ REFUSALS: Mapping[int, str] = {
     PRINTED_FILM: PRINTED_WITH_SOLVED_FILM,
 }
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
+_CHECK = int(Operation.CHECK)
 _FLANKS = int(Operation.FLANKS)  # the groups follow in the order of `communication`
 _N_INPUTS = 3
 _N_CONTROL = count_floats(StepControl)
@@ -78,19 +85,20 @@ _STATE_SIZE = _CONTROL_AT + _N_CONTROL
 
 
 class _Places(NamedTuple):
-    """Where the parts of `data` and `work` begin, and sizes; whole numbers."""
+    """Where the parts of `data` and `work` begin; whole numbers, alike for all axles of a kind.
+
+    In data `MeshSizes` come first, then the packed floats of the start values.
+    """
 
     # in data
     options: int
     rows: int
     numbers: int
     lossless: int  # for each float of `AxleParameters` its value without losses, or NaN: unchanged
-    levels: int
-    series: int  # for each of `Radii`, for each of `MeshStiffness`
-    windows: int  # for each of `PRESSURES`
     film_model: int
     roller_model: int
-    data_end: int
+    levels: int  # then series for each of `Radii`, for each of `MeshStiffness`, and windows for
+    # each of `PRESSURES`
     # in work
     settings: int
     without_losses: int
@@ -100,17 +108,11 @@ class _Places(NamedTuple):
     films: int  # the film models of flanks and rollers, whose numbers are written into
     roller_films: int
     scratch: int
-    work_end: int
     # packed floats that are written here or by the bearings
     preload_g: int
     modal_damping: int
     bearing_p: int
     bearing_g: int
-    # sizes
-    orders: int
-    nodes: int
-    series_size: int
-    windows_size: int
 
 
 _N_SETTINGS = count_floats(AxleSettings)
@@ -129,7 +131,7 @@ def _write_parameters(
     """Write everything that follows from the FMI parameters into `work`; return a status."""
     write_packed(
         parameters,
-        data[0 : at.options],
+        data[N_SIZES : at.options],
         data[at.options : at.rows],
         data[at.rows : at.numbers],
         data[at.numbers : at.lossless],
@@ -160,21 +162,13 @@ def _write_parameters(
 
 
 @kernel
-def _chosen_mesh(data: Array, at: _Places, work: Array) -> MeshFields:
-    """Return the mesh table with the options that are set in `work`."""
+def _chosen_mesh(sizes: MeshSizes, at: _Places, work: Array) -> tuple[int, int]:
+    """Return where series and windows of the options that are set in `work` begin in data."""
     settings: AxleSettings = tuple_from_array(work[at.settings :], AxleSettings)
+    ends = mesh_ends(at.levels, sizes)
     variant = int(settings.radii) * _STIFFNESSES + int(settings.stiffness)
-    series = at.series + variant * at.series_size
-    windows = at.windows + int(settings.pressure) * at.windows_size
-    return (
-        data[at.levels : at.series],
-        data[series : series + at.series_size],
-        at.orders,
-        data[windows : windows + at.windows_size],
-        at.nodes,
-        work[at.films : at.roller_films],
-        work[at.roller_films : at.scratch],
-    )
+    series = ends.levels + variant * ends.series_size
+    return series, ends.series + int(settings.pressure) * ends.windows_size
 
 
 def _entry(
@@ -183,10 +177,13 @@ def _entry(
     at: _Places,
     n_parameters: int,
     at_speed: int,
+    structure: AxleStructure,
+    options: Array,
+    counting: Array,
 ) -> Callable[..., int]:
     """Return the entry of a model with these bearings, flanks and own laws of the oil.
 
-    `at` says how its data and work lie.
+    `at` says how its data and work lie; the last three, what the data must be like.
     """
     bearing, law = kinds
     kernels = axle_kernels(bearing, law)
@@ -206,8 +203,12 @@ def _entry(
         work: Any,
         outputs: Any,
     ) -> int:
-        constants = array_at(data, at.data_end)
-        values = array_at(work, at.work_end)
+        if operation == _CHECK:
+            return check_axle_data(data, array_at(parameters, 2), structure, options, counting)
+        head: MeshSizes = tuple_from_array(array_at(data, N_SIZES), MeshSizes)
+        constants = array_at(data, at.levels)
+        work_end = at.scratch + scratch_size(head)
+        values = array_at(work, work_end)
         kept = array_at(state, _STATE_SIZE)
         given = array_at(inputs, _N_INPUTS)
         out = array_at(outputs, N_OUTPUTS)
@@ -216,7 +217,18 @@ def _entry(
             status = _write_parameters(given_parameters, constants, at, bearing, law, values)
             if status != OK or operation == _RESUME:
                 return status
-        mesh = _chosen_mesh(constants, at, values) + laws
+        ends = mesh_ends(at.levels, head)
+        series, windows = _chosen_mesh(head, at, values)
+        mesh = (
+            array_at(pointer_at(data, at.levels), int(head.levels)),
+            array_at(pointer_at(data, series), ends.series_size),
+            int(head.orders),
+            array_at(pointer_at(data, windows), ends.windows_size),
+            int(head.nodes),
+            array_at(pointer_at(work, at.films), at.roller_films - at.films),
+            array_at(pointer_at(work, at.roller_films), at.scratch - at.roller_films),
+            *laws,
+        )
         packed = values[0 : at.settings]
         s = kept[0:N_STATE]
         if operation not in (_START, _RESUME):
@@ -225,7 +237,7 @@ def _entry(
                 return status
         trial = values[at.trial : at.control]
         rollers = values[at.rollers : at.films]
-        scratch = values[at.scratch : at.work_end]
+        scratch = values[at.scratch : work_end]
         if operation == _STEP:
             control = kept[_CONTROL_AT:_STATE_SIZE]
             status = step_without_outputs(s, trial, step, given, mesh, packed, control, scratch)
@@ -277,45 +289,26 @@ def _entry(
     return entry
 
 
-def _mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list[Array]]:
-    """Return the mesh as packed by default, and the series and windows of all options."""
-    modulus = contact_modulus(axle.solid, axle.solid)
-    series = [
-        pack_mesh(axle.mesh, modulus, radii, stiffness).series
-        for radii in get_args(Radii)
-        for stiffness in get_args(MeshStiffness)
-    ]
-    by_pressure = [
-        pack_mesh(axle.mesh, modulus, "consistent", "tangent", pressure) for pressure in PRESSURES
-    ]
-    return by_pressure[0], series, [one.windows for one in by_pressure]
-
-
-def _places(found: ParameterMap, mesh: PackedMesh, place: Any) -> _Places:
+def _places(found: ParameterMap, place: Any) -> _Places:
     """Return the layout of data and work; `place` is that of `place_of_each`."""
-    ends = np.cumsum([array.size for array in found.arrays]).tolist()
+    ends = (N_SIZES + np.cumsum([array.size for array in found.arrays])).tolist()
     n_parameters = flatten(place).size
-    levels = ends[3] + n_parameters
-    series = levels + mesh.levels.size
-    windows = series + len(get_args(Radii)) * _STIFFNESSES * mesh.series.size
+    film_model = ends[3] + n_parameters
+    roller_model = film_model + N_FLANK_MODEL
     without = n_parameters + _N_SETTINGS
     trial = without + n_parameters
     rollers = trial + N_STATE + _N_CONTROL
     films = rollers + ROLLERS_MAX
     roller_films = films + N_FLANK_MODEL
     scratch = roller_films + N_ARRAY
-    film_model = windows + len(PRESSURES) * mesh.windows.size
     return _Places(
         options=ends[0],
         rows=ends[1],
         numbers=ends[2],
         lossless=ends[3],
-        levels=levels,
-        series=series,
-        windows=windows,
         film_model=film_model,
-        roller_model=film_model + N_FLANK_MODEL,
-        data_end=film_model + N_FLANK_MODEL + N_ARRAY,
+        roller_model=roller_model,
+        levels=roller_model + N_ARRAY,
         settings=n_parameters,
         without_losses=without,
         trial=trial,
@@ -324,15 +317,10 @@ def _places(found: ParameterMap, mesh: PackedMesh, place: Any) -> _Places:
         films=films,
         roller_films=roller_films,
         scratch=scratch,
-        work_end=scratch + max(work_size(mesh.series_size, mesh.nodes), START_WORK),
         preload_g=int(place.preload_g),
         modal_damping=int(place.mesh.modal_damping),
         bearing_p=int(flatten(place.bearing_p)[0]),
         bearing_g=int(flatten(place.bearing_g)[0]),
-        orders=mesh.orders,
-        nodes=mesh.nodes,
-        series_size=mesh.series.size,
-        windows_size=mesh.windows.size,
     )
 
 
@@ -355,30 +343,38 @@ def native_model(definition: Definition) -> NativeModel:
     kinds = KernelClasses(type(p.bearing_p), type(p.flank_law))
     place = place_of_each(kinds)
     found = parameter_map(definition.variables, pack, derived_places(place, p))
-    packed_mesh, series, windows = _mesh_data(by_default)
-    at = _places(found, packed_mesh, place)
+    packed_mesh, series, windows = mesh_data(by_default)
+    at = _places(found, place)
+    sizes = MeshSizes.of(packed_mesh)
     unknown = tuple_from_array(np.full(at.settings, np.nan), AxleParameters, *kinds)
     data = np.concatenate(
         [
+            flatten(sizes),
             *found.arrays,
             flatten(without_losses(unknown)),  # NaN where they stay
+            flank_film_model(by_default.flank_film_model or shipped_model(FLANK)),
+            roller_film_model("solved_films", by_default.roller_film_model),
             packed_mesh.levels,
             *series,
             *windows,
-            flank_film_model(by_default.flank_film_model or shipped_model(FLANK)),
-            roller_film_model("solved_films", by_default.roller_film_model),
         ]
     )
     unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))
     parameters = [v.argument for v in definition.variables if v.is_model_parameter]
     at_speed = parameters.index("pinion_speed")
+    laws = by_default.oil.own_laws()
+    structure, counting = axle_structure(at, len(parameters)), counting_floats(place, at)
+    words = (len(parameters), at_speed, at, found.options.tolist(), counting.tolist())
     return NativeModel(
         definition=definition,
-        entry=_entry(kinds, by_default.oil.own_laws(), at, len(parameters), at_speed),
+        entry=_entry(
+            kinds, laws, at, len(parameters), at_speed, structure, found.options, counting
+        ),
+        kind="" if laws else kind_of_classes(kinds, words),
         data=data,
         state_size=_STATE_SIZE,
         control_at=_CONTROL_AT,
-        work_size=at.work_end,
+        work_size=at.scratch + scratch_size(sizes),
         limits_at=at.settings,
         ranges_at=int(place.ranges.torque_low),
         ranges=unnamed.ranges,

@@ -62,6 +62,7 @@ class Operation(IntEnum):
     FLANKS = 7  # state after a step -> the outputs of this group, see `groups`
     BEARINGS = 8  # likewise
     RACEWAYS = 9  # likewise
+    CHECK = 10  # lengths of data and work as `parameters` -> OK if the data can be used; see `kind`
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,6 +81,10 @@ class NativeModel:
         OK or a key of `refusals`; with any other status but OK `state` is unchanged.
     data : ndarray of shape (n,)
         Constants that only a table or a gear decides.
+    kind : str
+        All that the entry is compiled for, in words. Then it must not depend on `data`, `work_size`
+        or any words of the model, and it must know the operation CHECK: the library is kept for all
+        models of the kind. Without it a library fits this model alone.
     state_size : int
         Everything that the future depends on: states, inputs of the last step, step control.
     control_at : int
@@ -123,3 +128,4 @@ class NativeModel:
     motion: frozenset[str] = frozenset()
     groups: Mapping[Operation, frozenset[str]] = field(default_factory=dict)
     exchange: Exchange | None = None
+    kind: str = ""

@@ -74,7 +74,7 @@ FMI2_FOLDERS = {
     "darwin64": ("x86_64-darwin", "aarch64-darwin"),
     "aarch64-linux": ("aarch64-linux",),
 }
-_OPTIONS = ("-std=c99", "-O2", "-fPIC", "-fvisibility=hidden", "-fstack-protector-strong",
+BUILD_OPTIONS = ("-std=c99", "-O2", "-fPIC", "-fvisibility=hidden", "-fstack-protector-strong",
             "-ffp-contract=off")  # fmt: skip
 _FAT_MAGIC, _DYLIB_ALIGNMENT = 0xCAFEBABE, 14
 _MACHINES = {"x86_64-darwin": (0x01000007, 3), "aarch64-darwin": (0x0100000C, 0)}
@@ -146,7 +146,9 @@ def shared_library(
     check_linker()
     files = sorted(file for file in sources if file.endswith(".c"))
     library = f"{name}{platform.suffix}"
-    options = ["-s", "-shared", "-Wall", "-Wextra", "-I.", "-lm", *files, "kernels.o"]
+    options = ["-s", "-shared", "-Wall", "-Wextra", "-I.", *files, "kernels.o", "-lm"]
+    if "linux" in platform.name:
+        options.append("-ldl")
     return _compiled(platform, {**sources, "kernels.o": kernels}, options, library, name)
 
 
@@ -163,7 +165,7 @@ def _compiled(
             data = content.encode() if isinstance(content, str) else content
             Path(folder, file).write_bytes(data)
         command = [
-            sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, *_OPTIONS,
+            sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, *BUILD_OPTIONS,
             *platform.guards, *options, "-o", wanted,
         ]  # fmt: skip
         run = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=_settings())

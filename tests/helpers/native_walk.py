@@ -41,6 +41,7 @@ from tests.helpers.fmu_cases import CASES, Case
 from tests.helpers.native_exchange_walk import FINITE, REALS, ExchangeWalk
 from tests.helpers.native_fmus import native_fmus
 from tests.helpers.native_library import DISCARD, ERROR, OK, NativeInstance, NativeLibrary
+from tests.helpers.small_native_builds import unpacked
 from tests.helpers.watching_library import (
     COMPILER,
     NO_COMPILER,
@@ -344,14 +345,12 @@ def _built(name: str, folder: Path, sanitize: bool) -> Path:
     if sanitize:
         return watching_library(model, folder)
     (platform,) = (one for one in PLATFORMS if one.name == platform_of_this_machine())
-    path = folder / f"{name}{platform.suffix}"
-    path.write_bytes(libraries(model, [platform])[platform.name])
-    return path
+    return unpacked(model, folder, libraries(model, [platform])[platform.name], platform)
 
 
 def _walk_built(given: argparse.Namespace) -> None:
     """Walk one library; casadi, which makes the driveline, cannot be loaded beside a sanitizer."""
-    model, guid = pickle.loads(given.library.with_name("model").read_bytes())
+    model, guid = pickle.loads((given.library.parents[2] / "model").read_bytes())
     (version,) = given.fmi
     library = NativeLibrary(given.library, model, guid, version)
     counts = walk(library, sequences=given.sequences, seed=given.seed, first=given.first)

@@ -12,11 +12,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-from fmu_src.native.build import ENTRY, native_guid
+from fmu_src.native.build import ENTRY, library_kind
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
 from fmu_src.native.platforms import fmi_headers
 from fmu_src.native.sources import c_sources
 from fmu_src.object_code import LINUX, intermediate_code, optimised
+from tests.helpers.small_native_builds import unpacked
 
 COMPILER = shutil.which("gcc")
 NO_COMPILER = (
@@ -41,8 +42,8 @@ def _watching_kernels(model: NativeModel, folder: Path) -> None:
 
 
 def watching_library(model: NativeModel, folder: Path) -> Path:
-    """Build the library of a model with its sources into `folder`; return its path."""
-    sources = c_sources(model, str(native_guid(model))) | fmi_headers()
+    """Build the library of a model in `folder`, with its sources; return its path, as in an FMU."""
+    sources = c_sources(model, library_kind(model)) | fmi_headers()
     for name, text in {**sources, **model.c_code}.items():
         (folder / name).write_text(text)
     files = sorted(name for name in sources if name.endswith(".c"))
@@ -54,7 +55,7 @@ def watching_library(model: NativeModel, folder: Path) -> Path:
     path = folder / f"{model.definition.name}.so"
     command = [str(COMPILER), *_FLAGS, *files, "-o", str(path), "-lm"]
     subprocess.run(command, cwd=folder, check=True)
-    return path
+    return unpacked(model, folder, path.read_bytes())
 
 
 def watching_environment() -> dict[str, str]:

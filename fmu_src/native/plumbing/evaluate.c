@@ -11,9 +11,10 @@ static const double LONGEST_UNWATCHED = 0.01;
 int gl_say_input_beyond(gl_instance *instance, gl_status status, const char *before)
 {
     for (int i = 0; i < GL_INPUTS; i++) {
-        const gl_variable *variable = &gl_variables[gl_inputs[i]];
+        int reference = instance->model->inputs[i];
+        const gl_variable *variable = &instance->model->variables[reference];
         const double *limits = instance->work + GL_LIMITS_AT + 2 * i;
-        double value = instance->now.values[gl_inputs[i]];
+        double value = instance->now.values[reference];
         if (!(limits[0] <= value && value <= limits[1])) {
             gl_say(instance, status, "%s%s must be within %g to %g %s, got %g. %s", before,
                    variable->name, limits[0], limits[1], variable->unit, value,
@@ -28,8 +29,9 @@ int gl_say_input_beyond(gl_instance *instance, gl_status status, const char *bef
 void gl_take_outputs(gl_instance *instance, int computed)
 {
     for (int i = 0; i < GL_OUTPUTS; i++) {
-        if (gl_variables[gl_outputs[i]].needs & computed) {
-            instance->now.values[gl_outputs[i]] = instance->outputs[i];
+        int reference = instance->model->outputs[i];
+        if (instance->model->variables[reference].needs & computed) {
+            instance->now.values[reference] = instance->outputs[i];
         }
     }
     instance->fresh |= computed;
@@ -52,7 +54,7 @@ void gl_watch_ranges(gl_instance *instance)
         if (!(outside >> i & 1u) || instance->outside[i]++) {
             continue;
         }
-        const gl_range *range = &gl_ranges[i];
+        const gl_range *range = &instance->model->ranges[i];
         const double *limits = instance->work + GL_RANGES_AT + 2 * i;
         gl_say(instance, GL_WARNING,
                "%s: %s should be within %g to %g%s%s, got %.4g. %s First at t = %g s; said once "
@@ -71,7 +73,7 @@ gl_status gl_take_inputs(gl_instance *instance)
     if (gl_say_refused(instance, GL_DISCARD, "") || gl_say_input_beyond(instance, GL_DISCARD, "")) {
         return GL_DISCARD;
     }
-    gl_gather_inputs(instance->now.values, instance->now.state + GL_INPUTS_AT);
+    gl_gather_inputs(instance->model, instance->now.values, instance->now.state + GL_INPUTS_AT);
     return GL_OK;
 }
 
@@ -100,7 +102,7 @@ static int64_t compute(gl_instance *instance, int missing, int *computed)
             break;
         }
     }
-    return gearlube_entry(operation, 0.0, gl_data, instance->parameters, inputs,
+    return gearlube_entry(operation, 0.0, instance->model->data, instance->parameters, inputs,
                           instance->now.state, instance->work, instance->outputs);
 }
 
@@ -120,18 +122,20 @@ gl_status gl_refresh(gl_instance *instance, int needed)
     }
     int64_t refusal = compute(instance, missing, &computed);
     if (refusal != 0) {
-        gl_say(instance, bad, "The outputs cannot be computed: %s.", gl_refusal_text(refusal));
+        gl_say(instance, bad, "The outputs cannot be computed: %s.",
+               gl_refusal_text(instance->model, refusal));
         return bad;
     }
     for (int i = 0; i < GL_OUTPUTS; i++) {
-        const gl_variable *variable = &gl_variables[gl_outputs[i]];
+        const gl_variable *variable = &instance->model->variables[instance->model->outputs[i]];
         if (variable->needs & computed && !isfinite(instance->outputs[i])) {
             gl_say(instance, bad, "%s is not finite.", variable->name);
             return bad;
         }
     }
     gl_take_outputs(instance, computed);
-    if (computed & ~known & gl_variables[GL_EXCEEDED].needs && !instance->now.exchange) {
+    if (computed & ~known & instance->model->variables[GL_EXCEEDED].needs &&
+        !instance->now.exchange) {
         gl_watch_ranges(instance);
     }
     return gl_refresh(instance, needed);

@@ -35,11 +35,11 @@ static gl_status event(gl_instance *instance, double *state)
         return status;
     }
     memcpy(state, instance->now.state, sizeof instance->now.state);
-    int64_t refusal = gearlube_entry(GL_EVENT, 0.0, gl_data, instance->parameters, inputs, state,
-                                     instance->work, instance->outputs);
+    int64_t refusal = gearlube_entry(GL_EVENT, 0.0, instance->model->data, instance->parameters,
+                                     inputs, state, instance->work, instance->outputs);
     if (refusal != 0 || !gl_all_finite(state, GL_STATE)) {
         gl_say(instance, GL_DISCARD, "The event cannot be computed: %s.",
-               refusal ? gl_refusal_text(refusal) : "a state is not finite");
+               refusal ? gl_refusal_text(instance->model, refusal) : "a state is not finite");
         return GL_DISCARD;
     }
     return GL_OK;
@@ -105,11 +105,12 @@ static gl_status check_array(gl_instance *instance, const double *values, size_t
 
 gl_status gl_check_state(gl_instance *instance, int place, double value)
 {
-    if (isfinite(value / gl_states[place].unit)) {
+    const gl_continuous_state *state = &instance->model->states[place];
+    if (isfinite(value / state->unit)) {
         return GL_OK;
     }
     gl_say(instance, GL_DISCARD, "%s must be finite, also in the unit of the model, got %g.",
-           gl_variables[gl_states[place].reference].name, value);
+           instance->model->variables[state->reference].name, value);
     return GL_DISCARD;
 }
 
@@ -127,7 +128,7 @@ gl_status gl_set_states(gl_instance *instance, const double *values, size_t coun
         if (gl_check_state(instance, i, values[i]) != GL_OK) {
             return GL_DISCARD;
         }
-        state[i] = values[i] / gl_states[i].unit;
+        state[i] = values[i] / instance->model->states[i].unit;
     }
     memcpy(instance->now.state, state, GL_CONTINUOUS * sizeof *state);
     instance->fresh = 0;
@@ -151,7 +152,7 @@ gl_status gl_get_states(gl_instance *instance, double *values, size_t count)
     int needed = instance->now.phase < GL_STEPPING ? GL_ALL : GL_NOTHING;
     gl_status status = check_get(instance, values, count, GL_CONTINUOUS, needed);
     for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
-        values[i] = instance->now.state[i] * gl_states[i].unit;
+        values[i] = instance->now.state[i] * instance->model->states[i].unit;
     }
     return status;
 }
@@ -160,7 +161,7 @@ gl_status gl_get_nominals(gl_instance *instance, double *values, size_t count)
 {
     gl_status status = check_get(instance, values, count, GL_CONTINUOUS, GL_NOTHING);
     for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
-        values[i] = gl_variables[gl_states[i].reference].nominal;
+        values[i] = instance->model->variables[instance->model->states[i].reference].nominal;
     }
     return status;
 }
@@ -169,7 +170,7 @@ gl_status gl_get_rates(gl_instance *instance, double *values, size_t count)
 {
     gl_status status = check_get(instance, values, count, GL_CONTINUOUS, GL_OF_RATES);
     for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
-        values[i] = instance->now.values[gl_states[i].rate];
+        values[i] = instance->now.values[instance->model->states[i].rate];
     }
     return status;
 }
@@ -178,15 +179,15 @@ gl_status gl_get_indicators(gl_instance *instance, double *values, size_t count)
 {
     gl_status status = check_get(instance, values, count, GL_INDICATORS, GL_OF_RATES);
     for (int i = 0; status == GL_OK && i < GL_INDICATORS; i++) {
-        values[i] = instance->now.values[gl_indicators[i]];
+        values[i] = instance->now.values[instance->model->indicators[i]];
     }
     return status;
 }
 
-int gl_state_place(unsigned reference)
+int gl_state_place(const gl_model *model, unsigned reference)
 {
     for (int i = 0; i < GL_CONTINUOUS; i++) {
-        if (gl_states[i].reference == (int)reference) {
+        if (model->states[i].reference == (int)reference) {
             return i;
         }
     }
@@ -194,16 +195,15 @@ int gl_state_place(unsigned reference)
 }
 
 /* Place in the state of what a direction changes, with the size of one there; -1: none such. */
-static int place_of(unsigned reference, double *unit)
+static int place_of(const gl_model *model, unsigned reference, double *unit)
 {
-    int place = gl_state_place(reference);
-    *unit = place >= 0 ? gl_states[place].unit : 1.0;
+    int place = gl_state_place(model, reference);
+    *unit = place >= 0 ? model->states[place].unit : 1.0;
     if (place >= 0) {
         return place;
     }
-    return gl_variables[reference].causality == GL_INPUT
-               ? GL_INPUTS_AT + gl_variables[reference].place
-               : -1;
+    const gl_variable *variable = &model->variables[reference];
+    return variable->causality == GL_INPUT ? GL_INPUTS_AT + variable->place : -1;
 }
 
 static gl_status check_direction(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
@@ -211,20 +211,21 @@ static gl_status check_direction(gl_instance *instance, const unsigned *unknowns
                                  const double *derivatives)
 {
     double unit;
+    const gl_variable *variables = instance->model->variables;
     gl_status status = gl_expect_either(instance, GL_EVENTS, GL_CONTINUOUS_TIME);
     if (status == GL_OK && ((n_unknowns && (!unknowns || !derivatives)) ||
                             (n_knowns && (!knowns || !seed)))) {
         status = gl_refuse(instance, "References or values are missing: a null pointer.");
     }
     for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
-        if (unknowns[i] >= GL_VARIABLES || gl_variables[unknowns[i]].causality != GL_OUTPUT ||
-            gl_variables[unknowns[i]].kind != GL_REAL) {
+        if (unknowns[i] >= GL_VARIABLES || variables[unknowns[i]].causality != GL_OUTPUT ||
+            variables[unknowns[i]].kind != GL_REAL) {
             status = gl_refuse(instance, "An unknown must be a Real that the FMU computes, got the "
                                          "value reference %u.", unknowns[i]);
         }
     }
     for (size_t i = 0; status == GL_OK && i < n_knowns; i++) {
-        if (knowns[i] >= GL_VARIABLES || place_of(knowns[i], &unit) < 0) {
+        if (knowns[i] >= GL_VARIABLES || place_of(instance->model, knowns[i], &unit) < 0) {
             status = gl_refuse(instance, "A known must be a continuous state or an input, got the "
                                          "value reference %u.", knowns[i]);
         } else if (!isfinite(seed[i])) {
@@ -242,14 +243,14 @@ static gl_status outputs_beside(gl_instance *instance, int operation, const unsi
     double state[GL_STATE], inputs[GL_INPUTS] = {0.0}, unit;
     memcpy(state, instance->now.state, sizeof state);
     for (size_t i = 0; i < n_knowns; i++) {
-        int place = place_of(knowns[i], &unit);
+        int place = place_of(instance->model, knowns[i], &unit);
         state[place] += share * (seed[i] / whole) / unit;
     }
-    int64_t refusal = gearlube_entry(operation, 0.0, gl_data, instance->parameters, inputs, state,
-                                     instance->work, outputs);
+    int64_t refusal = gearlube_entry(operation, 0.0, instance->model->data, instance->parameters,
+                                     inputs, state, instance->work, outputs);
     if (refusal != 0) {
         gl_say(instance, GL_DISCARD, "The derivatives cannot be computed: %s.",
-               gl_refusal_text(refusal));
+               gl_refusal_text(instance->model, refusal));
     }
     return refusal == 0 ? GL_OK : GL_DISCARD;
 }
@@ -259,6 +260,7 @@ gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size
                            double *derivatives)
 {
     double above[GL_OUTPUTS], below[GL_OUTPUTS], largest = 0.0;
+    const gl_variable *variables = instance->model->variables;
     int needs = GL_OF_RATES;
     gl_status status = check_direction(instance, unknowns, n_unknowns, knowns, n_knowns, seed,
                                        derivatives);
@@ -266,10 +268,10 @@ gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size
         status = gl_take_inputs(instance);
     }
     for (size_t i = 0; status == GL_OK && i < n_knowns; i++) {
-        largest = fmax(largest, fabs(seed[i]) / gl_variables[knowns[i]].nominal);
+        largest = fmax(largest, fabs(seed[i]) / variables[knowns[i]].nominal);
     }
     for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
-        needs |= gl_variables[unknowns[i]].needs;
+        needs |= variables[unknowns[i]].needs;
     }
     int operation = needs == GL_OF_RATES ? GL_DERIVATIVES : GL_WRITE_OUTPUTS;
     double whole = largest > 0.0 ? largest : 1.0;
@@ -283,7 +285,7 @@ gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size
     }
     for (int writes = 0; status == GL_OK && writes < 2; writes++) { /* after all are known good */
         for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
-            int place = gl_variables[unknowns[i]].place;
+            int place = variables[unknowns[i]].place;
             double slope = (above[place] - below[place]) / (2.0 * DIFFERENCE) * whole;
             if (writes) {
                 derivatives[i] = slope;
@@ -291,7 +293,7 @@ gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size
                 gl_say(instance, GL_DISCARD,
                        "The derivative of %s is not finite, with a seed of %g times the nominal "
                        "value. Use a smaller seed, or a state nearer to a run.",
-                       gl_variables[unknowns[i]].name, largest);
+                       variables[unknowns[i]].name, largest);
                 status = GL_DISCARD;
             }
         }

@@ -55,26 +55,26 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
                               const fmi2CallbackFunctions *calls, fmi2Boolean visible,
                               fmi2Boolean logging)
 {
-    const char *why = NULL;
-    (void)resources; /* nothing is read from there */
+    char why[GL_LONGEST_MESSAGE] = "";
+    gl_model *model = NULL;
     (void)visible;
     if (!calls || !calls->logger) {
         gl_say_no_instance(name, "The host must give a logger.");
         return NULL;
     }
     if (type != fmi2CoSimulation && GL_CONTINUOUS == 0) {
-        why = "This FMU is for co-simulation only.";
-    } else if (!guid || strcmp(guid, GL_GUID)) {
-        why = "The GUID must be " GL_GUID ", that of the model description.";
+        strcpy(why, "This FMU is for co-simulation only.");
+    } else {
+        model = gl_load(resources, guid, "GUID", why);
     }
-    if (why) {
+    if (!model) {
         gl_say_no_instance(name, why);
         log_text(calls->logger, calls->componentEnvironment, name ? name : GL_MODEL_NAME, GL_ERROR,
                  gl_log_names[GL_LOG_ERROR], why);
         return NULL;
     }
-    return gl_make(name, tell, calls->componentEnvironment, (uintptr_t)calls->logger, logging,
-                   type == fmi2ModelExchange);
+    return gl_make(model, name, tell, calls->componentEnvironment, (uintptr_t)calls->logger,
+                   logging, type == fmi2ModelExchange);
 }
 
 void fmi2FreeInstance(fmi2Component c)

@@ -44,14 +44,16 @@ static fmi3Instance no_instance(fmi3String name, fmi3InstanceEnvironment host,
     return NULL;
 }
 
-static fmi3Instance make(fmi3String name, fmi3String token, fmi3Boolean logging,
-                         fmi3InstanceEnvironment host, fmi3LogMessageCallback log, int exchange)
+static fmi3Instance make(fmi3String name, fmi3String token, fmi3String resources,
+                         fmi3Boolean logging, fmi3InstanceEnvironment host,
+                         fmi3LogMessageCallback log, int exchange)
 {
-    if (!token || strcmp(token, GL_GUID)) {
-        return no_instance(name, host, log,
-                           "The token must be " GL_GUID ", that of the model description.");
+    char why[GL_LONGEST_MESSAGE];
+    gl_model *model = gl_load(resources, token, "token", why);
+    if (!model) {
+        return no_instance(name, host, log, why);
     }
-    return gl_make(name, tell, host, (uintptr_t)log, logging, exchange);
+    return gl_make(model, name, tell, host, (uintptr_t)log, logging, exchange);
 }
 
 fmi3Instance fmi3InstantiateCoSimulation(
@@ -60,7 +62,6 @@ fmi3Instance fmi3InstantiateCoSimulation(
     const fmi3ValueReference intermediate[], size_t n_intermediate, fmi3InstanceEnvironment host,
     fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update)
 {
-    (void)resources; /* nothing is read from there */
     (void)visible;
     (void)early_return;
     (void)intermediate;
@@ -69,19 +70,18 @@ fmi3Instance fmi3InstantiateCoSimulation(
         return no_instance(name, host, log,
                            "This FMU has neither event mode nor intermediate variables.");
     }
-    return make(name, token, logging, host, log, 0);
+    return make(name, token, resources, logging, host, log, 0);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
                                           fmi3Boolean visible, fmi3Boolean logging,
                                           fmi3InstanceEnvironment host, fmi3LogMessageCallback log)
 {
-    (void)resources;
     (void)visible;
     if (GL_CONTINUOUS == 0) {
         return no_instance(name, host, log, "This FMU is for co-simulation only.");
     }
-    return make(name, token, logging, host, log, 1);
+    return make(name, token, resources, logging, host, log, 1);
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(
@@ -153,6 +153,13 @@ static int is_time(fmi3ValueReference reference, gl_kind kind, int setting)
     return reference == TIME && kind == GL_REAL && !setting;
 }
 
+/* The variable of a reference; NULL if there is none. */
+static const gl_array *array_of(const gl_instance *instance, fmi3ValueReference reference)
+{
+    const gl_array *array = reference < GL_VARIABLES ? &instance->model->arrays[reference] : NULL;
+    return array && array->count ? array : NULL;
+}
+
 /* Checks that references are of this type, as many as there are values. */
 static gl_status check_types(gl_instance *instance, gl_kind kind, int enumeration, int setting,
                              const fmi3ValueReference refs[], size_t n, size_t n_values)
@@ -163,17 +170,18 @@ static gl_status check_types(gl_instance *instance, gl_kind kind, int enumeratio
             expected++;
             continue;
         }
-        if (refs[i] >= GL_VARIABLES || gl_arrays[refs[i]].count == 0) {
+        const gl_array *array = array_of(instance, refs[i]);
+        if (!array) {
             return gl_refuse(instance, "No variable of this FMU has the value reference %u.",
                              refs[i]);
         }
-        const gl_variable *variable = &gl_variables[refs[i]];
+        const gl_variable *variable = &instance->model->variables[refs[i]];
         if (variable->kind != kind ||
             (kind == GL_INTEGER && enumeration != (variable->literals != NULL))) {
             return gl_refuse(instance, "%s must be accessed as %s.", variable->name,
                              variable->literals ? "Int64" : type_names[variable->kind]);
         }
-        expected += (size_t)gl_arrays[refs[i]].count;
+        expected += (size_t)array->count;
     }
     if (expected != n_values) {
         return gl_refuse(instance, "The call must bring room for %llu values, got %llu.",
@@ -194,7 +202,7 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
     const double *reals = kind == GL_REAL ? values : NULL;
     for (size_t i = 0; status == GL_OK && i < n; i++) {
         if (!is_time(refs[i], kind, setting)) {
-            const gl_array *array = &gl_arrays[refs[i]];
+            const gl_array *array = &instance->model->arrays[refs[i]];
             const void *own = reals ? reals : values;
             status = (setting ? gl_check_set : gl_check_read)(
                 instance, kind, (size_t)array->count, array->members, own);
@@ -222,8 +230,9 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
             return answer(status);                                                                \
         }                                                                                         \
         for (size_t i = 0; i < n; i++) {                                                          \
-            for (int j = 0; refs[i] != TIME && j < gl_arrays[refs[i]].count; j++) {               \
-                double value = instance->now.values[gl_arrays[refs[i]].members[j]];               \
+            const gl_array *array = array_of(instance, refs[i]);                                  \
+            for (int j = 0; array && j < array->count; j++) {                                     \
+                double value = instance->now.values[array->members[j]];                           \
                 values[k++] = read;                                                               \
             }                                                                                     \
             if (refs[i] == TIME) {                                                                \
@@ -236,6 +245,7 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
     fmi3Status fmi3Set##name(fmi3Instance c, const fmi3ValueReference refs[], size_t n,           \
                              const type values[], size_t n_values)                                \
     {                                                                                             \
+        gl_instance *instance = c;                                                                \
         fmi3Status worst = fmi3OK;                                                                \
         size_t k = 0;                                                                             \
         if (!gl_is_instance(c)) {                                                                 \
@@ -247,8 +257,9 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
             return answer(status);                                                                \
         }                                                                                         \
         for (size_t i = 0; i < n; i++) {                                                          \
-            for (int j = 0; j < gl_arrays[refs[i]].count; j++) {                                  \
-                unsigned reference = gl_arrays[refs[i]].members[j];                               \
+            const gl_array *array = &instance->model->arrays[refs[i]];                            \
+            for (int j = 0; j < array->count; j++) {                                              \
+                unsigned reference = array->members[j];                                           \
                 fmi3Status one = answer(GL_CALL(c, gl_set(c, reference, (double)values[k])));     \
                 k++;                                                                              \
                 worst = one > worst ? one : worst;                                                \

@@ -116,18 +116,19 @@ fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n)
 }
 
 /* Writes the elements of all arrays one after the other; returns 0 if they are not `count`. */
-static int elements(const fmi3ValueReference refs[], size_t n, size_t count, unsigned *found)
+static int elements(const gl_model *model, const fmi3ValueReference refs[], size_t n, size_t count, unsigned *found)
 {
     size_t k = 0;
     for (size_t i = 0; i < n; i++) {
-        if (refs[i] >= GL_VARIABLES || gl_arrays[refs[i]].count == 0) {
+        const gl_array *array = refs[i] < GL_VARIABLES ? &model->arrays[refs[i]] : NULL;
+        if (!array || array->count == 0) {
             return 0;
         }
-        for (int j = 0; j < gl_arrays[refs[i]].count; j++) {
+        for (int j = 0; j < array->count; j++) {
             if (k == GL_VARIABLES) {
                 return 0;
             }
-            found[k++] = gl_arrays[refs[i]].members[j];
+            found[k++] = array->members[j];
         }
     }
     return k == count;
@@ -145,8 +146,9 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
     if ((n_unknowns && !unknowns) || (n_knowns && !knowns)) {
         return no_pointer(c);
     }
-    if (!elements(unknowns, n_unknowns, n_sensitivity, of_unknowns) ||
-        !elements(knowns, n_knowns, n_seed, of_knowns)) {
+    const gl_model *model = ((gl_instance *)c)->model;
+    if (!elements(model, unknowns, n_unknowns, n_sensitivity, of_unknowns) ||
+        !elements(model, knowns, n_knowns, n_seed, of_knowns)) {
         return answer(GL_CALL(c, gl_refuse(c, "Value references of variables are expected, each "
                                               "once, and as many values as they have elements.")));
     }

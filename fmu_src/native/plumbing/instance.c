@@ -25,25 +25,27 @@ static void set_to_start(gl_instance *instance)
     instance->step_refused = 0;
     instance->stale = 1;
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
-        instance->now.values[i] = gl_variables[i].start;
+        instance->now.values[i] = instance->model->variables[i].start;
     }
 }
 
-gl_instance *gl_make(const char *name, gl_listener listener, void *host, uintptr_t logger,
-                     int logging, int exchange)
+gl_instance *gl_make(gl_model *model, const char *name, gl_listener listener, void *host,
+                     uintptr_t logger, int logging, int exchange)
 {
     const char *given = name && *name ? name : GL_MODEL_NAME;
     size_t length = strlen(given) + 1;
-    gl_instance *instance = calloc(1, sizeof *instance);
+    gl_instance *instance = calloc(1, sizeof *instance + (size_t)model->work * sizeof(double));
     char *copy = malloc(length);
     if (!instance || !copy) {
         free(instance);
         free(copy);
+        free(model);
         gl_say_no_instance(name, "There is not enough memory for an instance.");
         return NULL;
     }
     memcpy(copy, given, length);
     instance->mark = INSTANCE_MARK;
+    instance->model = model;
     instance->name = copy;
     instance->listener = listener;
     instance->host = host;
@@ -64,6 +66,7 @@ void gl_free(gl_instance *instance)
     if (gl_is_instance(instance)) {
         instance->mark = 0;
         free(instance->name);
+        free(instance->model);
         free(instance);
     }
 }
@@ -109,11 +112,11 @@ gl_status gl_enter_initialisation(gl_instance *instance)
     return status;
 }
 
-const char *gl_refusal_text(int64_t status)
+const char *gl_refusal_text(const gl_model *model, int64_t status)
 {
-    for (int i = 0; i < GL_REFUSALS; i++) {
-        if (gl_refusals[i].status == status) {
-            return gl_refusals[i].text;
+    for (int i = 0; i < model->n_refusals; i++) {
+        if (model->refusals[i].status == status) {
+            return model->refusals[i].text;
         }
     }
     return "the model refused it";
@@ -131,10 +134,11 @@ int gl_all_finite(const double *values, int count)
 
 /* Why an operation of the model gives no result; NULL where it does. Without `outputs` it gives
    none. */
-static const char *why_not(int64_t status, const double *outputs, const double *state)
+static const char *why_not(const gl_model *model, int64_t status, const double *outputs,
+                           const double *state)
 {
     if (status != 0) {
-        return gl_refusal_text(status);
+        return gl_refusal_text(model, status);
     }
     if (outputs && !gl_all_finite(outputs, GL_OUTPUTS)) {
         return "an output is not finite";
@@ -149,18 +153,18 @@ gl_status gl_start(gl_instance *instance)
     }
     double inputs[GL_INPUTS], state[GL_STATE];
     memset(state, 0, sizeof state);
-    gl_gather_parameters(instance->now.values, instance->parameters);
-    gl_gather_inputs(instance->now.values, inputs);
-    int64_t status = gearlube_entry(GL_RESUME, 0.0, gl_data, instance->parameters, inputs, state,
-                                    instance->work, instance->outputs);
+    gl_gather_parameters(instance->model, instance->now.values, instance->parameters);
+    gl_gather_inputs(instance->model, instance->now.values, inputs);
+    int64_t status = gearlube_entry(GL_RESUME, 0.0, instance->model->data, instance->parameters,
+                                    inputs, state, instance->work, instance->outputs);
     if (status == 0) {
         if (gl_say_input_beyond(instance, GL_ERROR, "")) {
             return GL_ERROR;
         }
-        status = gearlube_entry(GL_START, 0.0, gl_data, instance->parameters, inputs, state,
-                                instance->work, instance->outputs);
+        status = gearlube_entry(GL_START, 0.0, instance->model->data, instance->parameters, inputs,
+                                state, instance->work, instance->outputs);
     }
-    const char *why = why_not(status, instance->outputs, state);
+    const char *why = why_not(instance->model, status, instance->outputs, state);
     if (why) {
         return gl_refuse(instance, "The start was refused: %s.", why);
     }
@@ -183,10 +187,11 @@ gl_status gl_exit_initialisation(gl_instance *instance)
     gl_watch_ranges(instance);
     gl_say(instance, GL_OK, "initialised at t = %g s", instance->now.time);
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
-        if (gl_variables[i].causality == GL_PARAMETER && gl_variables[i].place >= 0) {
-            double value = instance->parameters[gl_variables[i].place]; /* also if by number */
-            const char *const *literals = gl_variables[i].literals;
-            gl_say(instance, GL_OK, "%s = %g%s%s", gl_variables[i].name, value,
+        const gl_variable *variable = &instance->model->variables[i];
+        if (variable->causality == GL_PARAMETER && variable->place >= 0) {
+            double value = instance->parameters[variable->place]; /* also if by number */
+            const char *const *literals = variable->literals;
+            gl_say(instance, GL_OK, "%s = %g%s%s", variable->name, value,
                    literals ? " " : "", literals ? literals[(int)value - 1] : "");
         }
     }
@@ -209,7 +214,7 @@ gl_status gl_terminate(gl_instance *instance)
     for (int i = 0; i < GL_RANGES; i++) {
         if (instance->outside[i]) {
             gl_say(instance, GL_OK, "%s was outside its range at %llu of %llu communication points.",
-                   gl_ranges[i].output, (unsigned long long)instance->outside[i],
+                   instance->model->ranges[i].output, (unsigned long long)instance->outside[i],
                    (unsigned long long)instance->points);
         }
     }
@@ -263,11 +268,12 @@ static gl_status step_to(gl_instance *instance, double time, double step)
         return checked;
     }
     double inputs[GL_INPUTS], before[GL_STATE];
-    gl_gather_inputs(instance->now.values, inputs);
+    gl_gather_inputs(instance->model, instance->now.values, inputs);
     memcpy(before, instance->now.state, sizeof before);
-    int64_t status = gearlube_entry(GL_STEP, step, gl_data, instance->parameters, inputs,
-                                    instance->now.state, instance->work, instance->outputs);
-    const char *why = why_not(status, GL_LAZY ? NULL : instance->outputs, instance->now.state);
+    int64_t status = gearlube_entry(GL_STEP, step, instance->model->data, instance->parameters,
+                                    inputs, instance->now.state, instance->work, instance->outputs);
+    const char *why = why_not(instance->model, status, GL_LAZY ? NULL : instance->outputs,
+                              instance->now.state);
     if (why) {
         memcpy(instance->now.state, before, sizeof before);
         gl_say(instance, GL_DISCARD, "step of %g s at t = %g s refused: %s.", step, time, why);

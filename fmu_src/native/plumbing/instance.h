@@ -55,6 +55,7 @@ typedef struct {
 struct gl_instance {
     uint64_t mark; /* tells an instance from other memory */
     gl_floats host_floats; /* while a call of the host lasts */
+    gl_model *model;
     gl_snapshot now;
     double stop; /* no step goes beyond it [s] */
     int stale;   /* outputs wait for a start with the present values */
@@ -65,17 +66,23 @@ struct gl_instance {
     unsigned char refused[GL_VARIABLES]; /* and which */
     double parameters[GL_PARAMETERS];    /* what `work` was made of */
     double outputs[GL_OUTPUTS];
-    double work[GL_WORK];
     uint64_t points, outside[GL_RANGES + 1]; /* communication points, and those outside a range */
     unsigned logs;                           /* categories that the host wants, as bits */
     gl_listener listener;
     void *host;       /* what the listener needs of the host */
     uintptr_t logger; /* function of the host */
     char *name;
+    double work[]; /* of the model */
 };
 
-gl_instance *gl_make(const char *name, gl_listener listener, void *host, uintptr_t logger,
-                     int logging, int exchange);
+/* Reads the model from the folder of the FMU's resources, given as a path or as a URI; NULL, and why
+   not, if there is none for this library with this GUID. */
+gl_model *gl_load(const char *resources, const char *guid, const char *name_of_guid,
+                  char why[GL_LONGEST_MESSAGE]);
+
+/* Takes over the model, also if there is no memory for an instance. */
+gl_instance *gl_make(gl_model *model, const char *name, gl_listener listener, void *host,
+                     uintptr_t logger, int logging, int exchange);
 void gl_free(gl_instance *instance);
 int gl_is_instance(const gl_instance *instance);
 

@@ -9,6 +9,9 @@ enum { GL_LONGEST_LIMITS = 512 };
 /* Writes the range of a variable as words: "within 0 to 1 m", or the names of an option. */
 void gl_limits_text(const gl_variable *variable, char *text, size_t size);
 
+/* The content of the model's file, to be freed; NULL, and why not. */
+unsigned char *gl_read_model(const char *resources, size_t *size, char why[GL_LONGEST_MESSAGE]);
+
 /* Sets floating point as the model needs it, and as the host had it. */
 void gl_take_floats(gl_floats *host);
 void gl_give_floats(const gl_floats *host);
@@ -18,10 +21,13 @@ int gl_say_refused(gl_instance *instance, gl_status status, const char *before);
 void gl_find_refused(gl_instance *instance);
 
 /* Parameters of the model, options by number in the place of their enumeration. */
-void gl_gather_parameters(const double *values, double *parameters);
-void gl_gather_inputs(const double *values, double *inputs);
+void gl_gather_parameters(const gl_model *model, const double *values, double *parameters);
+void gl_gather_inputs(const gl_model *model, const double *values, double *inputs);
 
 int gl_all_finite(const double *values, int count);
+
+/* CRC-32, begun with `seed`. */
+uint32_t gl_checksum(uint32_t seed, const unsigned char *bytes, size_t size);
 
 /* Starts the model unless its outputs belong to the present values. */
 gl_status gl_start(gl_instance *instance);
@@ -43,7 +49,7 @@ gl_status gl_expect(gl_instance *instance, gl_phase phase);
 gl_status gl_expect_either(gl_instance *instance, gl_phase one, gl_phase other);
 
 /* Why an operation was refused, in words. */
-const char *gl_refusal_text(int64_t status);
+const char *gl_refusal_text(const gl_model *model, int64_t status);
 
 /* In model exchange: puts the present inputs into the state, unless they are refused. */
 gl_status gl_take_inputs(gl_instance *instance);
@@ -52,7 +58,7 @@ gl_status gl_take_inputs(gl_instance *instance);
 gl_status gl_check_state(gl_instance *instance, int place, double value);
 
 /* Place of a continuous state by the reference of its variable; -1: none such. */
-int gl_state_place(unsigned reference);
+int gl_state_place(const gl_model *model, unsigned reference);
 
 /* Counts and says what is outside its range; all outputs must be those of now. */
 void gl_watch_ranges(gl_instance *instance);

@@ -1,5 +1,6 @@
 /* What the FMI functions know of a model: its variables, constants and one entry.
-   The tables behind these declarations are generated from the list of FMI variables. */
+   What the entry is compiled for stands in `model_sizes.h`, generated from the list of FMI variables.
+   All other numbers and all words come from the file `resources/model.bin` of the FMU. */
 #ifndef GEARLUBE_MODEL_H
 #define GEARLUBE_MODEL_H
 
@@ -60,15 +61,22 @@ typedef struct {
     int reference;      /* of the output */
 } gl_range;
 
-extern const gl_variable gl_variables[GL_VARIABLES];
-extern const gl_array gl_arrays[GL_VARIABLES];
-extern const int gl_inputs[GL_INPUTS];   /* reference of each input of the model */
-extern const int gl_outputs[GL_OUTPUTS]; /* reference of each output of the model */
-extern const gl_continuous_state gl_states[]; /* GL_CONTINUOUS of them */
-extern const int gl_indicators[];             /* references of the GL_INDICATORS event indicators */
-extern const gl_refusal gl_refusals[GL_REFUSALS];
-extern const gl_range gl_ranges[GL_RANGES];
-extern const double gl_data[]; /* what only a table or a gear decides */
+enum { GL_GUID_SIZE = 40 };
+
+/* A model as its file describes it, in one piece of memory. */
+typedef struct {
+    char guid[GL_GUID_SIZE];
+    int work, n_data, n_refusals;
+    const gl_variable *variables; /* GL_VARIABLES of them */
+    const gl_array *arrays;       /* ditto */
+    const int *inputs;            /* reference of each input of the model */
+    const int *outputs;           /* reference of each output of the model */
+    const gl_continuous_state *states; /* GL_CONTINUOUS of them */
+    const int *indicators;             /* references of the GL_INDICATORS event indicators */
+    const gl_refusal *refusals;
+    const gl_range *ranges; /* GL_RANGES of them */
+    const double *data;     /* what only a table or a gear decides */
+} gl_model;
 
 /* operations of the entry */
 enum {
@@ -81,7 +89,9 @@ enum {
     GL_EVENT,
     GL_FLANKS,
     GL_BEARINGS,
-    GL_RACEWAYS
+    GL_RACEWAYS,
+    GL_CHECK /* only of an entry that takes data of any length: `parameters` are the lengths of data
+                and work */
 };
 
 /* The physics: compiled from the same kernels as the Python models. Returns 0 or the status of a

@@ -10,20 +10,20 @@
    what follows, time, values, state. */
 enum {
     MARK_SIZE = 8,
-    OWNER_SIZE = 40,
+    OWNER_SIZE = GL_GUID_SIZE,
     HEADER_SIZE = MARK_SIZE + OWNER_SIZE + 4 + 4,
     OF_EXCHANGE = 256, /* added to the phase in model exchange */
     NUMBERS_SIZE = 8 * (1 + GL_VARIABLES + GL_STATE)
 };
 static const char MARK[MARK_SIZE + 1] = "gearlub2";
-static const char OWNER[OWNER_SIZE] = GL_GUID;
 static const char FREED[] = "The state is none of this FMU, or has been freed. Save one again.";
 
 /* States that hosts hold. A host gets a number that is never given again, not an address: a freed
    state is known as such without a look at its memory. Any instance of this library may use a
-   state. Instances of several threads go through the rows one at a time, for some nanoseconds. */
+   state of its own model. Instances of several threads go through the rows one at a time, for some nanoseconds. */
 typedef struct held {
     uintptr_t name;
+    char owner[OWNER_SIZE]; /* GUID of the model */
     gl_snapshot snapshot;
     struct held *next;
 } held;
@@ -64,14 +64,17 @@ static void *hold(held *state)
     return (void *)state->name;
 }
 
-static uint32_t checksum(uint32_t phase, const unsigned char *bytes, size_t size)
+uint32_t gl_checksum(uint32_t seed, const unsigned char *bytes, size_t size)
 {
-    uint32_t crc = ~phase; /* CRC-32 */
+    static const uint32_t of_half_byte[16] = {
+        0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu, 0x76dc4190u, 0x6b6b51f4u,
+        0x4db26158u, 0x5005713cu, 0xedb88320u, 0xf00f9344u, 0xd6d6a3e8u, 0xcb61b38cu,
+        0x9b64c2b0u, 0x86d3d2d4u, 0xa00ae278u, 0xbdbdf21cu,
+    };
+    uint32_t crc = ~seed;
     for (size_t i = 0; i < size; i++) {
-        crc ^= bytes[i];
-        for (int k = 0; k < 8; k++) {
-            crc = crc >> 1 ^ (0xedb88320u & (0u - (crc & 1u)));
-        }
+        crc = crc >> 4 ^ of_half_byte[(crc ^ bytes[i]) & 15u];
+        crc = crc >> 4 ^ of_half_byte[(crc ^ (uint32_t)(bytes[i] >> 4)) & 15u];
     }
     return ~crc;
 }
@@ -79,6 +82,14 @@ static uint32_t checksum(uint32_t phase, const unsigned char *bytes, size_t size
 static gl_status check_pointers(gl_instance *instance, const void *one, const void *other)
 {
     return one && other ? GL_OK : gl_refuse(instance, "A pointer of the call is null.");
+}
+
+static gl_status refuse_owner(gl_instance *instance)
+{
+    return gl_refuse(instance,
+                     "The FMU state must come from the FMU with GUID %s. Restore it in the FMU that "
+                     "wrote it.",
+                     instance->model->guid);
 }
 
 /* The snapshot of a state; NULL, and a message, if the state is none. */
@@ -93,6 +104,10 @@ static gl_snapshot *found(gl_instance *instance, const void *state)
     UNLOCK();
     if (!there) {
         gl_refuse(instance, FREED);
+        return NULL;
+    }
+    if (memcmp(there->owner, instance->model->guid, OWNER_SIZE)) {
+        refuse_owner(instance);
         return NULL;
     }
     return &there->snapshot;
@@ -114,6 +129,7 @@ static gl_status keep(gl_instance *instance, const gl_snapshot *snapshot, void *
         return gl_refuse(instance, "There is not enough memory for a state.");
     }
     state->snapshot = *snapshot;
+    memcpy(state->owner, instance->model->guid, OWNER_SIZE);
     *place = hold(state);
     return GL_OK;
 }
@@ -124,7 +140,7 @@ static gl_status keep_of_exchange(gl_instance *instance, void **place)
 {
     gl_snapshot snapshot = instance->now;
     for (int i = 0; i < GL_OUTPUTS; i++) {
-        snapshot.values[gl_outputs[i]] = 0.0;
+        snapshot.values[instance->model->outputs[i]] = 0.0;
     }
     for (int i = 0; i < GL_INPUTS; i++) {
         snapshot.state[GL_INPUTS_AT + i] = 0.0;
@@ -191,17 +207,17 @@ gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *
     uint32_t phase = (uint32_t)snapshot->phase + (snapshot->exchange ? OF_EXCHANGE : 0);
     memset(bytes, 0, HEADER_SIZE);
     memcpy(bytes, MARK, MARK_SIZE);
-    memcpy(bytes + MARK_SIZE, OWNER, OWNER_SIZE);
+    memcpy(bytes + MARK_SIZE, instance->model->guid, OWNER_SIZE);
     memcpy(bytes + MARK_SIZE + OWNER_SIZE, &phase, 4);
     memcpy(numbers, &snapshot->time, 8);
     memcpy(numbers + 8, snapshot->values, sizeof snapshot->values);
     memcpy(numbers + 8 + sizeof snapshot->values, snapshot->state, sizeof snapshot->state);
-    uint32_t sum = checksum(phase, numbers, NUMBERS_SIZE);
+    uint32_t sum = gl_checksum(phase, numbers, NUMBERS_SIZE);
     memcpy(bytes + HEADER_SIZE - 4, &sum, 4);
     return GL_OK;
 }
 
-static int is_sound(const gl_snapshot *snapshot)
+static int is_sound(const gl_model *model, const gl_snapshot *snapshot)
 {
     int started = snapshot->phase >= GL_STEPPING;
     int of_other_kind = snapshot->exchange ? snapshot->phase == GL_STEPPING
@@ -209,7 +225,7 @@ static int is_sound(const gl_snapshot *snapshot)
                                                  snapshot->phase == GL_CONTINUOUS_TIME;
     int sound = isfinite(snapshot->time) && !of_other_kind;
     for (int i = 0; i < GL_VARIABLES; i++) {
-        const gl_variable *variable = &gl_variables[i];
+        const gl_variable *variable = &model->variables[i];
         double value = snapshot->values[i];
         int may_be_refused = variable->causality == GL_INPUT ||
                              (variable->causality == GL_PARAMETER && !started);
@@ -233,11 +249,8 @@ static gl_status from_bytes(gl_instance *instance, const unsigned char *bytes, s
     if (size < HEADER_SIZE || memcmp(bytes, MARK, MARK_SIZE)) {
         return gl_refuse(instance, "The FMU state was not written by a native gearlube FMU.");
     }
-    if (memcmp(bytes + MARK_SIZE, OWNER, OWNER_SIZE)) {
-        return gl_refuse(instance,
-                         "The FMU state must come from the FMU with GUID %s. Restore it in the "
-                         "FMU that wrote it.",
-                         GL_GUID);
+    if (memcmp(bytes + MARK_SIZE, instance->model->guid, OWNER_SIZE)) {
+        return refuse_owner(instance);
     }
     memcpy(&phase, bytes + MARK_SIZE + OWNER_SIZE, 4);
     memcpy(&sum, bytes + HEADER_SIZE - 4, 4);
@@ -245,13 +258,13 @@ static gl_status from_bytes(gl_instance *instance, const unsigned char *bytes, s
     snapshot->exchange = (phase & OF_EXCHANGE) != 0;
     snapshot->phase = (gl_phase)(phase & ~(uint32_t)OF_EXCHANGE);
     if (size != HEADER_SIZE + NUMBERS_SIZE || (phase & ~(uint32_t)OF_EXCHANGE) > GL_TERMINATED ||
-        checksum(phase, numbers, NUMBERS_SIZE) != sum) {
+        gl_checksum(phase, numbers, NUMBERS_SIZE) != sum) {
         return gl_refuse(instance, "The FMU state is damaged: length or checksum do not agree.");
     }
     memcpy(&snapshot->time, numbers, 8);
     memcpy(snapshot->values, numbers + 8, sizeof snapshot->values);
     memcpy(snapshot->state, numbers + 8 + sizeof snapshot->values, sizeof snapshot->state);
-    if (!is_sound(snapshot)) {
+    if (!is_sound(instance->model, snapshot)) {
         return gl_refuse(instance, "The FMU state holds numbers that no run of it leaves.");
     }
     return GL_OK;
@@ -280,15 +293,15 @@ gl_status gl_restore(gl_instance *instance, const void *state)
     }
     if (snapshot->phase >= GL_STEPPING) {
         double parameters[GL_PARAMETERS], inputs[GL_INPUTS], of_model[GL_STATE];
-        gl_gather_parameters(snapshot->values, parameters);
-        gl_gather_inputs(snapshot->values, inputs);
+        gl_gather_parameters(instance->model, snapshot->values, parameters);
+        gl_gather_inputs(instance->model, snapshot->values, inputs);
         memcpy(of_model, snapshot->state, sizeof of_model);
-        int64_t status = gearlube_entry(GL_RESUME, 0.0, gl_data, parameters, inputs, of_model,
-                                        instance->work, instance->outputs);
+        int64_t status = gearlube_entry(GL_RESUME, 0.0, instance->model->data, parameters, inputs,
+                                        of_model, instance->work, instance->outputs);
         if (status != 0) {
             if (instance->now.phase >= GL_STEPPING) { /* back to its own, which are sound */
-                gearlube_entry(GL_RESUME, 0.0, gl_data, instance->parameters, inputs, of_model,
-                               instance->work, instance->outputs);
+                gearlube_entry(GL_RESUME, 0.0, instance->model->data, instance->parameters, inputs,
+                               of_model, instance->work, instance->outputs);
             }
             return gl_refuse(instance, "The FMU state holds parameters that contradict each other.");
         }

@@ -32,9 +32,10 @@ int gl_say_refused(gl_instance *instance, gl_status status, const char *before)
     for (unsigned i = 0; instance->refusals && i < GL_VARIABLES; i++) {
         if (instance->refused[i]) {
             char limits[GL_LONGEST_LIMITS];
-            gl_limits_text(&gl_variables[i], limits, sizeof limits);
-            gl_say(instance, status, "%s%s must be %s, got %g.", before, gl_variables[i].name,
-                   limits, instance->now.values[i]);
+            const gl_variable *variable = &instance->model->variables[i];
+            gl_limits_text(variable, limits, sizeof limits);
+            gl_say(instance, status, "%s%s must be %s, got %g.", before, variable->name, limits,
+                   instance->now.values[i]);
             return 1;
         }
     }
@@ -50,30 +51,31 @@ static void note(gl_instance *instance, unsigned reference, int refused)
 void gl_find_refused(gl_instance *instance)
 {
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
+        const gl_variable *variable = &instance->model->variables[i];
         note(instance, i,
-             gl_variables[i].causality != GL_OUTPUT &&
-                 !is_legal(&gl_variables[i], instance->now.values[i]));
+             variable->causality != GL_OUTPUT && !is_legal(variable, instance->now.values[i]));
     }
 }
 
-void gl_gather_parameters(const double *values, double *parameters)
+void gl_gather_parameters(const gl_model *model, const double *values, double *parameters)
 {
+    const gl_variable *variables = model->variables;
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
-        if (gl_variables[i].causality == GL_PARAMETER && gl_variables[i].place >= 0) {
-            parameters[gl_variables[i].place] = values[i];
+        if (variables[i].causality == GL_PARAMETER && variables[i].place >= 0) {
+            parameters[variables[i].place] = values[i];
         }
     }
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
-        if (gl_variables[i].option >= 0 && values[i] != 0.0) {
-            parameters[gl_variables[gl_variables[i].option].place] = values[i];
+        if (variables[i].option >= 0 && values[i] != 0.0) {
+            parameters[variables[variables[i].option].place] = values[i];
         }
     }
 }
 
-void gl_gather_inputs(const double *values, double *inputs)
+void gl_gather_inputs(const gl_model *model, const double *values, double *inputs)
 {
     for (int i = 0; i < GL_INPUTS; i++) {
-        inputs[i] = values[gl_inputs[i]];
+        inputs[i] = values[model->inputs[i]];
     }
 }
 
@@ -96,20 +98,20 @@ static gl_status check(gl_instance *instance, gl_kind kind, size_t count, const 
             return gl_refuse(instance, "The value reference must be within 0 to %d, got %u.",
                              GL_VARIABLES - 1, refs[i]);
         }
-        if (gl_variables[refs[i]].kind != kind) {
-            return gl_refuse(instance, "%s must be accessed as %s, got %s.",
-                             gl_variables[refs[i]].name, kind_names[gl_variables[refs[i]].kind],
-                             kind_names[kind]);
+        const gl_variable *variable = &instance->model->variables[refs[i]];
+        if (variable->kind != kind) {
+            return gl_refuse(instance, "%s must be accessed as %s, got %s.", variable->name,
+                             kind_names[variable->kind], kind_names[kind]);
         }
     }
     return GL_OK;
 }
 
-static int needed_by(size_t count, const unsigned *refs)
+static int needed_by(const gl_model *model, size_t count, const unsigned *refs)
 {
     int needs = GL_NOTHING;
     for (size_t i = 0; i < count; i++) {
-        needs |= gl_variables[refs[i]].needs;
+        needs |= model->variables[refs[i]].needs;
     }
     return needs;
 }
@@ -118,14 +120,14 @@ gl_status gl_check_read(gl_instance *instance, gl_kind kind, size_t count, const
                         const void *values)
 {
     gl_status status = check(instance, kind, count, refs, values);
-    return status == GL_OK ? gl_compute(instance, needed_by(count, refs)) : status;
+    return status == GL_OK ? gl_compute(instance, needed_by(instance->model, count, refs)) : status;
 }
 
 /* Some hosts of model exchange set states one by one, as variables. */
 static int is_set_as_state(const gl_instance *instance, unsigned reference)
 {
     return (instance->now.phase == GL_EVENTS || instance->now.phase == GL_CONTINUOUS_TIME) &&
-           gl_state_place(reference) >= 0;
+           gl_state_place(instance->model, reference) >= 0;
 }
 
 static int can_be_set(const gl_instance *instance, const gl_variable *variable)
@@ -139,14 +141,16 @@ gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const 
 {
     gl_status status = check(instance, kind, count, refs, values);
     for (size_t i = 0; status == GL_OK && i < count; i++) {
-        if (!can_be_set(instance, &gl_variables[refs[i]]) && !is_set_as_state(instance, refs[i])) {
+        const gl_variable *variable = &instance->model->variables[refs[i]];
+        if (!can_be_set(instance, variable) && !is_set_as_state(instance, refs[i])) {
             status = gl_refuse(instance,
                                "%s must not be set in this phase of the simulation. Set "
                                "parameters before the end of initialisation, inputs before "
                                "termination, outputs never.",
-                               gl_variables[refs[i]].name);
+                               variable->name);
         } else if (is_set_as_state(instance, refs[i])) {
-            status = gl_check_state(instance, gl_state_place(refs[i]), ((const double *)values)[i]);
+            status = gl_check_state(instance, gl_state_place(instance->model, refs[i]),
+                                    ((const double *)values)[i]);
         }
     }
     return status;
@@ -154,16 +158,16 @@ gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const 
 
 static gl_status set_state(gl_instance *instance, int place, double value)
 {
-    instance->now.state[place] = value / gl_states[place].unit;
+    instance->now.state[place] = value / instance->model->states[place].unit;
     instance->fresh = 0;
     return GL_OK;
 }
 
 gl_status gl_set(gl_instance *instance, unsigned reference, double value)
 {
-    const gl_variable *variable = &gl_variables[reference];
+    const gl_variable *variable = &instance->model->variables[reference];
     if (variable->causality == GL_OUTPUT) {
-        return set_state(instance, gl_state_place(reference), value);
+        return set_state(instance, gl_state_place(instance->model, reference), value);
     }
     instance->now.values[reference] = value;
     instance->stale = 1;

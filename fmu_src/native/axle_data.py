@@ -1,0 +1,245 @@
+"""What of an axle's constants depends on its mesh table, and what they must be to be used.
+
+    MeshSizes | packed floats of the start values | options | rows | numbers | without losses |
+    film models | levels | series of all options | windows of all options
+
+An axle's library is the same for all mesh tables, so it checks the constants that it is given.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, get_args
+
+import numpy as np
+
+from fmu_src.native.parameter_map import AxleSettings, KernelClasses
+from fmu_src.object_code import array_at
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.parameters import ROLLERS_MAX
+from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle.integrate import work_size
+from gearlube_core.dynamics.hypoid_axle.model import START_WORK
+from gearlube_core.dynamics.hypoid_axle.parameters import (
+    HypoidAxleParameters,
+    MeshStiffness,
+    Radii,
+)
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
+from gearlube_core.film_model.net import UNITS, WIDTH
+from gearlube_core.friction.thermal_eyring_data import PRESSURES
+from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.mesh_table.kernels import N_SERIES, SHAFT_HEAD
+
+VARIANTS = len(get_args(Radii)) * len(get_args(MeshStiffness))
+_PRESSURES = len(PRESSURES)
+_FIXED_WORK = work_size(0, -1)
+_MOST = 1e6  # of anything in a mesh table
+
+
+class MeshSizes(NamedTuple):
+    """Whole numbers at the head of the constants."""
+
+    levels: float
+    series: float  # coefficients at one level
+    orders: float
+    nodes: float
+
+    @classmethod
+    def of(cls, mesh: PackedMesh) -> MeshSizes:
+        """Return the sizes of a packed mesh."""
+        return cls(mesh.levels.size, mesh.series_size, mesh.orders, mesh.nodes)
+
+
+N_SIZES = count_floats(MeshSizes)
+
+
+class MeshEnds(NamedTuple):
+    """Where levels, series and windows end among the constants, and how long one option's are."""
+
+    levels: int
+    series: int
+    windows: int
+    series_size: int
+    windows_size: int
+
+
+@kernel
+def mesh_ends(start: int, sizes: MeshSizes) -> MeshEnds:
+    """Return the places of a mesh table whose levels begin at `start`."""
+    levels = int(sizes.levels)
+    series_size = levels * int(sizes.series)
+    windows_size = levels * (int(sizes.nodes) + 1) * N_CHANNELS
+    series = start + levels + VARIANTS * series_size
+    windows = series + _PRESSURES * windows_size
+    return MeshEnds(start + levels, series, windows, series_size, windows_size)
+
+
+@kernel
+def scratch_size(sizes: MeshSizes) -> int:
+    """Return the length of the scratch that the kernels of the axle ask for."""
+    of_steps = _FIXED_WORK + int(sizes.series) + (int(sizes.nodes) + 1) * N_CHANNELS
+    return max(of_steps, START_WORK)
+
+
+def mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list[Array]]:
+    """Return the mesh as packed by default, and the series and windows of all options."""
+    modulus = contact_modulus(axle.solid, axle.solid)
+    series = [
+        pack_mesh(axle.mesh, modulus, radii, stiffness).series
+        for radii in get_args(Radii)
+        for stiffness in get_args(MeshStiffness)
+    ]
+    by_pressure = [
+        pack_mesh(axle.mesh, modulus, "consistent", "tangent", pressure) for pressure in PRESSURES
+    ]
+    return by_pressure[0], series, [one.windows for one in by_pressure]
+
+
+class AxleStructure(NamedTuple):
+    """What all axles of a kind have in common, as whole numbers."""
+
+    parameters: int
+    # places in data, as in `_Places` of `hypoid_axle`
+    options: int
+    rows: int
+    numbers: int
+    lossless: int
+    film_model: int
+    roller_model: int
+    levels: int
+    scratch: int  # in work
+
+
+def axle_structure(at: Any, n_parameters: int) -> AxleStructure:
+    """Return the structure of an axle with these places."""
+    return AxleStructure(
+        n_parameters,
+        at.options,
+        at.rows,
+        at.numbers,
+        at.lossless,
+        at.film_model,
+        at.roller_model,
+        at.levels,
+        at.scratch,
+    )
+
+
+def counting_floats(place: Any, at: Any) -> Array:
+    """Return place, lowest and highest value of each packed float that is an index or a count."""
+    highest = {
+        "radii": len(get_args(Radii)) - 1,
+        "stiffness": len(get_args(MeshStiffness)) - 1,
+        "pressure": _PRESSURES - 1,
+    }
+    counting = [
+        (at.settings + AxleSettings._fields.index(name), 0, most) for name, most in highest.items()
+    ]
+    for bearing in (place.bearing_p, place.bearing_g):
+        counting += [(int(p), 3, ROLLERS_MAX) for p in _roller_counts(bearing)]
+    return np.array(counting, dtype=float).ravel()
+
+
+def _roller_counts(bearing: Any) -> list[float]:
+    """Return the places of the numbers of rollers in nested places of a bearing."""
+    names = getattr(bearing, "_fields", ())
+    inside = [
+        count for part in bearing if isinstance(part, tuple) for count in _roller_counts(part)
+    ]
+    return inside + [bearing.n_rollers] * ("n_rollers" in names)
+
+
+@kernel
+def _is_whole(value: float, low: float, high: float) -> bool:
+    return low <= value <= high and value == float(int(value))
+
+
+@kernel
+def _all_finite(values: Array, start: int, end: int) -> bool:
+    finite = True
+    for i in range(start, end):
+        finite = finite and abs(values[i]) < 1e300
+    return finite
+
+
+@kernel
+def _fits_map(data: Array, s: AxleStructure, options: Array, counting: Array) -> bool:
+    """Whether the map of parameters stays in its arrays and leaves counting floats as they are."""
+    fits = True
+    packed = max(s.options - N_SIZES, 1)
+    for i in range(options.size):
+        fits = fits and data[s.options + i] == options[i]
+    for k in range((s.lossless - s.numbers) // 2):
+        place, index = data[s.numbers + 2 * k], data[s.numbers + 2 * k + 1]
+        fits = fits and _is_whole(place, 0.0, packed - 1.0)
+        fits = fits and _is_whole(index, 0.0, s.parameters - 1.0)
+        for i in range(counting.size // 3):
+            fits = fits and place != counting[3 * i]
+    for i in range(counting.size // 3):
+        counts, low, high = int(counting[3 * i]), counting[3 * i + 1], counting[3 * i + 2]
+        fits = fits and _is_whole(data[N_SIZES + counts], low, high)
+        for row in range((s.numbers - s.rows) // packed):
+            value = data[s.rows + row * packed + counts]
+            fits = fits and (value != value or _is_whole(value, low, high))
+    return fits
+
+
+@kernel
+def _fits_mesh(data: Array, s: AxleStructure, sizes: MeshSizes) -> bool:
+    """Whether a mesh table whose sizes are sound has an end of its levels and of its series."""
+    ends = mesh_ends(s.levels, sizes)
+    tail = N_SERIES * (2 * int(sizes.orders) + 1)
+    room = float(int(sizes.series) - tail - SHAFT_HEAD)
+    fits = data[ends.levels - 1] >= 0.0 and _all_finite(data, s.levels, ends.windows)
+    if fits and int(sizes.series) > tail:
+        for k in range(VARIANTS * int(sizes.levels)):
+            at = ends.levels + k * int(sizes.series) + tail
+            p, q = data[at], data[at + 1]
+            fits = fits and _is_whole(p, 0.0, _MOST) and _is_whole(q, 0.0, _MOST)
+            fits = fits and 2.0 * (p + q) <= room
+    return fits
+
+
+@kernel
+def check_axle_data(
+    data: Any, lengths: Array, s: AxleStructure, options: Array, counting: Array
+) -> int:
+    """Return 0 if constants can be used by an entry of this structure, else 1.
+
+    Parameters
+    ----------
+    data : C pointer
+    lengths : ndarray of shape (2,)
+        Of data and work.
+    s : AxleStructure
+    options, counting : ndarray
+        Of the map of parameters, and of `counting_floats`.
+    """
+    if not lengths[0] >= s.levels:
+        return 1
+    sizes: MeshSizes = tuple_from_array(array_at(data, N_SIZES), MeshSizes)
+    whole = _is_whole(sizes.levels, 1.0, _MOST) and _is_whole(sizes.orders, 0.0, _MOST)
+    whole = whole and _is_whole(sizes.nodes, 1.0, _MOST) and _is_whole(sizes.series, 1.0, _MOST)
+    if not whole:
+        return 1
+    least = N_SERIES * (2 * int(sizes.orders) + 1)
+    behind = int(sizes.series) - least
+    if behind < 0 or 0 < behind < SHAFT_HEAD:
+        return 1
+    ends = mesh_ends(s.levels, sizes)
+    if lengths[0] != ends.windows or lengths[1] != s.scratch + scratch_size(sizes):
+        return 1
+    values = array_at(data, ends.windows)
+    fits = _fits_map(values, s, options, counting) and _fits_mesh(values, s, sizes)
+    fits = fits and _all_finite(values, 0, s.rows)
+    fits = fits and _is_whole(values[s.film_model + UNITS], 1.0, float(WIDTH))
+    fits = fits and _is_whole(values[s.roller_model + UNITS], 1.0, float(WIDTH))
+    return 0 if fits else 1
+
+
+def kind_of_classes(kinds: KernelClasses, compiled_for: tuple[Any, ...]) -> str:
+    """Return what an entry for these classes is compiled for; nothing if one is a user's own."""
+    names = [f"{one.__module__}.{one.__qualname__}" for one in kinds]
+    shipped = all(name.startswith("gearlube_core.") for name in names)
+    return f"{names} {compiled_for}" if shipped else ""

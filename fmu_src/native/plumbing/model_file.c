@@ -1,0 +1,351 @@
+/* The model as its file describes it. A file that is damaged, or of another library, is refused.
+
+   little-endian as all platforms of these FMUs:
+   head:    mark, kind of the library, GUID, counts, checksum of head and body
+   doubles: data; start, low, high and nominal value of each variable; unit of each state
+   int32:   rows of the variables, texts of all literals, members of all arrays, inputs, outputs,
+            states, event indicators, refusals, ranges
+   text:    all words, each with a zero behind; an int32 stands for the word that begins there */
+#include "internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MARK_SIZE = 8, KIND_SIZE = 40, GUID_AT = MARK_SIZE + KIND_SIZE, COUNTS_AT = GUID_AT + 40 };
+/* What the head counts. */
+enum { DATA, WORK, TEXT, MEMBERS, REFUSALS, COUNTS };
+enum { CHECKSUM_AT = COUNTS_AT + 4 * COUNTS, HEAD_SIZE = CHECKSUM_AT + 4 };
+enum { NUMBERS_OF_VARIABLE = 4, ROW_OF_VARIABLE = 8, ROW_OF_RANGE = 5 };
+enum { MOST = 1 << 27 }; /* of anything */
+static const char MARK[MARK_SIZE + 1] = "gearmod1";
+static const char KIND[KIND_SIZE] = GL_KIND;
+static const int literals_of[GL_VARIABLES] = GL_LITERALS;
+
+/* What is left of the file, and whether all that was read of it is sound. */
+typedef struct {
+    const unsigned char *numbers, *integers;
+    const char *text;
+    int n_text, is_sound;
+} reader;
+
+static double number(reader *file)
+{
+    double value;
+    memcpy(&value, file->numbers, sizeof value);
+    file->numbers += sizeof value;
+    return value;
+}
+
+static int integer(reader *file, int low, int high)
+{
+    int32_t value;
+    memcpy(&value, file->integers, sizeof value);
+    file->integers += sizeof value;
+    int fits = low <= value && value <= high;
+    file->is_sound &= fits;
+    return fits ? value : low;
+}
+
+/* The text ends with a zero, so every word in it does. */
+static const char *word(reader *file)
+{
+    return file->text + integer(file, 0, file->n_text - 1);
+}
+
+static int reference(reader *file)
+{
+    return integer(file, 0, GL_VARIABLES - 1);
+}
+
+/* Memory of a model, part after part. */
+static void *take(unsigned char **memory, size_t count, size_t size)
+{
+    void *place = *memory;
+    *memory += count * size;
+    return place;
+}
+
+/* Whether all bytes are signs that a host can write down, or zeros. */
+static int is_text(const unsigned char *bytes, size_t size)
+{
+    int is = 1;
+    for (size_t i = 0; i < size; i++) {
+        is &= bytes[i] == 0 || bytes[i] == '\n' || (' ' <= bytes[i] && bytes[i] <= '~');
+    }
+    return is;
+}
+
+static size_t count_literals(void)
+{
+    size_t count = 0;
+    for (int i = 0; i < GL_VARIABLES; i++) {
+        count += (size_t)literals_of[i];
+    }
+    return count;
+}
+
+static int highest_place(gl_causality causality)
+{
+    return (causality == GL_PARAMETER ? GL_PARAMETERS
+            : causality == GL_INPUT   ? GL_INPUTS
+                                      : GL_OUTPUTS) - 1;
+}
+
+/* Reads a variable, without its literals. */
+static void read_variable(reader *file, gl_variable *variable)
+{
+    variable->start = number(file);
+    variable->low = number(file);
+    variable->high = number(file);
+    variable->nominal = number(file);
+    variable->name = word(file);
+    variable->unit = word(file);
+    variable->kind = (gl_kind)integer(file, GL_REAL, GL_BOOLEAN);
+    variable->causality = (gl_causality)integer(file, GL_PARAMETER, GL_OUTPUT);
+    variable->place = integer(file, -1, highest_place(variable->causality));
+    variable->option = integer(file, -1, GL_VARIABLES - 1);
+    variable->needs = integer(file, GL_NOTHING, GL_ALL);
+    int is_set = variable->causality != GL_OUTPUT;
+    file->is_sound &= variable->low <= variable->high && isfinite(variable->nominal) &&
+                      variable->nominal > 0.0 && isfinite(variable->start) &&
+                      (!is_set || (variable->low <= variable->start &&
+                                   variable->start <= variable->high)) &&
+                      (variable->place < 0) == (variable->option >= 0);
+}
+
+/* Whether the places of all variables of a causality are those of the model, each once. */
+static int has_places(const gl_variable *variables, gl_causality causality)
+{
+    unsigned char found[GL_VARIABLES] = {0};
+    int count = 0;
+    for (int i = 0; i < GL_VARIABLES; i++) {
+        int place = variables[i].place;
+        if (variables[i].causality == causality && place >= 0) {
+            count += !found[place];
+            found[place] = 1;
+        }
+    }
+    return count == highest_place(causality) + 1;
+}
+
+static int is_option(const gl_variable *variables, int option)
+{
+    return option < 0 || (variables[option].causality == GL_PARAMETER && variables[option].place >= 0 &&
+                          variables[option].literals);
+}
+
+/* What the model needs beyond sound rows: rows that fit each other. */
+static int fits_together(const gl_model *model)
+{
+    const gl_variable *variables = model->variables;
+    int fits = has_places(variables, GL_PARAMETER) && has_places(variables, GL_INPUT) &&
+               has_places(variables, GL_OUTPUT);
+    for (int i = 0; i < GL_VARIABLES; i++) {
+        const gl_array *array = &model->arrays[i];
+        int n = literals_of[i];
+        fits &= is_option(variables, variables[i].option) &&
+                (variables[i].option < 0 || variables[i].causality == GL_PARAMETER) &&
+                (n == 0 || (variables[i].kind == GL_INTEGER && variables[i].low == 1.0 &&
+                            variables[i].high == n));
+        for (int k = 0; k < array->count; k++) {
+            const gl_variable *member = &variables[array->members[k]];
+            fits &= member->kind == variables[i].kind;
+        }
+    }
+    for (int i = 0; i < GL_INPUTS; i++) {
+        const gl_variable *input = &variables[model->inputs[i]];
+        fits &= input->causality == GL_INPUT && input->place == i && input->kind == GL_REAL;
+    }
+    for (int i = 0; i < GL_OUTPUTS; i++) {
+        const gl_variable *output = &variables[model->outputs[i]];
+        fits &= output->causality == GL_OUTPUT && output->place == i;
+    }
+    for (int i = 0; i < GL_CONTINUOUS; i++) {
+        const gl_continuous_state *state = &model->states[i];
+        fits &= variables[state->reference].causality == GL_OUTPUT &&
+                variables[state->reference].kind == GL_REAL && isfinite(state->unit) &&
+                state->unit > 0.0;
+    }
+    return fits;
+}
+
+/* Makes the model of a file whose length fits its counts; NULL, and why not. */
+static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
+{
+    size_t n_literals = count_literals();
+    size_t size = sizeof(gl_model) + (size_t)counts[DATA] * sizeof(double) +
+                  GL_VARIABLES * (sizeof(gl_variable) + sizeof(gl_array)) +
+                  GL_CONTINUOUS * sizeof(gl_continuous_state) +
+                  (size_t)counts[REFUSALS] * sizeof(gl_refusal) + GL_RANGES * sizeof(gl_range) +
+                  n_literals * sizeof(char *) +
+                  (size_t)counts[MEMBERS] * sizeof(unsigned) +
+                  (GL_INPUTS + GL_OUTPUTS + GL_INDICATORS) * sizeof(int) + (size_t)counts[TEXT];
+    gl_model *model = calloc(1, size);
+    if (!model) {
+        snprintf(why, GL_LONGEST_MESSAGE, "There is not enough memory for the model.");
+        return NULL;
+    }
+    unsigned char *memory = (unsigned char *)(model + 1);
+    double *data = take(&memory, (size_t)counts[DATA], sizeof *data);
+    gl_variable *variables = take(&memory, GL_VARIABLES, sizeof *variables);
+    gl_array *arrays = take(&memory, GL_VARIABLES, sizeof *arrays);
+    gl_continuous_state *states = take(&memory, GL_CONTINUOUS, sizeof *states);
+    gl_refusal *refusals = take(&memory, (size_t)counts[REFUSALS], sizeof *refusals);
+    gl_range *ranges = take(&memory, GL_RANGES, sizeof *ranges);
+    const char **literals = take(&memory, n_literals, sizeof *literals);
+    unsigned *members = take(&memory, (size_t)counts[MEMBERS], sizeof *members);
+    int *inputs = take(&memory, GL_INPUTS, sizeof *inputs);
+    int *outputs = take(&memory, GL_OUTPUTS, sizeof *outputs);
+    int *indicators = take(&memory, GL_INDICATORS, sizeof *indicators);
+    char *text = take(&memory, (size_t)counts[TEXT], 1);
+    memcpy(text, file.text, (size_t)counts[TEXT]);
+    file.text = text;
+    file.n_text = counts[TEXT];
+    file.is_sound = counts[TEXT] > 0 && text[counts[TEXT] - 1] == '\0' &&
+                    is_text((const unsigned char *)text, (size_t)counts[TEXT]);
+    memcpy(data, file.numbers, (size_t)counts[DATA] * sizeof *data);
+    file.numbers += (size_t)counts[DATA] * sizeof *data;
+    int first = 0;
+    for (int i = 0; i < GL_VARIABLES; i++) {
+        read_variable(&file, &variables[i]);
+        variables[i].literals = literals_of[i] ? literals : NULL;
+        literals += literals_of[i];
+        arrays[i].count = integer(&file, 0, counts[MEMBERS] - first);
+        arrays[i].members = members + first;
+        first += arrays[i].count;
+    }
+    literals -= n_literals;
+    for (size_t i = 0; i < n_literals; i++) {
+        literals[i] = word(&file);
+    }
+    for (int i = 0; i < counts[MEMBERS]; i++) {
+        members[i] = (unsigned)reference(&file);
+    }
+    for (int i = 0; i < GL_INPUTS; i++) {
+        inputs[i] = reference(&file);
+    }
+    for (int i = 0; i < GL_OUTPUTS; i++) {
+        outputs[i] = reference(&file);
+    }
+    for (int i = 0; i < GL_CONTINUOUS; i++) {
+        states[i].reference = reference(&file);
+        states[i].rate = reference(&file);
+        states[i].unit = number(&file);
+    }
+    for (int i = 0; i < GL_INDICATORS; i++) {
+        indicators[i] = reference(&file);
+    }
+    for (int i = 0; i < counts[REFUSALS]; i++) {
+        refusals[i].status = integer(&file, INT32_MIN, INT32_MAX);
+        refusals[i].text = word(&file);
+    }
+    for (int i = 0; i < GL_RANGES; i++) {
+        ranges[i].output = word(&file);
+        ranges[i].what = word(&file);
+        ranges[i].unit = word(&file);
+        ranges[i].beyond = word(&file);
+        ranges[i].reference = reference(&file);
+    }
+    model->work = counts[WORK];
+    model->n_data = counts[DATA];
+    model->n_refusals = counts[REFUSALS];
+    model->variables = variables;
+    model->arrays = arrays;
+    model->inputs = inputs;
+    model->outputs = outputs;
+    model->states = states;
+    model->indicators = indicators;
+    model->refusals = refusals;
+    model->ranges = ranges;
+    model->data = data;
+    const double lengths[] = {counts[DATA], counts[WORK]};
+    int is_sound = file.is_sound && fits_together(model);
+#if GL_DATA < 0
+    double none[1] = {0.0};
+    is_sound = is_sound &&
+               !gearlube_entry(GL_CHECK, 0.0, data, lengths, none, none, none, none);
+#else
+    is_sound = is_sound && lengths[0] == GL_DATA && lengths[1] == GL_WORK;
+#endif
+    if (!is_sound) {
+        snprintf(why, GL_LONGEST_MESSAGE,
+                 "The model of this FMU is damaged: numbers in its file contradict each other. "
+                 "Unpack the FMU once more.");
+        free(model);
+        return NULL;
+    }
+    return model;
+}
+
+/* Length of the file with these counts. */
+static size_t length_of(const int counts[COUNTS])
+{
+    size_t numbers = (size_t)counts[DATA] + NUMBERS_OF_VARIABLE * GL_VARIABLES + GL_CONTINUOUS;
+    size_t integers = ROW_OF_VARIABLE * GL_VARIABLES + count_literals() + (size_t)counts[MEMBERS] +
+                      GL_INPUTS + GL_OUTPUTS + 2 * GL_CONTINUOUS + GL_INDICATORS +
+                      2 * (size_t)counts[REFUSALS] + ROW_OF_RANGE * GL_RANGES;
+    return HEAD_SIZE + 8 * numbers + 4 * integers + (size_t)counts[TEXT];
+}
+
+static gl_model *checked(const unsigned char *bytes, size_t size, const char *guid,
+                         const char *name_of_guid, char *why)
+{
+    int counts[COUNTS], fits = size >= HEAD_SIZE;
+    char own[GL_GUID_SIZE];
+    uint32_t sum;
+    if (!fits || memcmp(bytes, MARK, MARK_SIZE)) {
+        snprintf(why, GL_LONGEST_MESSAGE,
+                 "The file model.bin in the resources of this FMU is none of gearlube.");
+        return NULL;
+    }
+    if (memcmp(bytes + MARK_SIZE, KIND, KIND_SIZE)) {
+        snprintf(why, GL_LONGEST_MESSAGE,
+                 "The model in the resources of this FMU belongs to another library than this one, "
+                 "%s. Unpack the FMU once more, and give its own resources.",
+                 GL_MODEL_NAME);
+        return NULL;
+    }
+    memcpy(own, bytes + GUID_AT, GL_GUID_SIZE);
+    for (int i = 0; i < COUNTS; i++) {
+        int32_t count;
+        memcpy(&count, bytes + COUNTS_AT + 4 * i, sizeof count);
+        counts[i] = count;
+        fits &= 0 <= count && count <= MOST;
+    }
+    memcpy(&sum, bytes + CHECKSUM_AT, sizeof sum);
+    if (!fits || own[GL_GUID_SIZE - 1] || !is_text(bytes + GUID_AT, GL_GUID_SIZE) || length_of(counts) != size ||
+        gl_checksum(gl_checksum(0, bytes, CHECKSUM_AT), bytes + HEAD_SIZE, size - HEAD_SIZE) != sum) {
+        snprintf(why, GL_LONGEST_MESSAGE,
+                 "The model of this FMU is damaged: length or checksum of its file do not agree. "
+                 "Unpack the FMU once more.");
+        return NULL;
+    }
+    if (!guid || strcmp(guid, own)) {
+        snprintf(why, GL_LONGEST_MESSAGE,
+                 "The %s must be %s, that of the model description.", name_of_guid, own);
+        return NULL;
+    }
+    size_t numbers = (size_t)counts[DATA] + NUMBERS_OF_VARIABLE * GL_VARIABLES + GL_CONTINUOUS;
+    reader file = {.numbers = bytes + HEAD_SIZE, .integers = bytes + HEAD_SIZE + 8 * numbers,
+                   .text = (const char *)bytes + size - counts[TEXT]};
+    gl_model *model = model_of(file, counts, why);
+    if (model) {
+        memcpy(model->guid, own, GL_GUID_SIZE);
+    }
+    return model;
+}
+
+gl_model *gl_load(const char *resources, const char *guid, const char *name_of_guid,
+                  char why[GL_LONGEST_MESSAGE])
+{
+    gl_floats host;
+    size_t size = 0;
+    gl_take_floats(&host);
+    unsigned char *bytes = gl_read_model(resources, &size, why);
+    gl_model *model = bytes ? checked(bytes, size, guid, name_of_guid, why) : NULL;
+    free(bytes);
+    gl_give_floats(&host);
+    return model;
+}
