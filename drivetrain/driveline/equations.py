@@ -7,6 +7,7 @@ torque drives the pinion and the half-shaft torque resists the ring gear.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any
 
 from drivetrain.driveline.parameters import DrivelineParameters
@@ -44,6 +45,7 @@ MEMORY = (
 SLOT = {name: index for index, name in enumerate(MEMORY)}
 
 
+@lru_cache(maxsize=16)
 def driveline_equations(parameters: DrivelineParameters, gear_ratio: float) -> Any:
     """Return the right-hand side of the driveline as a casadi Function.
 

@@ -211,7 +211,7 @@ def _built(
         yield platform.name, shared_library(platform, sources, kernels, name)
 
 
-def _common_content(model: NativeModel) -> dict[str, bytes]:
+def _common_content(model: NativeModel, guid: str) -> dict[str, bytes]:
     definition, kind = model.definition, library_kind(model)
     page = index_html(definition, model.ranges, native=True)
     content = {"documentation/index.html": page.encode(), **licence_texts("native")}
@@ -219,7 +219,7 @@ def _common_content(model: NativeModel) -> dict[str, bytes]:
     for name, text in (sources | {"README.txt": _SOURCES}).items():
         content[f"documentation/sources/{name}"] = text.encode()
     content |= {f"resources/{name}": data for name, data in definition.resources.items()}
-    content[f"resources/{MODEL_FILE}"] = model_file(model, kind, native_guid(model))
+    content[f"resources/{MODEL_FILE}"] = model_file(model, kind, guid)
     return content
 
 
@@ -227,7 +227,7 @@ def fmi2_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
     """Return the files of the FMI 2.0 archive around the libraries of `libraries`."""
     definition, guid = model.definition, str(native_guid(model))
     suffixes = {platform.name: platform.suffix for platform in PLATFORMS}
-    content = _common_content(model)
+    content = _common_content(model, guid)
     content["modelDescription.xml"] = _description(model, guid)
     content["model.png"] = (_PACKAGE / "model.png").read_bytes()
     for folder, platforms in FMI2_FOLDERS.items():
@@ -242,7 +242,7 @@ def fmi2_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
 def fmi3_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes]:
     """Return the files of the FMI 3.0 archive around the libraries of `libraries`."""
     definition, guid = model.definition, str(native_guid(model))
-    content = _common_content(model)
+    content = _common_content(model, guid)
     content["modelDescription.xml"] = model_description_3(definition, guid, model.exchange)
     content["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(definition)
     content[ICON] = (_PACKAGE / "model.png").read_bytes()

@@ -123,7 +123,7 @@ def _unit(unit: str) -> str:
     return "" if unit == "1" else unit
 
 
-def model_file(model: NativeModel, kind: str, guid: UUID | str) -> bytes:
+def model_file(model: NativeModel, kind: str, guid: str | UUID) -> bytes:
     """Return the file of a model for libraries of a kind, with the GUID of the description."""
     body, counts = model_body(model)
     head = MARK + kind.encode().ljust(KIND_SIZE, b"\0") + str(guid).encode().ljust(GUID_SIZE, b"\0")

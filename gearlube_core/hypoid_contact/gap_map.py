@@ -139,8 +139,8 @@ def gap_map(pair: FlankPair, gear_angle: float, pinion_angle: float) -> GapMap:
         pinion.motion,
         pair.pinion_placed(pinion_angle),
         placed,
-        surface.r.reshape(-1, 3),
-        surface.normal.reshape(-1, 3),
+        surface.r.reshape(-1, 3).copy(),  # whole arrays: for parts it would be compiled once more
+        surface.normal.reshape(-1, 3).copy(),
         starts.reshape(-1, 3),
     ).reshape(*s.shape, 4)
     opposite = pinion.sample_parameters(found[..., :3])

@@ -185,8 +185,8 @@ def flank_deviation(nominal: Flank, other: Flank, s: Array, t: Array) -> Array:
             other.motion,
             turned(_own_frame(other), angle),
             _own_frame(nominal),
-            points.r.reshape(-1, 3),
-            points.normal.reshape(-1, 3),
+            points.r.reshape(-1, 3).copy(),
+            points.normal.reshape(-1, 3).copy(),
             other.parameters(profile, face).reshape(-1, 3),
         )
         return np.asarray(found[:, 3].reshape(profile.shape))

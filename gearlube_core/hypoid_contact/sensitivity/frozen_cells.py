@@ -122,11 +122,11 @@ class FrozenCells:
         """Return the cells with the flanks of a pair that differs little from their own."""
         on_gear, on_pinion = self.on_gear, self.on_pinion
         if not _same(pair.gear_placed(0.0), self.pair.gear_placed(0.0), pair.gear, self.pair.gear):
-            on_gear = self._on_gear(pair, on_gear[:, :3])
+            on_gear = self._on_gear(pair, on_gear[:, :3].copy())
         if not _same(
             pair.pinion_placed(0.0), self.pair.pinion_placed(0.0), pair.pinion, self.pair.pinion
         ):
-            on_pinion = self._on_pinion(pair, on_pinion[:, :3])
+            on_pinion = self._on_pinion(pair, on_pinion[:, :3].copy())
         strip = facing_cells(
             pair, self.gear_angle, self.frame, self.cell, on_gear, on_pinion, beyond=True
         )
