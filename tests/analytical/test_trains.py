@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
 from gearlube_core.dynamics.train.helical_pair import helical_pair, spring_support
 from gearlube_core.dynamics.train.model import Train
-from gearlube_core.dynamics.train.part import Body
+from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.kernels.jit import kernel
@@ -324,6 +324,25 @@ def test_a_train_goes_on_from_a_saved_state_to_the_last_bit(rollers):
         assert np.array_equal(go_on(one), first)
 
 
+class NoKernels(NamedTuple):
+    """Of an element that forgets its kernels."""
+
+    number: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Twisting(Element):
+    """An element with an own state."""
+
+    name: str
+    body: str
+    on: ClassVar = ("body",)
+    states: ClassVar = ("twist",)
+
+    def numbers(self) -> NoKernels:
+        return NoKernels(1.0)
+
+
 def test_what_cannot_be_a_train_is_named():
     rotor, port = Body.spinning("rotor", 0.1), Port(name="motor", body="rotor")
     with pytest.raises(ParameterError, match="bodies must have names of their own, got 'rotor'"):
@@ -332,7 +351,11 @@ def test_what_cannot_be_a_train_is_named():
         Train([rotor], [replace(port, body="shaft")], OIL)
     with pytest.raises(ParameterError, match="mass must be within"):
         Body(name="rotor", mass=-1.0, inertia=1.0, polar_inertia=1.0)
+    with pytest.raises(ParameterError, match=r"two has own states, .* must include at_rest"):
+        Train([rotor], [Twisting(name="two", body="rotor")], OIL)
     loose = Train([rotor, Body.spinning("load", 1.0)], [port], OIL)
+    with pytest.raises(StepError, match=r"no state yet\. Call initialise"):
+        loose.step(1e-3, {"motor": 0.0}, KELVIN)
     with pytest.raises(ParameterError, match="leave 1 free"):
         loose.initialise({"rotor": 1.0}, {"motor": 0.0}, KELVIN)
     train = two_rotors()
@@ -342,8 +365,13 @@ def test_what_cannot_be_a_train_is_named():
         train.initialise({"wheel": 1.0}, {"motor": 0.0}, KELVIN)
     with pytest.raises(ParameterError, match=r"fit together .* apart\. Give one of them"):
         train.initialise({"engine": 1.0, "load": 2.0}, {"motor": 0.0}, KELVIN)
+    with pytest.raises(ParameterError, match="at least one body of the train, got none"):
+        train.initialise({}, {"motor": 0.0}, KELVIN)
     train.initialise({"engine": 1.0}, {"motor": 0.0}, KELVIN)
     saved = train.get_state()
+    with pytest.raises(ParameterError, match=r"0\.333 rad/s apart"):
+        train.initialise({"engine": 1.0, "load": 2.0}, {"motor": 9.0}, 300.0)
+    assert np.array_equal(train.get_state(), saved)
     with pytest.raises(StepError, match="turns faster than"):
         train.step(0.1, {"motor": 1e7}, KELVIN)
     assert np.array_equal(train.get_state(), saved)
@@ -355,3 +383,21 @@ def test_teeth_without_bearings_have_no_rest():
     train = Train(bodies, [*elements[:3], *loose], PAIR.oil)
     with pytest.raises(ConvergenceError, match="no static equilibrium: forces on"):
         train.initialise({"wheel": 80.0}, LOAD, KELVIN)
+
+
+def test_a_torque_that_splits_starts_in_equal_halves():
+    # four equal shafts close a loop: loads on them are not determined by the torques alone
+    rotors = [Body.spinning(name, 0.1) for name in ("in", "upper", "lower", "out")]
+    ways = [("in", "upper"), ("in", "lower"), ("upper", "out"), ("lower", "out")]
+    shafts = [HalfShaft(name=f"{a} {b}", first=a, second=b, stiffness=1e4) for a, b in ways]
+    ports = [Port(name="drive", body="in"), Port(name="load", body="out", sign=-1.0)]
+    train = Train(rotors, [*shafts, *ports], OIL)
+    train.initialise({"out": 10.0}, {"drive": 60.0, "load": 60.0}, KELVIN)
+    found = train.outputs()
+    assert [found[f"{a} {b}.torque"] for a, b in ways] == pytest.approx(4 * [30.0], rel=1e-9)
+    assert [found[f"{one.name}.speed"] for one in rotors] == pytest.approx(4 * [10.0], rel=1e-12)
+    # a ring of four inertias and springs: 0, w, w and sqrt(2) w with w^2 = 2 k/I
+    w = math.sqrt(2.0 * 1e4 / 0.1) / (2.0 * math.pi)
+    assert train.modes()[0] == pytest.approx([0.0, w, w, math.sqrt(2.0) * w], rel=1e-6, abs=1e-3)
+    # the march takes as many steps in a period of the highest mode as it is asked for
+    assert train.get_state()[-1] == pytest.approx(16.0 * math.sqrt(2.0) * w, rel=1e-9)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.friction.thermal_eyring_flank import bracketed_secant_step
+from gearlube_core.kernels.least_squares import least_squares, least_squares_work
 from gearlube_core.kernels.linear_solve import factorise, solve_factorised
 from gearlube_core.kernels.spectral_radius import spectral_radius
 from tests.helpers.each import each
@@ -130,3 +131,20 @@ def test_the_compiled_kernel_is_its_source():
     assert from_kernel(matrix) == pytest.approx(
         from_kernel(matrix, spectral_radius.py_func), rel=1e-13
     )
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "rank"),
+    [(4, 4, 4), (7, 3, 3), (3, 7, 3), (6, 5, 2), (5, 6, 4), (3, 3, 0), (2, 0, 0), (0, 3, 0)],
+)
+def test_least_squares_of_any_rank_are_the_shortest(rows, columns, rank):
+    rng = np.random.default_rng(10 * rows + columns)
+    for _ in range(5):
+        left, right = rng.normal(size=(rows, rank)), rng.normal(size=(rank, columns))
+        wanted, matrix = rng.normal(size=rows), left @ right
+        found, work = np.full(columns, np.nan), np.empty(least_squares_work(columns))
+        free = least_squares(matrix.flatten(), rows, columns, wanted, found, work)
+        assert free == columns - rank
+        expected = np.linalg.pinv(matrix, rcond=1e-10) @ wanted
+        # rounding times the condition, at worst 1e5 for such matrices
+        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9)

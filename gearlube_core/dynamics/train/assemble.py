@@ -32,7 +32,6 @@ class Assembly(NamedTuple):
     layout: Layout
     numbers: Array
     memory: Array
-    state: Array  # at first
     names: tuple[str, ...]  # of the integrated states
     works: dict[str, int]  # places of the energies put in
     losses: dict[str, int]  # of those lost
@@ -73,7 +72,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
     size = len(names)
     for one in elements:
         kept[one.name] = size
-        size += one.kept().size
+        size += one.kept_size()
     numbers, memory, calls = [flatten(oil.parameters())], [], []
     at_number, at_memory, at_output = numbers[0].size, 0, 0
     for one in elements:
@@ -84,7 +83,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
             *own[one.name],
             *(works[f"{one.name}.{work}"] for work in one.works),
             *(losses[loss] for loss in one.losses),
-            *((kept[one.name],) if one.kept().size else ()),
+            *((kept[one.name],) if one.kept_size() else ()),
             *(-1 if other is None else kept[other] for other in beside),
             *one.sizes(),
         )
@@ -105,9 +104,6 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         Layout(tuple(calls), len(bodies), own_states, at_number, *sizes, laws),
         np.concatenate([*numbers, *(body.mobility for body in bodies)]),
         np.concatenate([*memory, np.zeros(1)]),
-        np.concatenate(
-            [np.zeros(len(names)), *(one.kept() for one in elements), np.zeros(energies + 1)]
-        ),
         tuple(names),
         works,
         losses,
@@ -124,6 +120,11 @@ def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
             if names.count(name) > 1:
                 raise ParameterError(f"{what} must have names of their own, got {name!r} twice.")
     for one in elements:
+        if one.states and not hasattr(type(one.numbers()), "at_rest"):
+            raise ParameterError(
+                f"{one.name} has own states, so its kernels must include at_rest, which writes "
+                "about what they are at rest."
+            )
         asked = [("bodies", getattr(one, field)) for field in one.on]
         asked += [("elements", getattr(one, field)) for field in one.beside]
         for what, name in asked:

@@ -113,6 +113,15 @@ def add_forces(
 
 
 @by_class(otherwise=_nothing)
+def at_rest(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+    """Write about what own states are at rest, and what is kept between steps.
+
+    The places of own states hold the loads on them [N, N.m]. What is written there sets the scale
+    of the search too, so that it must not be zero. An element with own states must have this.
+    """
+
+
+@by_class(otherwise=_nothing)
 def begin(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
     """Make ready for a communication step."""
 

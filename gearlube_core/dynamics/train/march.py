@@ -24,21 +24,21 @@ from gearlube_core.dynamics.train.element import (
     BODY_STATES,
     N_COORDINATES,
     RATE,
-    RZ,
     Call,
     Layout,
     W,
 )
 from gearlube_core.dynamics.train.outputs import outputs_kernel, write_work_size
+from gearlube_core.dynamics.train.rest import rest_kernels
+from gearlube_core.dynamics.train.rest_search import OK, rest_work_size
 from gearlube_core.kernels.array_part import part
-from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
 
-RATES, RENEW, SETTLE, ADVANCE, WRITE, ENERGY = range(6)
-OK = 0
+RATES, RENEW, START, ADVANCE, WRITE, ENERGY, STIFFNESS = range(7)
+# statuses of a step, beside OK
 NOT_FINITE = 1
 TOO_MANY_STEPS = 2
 TOO_FAST = 3
@@ -48,20 +48,17 @@ DIVERGED = 0.1  # m, displacement of a body: supports long broken
 
 
 def work_size(layout: Layout) -> int:
-    """Return the length of `work` for ADVANCE and WRITE."""
-    return max(write_work_size(layout), layout.states + 2 * layout.integrated)
+    """Return the length of `work` for all operations."""
+    advance = layout.states + 2 * layout.integrated
+    return max(advance, write_work_size(layout), rest_work_size(layout))
 
 
-def settle_work_size(layout: Layout, m: int) -> int:
-    """Return the length of `work` for SETTLE in `m` coordinates."""
-    return layout.integrated + m * (layout.own + 5) + layout.own + newton_work_size(m)
-
-
-_IN_TIME = "begin", "expand", "each_step", "after_step", "finish"
+_IN_TIME = "at_rest", "begin", "expand", "each_step", "after_step", "finish"
 _NUMBERS = "step_rate", "time_to_jump", "stored_energy"
 _GIVEN = "s, oil, numbers, memory"
 # kernels of all elements: what they take more, a line for each element, what they return
 _LINES = {
+    "at_rest": ("", "{call}", "None"),
     "begin": ("", "{call}", "None"),
     "expand": ("", "{call}", "None"),
     "each_step": (", h", "total += {call}", "total"),
@@ -128,17 +125,24 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         The energy [J]; WRITE writes the outputs into `work` before.
     ADVANCE
         A time of `size` [s] with at least `least_rate` steps a second; returns a status.
-    SETTLE
-        Static equilibrium in `size` coordinates, near the state. `work` has room for the rates,
-        then the places of the coordinates, what each own state gains by them, row by row, their
-        scales, the forces that stay out of balance [N, N.m], and work space of `settle_work_size`.
+    START
+        Static equilibrium at all angles zero. `work` begins with the place among the bodies of the
+        one that bears what torques leave, then the speed wanted of each body [rad/s], NaN where it
+        follows; torques stand in the state; `size` is integrator steps per highest period. Returns
+        OK, and the least rate for ADVANCE is work[0]; or LOOSE, APART, NO_REST or NO_MODES, whose
+        number is work[1], and the state stays as it was.
+    STIFFNESS
+        M^-1 K of the coordinates that are free, about the state, row by row into `work`; returns
+        their number.
+
+    `work` has `work_size` numbers.
     """
     made = dict(zip(_LINES, _called(layout.calls), strict=True))
-    begin, expand, each_step, after_step, finish = (made[name] for name in _IN_TIME)
+    at_rest, begin, expand, each_step, after_step, finish = (made[name] for name in _IN_TIME)
     step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
     add_forces = made["add_forces"]
-    bodies, own, first_mobility, n, n_state, n_kept = layout[1:7]
-    energies, laws = layout.energies, layout.laws
+    bodies, first_mobility, energies = layout.bodies, layout.first_mobility, layout.energies
+    n, n_state, n_kept, laws = layout.integrated, layout.states, layout.kept, layout.laws
     first_energy = n - energies
 
     @inside
@@ -160,43 +164,6 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
             for i in range(N_COORDINATES):
                 ds[at + i] = s[at + RATE + i]
                 ds[at + RATE + i] *= numbers[mobility + i]
-
-    @kernel
-    def unbalanced(u: Array, problem: Any, out: Array) -> None:
-        s, oil, numbers, memory, places, relations, base, ds = problem
-        for i in range(u.size):
-            s[int(places[i])] = base[i] + u[i]
-        for k in range(own):
-            found = base[u.size + k]
-            for i in range(u.size):
-                found += relations[k * u.size + i] * u[i]
-            s[BODY_STATES * bodies + k] = found
-        for body in range(bodies):  # angles move own states alone: periodic data stay
-            s[BODY_STATES * body + RZ] = 0.0
-        expand(s, oil, numbers, memory)
-        forces(s, oil, numbers, memory, 0, ds)
-        for i in range(u.size):
-            out[i] = ds[int(places[i]) + RATE]
-
-    newton = damped_newton(unbalanced)
-
-    @kernel
-    def settle(
-        s: Array, oil: LubricantState, numbers: Array, memory: Array, m: int, work: Array
-    ) -> None:
-        places, relations = part(work, n, m), part(work, n + m, m * own)
-        scales, out = part(work, n + m * (own + 1), m), part(work, n + m * (own + 2), m)
-        at = n + m * (own + 3)
-        u, base = part(work, at, m), part(work, at + m, m + own)
-        for i in range(m):
-            u[i] = 0.0
-            base[i] = s[int(places[i])]
-        for k in range(own):
-            base[m + k] = s[BODY_STATES * bodies + k]
-        problem = (s, oil, numbers, memory, places, relations, base, part(work, 0, n))
-        at += 2 * m + own
-        newton(u, scales, problem, part(work, at, work.size - at))
-        unbalanced(u, problem, out)
 
     @kernel
     def rk4_step(
@@ -291,6 +258,13 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
                     twice += s[at + i] * s[at + i] / numbers[mobility + i]
         return 0.5 * twice
 
+    @kernel
+    def renew(s: Array, oil: LubricantState, numbers: Array, memory: Array) -> None:
+        begin(s, oil, numbers, memory)
+        each_step(s, oil, numbers, memory, 0.0)
+        expand(s, oil, numbers, memory)
+
+    start, stiffness = rest_kernels(layout, renew, expand, at_rest, rates, forces)
     write_all = outputs_kernel(layout, each_step, expand, rates, made["write"])
 
     @kernel
@@ -309,14 +283,16 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         if operation == RATES:
             rates(s, oil, numbers, memory, 0, work)
             return 0.0
-        if operation == SETTLE:
-            settle(s, oil, numbers, memory, int(size), work)
+        if operation == START:
+            return float(start(s, oil, numbers, memory, size, work))
+        if operation == STIFFNESS:
+            return float(stiffness(s, oil, numbers, memory, work))
+        if operation == RENEW:
+            renew(s, oil, numbers, memory)
             return 0.0
         begin(s, oil, numbers, memory)
         if operation == ADVANCE:
             return float(advance(s, size, oil, numbers, memory, least_rate, work))
-        if operation == RENEW:
-            each_step(s, oil, numbers, memory, 0.0)
         expand(s, oil, numbers, memory)
         stored = kinetic_energy(s, numbers) + stored_energy(s, oil, numbers, memory)
         if operation == WRITE:

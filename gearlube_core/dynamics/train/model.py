@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import NoReturn
 
 import numpy as np
 
@@ -12,41 +13,29 @@ from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED, TOO_FAR
 from gearlube_core.dynamics.stepped_model import TOO_FAR_WORDS, TOO_FAST_WORDS, too_many_steps_words
 from gearlube_core.dynamics.train.assemble import assemble
-from gearlube_core.dynamics.train.element import (
-    BODY_STATES,
-    COORDINATES,
-    N_COORDINATES,
-    RATE,
-    RZ,
-    W,
-)
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import (
     ADVANCE,
     ENERGY,
     MAX_STEPS,
     NOT_FINITE,
-    OK,
     RATES,
     RENEW,
-    SETTLE,
+    START,
+    STIFFNESS,
     TOO_FAST,
     TOO_MANY_STEPS,
     WRITE,
-    settle_work_size,
     train_kernel,
     work_size,
 )
 from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.rest import LEAST_RATE
+from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
 
-_DIFFERENCE = 1e-8  # m and rad, of coordinates in a linearisation
-_SETTLED = 1e-6  # of the largest force of a member at rest
-_SAME_SPEED = 1e-6  # of the largest speed
-_PASSES = 4  # friction of films depends on the loads, weakly
-_LEAST_RATE = 1e3  # integrator steps a second, of a train without a mode that vibrates
 _REFUSED = {
     NOT_FINITE: (
         "the state is no longer finite, or a body has moved by more than 0.1 m. Reduce the torques"
@@ -100,21 +89,14 @@ class Train:
         self.bodies, self.elements, self.oil = tuple(bodies), tuple(elements), oil
         self._made = assemble(bodies, elements, oil)
         self._operate = train_kernel(self._made.layout)
-        n, size = self._made.layout.integrated, self._made.layout.states
-        self._n, self._state, self._trial = n, self._made.state.copy(), np.zeros(size)
+        size = self._made.layout.states
+        self._n, self._state, self._trial = self._made.layout.integrated, *np.zeros((2, size))
         self._work = np.zeros(work_size(self._made.layout))
         self._output_names = tuple(one.name for one in self._made.outputs)
-        self._per_period, self._least_rate = float(steps_per_highest_period), _LEAST_RATE
+        self._per_period, self._least_rate = float(steps_per_highest_period), LEAST_RATE
         self._temperature = math.nan
         ports = (one.name for one in elements if isinstance(one, Port))
         self._ports = {name: self._made.kept[name] for name in ports}
-        free = [
-            BODY_STATES * i + j
-            for i, body in enumerate(bodies)
-            for j in range(N_COORDINATES)
-            if COORDINATES[j] not in body.held
-        ]
-        self._free = np.array(free)
 
     @property
     def state_names(self) -> tuple[str, ...]:
@@ -142,15 +124,18 @@ class Train:
         ConvergenceError
             No static equilibrium is found.
         """
-        before = self._state.copy(), self._temperature, self._least_rate
+        wanted, before = self._wanted(speeds), self._temperature
         self._take(torques, oil_temperature)
-        self._state[:] = self._made.state
-        self._put(torques)
-        try:
-            self._rest(speeds)
-        except (ConvergenceError, ParameterError):
-            self._state[:], self._temperature, self._least_rate = before
-            raise
+        trial, work = self._trial, self._work
+        trial[:] = 0.0
+        self._put(torques, trial)
+        work[: wanted.size] = wanted
+        status = int(self._call(START, trial, work, self._per_period))
+        if status != OK:
+            self._temperature = before
+            self._refuse(status, speeds)
+        self._state, self._trial = trial, self._state
+        self._least_rate = float(work[0])
 
     def step(self, h: float, torques: Mapping[str, float], oil_temperature: float) -> None:
         """Advance by `h` [s] under constant torques [N.m] and oil temperature [K].
@@ -163,16 +148,16 @@ class Train:
             The step cannot be made; the train is then as before.
         """
         check_within("step size", h, 1e-9, 0.1, "s")
+        self._check_started()
         before, trial, temperature = self._state, self._trial, self._temperature
         self._take(torques, oil_temperature)
-        trial[:] = self._state
-        self._state = trial
-        self._put(torques)
+        trial[:] = before
+        self._put(torques, trial)
         status = int(self._call(ADVANCE, trial, self._work, h))
         if status != OK:
-            self._state, self._temperature = before, temperature
+            self._temperature = temperature
             raise StepError(f"step of {h:g} s refused: {_REFUSED[status]}.")
-        self._trial = before
+        self._state, self._trial = trial, before
 
     def outputs(self) -> dict[str, float]:
         """Return all outputs in the present state, SI units, by name, see `output_records`.
@@ -237,7 +222,8 @@ class Train:
             Frequencies, shape (m,), rigid rotations as 0; shapes, (free coordinates, m), each of
             modal mass 1 kg.
         """
-        matrix = self._stiffness_over_mass()
+        m = int(self._call(STIFFNESS, self._state, self._work))
+        matrix = self._work[: m * m].reshape(m, m).copy()
         mobility = np.concatenate([body.mobility for body in self.bodies])
         mobility = mobility[mobility > 0.0]
         squares, shapes = np.linalg.eig(matrix)
@@ -248,8 +234,13 @@ class Train:
         return frequencies, shapes
 
     def _call(self, operation: int, s: Array, work: Array, size: float = 0.0) -> float:
+        self._check_started()
         given = self._temperature, self._made.numbers, self._made.memory
         return self._operate(operation, s, *given, size, self._least_rate, work)
+
+    def _check_started(self) -> None:
+        if math.isnan(self._temperature):
+            raise StepError("this train has no state yet. Call initialise or set_state first.")
 
     def _take(self, torques: Mapping[str, float], oil_temperature: float) -> None:
         missing = sorted(set(self._ports) ^ set(torques))
@@ -263,32 +254,14 @@ class Train:
         self.oil.check_temperature(oil_temperature, "oil_temperature")
         self._temperature = float(oil_temperature)
 
-    def _put(self, torques: Mapping[str, float]) -> None:
+    def _put(self, torques: Mapping[str, float], state: Array) -> None:
         for name, torque in torques.items():
-            self._state[self._ports[name]] = torque
+            state[self._ports[name]] = torque
 
-    def _relations(self) -> Array:
-        """Return rates of the own states over rates of all coordinates, (own, 6 x bodies)."""
-        layout, s, slope = self._made.layout, self._state.copy(), np.zeros(self._n)
-        first = BODY_STATES * layout.bodies
-        for i in range(layout.bodies):
-            s[BODY_STATES * i + RATE : BODY_STATES * (i + 1)] = 0.0
-        self._call(RENEW, s, slope)
-        found = np.zeros((layout.own, N_COORDINATES * layout.bodies))
-        for j in range(found.shape[1]):
-            at = BODY_STATES * (j // N_COORDINATES) + RATE + j % N_COORDINATES
-            s[at] = 1.0
-            self._call(RATES, s, slope)
-            found[:, j] = slope[first : first + layout.own]
-            s[at] = 0.0
-        return found
-
-    def _speeds(self, relations: Array, speeds: Mapping[str, float]) -> Array:
-        """Return the speeds of all bodies at which no own state changes [rad/s]."""
+    def _wanted(self, speeds: Mapping[str, float]) -> Array:
+        """Return what START takes: the body that bears the rest, then the speed of each or NaN."""
         names = [body.name for body in self.bodies]
-        turning = np.flatnonzero(["rz" not in body.held for body in self.bodies])
-        system = [relations[:, RZ::N_COORDINATES][:, turning]]
-        wanted = [np.zeros(relations.shape[0])]
+        wanted = np.full(1 + len(names), math.nan)
         for name, speed in speeds.items():
             if name not in names:
                 raise ParameterError(
@@ -296,92 +269,30 @@ class Train:
                     f"{', '.join(names)}."
                 )
             check_within(f"speed of {name}", speed, -MAX_SPEED, MAX_SPEED, "rad/s")
-            system.append((turning == names.index(name)).astype(float)[None])
-            wanted.append(np.array([speed]))
-        rows = np.vstack(system)
-        rows /= np.abs(rows).max(axis=1, keepdims=True)  # of base radii and of ones
-        found, _, rank, _ = np.linalg.lstsq(rows, np.concatenate(wanted), rcond=None)
-        if rank < turning.size:
+            wanted[1 + names.index(name)] = speed
+        if not speeds:
+            raise ParameterError("speeds must name at least one body of the train, got none.")
+        wanted[0] = names.index(next(iter(speeds)))
+        return wanted
+
+    def _refuse(self, status: int, speeds: Mapping[str, float]) -> NoReturn:
+        """Raise the error of a start that left its number in the work array."""
+        number, place = self._work[1:3].tolist()
+        if status == LOOSE:
             raise ParameterError(
                 f"speeds must fix all bodies that turn, got those of {', '.join(speeds)}, which "
-                f"leave {turning.size - rank} free. Give more, or connect the bodies."
+                f"leave {number:g} free. Give more, or connect the bodies."
             )
-        apart = np.abs(rows @ found - np.concatenate(wanted)).max(initial=0.0)
-        if apart > _SAME_SPEED * max(1.0, *map(abs, speeds.values())):
+        if status == APART:
             raise ParameterError(
                 "speeds must fit together through meshes and shafts, got "
-                f"{dict(speeds)}, which are {apart:.3g} rad/s apart. Give one of them."
+                f"{dict(speeds)}, which are {number:.3g} rad/s apart. Give one of them."
             )
-        out = np.zeros(len(names))
-        out[turning] = found
-        return out
-
-    def _rest(self, speeds: Mapping[str, float]) -> None:
-        """Write the static equilibrium at all angles zero into the state."""
-        relations = self._relations()
-        found = self._speeds(relations, speeds)
-        bearing = BODY_STATES * [body.name for body in self.bodies].index(next(iter(speeds))) + RZ
-        places = self._free[self._free != bearing]
-        columns = places // BODY_STATES * N_COORDINATES + places % BODY_STATES
-        related = np.ascontiguousarray(relations[:, columns])
-        turns = columns % N_COORDINATES == RZ
-        # loads of the own states that balance the torques of the ports
-        slope, s = np.zeros(self._n), self._state
-        s[[BODY_STATES * i + W for i in range(len(self.bodies))]] = found
-        self._call(RENEW, s, slope)
-        self._call(RATES, s, slope)
-        mobility = np.concatenate([body.mobility for body in self.bodies])[columns]
-        loads = np.linalg.lstsq(
-            related[:, turns].T, (slope[places + RATE] / mobility)[turns], rcond=None
-        )[0]
-        guess: list[float] = []
-        kept: dict[int, Array] = {}
-        for one in self.elements:
-            load = float(loads[len(guess)]) if one.states else 0.0
-            guess += one.guess(load)
-            if one.name not in self._ports:
-                kept[self._made.kept[one.name]] = one.kept(load)
-        turned = np.linalg.lstsq(related[:, turns], np.array(guess), rcond=None)[0]
-        first = BODY_STATES * self._made.layout.bodies
-        s[first : first + related.shape[0]] = related[:, turns] @ turned
-        with np.errstate(divide="ignore"):
-            reach = np.abs(guess)[:, None] / np.abs(related)
-        scales = 0.1 * np.min(reach, axis=0, initial=np.inf)
-        scales[~np.isfinite(scales)] = 0.1 * min(np.abs(guess), default=1e-6)
-        work = np.zeros(settle_work_size(self._made.layout, places.size))
-        head = np.concatenate([np.zeros(self._n), places, related.ravel(), scales])
-        work[: head.size] = head
-        for _ in range(_PASSES):
-            for at, values in kept.items():
-                s[at : at + values.size] = values
-            self._call(RENEW, s, slope)
-            self._call(SETTLE, s, work, float(places.size))
-        out = work[head.size : head.size + places.size]
-        size = np.abs(loads).max(initial=1.0)
-        if not np.abs(out).max(initial=0.0) <= _SETTLED * max(size, 1.0):
-            worst = self._made.names[places[int(np.nanargmax(np.abs(out)))]]
+        if status == NO_REST:
             raise ConvergenceError(
-                f"no static equilibrium: forces on {worst} are out by {np.abs(out).max():g} N or "
-                "N.m. Reduce the torques or stiffen the supports."
+                f"no static equilibrium: forces on {self._made.names[int(place)]} are out by "
+                f"{number:g} N or N.m. Reduce the torques or stiffen the supports."
             )
-        highest = float(self.modes()[0].max(initial=0.0))
-        self._least_rate = max(_LEAST_RATE, self._per_period * highest)
-
-    def _stiffness_over_mass(self) -> Array:
-        """Return M^-1 K of the free coordinates about the present state, which turns on."""
-        layout, first = self._made.layout, BODY_STATES * self._made.layout.bodies
-        relations, s = self._relations(), self._state.copy()
-        self._call(RENEW, s, np.zeros(self._n))
-        for i in range(layout.bodies):
-            s[BODY_STATES * i + RATE : BODY_STATES * i + W] = 0.0
-        matrix, slope = np.zeros((self._free.size, self._free.size)), np.zeros(self._n)
-        for j, place in enumerate(self._free):
-            related = relations[:, place // BODY_STATES * N_COORDINATES + place % BODY_STATES]
-            for sign in (1.0, -1.0):
-                moved = s.copy()
-                if place % BODY_STATES != RZ:  # periodic data stay where they are
-                    moved[place] += sign * _DIFFERENCE
-                moved[first : first + layout.own] += sign * _DIFFERENCE * related
-                self._call(RATES, moved, slope)
-                matrix[:, j] -= sign * slope[self._free + RATE] / (2.0 * _DIFFERENCE)
-        return matrix
+        raise ConvergenceError(
+            "natural frequencies at rest are not finite numbers. Check masses and stiffness."
+        )

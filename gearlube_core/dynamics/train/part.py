@@ -118,13 +118,6 @@ class Element(ABC):
         """Return what the kernels take as `memory`: a new array."""
         return NO_NUMBERS
 
-    def kept(self, load: float = 0.0) -> Array:
-        """Return what is kept between steps, at rest under a load on the own state [N or N.m]."""
-        return NO_NUMBERS
-
-    def guess(self, load: float) -> tuple[float, ...]:
-        """Return about what the own states are at rest under a load on them [N or N.m].
-
-        They set the scale of the search too, so that they must not be zero.
-        """
-        return ()
+    def kept_size(self) -> int:
+        """Return how many numbers are kept between steps behind the integrated states."""
+        return 0

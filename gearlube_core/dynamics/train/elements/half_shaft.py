@@ -20,6 +20,11 @@ class _HalfShaft(NamedTuple):
     stiffness: float  # [N.m/rad]
     damping: float  # [N.m s/rad]
 
+    @kernel
+    def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        twist = s[at[2]] / self.stiffness
+        s[at[2]] = twist if twist != 0.0 else _STILL
+
     @inside
     def add_forces(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
@@ -65,8 +70,8 @@ class HalfShaft(Element):
     Examples
     --------
     >>> shaft = HalfShaft(name="left", first="differential", second="wheel", stiffness=8e3)
-    >>> shaft.guess(160.0)  # rad under 160 N.m
-    (0.02,)
+    >>> shaft.losses
+    ('shaft_damping',)
     """
 
     name: str
@@ -88,7 +93,3 @@ class HalfShaft(Element):
     def numbers(self) -> _HalfShaft:
         """Return the constants of the kernels."""
         return _HalfShaft(float(self.stiffness), float(self.damping))
-
-    def guess(self, load: float) -> tuple[float, ...]:
-        """Return the twist [rad]."""
-        return (load / float(self.stiffness) or _STILL,)

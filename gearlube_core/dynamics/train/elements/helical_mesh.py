@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.march.equilibrium import largest_offset, mean_density
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     LOAD_FILTER_TIME,
     LOAD_REACH,
@@ -78,6 +79,20 @@ class _HelicalMesh(NamedTuple):
     arm_p: float  # of the mesh along z from the centre of the pinion's body [m]
     arm_g: float
     steps_per_period: float
+
+    @kernel
+    def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
+        flanks, load, kept = constants.motion.flanks, s[at[_PSI]], at[_KEPT]
+        plane, table = flanks.plane, _table(at, memory)
+        s[kept], s[kept + 1] = abs(load) * plane.r_bp, -1.0
+        for i in range(1, N_FRICTION):
+            s[kept + 1 + i] = constants.mu
+        # the relative rotation at which all lines touch, see `equilibrium.settle`
+        pressed = 2.0 * abs(load) / (plane.W * mean_density(table)) + largest_offset(table)
+        pressed = max(pressed, _LEAST_PRESSED)
+        rotation = pressed if load >= 0.0 else -pressed - flanks.backlash
+        s[at[_PSI]] = rotation / plane.cos_b
 
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -180,16 +195,20 @@ def _data(at: Any, memory: Array) -> Array:
     return part(memory, at[_DATA], at[_DATA_SIZE])
 
 
-@kernel
-def _follow_level(at: Any, memory: Array, torque: float) -> None:
+@inside
+def _table(at: Any, memory: Array) -> tuple[Array, Array, Array]:
     levels, size = at[_LEVELS], at[_SIZE]
     at_density = _TABLE + levels
-    mesh = (
+    return (
         part(memory, _TABLE, levels),
         rows(memory, at_density, levels, size),
         rows(memory, at_density + levels * size, levels, size),
     )
-    mesh_at_torque(torque, mesh, _data(at, memory))
+
+
+@kernel
+def _follow_level(at: Any, memory: Array, torque: float) -> None:
+    mesh_at_torque(torque, _table(at, memory), _data(at, memory))
 
 
 @inside
@@ -307,16 +326,6 @@ class HelicalMesh(Element):
         table = packed.torque, packed.density.ravel(), packed.offset.ravel()
         return np.concatenate([[0.0], *table, self._pair_data()])
 
-    def kept(self, load: float = 0.0) -> Array:
-        """Return the load level, when friction was last computed, and its coefficients."""
-        mu = self.parameters.constants().mu
-        level = abs(load) * self.parameters.pair.plane.r_bp
-        return np.array([level, -1.0, *(N_FRICTION - 1) * (mu,)])
-
-    def guess(self, load: float) -> tuple[float, ...]:
-        """Return the relative rotation at which all lines touch, see `equilibrium.settle`."""
-        given = self.parameters
-        packed, plane = pack_march_mesh(given.mesh), given.pair.plane
-        pressed = 2.0 * abs(load) / (plane.W * packed.density.mean()) + packed.offset.max()
-        pressed = max(float(pressed), _LEAST_PRESSED) / plane.cos_b
-        return (pressed if load >= 0.0 else -pressed - given.backlash / plane.cos_b,)
+    def kept_size(self) -> int:
+        """Return the places of the load level, when friction was last computed, and its numbers."""
+        return 1 + N_FRICTION

@@ -33,7 +33,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import (
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_FILMS
 from gearlube_core.dynamics.hypoid_axle.tooth_pair import BETWEEN_NODES, EXACT
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS, STIFFNESS_SERIES, PackedMesh, pack_mesh
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
 from gearlube_core.dynamics.train.element import RATE, RZ, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.friction.flank_law import FlankLaw
@@ -64,7 +64,21 @@ class _HypoidMesh(NamedTuple):
     reduced_modulus: float
     steps_per_period: float
     compliance: float  # of both members along the line of action [1/kg]
+    pinion_radius: float  # mean, without load [m]
     flank_law: FlankLaw
+
+    @kernel
+    def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        load, kept = s[at[_X]], at[_KEPT]
+        s[kept + _LOAD] = abs(load * self.pinion_radius)
+        s[kept + _SIDE] = -1.0 if load < 0.0 else 1.0
+        if at[_FILM] > 0:
+            for i in range(N_FILMS):
+                s[kept + _OWN_FILMS + i] = 0.0
+        _blend(at, memory, s)
+        deflection = load / _now(at, memory).series[K_M]
+        deflection = deflection if abs(deflection) > _LEAST else _LEAST
+        s[at[_X]] = deflection - (self.mesh.backlash if load < 0.0 else 0.0)
 
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -320,6 +334,7 @@ class HypoidMesh(Element):
             p.reduced_modulus,
             float(given.steps_per_mesh_period),
             R_p * R_p / p.I_p + R_g * R_g / p.I_g + 1.0 / p.m_p + 1.0 / p.m_g,
+            R_p,
             p.flank_law,
         )
 
@@ -331,19 +346,9 @@ class HypoidMesh(Element):
         head = np.array([np.nan, 0.0, 0.0, 0.0, 1.0])
         return np.concatenate([head, *table, np.zeros(now), self.parameters.film_model()])
 
-    def kept(self, load: float = 0.0) -> Array:
-        """Return load level, side, and no films."""
-        torque = load * self.parameters.mean_pinion_radius
-        films = N_FILMS if self.parameters.film == "solved" else 0
-        return np.array([abs(torque), -1.0 if load < 0.0 else 1.0, *films * (0.0,)])
-
-    def guess(self, load: float) -> tuple[float, ...]:
-        """Return the deflection under the load, behind the backlash on the coast flanks."""
-        given = self.parameters
-        torque = load * given.mean_pinion_radius
-        deflection = load / given.mesh.mean(STIFFNESS_SERIES[given.mesh_stiffness], torque)
-        deflection = deflection if abs(deflection) > _LEAST else _LEAST
-        return (deflection if load >= 0.0 else deflection - given.backlash,)
+    def kept_size(self) -> int:
+        """Return the places of load level, side and films."""
+        return _OWN_FILMS + (N_FILMS if self.parameters.film == "solved" else 0)
 
 
 def _packed(given: HypoidAxleParameters) -> PackedMesh:

@@ -57,6 +57,11 @@ class _OpposedBearings(NamedTuple):
     reach: float  # move of the shaft that ends an expansion [m]
 
     @kernel
+    def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        for i in range(_N_KEPT):
+            s[at[4] + i] = 0.0
+
+    @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         memory[_AGE] = 0.0
 
@@ -294,6 +299,6 @@ class OpposedBearings(Element):
         """Return room for the expansion of the forces and the drag."""
         return np.zeros(_MEMORY)
 
-    def kept(self, load: float = 0.0) -> Array:
-        """Return what is kept of the drag: nothing at first."""
-        return np.zeros(_N_KEPT)
+    def kept_size(self) -> int:
+        """Return the places of what is kept of the drag."""
+        return _N_KEPT

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
-import numpy as np
-
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, W
 from gearlube_core.dynamics.train.part import Element
@@ -64,6 +62,6 @@ class Port(Element):
         """Return the constants of the kernels."""
         return _Port(float(self.sign))
 
-    def kept(self, load: float = 0.0) -> Array:
-        """Return the torque at first."""
-        return np.zeros(1)
+    def kept_size(self) -> int:
+        """Return the place of the torque."""
+        return 1

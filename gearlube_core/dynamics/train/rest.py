@@ -1,0 +1,199 @@
+"""Start of a train: speeds of all bodies, static equilibrium, and the steps that its modes ask for.
+
+Kernels for a list, so that Python and native code start alike. They neither allocate nor raise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.train.element import (
+    BODY_STATES,
+    N_COORDINATES,
+    RATE,
+    RZ,
+    Layout,
+)
+from gearlube_core.dynamics.train.rest_search import (
+    NO_MODES,
+    OK,
+    begin_search,
+    copy,
+    displace,
+    find_loads,
+    find_own,
+    find_places,
+    find_scales,
+    find_speeds,
+    largest_force,
+    room_of,
+    swap_own,
+    turns,
+)
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.damped_newton import damped_newton
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.spectral_radius import spectral_radius
+from gearlube_core.oil.lubricant import LubricantState
+
+LEAST_RATE = 1e3  # integrator steps a second, of a train without a mode that vibrates
+_DIFFERENCE = 1e-8  # m and rad, of coordinates in a linearisation
+_PASSES = 4  # friction of films depends on the loads, weakly
+
+
+def rest_kernels(
+    layout: Layout,
+    renew: Callable[..., Any],
+    expand: Callable[..., Any],
+    at_rest: Callable[..., Any],
+    rates: Callable[..., Any],
+    forces: Callable[..., Any],
+) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """Return the kernels of START and STIFFNESS of a list, see `train_kernel`.
+
+    The other arguments are kernels of all elements.
+    """
+    room, n, n_state, n_kept = room_of(layout), layout.integrated, layout.states, layout.kept
+
+    @kernel
+    def relate(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> None:
+        """Write the relations of the state `s`, and stop it."""
+        slope = part(work, 0, n)
+        for body in range(room.bodies):
+            for i in range(N_COORDINATES):
+                s[BODY_STATES * body + RATE + i] = 0.0
+        renew(s, oil, numbers, memory)
+        for j in range(room.coordinates):
+            at = BODY_STATES * (j // N_COORDINATES) + RATE + j % N_COORDINATES
+            s[at] = 1.0
+            rates(s, oil, numbers, memory, 0, slope)
+            s[at] = 0.0
+            for k in range(room.own):
+                work[room.relations + k * room.coordinates + j] = slope[room.first + k]
+
+    @kernel
+    def keep(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> None:
+        """Write what elements keep under the loads, and about what own states then are; renew."""
+        swap_own(s, room.loads, room.held, room, work)
+        at_rest(s, oil, numbers, memory)
+        swap_own(s, room.held, room.guess, room, work)
+
+    @kernel
+    def unbalanced(u: Array, problem: Any, out: Array) -> None:
+        s, oil, numbers, memory, work = problem
+        displace(u, s, room, work)
+        expand(s, oil, numbers, memory)
+        forces(s, oil, numbers, memory, 0, work)
+        for i in range(u.size):
+            out[i] = work[int(work[room.places + i]) + RATE]
+
+    newton = damped_newton(unbalanced)
+
+    @kernel
+    def find_rest(
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, bearing: int, work: Array
+    ) -> tuple[int, float, int]:
+        """Write the static equilibrium; return a status, its number and its place."""
+        for i in range(n):
+            s[i] = 0.0
+        for i in range(n_kept, n_state):
+            s[i] = 0.0
+        for k in range(room.own):
+            work[room.loads + k] = 0.0
+        m = 0
+        for turn in range(_PASSES + 2):  # relations, loads, then the search
+            keep(s, oil, numbers, memory, work)
+            if turn == 0:
+                relate(s, oil, numbers, memory, work)
+                status, number = find_speeds(s, numbers, room, work)
+                if status != OK:
+                    return status, number, 0
+                m = find_places(numbers, BODY_STATES * bearing + RZ, room, work)
+                continue
+            if turn == 2:
+                find_own(s, m, room, work)
+                find_scales(m, room, work)
+            renew(s, oil, numbers, memory)
+            if turn == 1:
+                rates(s, oil, numbers, memory, 0, part(work, 0, n))
+                find_loads(numbers, m, room, work)
+                continue
+            begin_search(s, m, room, work)
+            problem = (s, oil, numbers, memory, work)
+            moves = part(work, room.moves, m)
+            solver = part(work, room.solver, room.end - room.solver)
+            newton(moves, part(work, room.scales, m), problem, solver)
+            unbalanced(moves, problem, part(work, room.out, m))
+        return largest_force(m, room, work)
+
+    @kernel
+    def stiffness(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> int:
+        """Write M^-1 K of the free coordinates into the solver's room; return their number."""
+        slope, moved = part(work, 0, n), part(work, room.moved, n_state)
+        copy(s, moved)
+        relate(moved, oil, numbers, memory, work)
+        m = find_places(numbers, -1, room, work)
+        matrix = part(work, room.solver, m * m)
+        copy(s, moved)
+        renew(moved, oil, numbers, memory)
+        for body in range(room.bodies):
+            for i in range(N_COORDINATES - 1):
+                moved[BODY_STATES * body + RATE + i] = 0.0
+        for j in range(m):
+            place = int(work[room.places + j])
+            for i in range(m):
+                matrix[i * m + j] = 0.0
+            for side in range(2):
+                step = _DIFFERENCE * (1.0 - 2.0 * side)
+                if not turns(place):  # periodic data stay where they are
+                    moved[place] = s[place] + step
+                for k in range(room.own):
+                    gain = work[room.related + k * m + j]
+                    moved[room.first + k] = s[room.first + k] + step * gain
+                rates(moved, oil, numbers, memory, 0, slope)
+                for i in range(m):
+                    matrix[i * m + j] -= slope[int(work[room.places + i]) + RATE] / (2.0 * step)
+            moved[place] = s[place]
+        return m
+
+    @kernel
+    def start(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        per_period: float,
+        work: Array,
+    ) -> int:
+        bearing = int(work[0])
+        for body in range(room.bodies):
+            work[room.wanted + body] = work[1 + body]
+        before = part(work, room.before, n_state)
+        copy(s, before)
+        status, number, where = find_rest(s, oil, numbers, memory, bearing, work)
+        if status == OK:
+            m = stiffness(s, oil, numbers, memory, work)
+            matrix = part(work, room.solver, m * m)
+            square = spectral_radius(matrix, m, part(work, room.solver + m * m, m * m))
+            highest = math.sqrt(square) / (2.0 * math.pi)
+            work[0] = max(LEAST_RATE, per_period * highest)
+            if highest < math.inf:
+                return OK
+            status = NO_MODES
+        copy(before, s)
+        work[1], work[2] = number, where
+        return status
+
+    @kernel
+    def write_stiffness(
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array
+    ) -> int:
+        m = stiffness(s, oil, numbers, memory, work)
+        for i in range(m * m):
+            work[i] = work[room.solver + i]
+        return m
+
+    return start, write_stiffness

@@ -1,0 +1,277 @@
+"""Searches of a train that starts: speeds, loads and own states from the relations between bodies.
+
+Kernels of every list. They share one work space, whose places `Room` has.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import accumulate
+from typing import NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.train.element import (
+    BODY_STATES,
+    N_COORDINATES,
+    RATE,
+    RZ,
+    Layout,
+    W,
+)
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.damped_newton import newton_work_size
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.least_squares import least_squares, least_squares_work
+
+OK = 0
+# statuses of a start, beside those of a step, and the number that comes with each
+LOOSE = 4  # speeds leave bodies free: how many
+APART = 5  # speeds do not fit together: by how much [rad/s]
+NO_REST = 6  # no static equilibrium: the largest force out of balance [N, N.m], then its place
+NO_MODES = 7  # natural frequencies are not finite
+
+
+_SETTLED = 1e-6  # of the largest force of a member at rest
+_SAME_SPEED = 1e-6  # of the largest speed
+_SHARE, _NO_LOAD = 0.1, 1e-6  # of an own state, a move that matters; and without own states
+
+
+class Room(NamedTuple):
+    """Sizes of a layout, and places in the work space behind the rates; all whole numbers."""
+
+    bodies: int
+    own: int
+    coordinates: int  # of all bodies
+    first: int  # own state
+    first_mobility: int
+    vector: int  # one number for each body and each own state
+    before: int  # state to go back to
+    moved: int  # state
+    relations: int  # rates of own states over those of all coordinates, row by row
+    related: int  # the same for the coordinates of the search
+    places: int  # of the coordinates of the search in the state, and so on for each of them
+    scales: int
+    out: int  # forces [N, N.m]
+    moves: int
+    base: int  # where they began, then where own states did
+    loads: int  # on own states [N, N.m], and so on, vectors
+    guess: int  # of own states
+    held: int
+    right: int
+    found: int
+    wanted: int  # speeds [rad/s]
+    turning: int  # bodies
+    solver: int
+    end: int
+
+
+def room_of(layout: Layout) -> Room:
+    """Return the places for a layout."""
+    bodies, own = layout.bodies, layout.own
+    m, q = N_COORDINATES * bodies, bodies + own
+    solver = max(newton_work_size(m), 2 * m * m, q * q + least_squares_work(q))
+    sizes = *2 * (layout.states,), *2 * (own * m,), *4 * (m,), m + own, *7 * (q,), solver
+    places = accumulate(sizes, initial=layout.integrated)
+    return Room(bodies, own, m, BODY_STATES * bodies, layout.first_mobility, q, *places)
+
+
+def rest_work_size(layout: Layout) -> int:
+    """Return the length of `work` for the kernels of `rest_kernels`."""
+    return room_of(layout).end
+
+
+@kernel
+def copy(one: Array, other: Array) -> None:
+    """Write the first numbers of one array into another one."""
+    for i in range(other.size):
+        other[i] = one[i]
+
+
+@kernel
+def _mobility(numbers: Array, place: int, room: Room) -> float:
+    body, i = place // BODY_STATES, place % BODY_STATES
+    return numbers[room.first_mobility + N_COORDINATES * body + i]
+
+
+@kernel
+def _column(place: float) -> int:
+    """Return which of all coordinates stands at a place of the state."""
+    return int(place) // BODY_STATES * N_COORDINATES + int(place) % BODY_STATES
+
+
+@kernel
+def turns(place: float) -> bool:
+    """Return whether the angle about z of a body stands at a place of the state."""
+    return int(place) % BODY_STATES == RZ
+
+
+@kernel
+def find_places(numbers: Array, without: int, room: Room, work: Array) -> int:
+    """Write the places of the free coordinates and what relates them; return how many there are."""
+    m = 0
+    for body in range(room.bodies):
+        for i in range(N_COORDINATES):
+            place = BODY_STATES * body + i
+            if _mobility(numbers, place, room) > 0.0 and place != without:
+                work[room.places + m] = place
+                m += 1
+    for i in range(m):
+        column = _column(work[room.places + i])
+        for k in range(room.own):
+            one = work[room.relations + k * room.coordinates + column]
+            work[room.related + k * m + i] = one
+    return m
+
+
+@kernel
+def find_speeds(s: Array, numbers: Array, room: Room, work: Array) -> tuple[int, float]:
+    """Write the speeds at which no own state changes; return a status and its number."""
+    bodies, own, q = room.bodies, room.own, room.vector
+    relations = part(work, room.relations, own * room.coordinates)
+    wanted, turning = part(work, room.wanted, q), part(work, room.turning, q)
+    right, found = part(work, room.right, q), part(work, room.found, q)
+    matrix = part(work, room.solver, q * q)
+    count = 0
+    for body in range(bodies):
+        if _mobility(numbers, BODY_STATES * body + RZ, room) > 0.0:
+            turning[count] = body
+            count += 1
+    rows, largest = own, 1.0
+    for k in range(own):
+        right[k], most = 0.0, 0.0
+        for j in range(count):
+            one = relations[k * room.coordinates + int(turning[j]) * N_COORDINATES + RZ]
+            matrix[k * count + j] = one
+            most = max(most, abs(one))
+        for j in range(count):  # base radii, and ones
+            matrix[k * count + j] /= most if most > 0.0 else 1.0
+    for body in range(bodies):
+        if not math.isnan(wanted[body]):
+            largest = max(largest, abs(wanted[body]))
+            right[rows] = wanted[body]
+            for j in range(count):
+                matrix[rows * count + j] = 1.0 if int(turning[j]) == body else 0.0
+            rows += 1
+    solver = part(work, room.solver + q * q, count * count)
+    free = least_squares(matrix, rows, count, right, found, solver)
+    if free > 0:
+        return LOOSE, float(free)
+    for j in range(count):
+        s[BODY_STATES * int(turning[j]) + W] = found[j]
+    apart = 0.0
+    for body in range(bodies):
+        if not math.isnan(wanted[body]):
+            apart = max(apart, abs(s[BODY_STATES * body + W] - wanted[body]))
+    for k in range(own):
+        total = most = 0.0
+        for body in range(bodies):
+            one = relations[k * room.coordinates + body * N_COORDINATES + RZ]
+            total += one * s[BODY_STATES * body + W]
+            most = max(most, abs(one))
+        apart = max(apart, abs(total) / most if most > 0.0 else 0.0)
+    return OK if apart <= _SAME_SPEED * largest else APART, apart
+
+
+@kernel
+def find_loads(numbers: Array, m: int, room: Room, work: Array) -> None:
+    """Write the loads on own states that balance the torques in the rates."""
+    own, q = room.own, room.vector
+    right, matrix = part(work, room.right, q), part(work, room.solver, q * q)
+    count = 0
+    for i in range(m):
+        place = int(work[room.places + i])
+        if turns(place):
+            right[count] = work[place + RATE] / _mobility(numbers, place, room)
+            for k in range(own):
+                matrix[count * own + k] = work[room.related + k * m + i]
+            count += 1
+    solver = part(work, room.solver + q * q, own * own)
+    least_squares(matrix, count, own, right, part(work, room.loads, q), solver)
+
+
+@kernel
+def find_own(s: Array, m: int, room: Room, work: Array) -> None:
+    """Write the own states nearest to the guess that turns of the bodies can give."""
+    own, q = room.own, room.vector
+    related, places = part(work, room.related, own * m), part(work, room.places, m)
+    found, matrix = part(work, room.found, q), part(work, room.solver, q * q)
+    count = 0
+    for i in range(m):
+        count += 1 if turns(places[i]) else 0
+    j = 0
+    for i in range(m):
+        if turns(places[i]):
+            for k in range(own):
+                matrix[k * count + j] = related[k * m + i]
+            j += 1
+    solver = part(work, room.solver + q * q, count * count)
+    least_squares(matrix, own, count, part(work, room.guess, q), found, solver)
+    for k in range(own):
+        s[room.first + k], j = 0.0, 0
+        for i in range(m):
+            if turns(places[i]):
+                s[room.first + k] += related[k * m + i] * found[j]
+                j += 1
+
+
+@kernel
+def find_scales(m: int, room: Room, work: Array) -> None:
+    """Write what move of each coordinate matters: a share of what moves the own states."""
+    scales, guess = part(work, room.scales, m), part(work, room.guess, room.own)
+    others = _SHARE * _NO_LOAD if room.own == 0 else math.inf
+    for k in range(room.own):
+        others = min(others, _SHARE * abs(guess[k]))
+    for i in range(m):
+        scales[i] = math.inf
+        for k in range(room.own):
+            gain = abs(work[room.related + k * m + i])
+            scales[i] = min(scales[i], _SHARE * abs(guess[k]) / gain)
+        if not scales[i] < math.inf:
+            scales[i] = others
+
+
+@kernel
+def largest_force(m: int, room: Room, work: Array) -> tuple[int, float, int]:
+    """Return a status, the largest force out of balance and its place."""
+    worst, where, size = 0.0, 0, 1.0
+    for i in range(m):
+        one = abs(work[room.out + i])
+        if worst < math.inf and not one <= worst:
+            worst, where = one, int(work[room.places + i])
+    for k in range(room.own):
+        size = max(size, abs(work[room.loads + k]))
+    return OK if worst <= _SETTLED * size else NO_REST, worst, where
+
+
+@kernel
+def displace(u: Array, s: Array, room: Room, work: Array) -> None:
+    """Move the coordinates of the search, and own states with them."""
+    m = u.size
+    for i in range(m):
+        s[int(work[room.places + i])] = work[room.base + i] + u[i]
+    for k in range(room.own):
+        found = work[room.base + m + k]
+        for i in range(m):
+            found += work[room.related + k * m + i] * u[i]
+        s[room.first + k] = found
+    for body in range(room.bodies):  # angles move own states alone: periodic data stay
+        s[BODY_STATES * body + RZ] = 0.0
+
+
+@kernel
+def begin_search(s: Array, m: int, room: Room, work: Array) -> None:
+    """Write where a search in `m` coordinates begins."""
+    for i in range(m):
+        work[room.moves + i] = 0.0
+        work[room.base + i] = s[int(work[room.places + i])]
+    for k in range(room.own):
+        work[room.base + m + k] = s[room.first + k]
+
+
+@kernel
+def swap_own(s: Array, put: int, into: int, room: Room, work: Array) -> None:
+    """Put a vector of the work space into the own states, and these into another one."""
+    for k in range(room.own):
+        before = s[room.first + k]
+        s[room.first + k] = work[put + k]
+        work[into + k] = before
