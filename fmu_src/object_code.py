@@ -139,6 +139,12 @@ def optimised(code: str, target: Target) -> tuple[Any, Any]:
     tuning = llvm.create_pipeline_tuning_options(speed_level=3)
     passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
+    # what a kernel returns may be known only now: then its error paths, which need Python, go too
+    last = llvm.create_new_module_pass_manager()
+    last.add_ipsccp_pass()
+    last.add_simplify_cfg_pass()
+    last.add_global_dead_code_eliminate_pass()
+    last.run(module, passes)
     return module, machine
 
 

@@ -95,7 +95,7 @@ def variables(case: TrainCase) -> tuple[Variable, ...]:
                       argument=name)
             for name, speed in case.speeds.items()
         ),
-        *declared_outputs(case.train.described),
+        *declared_outputs(case.train.output_records),
     )  # fmt: skip
 
 
@@ -130,7 +130,7 @@ def definition_with_train(path: str | Path) -> tuple[Definition, TrainCase]:
         name=fmu_name(case.name),
         description=f"Drivetrain {case.name}: {bodies} bodies, {elements} elements",
         variables=variables(case),
-        output_names=tuple(one.name for one in case.train.described),
+        output_names=tuple(one.name for one in case.train.output_records),
         start=partial(_start, case),
         stop_time=0.1,
         step_size=1e-3,

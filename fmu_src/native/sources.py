@@ -92,7 +92,7 @@ def model_sizes(model: NativeModel, kind: str) -> str:
         "CONTINUOUS": len(model.exchange.states) if model.exchange else 0,
         "INDICATORS": len(model.exchange.indicators) if model.exchange else 0,
         "INPUTS_AT": model.exchange.inputs_at if model.exchange else 0,
-        "EXCEEDED": definition.references[RANGE_EXCEEDED],
+        "EXCEEDED": definition.references.get(RANGE_EXCEEDED, 0),
         "DATA": _ANY if any_length else len(model.data),
         "WORK": _ANY if any_length else model.work_size,
     }

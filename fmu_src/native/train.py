@@ -14,7 +14,14 @@ from fmu_src.train import definition_with_train
 from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, RZ, W
 from gearlube_core.dynamics.train.march import ADVANCE, START, WRITE, train_kernel, work_size
 from gearlube_core.dynamics.train.model import MOST_TORQUE, REFUSALS, Train
+from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST
 
+_NO_START = {
+    LOOSE: "the start speeds leave bodies free. Give more in the train file, or connect the bodies",
+    APART: "the start speeds do not fit together through meshes and shafts. Give one of them",
+    NO_REST: "no static equilibrium. Reduce the torques or stiffen the supports",
+    NO_MODES: "natural frequencies at rest are not finite. Check masses and stiffness",
+}
 _START, _STEP, _OUTPUTS, _RESUME, _MOTION = map(int, tuple(Operation)[:5])
 
 
@@ -23,7 +30,6 @@ class _Places(NamedTuple):
 
     numbers: int  # in data, of which it is the first
     memory: int
-    first: int  # the state before a start
     ports: int  # places of the ports in the state
     bodies: int  # number of the body of each speed; the first bears what the torques leave
     motion: int  # pairs of places, in the outputs and in the state
@@ -76,7 +82,7 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
         if operation in (_START, _STEP):
             rate = 0.0
             for i in range(at.states):
-                trial[i] = fixed[at.first + i] if operation == _START else kept[i]
+                trial[i] = 0.0 if operation == _START else kept[i]
             for i in range(at.n_ports):
                 trial[int(fixed[at.ports + i])] = given[i]
             temperature = given[at.n_ports]
@@ -114,7 +120,9 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
             return OK
         s = array_at(state, at.states)
         temperature = kept[at.inputs + at.n_ports]
-        operate(WRITE, s, temperature, numbers, memory, 0.0, kept[at.state_end - 1], out)
+        operate(WRITE, s, temperature, numbers, memory, 0.0, kept[at.state_end - 1], scratch)
+        for i in range(at.outputs):
+            out[i] = scratch[i]
         return OK
 
     return entry
@@ -137,7 +145,7 @@ def train_model(path: str | Path) -> NativeModel:
     """Return the train of a train file for a native FMU, see `definition_with_train`."""
     definition, case = definition_with_train(path)
     train = case.train
-    made = train.made
+    made = train.assembly
     names = [body.name for body in train.bodies]
     motion = _motion(train)
     pairs = [(definition.output_names.index(name), at) for name, at in motion.items()]
@@ -146,18 +154,17 @@ def train_model(path: str | Path) -> NativeModel:
     parts = [
         made.numbers,
         made.memory,
-        made.state,
         np.array([made.kept[name] for name in case.torques], float),
         np.array([names.index(name) for name in case.speeds], float),
         np.array(pairs, float).ravel(),
         np.array([*limits, oil.temperature_low, oil.temperature_high]),
     ]
     starts = np.cumsum([0, *(part.size for part in parts)]).tolist()
-    n_inputs, states = len(case.torques) + 1, made.state.size
+    n_inputs, states = len(case.torques) + 1, made.layout.states
     own_memory = 2 * n_inputs
     trial = own_memory + made.memory.size
     scratch = trial + states
-    room = max(work_size(made.layout), 1 + len(names), len(definition.output_names))
+    room = work_size(made.layout)
     at = _Places(
         **dict(zip(_Places._fields, starts, strict=False)),
         states=states,
@@ -184,6 +191,6 @@ def train_model(path: str | Path) -> NativeModel:
         limits_at=0,
         ranges_at=0,
         ranges=(),
-        refusals=REFUSALS,
+        refusals=REFUSALS | _NO_START,
         motion=frozenset(motion),
     )

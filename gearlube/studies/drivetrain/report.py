@@ -15,6 +15,7 @@ from gearlube.report.parts import (
     GOOD,
     NOTE,
     WARNING,
+    Cell,
     Column,
     Figure,
     Finding,
@@ -173,7 +174,7 @@ def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input
         (str(body), float(rads_to_rpm(half[f"{body}.speed"].values.mean())))
         for body in dataset["body"].values
     ]
-    modes = [
+    modes: list[Sequence[Cell]] = [
         [float(frequency), str(dataset["body"].values[np.argmax(share)]), float(share.max())]
         for frequency, share in zip(
             dataset["frequency"].values, dataset["share"].values, strict=True

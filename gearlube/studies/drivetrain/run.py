@@ -73,7 +73,7 @@ def run_drivetrain(
     before = train.energy
     frequency, share = mode_shares(train)
     steps = math.ceil(duration / step - 1e-9)
-    rows = np.empty((steps + 1, len(train.described)))
+    rows = np.empty((steps + 1, len(train.output_records)))
     rows[0] = list(train.outputs().values())
     exceeded: dict[str, str] = {}
     for k in range(1, steps + 1):
@@ -85,7 +85,7 @@ def run_drivetrain(
     dataset = xr.Dataset(
         {
             one.name: ("time", rows[:, i], {"units": one.unit, "long_name": one.text})
-            for i, one in enumerate(train.described)
+            for i, one in enumerate(train.output_records)
         }
         | {
             "frequency": ("mode", frequency, {"units": "Hz", "long_name": "natural frequency"}),

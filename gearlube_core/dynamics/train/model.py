@@ -12,7 +12,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED, TOO_FAR
 from gearlube_core.dynamics.stepped_model import TOO_FAR_WORDS, TOO_FAST_WORDS, too_many_steps_words
-from gearlube_core.dynamics.train.assemble import assemble
+from gearlube_core.dynamics.train.assemble import Assembly, assemble
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import (
     ADVANCE,
@@ -36,7 +36,8 @@ from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
 
-_REFUSED = {
+MOST_TORQUE = 1e7  # N.m, of a port
+REFUSALS = {
     NOT_FINITE: (
         "the state is no longer finite, or a body has moved by more than 0.1 m. Reduce the torques"
     ),
@@ -93,10 +94,15 @@ class Train:
         self._n, self._state, self._trial = self._made.layout.integrated, *np.zeros((2, size))
         self._work = np.zeros(work_size(self._made.layout))
         self._output_names = tuple(one.name for one in self._made.outputs)
-        self._per_period, self._least_rate = float(steps_per_highest_period), LEAST_RATE
+        self.steps_per_highest_period, self._least_rate = steps_per_highest_period, LEAST_RATE
         self._temperature = math.nan
         ports = (one.name for one in elements if isinstance(one, Port))
         self._ports = {name: self._made.kept[name] for name in ports}
+
+    @property
+    def assembly(self) -> Assembly:
+        """The train put together, for the kernels of its list."""
+        return self._made
 
     @property
     def state_names(self) -> tuple[str, ...]:
@@ -130,7 +136,7 @@ class Train:
         trial[:] = 0.0
         self._put(torques, trial)
         work[: wanted.size] = wanted
-        status = int(self._call(START, trial, work, self._per_period))
+        status = int(self._call(START, trial, work, float(self.steps_per_highest_period)))
         if status != OK:
             self._temperature = before
             self._refuse(status, speeds)
@@ -156,7 +162,7 @@ class Train:
         status = int(self._call(ADVANCE, trial, self._work, h))
         if status != OK:
             self._temperature = temperature
-            raise StepError(f"step of {h:g} s refused: {_REFUSED[status]}.")
+            raise StepError(f"step of {h:g} s refused: {REFUSALS[status]}.")
         self._state, self._trial = trial, before
 
     def outputs(self) -> dict[str, float]:
@@ -250,7 +256,7 @@ class Train:
                 f"wrong is {missing[0]}."
             )
         for name, torque in torques.items():
-            check_within(f"torque of {name}", torque, -1e7, 1e7, "N.m")
+            check_within(f"torque of {name}", torque, -MOST_TORQUE, MOST_TORQUE, "N.m")
         self.oil.check_temperature(oil_temperature, "oil_temperature")
         self._temperature = float(oil_temperature)
 
