@@ -23,10 +23,10 @@ def drivetrain(
     ] = "e_axle",
     duration_ms: Annotated[
         float, typer.Option(help="Length of the run [ms].", metavar="MS")
-    ] = 100.0,
+    ] = 50.0,
     step_us: Annotated[
         float, typer.Option(help="Time between two rows of the results [us].", metavar="US")
-    ] = 100.0,
+    ] = 20.0,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_drivetrain"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,

@@ -28,6 +28,7 @@ from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import rads_to_rpm
 
 _BALANCED = 1e-3  # share of the energy that may be missing before the report warns
+_SHOWN = 0.1  # last part of the run, of which the transmission errors are drawn
 _DTE, _LOSS = ".dte", ".power_loss"
 _LIMITS = (
     "Shafts are rigid bodies, and bearings stand on ground, not on a housing.",
@@ -63,15 +64,15 @@ def transmission_errors(dataset: xr.Dataset) -> dict[str, float]:
 
 
 def _motion_figure(dataset: xr.Dataset) -> Any:
-    half = settled(dataset)
-    names = [str(name) for name in half.data_vars if str(name).endswith(_DTE)]
+    end = dataset.isel(time=slice(-max(2, int(_SHOWN * dataset.sizes["time"])), None))
+    names = [str(name) for name in end.data_vars if str(name).endswith(_DTE)]
     with house_style():
         figure = new_figure(7.2, 0.6 + 2.0 * max(1, len(names)))
         panels = figure.subplots(max(1, len(names)), 1, squeeze=False, sharex=True).ravel()
         for ax, name, colour in zip(
             panels, names, (SERIES * len(names))[: len(names)], strict=False
         ):
-            ax.plot(1e3 * half["time"], 1e6 * half[name], color=colour)
+            ax.plot(1e3 * end["time"], 1e6 * end[name], color=colour)
             ax.set(title=name.removesuffix(_DTE), ylabel="transmission error [µm]")
         panels[-1].set_xlabel("time [ms]")
     return figure
@@ -110,7 +111,7 @@ _FIGURES = {
     "transmission_error": (
         _motion_figure,
         "Transmission error of every mesh",
-        "Second half of the run. A mesh that swings far more than the others is near a resonance.",
+        "Last tenth of the run. A mesh that swings far more than the others is near a resonance.",
     ),
     "losses": (
         _loss_figure,

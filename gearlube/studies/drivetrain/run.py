@@ -24,8 +24,8 @@ _RIGID = 1.0  # Hz, below which a mode is a turning of the whole train
 def run_drivetrain(
     case: TrainCase,
     *,
-    duration: float = 0.1,
-    step: float = 1e-4,
+    duration: float = 0.05,
+    step: float = 2e-5,
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
@@ -62,7 +62,7 @@ def run_drivetrain(
     Examples
     --------
     >>> from drivetrain.train.train_file import TrainFile
-    >>> motion = run_drivetrain(TrainFile.named("e_axle").case(), duration=2e-4)
+    >>> motion = run_drivetrain(TrainFile.named("e_axle").case(), duration=4e-5)
     >>> motion.sizes["time"], motion["motor.speed"].units
     (3, 'rad/s')
     """
