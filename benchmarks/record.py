@@ -39,6 +39,7 @@ COMMANDS = {
     ],
     "cycle": ["cycle"],
     "bearing": ["bearing"],
+    "drivetrain": ["drivetrain", "--duration-ms", "20"],
     "whine": ["whine", "--speeds-rpm", "1000:3000:500"],
     "runup": ["runup", "--quick"],
     "resonance": ["resonance", "--quick", "--load-at", "0.9"],

@@ -17,49 +17,7 @@ from fmu_src.native.build import NativeOptions
 from fmu_src.native.platforms import platform_of_this_machine
 from fmu_src.train import definition_with_train
 from gearlube_core.errors import ParameterError
-from tests.helpers.coulomb_brake import CoulombBrake
-
-FIRST, SECOND, STIFFNESS, DAMPING, BRAKE = 0.2, 2.0, 1e4, 2.0, 3.0  # kg m2, N.m/rad, N.m s/rad, N.m
-ROTORS = f"""
-name = "two rotors on a shaft"
-steps_per_highest_period = 64
-
-[oil]
-name = "mohammadpour_2015"
-
-[start]
-speed_rpm = {{ engine = 1000.0 }}
-torque_n_m = {{ drive = 0.0 }}
-
-[bodies.engine]
-mass_kg = 1.0
-inertia_kg_m2 = 1.0
-polar_inertia_kg_m2 = {FIRST}
-held = ["x", "y", "z", "rx", "ry"]
-
-[bodies.load]
-mass_kg = 1.0
-inertia_kg_m2 = 1.0
-polar_inertia_kg_m2 = {SECOND}
-held = ["x", "y", "z", "rx", "ry"]
-
-[elements.drive]
-kind = "port"
-body = "engine"
-
-[elements.shaft]
-kind = "half_shaft"
-first = "engine"
-second = "load"
-stiffness_n_m_per_rad = {STIFFNESS}
-damping_n_m_s_per_rad = {DAMPING}
-"""
-WITH_BRAKE = f"""{ROTORS}
-[elements.brake]
-kind = "{CoulombBrake.kind}"
-body = "load"
-torque_n_m = {BRAKE}
-"""
+from tests.helpers.small_trains import BRAKE, DAMPING, FIRST, SECOND, STIFFNESS, WITH_BRAKE
 
 
 def built(text: str, folder: Path) -> list[Path]:

@@ -67,12 +67,10 @@ def _motion_figure(dataset: xr.Dataset) -> Any:
     end = dataset.isel(time=slice(-max(2, int(_SHOWN * dataset.sizes["time"])), None))
     names = [str(name) for name in end.data_vars if str(name).endswith(_DTE)]
     with house_style():
-        figure = new_figure(7.2, 0.6 + 2.0 * max(1, len(names)))
-        panels = figure.subplots(max(1, len(names)), 1, squeeze=False, sharex=True).ravel()
-        for ax, name, colour in zip(
-            panels, names, (SERIES * len(names))[: len(names)], strict=False
-        ):
-            ax.plot(1e3 * end["time"], 1e6 * end[name], color=colour)
+        figure = new_figure(7.2, 0.6 + 2.0 * len(names))
+        panels = figure.subplots(len(names), 1, squeeze=False, sharex=True).ravel()
+        for ax, name in zip(panels, names, strict=True):
+            ax.plot(1e3 * end["time"], 1e6 * end[name])
             ax.set(title=name.removesuffix(_DTE), ylabel="transmission error [µm]")
         panels[-1].set_xlabel("time [ms]")
     return figure
@@ -132,6 +130,8 @@ def save_figures(dataset: xr.Dataset, folder: Path) -> dict[str, Path]:
     folder.mkdir(parents=True, exist_ok=True)
     files = {}
     for name, (draw, *_) in _FIGURES.items():
+        if name == "transmission_error" and not transmission_errors(dataset):
+            continue
         files[name] = folder / f"{name}.png"
         write_figure(draw(dataset), files[name])
     return files
@@ -198,6 +198,7 @@ def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input
         figures=[
             Figure(name=name, title=title, caption=words, picture=figures[name].read_bytes())
             for name, (_, title, words) in _FIGURES.items()
+            if name in figures
         ],
         tables=[
             Table(

@@ -1,0 +1,90 @@
+"""The command drivetrain: two rotors by closed forms, and the shipped e-axle."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from typer.testing import CliRunner
+
+from gearlube.command import app
+from gearlube.studies.drivetrain.report import findings, losses, transmission_errors
+from gearlube.studies.drivetrain.run import FILE
+from tests.helpers.small_trains import BRAKE, FIRST, SECOND, STIFFNESS, WITH_BRAKE
+
+
+@pytest.fixture(scope="module")
+def rotors(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("drivetrain")
+    (folder / "rotors.toml").write_text(WITH_BRAKE)
+    done = CliRunner().invoke(
+        app,
+        ["drivetrain", str(folder / "rotors.toml"), "--duration-ms", "20", "--step-us", "1000",
+         "--out", str(folder / "out")],
+    )  # fmt: skip
+    assert done.exit_code == 0, done.output
+    return folder / "out"
+
+
+def test_the_mode_of_two_rotors_is_that_of_the_closed_form(rotors: Path) -> None:
+    """w2 = k (1/I1 + 1/I2), and each rotor has the other's share of the inertia in the energy."""
+    with xr.open_dataset(rotors / FILE) as found:
+        frequency, share = found["frequency"].values, found["share"].values
+    w0 = math.sqrt(STIFFNESS * (1.0 / FIRST + 1.0 / SECOND))
+    assert frequency == pytest.approx([w0 / (2.0 * math.pi)], rel=1e-6)
+    assert share[0] == pytest.approx([SECOND / (FIRST + SECOND), FIRST / (FIRST + SECOND)])
+
+
+def test_the_brake_loses_its_torque_times_the_speed(rotors: Path) -> None:
+    with xr.open_dataset(rotors / FILE) as found:
+        lost = losses(found)
+        speed = found["load.speed"].values
+        # means over each step of a speed that falls evenly
+        expected = BRAKE * (0.5 * (speed[1:] + speed[:-1]))[-11:]
+        assert lost["brake"] == pytest.approx(expected.mean(), rel=1e-6)
+        assert float(found.attrs["imbalance"]) < 1e-7
+        assert transmission_errors(found) == {}
+
+
+def test_the_report_says_where_the_power_goes(rotors: Path) -> None:
+    with xr.open_dataset(rotors / FILE) as found:
+        said = [one.headline for one in findings(found)]
+    assert any(re.match(r"The drivetrain loses 31\d W\.", one) for one in said), said
+    assert any(one.startswith("The energy balance closes") for one in said)
+    page = (rotors / "report.html").read_text("utf-8")
+    assert "Natural frequencies, and which bodies move" in page
+    assert "Transmission error of every mesh" not in page  # there is none
+
+
+def test_the_example_is_a_file_to_start_from(tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["drivetrain", "--example"])
+    assert done.exit_code == 0
+    assert 'kind = "helical_mesh"' in done.output
+
+
+def test_a_step_that_is_too_short_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "rotors.toml").write_text(WITH_BRAKE)
+    done = CliRunner().invoke(
+        app,
+        ["drivetrain", str(tmp_path / "rotors.toml"), "--duration-ms", "1e6", "--step-us", "1",
+         "--out", str(tmp_path / "out")],
+    )  # fmt: skip
+    assert done.exit_code == 2
+    assert "step must be within 0.005 to 0.1 s" in " ".join(done.output.split())
+
+
+@pytest.mark.slow
+def test_the_shipped_axle_balances_its_energy(tmp_path: Path) -> None:
+    done = CliRunner().invoke(
+        app, ["drivetrain", "e_axle", "--duration-ms", "20", "--out", str(tmp_path)]
+    )
+    assert done.exit_code == 0, done.output
+    with xr.open_dataset(tmp_path / FILE) as found:
+        assert float(found.attrs["imbalance"]) < 1e-5
+        speeds = [found[f"{body}.speed"].values.mean() for body in ("motor", "counter")]
+        assert speeds[0] / speeds[1] == pytest.approx(-31.0 / 25.0, rel=1e-4)  # teeth
+        assert np.isfinite(found["stage_1.dte"]).all()
+        assert 0.97 < float(found["efficiency"][-1]) < 0.995
+        assert found.sizes["mode"] == 19  # 20 free coordinates less the turning of the whole
