@@ -130,4 +130,4 @@ def _imbalance(train: Train, before: float) -> float:
     outputs = train.outputs()
     works = [v for name, v in outputs.items() if name.startswith("energy.") and ".work" in name]
     missing = train.work - sum(train.lost.values()) - (train.energy - before)
-    return abs(missing) / max(1e-9, sum(map(abs, works)))
+    return abs(missing) / max(1e-9, sum(map(abs, works)), sum(train.lost.values()))
