@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
-from drivetrain.train.part_section import files_in, read_part
+from drivetrain.train.part_section import OF_THE_TRAIN, files_in, read_part
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
@@ -87,7 +87,7 @@ class TrainFile(InputFile):
     Examples
     --------
     >>> TrainFile.shipped()
-    ('e_axle',)
+    ('e_axle', 'hypoid_axle')
     >>> axle = TrainFile.named("e_axle").case().start()
     >>> round(axle.state("motor.rz.rate"), 1)  # rad/s
     -837.8
@@ -157,8 +157,9 @@ class TrainFile(InputFile):
             if name in self.bodies
         ]
         bodies, elements = [], []
+        of_train = {name: getattr(self, name) for name in OF_THE_TRAIN}
         for name, given in self.bodies.items():
-            body, problems = read_part(Body, name, given, f"bodies.{name}")
+            body, problems = read_part(Body, name, given, f"bodies.{name}", of_train)
             wrong += problems
             bodies += [body] if body else []
         for name, given in self.elements.items():
@@ -170,7 +171,7 @@ class TrainFile(InputFile):
                     f"of your own must be imported first, or be an entry point of {ELEMENTS.group}."
                 )
                 continue
-            element, problems = read_part(known[kind], name, given, f"elements.{name}")
+            element, problems = read_part(known[kind], name, given, f"elements.{name}", of_train)
             wrong += problems
             elements += [element] if element else []
         return bodies, elements, wrong
