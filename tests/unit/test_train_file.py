@@ -1,6 +1,10 @@
 """Train files: what they make of their fields, and what they say of wrong ones."""
 
+import math
+import random
 import tomllib
+from contextlib import suppress
+from copy import deepcopy
 
 import numpy as np
 import pytest
@@ -134,6 +138,27 @@ def test_all_that_is_wrong_is_said_at_once():
     with pytest.raises(ParameterError, match=r"my\.toml has 2 wrong field\(s\)") as caught:
         read(WRONG["another unit"][0], WRONG["a mass as a text"][0])
     assert "bodies.motor.mass_kg" in str(caught.value)
+
+
+def test_any_value_in_any_place_is_taken_or_refused_in_words():
+    """Nothing but a ParameterError comes of a wrong file."""
+    values = (None, True, -1, 0, 1e300, math.nan, math.inf, "", "x" * 300, [], [1, 2], {},
+              {"a": 1}, 10**17, ["x", "x"], "mohammadpour_2015", "../x.toml")  # fmt: skip
+    chance = random.Random(3)
+    for name in TrainFile.shipped():
+        whole = tomllib.loads(TrainFile.shipped_text(name))
+        sections = [whole, *whole.values(), *whole["bodies"].values(), *whole["elements"].values()]
+        count = sum(isinstance(one, dict) for one in sections)
+        for _ in range(40):
+            data = deepcopy(whole)
+            sections = [data, *data.values(), *data["bodies"].values(), *data["elements"].values()]
+            section = [one for one in sections if isinstance(one, dict)][chance.randrange(count)]
+            key, value = chance.choice(list(section)), chance.choice(values)
+            section[key] = value
+            if value is None:
+                del section[key]
+            with suppress(ParameterError):
+                TrainFile.from_data(data, "my.toml")
 
 
 def test_paths_count_from_the_folder_of_the_file(tmp_path):
