@@ -22,6 +22,7 @@ enum { MOST = 1 << 27 }; /* of anything */
 static const char MARK[MARK_SIZE + 1] = "gearmod1";
 static const char KIND[KIND_SIZE] = GL_KIND;
 static const int literals_of[GL_VARIABLES] = GL_LITERALS;
+static const int options_of[GL_PARAMETERS] = GL_OPTIONS; /* by place */
 
 /* What is left of the file, and whether all that was read of it is sound. */
 typedef struct {
@@ -119,21 +120,33 @@ static void read_variable(reader *file, gl_variable *variable)
 static int has_places(const gl_variable *variables, gl_causality causality)
 {
     unsigned char found[GL_VARIABLES] = {0};
-    int count = 0;
+    int count = 0, places = 0;
     for (int i = 0; i < GL_VARIABLES; i++) {
         int place = variables[i].place;
         if (variables[i].causality == causality && place >= 0) {
-            count += !found[place];
+            count++;
+            places += !found[place];
             found[place] = 1;
         }
     }
-    return count == highest_place(causality) + 1;
+    return count == places && count == highest_place(causality) + 1;
 }
 
-static int is_option(const gl_variable *variables, int option)
+/* Whether a variable names another as whose number it stands, and has the range of that one. */
+static int is_option(const gl_variable *variables, const gl_variable *number)
 {
-    return option < 0 || (variables[option].causality == GL_PARAMETER && variables[option].place >= 0 &&
-                          variables[option].literals);
+    const gl_variable *option = number->option < 0 ? NULL : &variables[number->option];
+    return !option || (option->causality == GL_PARAMETER && option->place >= 0 &&
+                       option->literals && number->causality == GL_PARAMETER &&
+                       number->kind == GL_INTEGER && number->low == 0.0 && number->start == 0.0 &&
+                       number->high == literals_of[number->option]);
+}
+
+/* Whether the model expects so many options in the place of a parameter. */
+static int has_options(const gl_variable *variable, int n)
+{
+    return variable->causality != GL_PARAMETER || variable->place < 0 ||
+           options_of[variable->place] == n;
 }
 
 /* What the model needs beyond sound rows: rows that fit each other. */
@@ -145,10 +158,11 @@ static int fits_together(const gl_model *model)
     for (int i = 0; i < GL_VARIABLES; i++) {
         const gl_array *array = &model->arrays[i];
         int n = literals_of[i];
-        fits &= is_option(variables, variables[i].option) &&
-                (variables[i].option < 0 || variables[i].causality == GL_PARAMETER) &&
+        fits &= is_option(variables, &variables[i]) &&
                 (n == 0 || (variables[i].kind == GL_INTEGER && variables[i].low == 1.0 &&
-                            variables[i].high == n));
+                            variables[i].high == n)) &&
+                (variables[i].kind == GL_REAL || variables[i].start == floor(variables[i].start)) &&
+                has_options(&variables[i], n);
         for (int k = 0; k < array->count; k++) {
             const gl_variable *member = &variables[array->members[k]];
             fits &= member->kind == variables[i].kind;
