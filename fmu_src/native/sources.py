@@ -102,10 +102,9 @@ def model_sizes(model: NativeModel, kind: str) -> str:
         "DATA": _ANY if any_length else len(model.data),
         "WORK": _ANY if any_length else model.work_size,
     }
-    options = [len(variable.literals) for variable in variables]
-    of_parameters = [
-        len(variable.literals) for variable in variables if variable.is_model_parameter
-    ]
+    options = [len(variable.literals) for variable in variables if variable.is_model_parameter]
+    if any_length:
+        options = [_ANY if count else 0 for count in options]
     lines = [f"#define GL_{name} {size}" for name, size in sizes.items()]
     return "\n".join(
         [
@@ -115,9 +114,8 @@ def model_sizes(model: NativeModel, kind: str) -> str:
             f'#define GL_MODEL_NAME "{definition.name}"',
             f'#define GL_KIND "{kind}" /* of which the file of the model must be */',
             *lines,
-            "/* How many options each variable has, and each parameter of the model. */",
-            *_macro("GL_LITERALS", options),
-            *_macro("GL_OPTIONS", of_parameters),
+            "/* How many options each parameter of the model has. */",
+            *_macro("GL_OPTIONS", options),
             f"#define GL_LONGEST_STEP {MAX_STEP!r} /* s */",
             "#endif\n",
         ]
