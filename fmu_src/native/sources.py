@@ -6,6 +6,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from zlib import crc32
+
+import numpy as np
 
 from fmu_src.native.model import NativeModel
 from fmu_src.variable import Variable
@@ -101,6 +104,7 @@ def model_sizes(model: NativeModel, kind: str) -> str:
         "EXCEEDED": definition.references.get(RANGE_EXCEEDED, 0),
         "DATA": _ANY if any_length else len(model.data),
         "WORK": _ANY if any_length else model.work_size,
+        "DATA_SUM": f"{_data_sum(model)}u",
     }
     options = [len(variable.literals) for variable in variables if variable.is_model_parameter]
     if any_length:
@@ -120,6 +124,13 @@ def model_sizes(model: NativeModel, kind: str) -> str:
             "#endif\n",
         ]
     )
+
+
+def _data_sum(model: NativeModel) -> int:
+    """Return the checksum of the data that a library for one model alone takes; else 0."""
+    if model.kind or model.entry is None:
+        return 0
+    return crc32(np.asarray(model.data, dtype="<f8").tobytes())
 
 
 def c_sources(model: NativeModel, kind: str = "") -> dict[str, str]:

@@ -278,7 +278,9 @@ static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
     is_sound = is_sound &&
                !gearlube_entry(GL_CHECK, 0.0, data, lengths, options, none, none, none);
 #else
-    is_sound = is_sound && lengths[0] == GL_DATA && lengths[1] == GL_WORK;
+    uint32_t sum = gl_checksum(0, (const unsigned char *)data, (size_t)counts[DATA] * sizeof *data);
+    is_sound = is_sound && lengths[0] == GL_DATA && lengths[1] == GL_WORK &&
+               (GL_DATA_SUM == 0u || sum == GL_DATA_SUM);
 #endif
     if (!is_sound) {
         snprintf(why, GL_LONGEST_MESSAGE,
