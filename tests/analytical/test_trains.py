@@ -27,6 +27,7 @@ from gearlube_core.dynamics.train.rest_search import APART, LOOSE, OK
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.coulomb_brake import CoulombBrake
 
@@ -352,6 +353,14 @@ class Twisting(Element):
         return NoKernels(1.0)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Speedometer(Twisting):
+    """An element with an output that bodies have."""
+
+    states: ClassVar = ()
+    outputs: ClassVar = (Output("speed", "rad/s", "speed"),)
+
+
 def test_what_cannot_be_a_train_is_named():
     rotor, port = Body.spinning("rotor", 0.1), Port(name="motor", body="rotor")
     with pytest.raises(ParameterError, match="bodies must have names of their own, got 'rotor'"):
@@ -362,6 +371,8 @@ def test_what_cannot_be_a_train_is_named():
         Body(name="rotor", mass=-1.0, inertia=1.0, polar_inertia=1.0)
     with pytest.raises(ParameterError, match=r"two has own states, .* must include at_rest"):
         Train([rotor], [Twisting(name="two", body="rotor")], OIL)
+    with pytest.raises(ParameterError, match=r"got 'rotor\.speed' twice\. Rename the body or"):
+        Train([rotor], [Speedometer(name="rotor", body="rotor")], OIL)
     loose = Train([rotor, Body.spinning("load", 1.0)], [port], OIL)
     with pytest.raises(StepError, match=r"no state yet\. Call initialise"):
         loose.step(1e-3, {"motor": 0.0}, KELVIN)
