@@ -105,7 +105,11 @@ class Workplace:
                 return result
             if self.try_unchanged(result.test, plan.compiled):
                 return result
-            plan = replace(plan, left_out=plan.left_out | {result.test})
+            # a file that cannot be read without the change either is left out as a whole
+            files = [one for one in plan.files if one != result.test]
+            if not files:
+                return replace(result, ended="passed", test="")
+            plan = replace(plan, files=files, left_out=plan.left_out | {result.test})
 
     def _check_collection(self, plan: Plan) -> None:
         """Raise where pytest cannot even collect the tests of the unchanged tree."""

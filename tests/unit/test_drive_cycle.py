@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 import gearlube as gl
 from gearlube.command import COMMANDS, command_line
+from gearlube.studies.drive_cycle.loss_field import at_temperatures
 from gearlube_core.errors import ParameterError
 from tests.helpers.each import each
 from tests.helpers.units import without_units
@@ -375,3 +376,10 @@ def test_a_wrong_cycle_of_vecto_is_refused(text, words, tmp_path):
     path.write_text(text)
     with pytest.raises(ParameterError, match=words):
         gl.DriveCycle.given(str(path))
+
+
+def test_losses_between_oil_temperatures_lie_on_the_line_between_their_neighbours():
+    nodes = np.array([280.0, 300.0, 350.0, 360.0])
+    at = np.array([280.0, 290.0, 300.0, 337.0, 360.0])
+    values = np.tile(np.stack([nodes, -2.0 * nodes], axis=-1), (at.size, 1, 1))
+    np.testing.assert_allclose(at_temperatures(values, nodes, at), np.stack([at, -2.0 * at], -1))
