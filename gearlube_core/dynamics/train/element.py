@@ -7,18 +7,16 @@ there forces [N] and moments [N.m] are summed before each body turns its sums in
 
 The kernels of an element take where it stands, `at`: the first place of each of its bodies, then of
 its own integrated states, of its energies, and of what it keeps between steps, then its sizes.
-They do not allocate and do not raise. `add_forces` must be there; the others do nothing by default.
+They do not allocate and do not raise.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from gearlube_core.arrays import Array
-from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.inlining import inside
-from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import OilLaws
 from gearlube_core.oil.lubricant import LubricantState
 
@@ -58,134 +56,75 @@ class Layout(NamedTuple):
     laws: OilLaws  # of an oil with laws of its own
 
 
-@kernel
-def _nothing(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-    pass
+class Kernels(Protocol):
+    """Kernels of the NamedTuple of an element: methods of these names under `kernel`.
 
-
-@kernel
-def _no_step(
-    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
-) -> float:
-    return 0.0
-
-
-@kernel
-def _zero(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
-    return 0.0
-
-
-@kernel
-def _smooth(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
-    return math.inf
-
-
-@kernel
-def _no_outputs(
-    element: Any,
-    at: Any,
-    memory: Array,
-    s: Array,
-    oil: LubricantState,
-    out: Array,
-    first: int,
-) -> None:
-    pass
-
-
-@by_class()
-def add_forces(
-    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
-) -> None:
-    """Add forces and moments to the bodies' rates; write the rates of own states and energies.
-
-    Energies of one name are shared, so an element adds its power.
-
-    Parameters
-    ----------
-    memory : ndarray
-        What the element has for itself: tables, and what it keeps that follows from the state.
-    s, ds : ndarray
-        State of the train, and its rates.
-    stage : int
-        1 to 4 within an integrator step, 0 for a state by itself, where all is exact.
+    `add_forces` must be there, `at_rest` where there are own states; the others may be left out.
     """
 
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
+        """Add forces and moments to the bodies' rates; write the rates of own states and energies.
 
-@by_class(otherwise=_nothing)
-def at_rest(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-    """Write about what own states are at rest, and what is kept between steps.
+        Energies of one name are shared, so an element adds its power.
 
-    The places of own states hold the loads on them [N, N.m]. What is written there sets the scale
-    of the search too, so that it must not be zero. An element with own states must have this.
-    """
+        Parameters
+        ----------
+        memory : ndarray
+            What the element has for itself: tables, and what it keeps that follows from the state.
+        s, ds : ndarray
+            State of the train, and its rates.
+        stage : int
+            1 to 4 within an integrator step, 0 for a state by itself, where all is exact.
+        """
 
+    def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """Write about what own states are at rest, and what is kept between steps.
 
-@by_class(otherwise=_nothing)
-def begin(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-    """Make ready for a communication step."""
+        The places of own states hold the loads on them [N, N.m]. What is written there sets the
+        scale of the search too, so that it must not be zero.
+        """
 
+    def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """Make ready for a communication step."""
 
-@by_class(otherwise=_nothing)
-def expand(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-    """Make forces that are linear about a state exact about this one."""
+    def expand(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """Make forces that are linear about a state exact about this one."""
 
+    def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        """Renew what is kept over one integrator step of `h` [s]; return its cost in steps."""
 
-@by_class(otherwise=_no_step)
-def each_step(
-    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
-) -> float:
-    """Renew what is kept over one integrator step of `h` [s]; return its cost in steps."""
-    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
+    def after_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        """Change what a step of `h` [s] has left, such as filtered loads; return any number."""
 
+    def finish(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """Put what is kept in `memory` into the state at the end of a communication step."""
 
-@by_class(otherwise=_no_step)
-def after_step(
-    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
-) -> float:
-    """Change what a step of `h` [s] has left, such as filtered loads; the number means nothing."""
-    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
+    def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        """Return the elastic energy of the element [J]."""
 
+    def step_rate(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        """Return the least number of integrator steps a second that the element asks for now."""
 
-@by_class(otherwise=_nothing)
-def finish(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-    """Put what is kept in `memory` into the state at the end of a communication step."""
+    def time_to_jump(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
+    ) -> float:
+        """Return after what time [s] a part of a step of `h` [s] must end; infinite for no parts.
 
+        Forces jump there, or bend so sharply that a whole step is too long.
+        """
 
-@by_class(otherwise=_zero)
-def stored_energy(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
-    """Return the elastic energy of the element [J]."""
-    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
-
-
-@by_class(otherwise=_zero)
-def step_rate(element: Any, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
-    """Return the least number of integrator steps a second that the element asks for now."""
-    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
-
-
-@by_class(otherwise=_smooth)
-def time_to_jump(
-    element: Any, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
-) -> float:
-    """Return after what time [s] a part of a step of `h` [s] must end; infinite for no parts.
-
-    Forces jump there, or bend so sharply that a whole step is too long.
-    """
-    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
-
-
-@by_class(otherwise=_no_outputs)
-def write(
-    element: Any,
-    at: Any,
-    memory: Array,
-    s: Array,
-    oil: LubricantState,
-    out: Array,
-    first: int,
-) -> None:
-    """Write the element's outputs into `out` from place `first` on."""
+    def write(
+        self,
+        at: Any,
+        memory: Array,
+        s: Array,
+        oil: LubricantState,
+        out: Array,
+        first: int,
+    ) -> None:
+        """Write the element's outputs into `out` from place `first` on."""
 
 
 class Axes(NamedTuple):

@@ -1,8 +1,8 @@
 """Kernels of a list of elements: rates, rest and march.
 
-The elements' kernels are called one after the other by source text made here, which differs with
-the number of elements alone: their classes and places are constants of the compiled code. Order of
-the list is order of the sums, hence of the bits.
+The elements' kernels are called one after the other by source text made here: their classes and
+places are constants of the compiled code. Order of the list is order of the sums, hence of the
+bits.
 
 State of a train: twelve states of each body, the elements' own states, the energies, and behind
 these N integrated states what elements keep between steps, a mark of each energy at the start of
@@ -19,7 +19,6 @@ from typing import Any
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.mean_power import LEAST_WINDOW
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
-from gearlube_core.dynamics.train import element as calls
 from gearlube_core.dynamics.train.element import (
     BODY_STATES,
     N_COORDINATES,
@@ -72,41 +71,44 @@ _LINES = {
 }
 
 
-def _text(variants: Sequence[int]) -> str:
+def _text(elements: Sequence[Call]) -> tuple[str, list[Any]]:
     """Return the source of a function that makes one kernel of every kind for all elements.
 
-    `variants` has how many each element takes. Classes and places are its arguments, so that they
-    become constants of the compiled code.
+    Its arguments come second: classes, places and kernels, which become constants of the compiled
+    code. An element without a kernel of one kind is left out there.
     """
-    count = range(len(variants))
-    constants = "".join(f", e{i}, v{i}, at{i}, n{i}, c{i}, m{i}, z{i}, o{i}" for i in count)
-    lines = [f"def make(kernel, inside, part, tuple_from_array, {', '.join(_LINES)}{constants}):"]
-    for i in count:
-        lines += [f"    v{i}_{k} = v{i}[{k}]" for k in range(variants[i])]
+    names = ["kernel", "inside", "part", "tuple_from_array"]
+    given: list[Any] = [kernel, inside, part, tuple_from_array]
+    lines, calls = [], []
+    for i, call in enumerate(elements):
+        names += (f"{one}{i}" for one in ("e", "v", "at", "n", "c", "m", "z", "o"))
+        given += call
+        chosen = "".join(f", v{i}_{k}" for k in range(len(call.variants)))
+        lines += [f"    v{i}_{k} = v{i}[{k}]" for k in range(len(call.variants))]
+        own = f"tuple_from_array(part(numbers, n{i}, c{i}), e{i}{chosen})"
+        calls.append(f"{own}, at{i}, part(memory, m{i}, z{i}), s, oil")
     for name, (more, line, result) in _LINES.items():
         lines.append("    @inside" if name == "add_forces" else "    @kernel")
-        start = "math.inf" if name == "time_to_jump" else "0.0"
-        lines += [f"    def all_{name}({_GIVEN}{more}):", f"        total = {start}"]
-        for i in count:
-            chosen = "".join(f", v{i}_{k}" for k in range(variants[i]))
-            own = f"tuple_from_array(part(numbers, n{i}, c{i}), e{i}{chosen})"
-            given = f"{own}, at{i}, part(memory, m{i}, z{i}), s, oil{more}"
-            given += f", o{i}" if name == "write" else ""
-            lines.append(f"        {line.format(call=f'{name}({given})')}")
+        begin = "math.inf" if name == "time_to_jump" else "0.0"
+        lines += [f"    def all_{name}({_GIVEN}{more}):", f"        total = {begin}"]
+        for i, call in enumerate(elements):
+            if hasattr(call.numbers, name):
+                names.append(f"{name}{i}")
+                given.append(getattr(call.numbers, name))
+                place = f", o{i}" if name == "write" else ""
+                code = f"{name}{i}({calls[i]}{more}{place})"
+                lines.append(f"        {line.format(call=code)}")
         lines.append(f"        return {result}")
-    return "\n".join([*lines, f"    return {', '.join(f'all_{name}' for name in _LINES)}"])
+    made = f"    return {', '.join(f'all_{name}' for name in _LINES)}"
+    return "\n".join([f"def make({', '.join(names)}):", *lines, made]), given
 
 
 def _called(elements: Sequence[Call]) -> tuple[Callable[..., Any], ...]:
     """Return the kernels that call all elements, in the order of _LINES."""
     space: dict[str, Any] = {"__name__": __name__, "math": math}
-    text = _text([len(call.variants) for call in elements])
+    text, given = _text(elements)
     exec(compile(text, __file__, "exec"), space)
-    constants = [one for call in elements for one in call]
-    by_class = [getattr(calls, name) for name in _LINES]
-    made: tuple[Callable[..., Any], ...] = space["make"](
-        kernel, inside, part, tuple_from_array, *by_class, *constants
-    )
+    made: tuple[Callable[..., Any], ...] = space["make"](*given)
     return made
 
 
