@@ -19,6 +19,7 @@ from fmu_src.native.build import libraries, native_guid
 from fmu_src.native.models import native_model
 from fmu_src.native.platforms import PLATFORMS, platform_of_this_machine
 from tests.helpers.fmu_cases import CASES
+from tests.helpers.small_native_builds import unpacked
 from tests.helpers.small_native_model import small_native_model
 
 _LOGGER = logging.getLogger("bench_native_calls")
@@ -40,8 +41,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for model, read in models:
-            path = folder / f"{model.definition.name}{platform.suffix}"
-            path.write_bytes(libraries(model, [platform])[platform.name])
+            built = libraries(model, [platform])[platform.name]
+            path = unpacked(model, folder / model.definition.name, built, platform)
             references = model.definition.references
             own = [str(path), str(native_guid(model)), str(references[read]), _SHORTEST, "-1", "0"]
             if model is small:  # as little physics as it can have

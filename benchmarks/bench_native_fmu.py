@@ -19,6 +19,7 @@ from pathlib import Path
 import fmpy
 from fmpy import extract, read_model_description
 
+from drivetrain.train.train_file import TrainFile
 from fmu_src.build import build_models
 from fmu_src.native.build import NativeOptions
 from fmu_src.native.platforms import platform_of_this_machine
@@ -55,7 +56,7 @@ def compiled(folder: Path, source: Path = _SOURCE) -> Path:
 def arguments(fmu: Path, folder: Path) -> list[str]:
     extracted = Path(extract(str(fmu), str(folder / fmu.stem)))
     description = read_model_description(str(extracted))
-    (read,) = (v for v in description.modelVariables if v.name == "mesh.dte")
+    read = next(v for v in description.modelVariables if v.name.endswith(".dte"))
     library = extracted / "binaries" / "linux64" / f"{fmu.stem}.so"
     resources = (extracted / "resources").as_uri()
     return [str(library), resources, description.guid, str(read.valueReference)]
@@ -95,6 +96,11 @@ def main() -> None:
                     "%s, %g s: %.1f simulated seconds a second native, %.1f in Python, ratio %.2f",
                     of_native.stem, h, *rates, rates[0] / rates[1],
                 )  # fmt: skip
+        for name in TrainFile.shipped():
+            (fmu,) = build_models(folder / "trains", train=name, native=of_this_machine)
+            for h in (1e-4, 1e-3, 1e-2):
+                found = rate(host, arguments(fmu, fmu.parent), h)
+                _LOGGER.info("%s, %g s: %.1f simulated seconds a second", fmu.stem, h, found)
 
 
 if __name__ == "__main__":

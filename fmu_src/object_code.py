@@ -93,8 +93,9 @@ pointer_at: Any = intrinsic(_pointer_at)
 
 def cpu_of_kernels() -> str:
     """Return the processor that intermediate code is made for: it depends on that one's vectors."""
-    if config.CPU_NAME:
-        return f"{config.CPU_NAME} {config.CPU_FEATURES}"
+    chosen: Any = config  # its names are made when it is loaded
+    if chosen.CPU_NAME:
+        return f"{chosen.CPU_NAME} {chosen.CPU_FEATURES}"
     return f"{llvm.get_host_cpu_name()} {llvm.get_host_cpu_features().flatten()}"
 
 

@@ -100,6 +100,7 @@ READERS: Mapping[type, _Reader[Any]] = {
     HypoidAxleParameters: _Reader(HypoidGears, HypoidGears.read),
     Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
 }
+OF_THE_TRAIN = ("steps_per_highest_period",)  # fields that elements have from their train
 _WORDS = {
     "body": "Body on which it acts",
     "pinion": "Body that carries the pinion",
@@ -113,8 +114,6 @@ _WORDS = {
     "right_hand": "Whether the pinion's teeth are right-handed",
     "torque_loss": "Law of the drag, as model.bearing_torque_loss of an axle file",
     "axes": "Places of the two radial axes and the axial one among x, y, z, counted from 0",
-    "steps_per_highest_period": "That of the train, which decides how long an expansion of the "
-    "bearing's forces serves",
     "law": "Law of the churning loss",
 }
 
@@ -127,7 +126,7 @@ def _section_of(kind: Any) -> type[Section]:
     for field in fields(kind):
         name, hint, default = field.name, hints[field.name], field.default
         given: dict[str, Any] = {} if default is MISSING else {"default": default}
-        if name == "name":
+        if name in ("name", *OF_THE_TRAIN):
             continue
         if name in numbers:
             number = numbers[name]
@@ -154,11 +153,11 @@ section_of: Callable[[Any], type[Section]] = cache(_section_of)  # of a body or 
 
 
 def read_part(
-    kind: type[_Part], name: str, data: Mapping[str, Any], head: str
+    kind: type[_Part], name: str, data: Mapping[str, Any], head: str, of_train: Mapping[str, Any]
 ) -> tuple[_Part | None, list[str]]:
     """Return a body or an element of a file's section, or None and what is wrong with it.
 
-    `head` names the section in these sentences.
+    `head` names the section in these sentences; `of_train` has the fields OF_THE_TRAIN.
     """
     section = section_of(kind)
     try:
@@ -177,6 +176,8 @@ def read_part(
                 found[field.name] = si_value(key, getattr(given, key))
             elif reader is not None:
                 found[field.name] = reader.read(getattr(given, key) if reader.nested else given)
+            elif field.name in of_train:
+                found[field.name] = of_train[field.name]
             elif field.name != "name":
                 found[field.name] = getattr(given, key)
         return kind(**found), []

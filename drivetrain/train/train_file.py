@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
-from drivetrain.train.part_section import files_in, read_part
+from drivetrain.train.part_section import OF_THE_TRAIN, files_in, read_part
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
@@ -20,7 +20,7 @@ from gearlube_core.units import ZERO_CELSIUS, rpm_to_rads
 
 _NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
 _RESERVED = ("oil", "range", "energy", "efficiency", "start")  # words of the FMU's own variables
-_TOLD = 20  # wrong fields in an error
+_TOLD, _SHOWN = 20, 80  # wrong fields in an error, signs of a wrong text
 Text = Annotated[str, Field(min_length=1)]
 _FASTEST = 1e5  # 1/min
 Speed = Annotated[float, Field(ge=-_FASTEST, le=_FASTEST, allow_inf_nan=False)]
@@ -87,7 +87,7 @@ class TrainFile(InputFile):
     Examples
     --------
     >>> TrainFile.shipped()
-    ('e_axle',)
+    ('e_axle', 'hypoid_axle')
     >>> axle = TrainFile.named("e_axle").case().start()
     >>> round(axle.state("motor.rz.rate"), 1)  # rad/s
     -837.8
@@ -145,8 +145,8 @@ class TrainFile(InputFile):
     def _parts(self) -> tuple[list[Body], list[Element], list[str]]:
         """Return bodies and elements, and what is wrong with them, in sentences."""
         wrong = [
-            f"{section}.{name} must have a name of letters, digits and _, at most 63, that is "
-            f"none of {', '.join(_RESERVED)}."
+            f"{section}.{name[:_SHOWN]} must have a name of letters, digits and _, at most 63, "
+            f"that is none of {', '.join(_RESERVED)}."
             for section in ("bodies", "elements")
             for name in getattr(self, section)
             if not _NAME.fullmatch(name) or name in _RESERVED
@@ -157,20 +157,22 @@ class TrainFile(InputFile):
             if name in self.bodies
         ]
         bodies, elements = [], []
+        of_train = {name: getattr(self, name) for name in OF_THE_TRAIN}
         for name, given in self.bodies.items():
-            body, problems = read_part(Body, name, given, f"bodies.{name}")
+            body, problems = read_part(Body, name, given, f"bodies.{name}", of_train)
             wrong += problems
             bodies += [body] if body else []
         for name, given in self.elements.items():
             kind = given.get("kind", "")
-            known = ELEMENTS.known(str(kind))
-            if kind not in known:
+            known = ELEMENTS.known(kind if isinstance(kind, str) else "")
+            if not isinstance(kind, str) or kind not in known:
                 wrong.append(
-                    f"elements.{name}.kind must be one of {', '.join(known)}, got {kind!r}. One "
-                    f"of your own must be imported first, or be an entry point of {ELEMENTS.group}."
+                    f"elements.{name}.kind must be one of {', '.join(known)}, got "
+                    f"{str(kind)[:_SHOWN]!r}. One of your own must be imported first, or be an "
+                    f"entry point of {ELEMENTS.group}."
                 )
                 continue
-            element, problems = read_part(known[kind], name, given, f"elements.{name}")
+            element, problems = read_part(known[kind], name, given, f"elements.{name}", of_train)
             wrong += problems
             elements += [element] if element else []
         return bodies, elements, wrong

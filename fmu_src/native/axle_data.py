@@ -1,7 +1,7 @@
-"""What of an axle's constants depends on its mesh table, and what they must be to be used.
+"""What of an axle's constants depends on its mesh table and oils, and what they must be to be used.
 
-    MeshSizes | packed floats of the start values | options | rows | numbers | without losses |
-    film models | levels | series of all options | windows of all options
+    DataSizes | packed floats of the start values | without losses | film models |
+    options | rows | numbers | levels | series of all options | windows of all options
 
 An axle's library is the same for all mesh tables, so it checks the constants that it is given.
 """
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
-from fmu_src.native.parameter_map import AxleSettings, KernelClasses
+from fmu_src.native.parameter_map import AxleSettings, KernelClasses, ParameterMap
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
@@ -37,26 +37,33 @@ _FIXED_WORK = work_size(0, -1)
 _MOST = 1e6  # of anything in a mesh table
 
 
-class MeshSizes(NamedTuple):
+class DataSizes(NamedTuple):
     """Whole numbers at the head of the constants."""
 
     levels: float
     series: float  # coefficients at one level
     orders: float
     nodes: float
+    options: float  # numbers of the map of parameters, see `ParameterMap`
+    rows: float
+    numbers: float
 
     @classmethod
-    def of(cls, mesh: PackedMesh) -> MeshSizes:
-        """Return the sizes of a packed mesh."""
-        return cls(mesh.levels.size, mesh.series_size, mesh.orders, mesh.nodes)
+    def of(cls, mesh: PackedMesh, found: ParameterMap) -> DataSizes:
+        """Return the sizes of a packed mesh and of a map of parameters."""
+        of_mesh = mesh.levels.size, mesh.series_size, mesh.orders, mesh.nodes
+        return cls(*of_mesh, found.options.size, found.rows.size, found.numbers.size)
 
 
-N_SIZES = count_floats(MeshSizes)
+N_SIZES = count_floats(DataSizes)
 
 
-class MeshEnds(NamedTuple):
-    """Where levels, series and windows end among the constants, and how long one option's are."""
+class DataEnds(NamedTuple):
+    """Where the parts of any length end among the constants, and how long one option's are."""
 
+    options: int
+    rows: int
+    numbers: int
     levels: int
     series: int
     windows: int
@@ -65,18 +72,23 @@ class MeshEnds(NamedTuple):
 
 
 @kernel
-def mesh_ends(start: int, sizes: MeshSizes) -> MeshEnds:
-    """Return the places of a mesh table whose levels begin at `start`."""
+def data_ends(start: int, sizes: DataSizes) -> DataEnds:
+    """Return where the parts end that begin with the options, at `start`."""
+    options = start + int(sizes.options)
+    rows = options + int(sizes.rows)
+    numbers = rows + int(sizes.numbers)
     levels = int(sizes.levels)
     series_size = levels * int(sizes.series)
     windows_size = levels * (int(sizes.nodes) + 1) * N_CHANNELS
-    series = start + levels + VARIANTS * series_size
+    series = numbers + levels + VARIANTS * series_size
     windows = series + _PRESSURES * windows_size
-    return MeshEnds(start + levels, series, windows, series_size, windows_size)
+    return DataEnds(
+        options, rows, numbers, numbers + levels, series, windows, series_size, windows_size
+    )
 
 
 @kernel
-def scratch_size(sizes: MeshSizes) -> int:
+def scratch_size(sizes: DataSizes) -> int:
     """Return the length of the scratch that the kernels of the axle ask for."""
     of_steps = _FIXED_WORK + int(sizes.series) + (int(sizes.nodes) + 1) * N_CHANNELS
     return max(of_steps, START_WORK)
@@ -101,28 +113,17 @@ class AxleStructure(NamedTuple):
 
     parameters: int
     # places in data, as in `_Places` of `hypoid_axle`
-    options: int
-    rows: int
-    numbers: int
     lossless: int
     film_model: int
     roller_model: int
-    levels: int
+    options: int
     scratch: int  # in work
 
 
 def axle_structure(at: Any, n_parameters: int) -> AxleStructure:
     """Return the structure of an axle with these places."""
     return AxleStructure(
-        n_parameters,
-        at.options,
-        at.rows,
-        at.numbers,
-        at.lossless,
-        at.film_model,
-        at.roller_model,
-        at.levels,
-        at.scratch,
+        n_parameters, at.lossless, at.film_model, at.roller_model, at.options, at.scratch
     )
 
 
@@ -164,14 +165,22 @@ def _all_finite(values: Array, start: int, end: int) -> bool:
 
 
 @kernel
-def _fits_map(data: Array, s: AxleStructure, options: Array, counting: Array) -> bool:
+def _fits_map(
+    data: Array, s: AxleStructure, ends: DataEnds, literals: Array, counting: Array
+) -> bool:
     """Whether the map of parameters stays in its arrays and leaves counting floats as they are."""
     fits = True
-    packed = max(s.options - N_SIZES, 1)
-    for i in range(options.size):
-        fits = fits and data[s.options + i] == options[i]
-    for k in range((s.lossless - s.numbers) // 2):
-        place, index = data[s.numbers + 2 * k], data[s.numbers + 2 * k + 1]
+    packed = max(s.lossless - N_SIZES, 1)
+    rows = (ends.rows - ends.options) // packed
+    for k in range((ends.options - s.options) // 2):
+        index, row = data[s.options + 2 * k], data[s.options + 2 * k + 1]
+        fits = fits and _is_whole(index, 0.0, s.parameters - 1.0)
+        fits = fits and _is_whole(row, 0.0, float(rows))
+        if fits:
+            options = literals[int(index)]
+            fits = options >= 1.0 and row + options <= rows
+    for k in range((ends.numbers - ends.rows) // 2):
+        place, index = data[ends.rows + 2 * k], data[ends.rows + 2 * k + 1]
         fits = fits and _is_whole(place, 0.0, packed - 1.0)
         fits = fits and _is_whole(index, 0.0, s.parameters - 1.0)
         for i in range(counting.size // 3):
@@ -179,19 +188,18 @@ def _fits_map(data: Array, s: AxleStructure, options: Array, counting: Array) ->
     for i in range(counting.size // 3):
         counts, low, high = int(counting[3 * i]), counting[3 * i + 1], counting[3 * i + 2]
         fits = fits and _is_whole(data[N_SIZES + counts], low, high)
-        for row in range((s.numbers - s.rows) // packed):
-            value = data[s.rows + row * packed + counts]
+        for row in range(rows):
+            value = data[ends.options + row * packed + counts]
             fits = fits and (value != value or _is_whole(value, low, high))
     return fits
 
 
 @kernel
-def _fits_mesh(data: Array, s: AxleStructure, sizes: MeshSizes) -> bool:
+def _fits_mesh(data: Array, ends: DataEnds, sizes: DataSizes) -> bool:
     """Whether a mesh table whose sizes are sound has an end of its levels and of its series."""
-    ends = mesh_ends(s.levels, sizes)
     tail = N_SERIES * (2 * int(sizes.orders) + 1)
     room = float(int(sizes.series) - tail - SHAFT_HEAD)
-    fits = data[ends.levels - 1] >= 0.0 and _all_finite(data, s.levels, ends.windows)
+    fits = data[ends.levels - 1] >= 0.0 and _all_finite(data, ends.numbers, ends.windows)
     if fits and int(sizes.series) > tail:
         for k in range(VARIANTS * int(sizes.levels)):
             at = ends.levels + k * int(sizes.series) + tail
@@ -203,7 +211,7 @@ def _fits_mesh(data: Array, s: AxleStructure, sizes: MeshSizes) -> bool:
 
 @kernel
 def check_axle_data(
-    data: Any, lengths: Array, s: AxleStructure, options: Array, counting: Array
+    data: Any, lengths: Array, s: AxleStructure, literals: Array, counting: Array
 ) -> int:
     """Return 0 if constants can be used by an entry of this structure, else 1.
 
@@ -213,26 +221,31 @@ def check_axle_data(
     lengths : ndarray of shape (2,)
         Of data and work.
     s : AxleStructure
-    options, counting : ndarray
-        Of the map of parameters, and of `counting_floats`.
+    literals : ndarray of shape (s.parameters,)
+        How many options each parameter has; none for numbers.
+    counting : ndarray
+        Of `counting_floats`.
     """
-    if not lengths[0] >= s.levels:
+    if not lengths[0] >= s.options:
         return 1
-    sizes: MeshSizes = tuple_from_array(array_at(data, N_SIZES), MeshSizes)
+    sizes: DataSizes = tuple_from_array(array_at(data, N_SIZES), DataSizes)
     whole = _is_whole(sizes.levels, 1.0, _MOST) and _is_whole(sizes.orders, 0.0, _MOST)
     whole = whole and _is_whole(sizes.nodes, 1.0, _MOST) and _is_whole(sizes.series, 1.0, _MOST)
-    if not whole:
+    packed = s.lossless - N_SIZES
+    whole = whole and _is_whole(sizes.options, 0.0, _MOST) and _is_whole(sizes.rows, 0.0, _MOST)
+    whole = whole and _is_whole(sizes.numbers, 0.0, _MOST) and int(sizes.rows) % packed == 0
+    if not (whole and int(sizes.options) % 2 == 0 and int(sizes.numbers) % 2 == 0):
         return 1
     least = N_SERIES * (2 * int(sizes.orders) + 1)
     behind = int(sizes.series) - least
     if behind < 0 or 0 < behind < SHAFT_HEAD:
         return 1
-    ends = mesh_ends(s.levels, sizes)
+    ends = data_ends(s.options, sizes)
     if lengths[0] != ends.windows or lengths[1] != s.scratch + scratch_size(sizes):
         return 1
     values = array_at(data, ends.windows)
-    fits = _fits_map(values, s, options, counting) and _fits_mesh(values, s, sizes)
-    fits = fits and _all_finite(values, 0, s.rows)
+    fits = _fits_map(values, s, ends, literals, counting) and _fits_mesh(values, ends, sizes)
+    fits = fits and _all_finite(values, 0, s.lossless)
     fits = fits and _is_whole(values[s.film_model + UNITS], 1.0, float(WIDTH))
     fits = fits and _is_whole(values[s.roller_model + UNITS], 1.0, float(WIDTH))
     return 0 if fits else 1

@@ -18,7 +18,7 @@ import numpy as np
 
 from fmu_src.definition import Definition
 from fmu_src.helical_pair import EmbeddedPair, chosen_pair, embedded_pair, line_model_of
-from fmu_src.helical_variables import CUSTOM
+from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
 from fmu_src.object_code import array_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
@@ -57,6 +57,7 @@ class CaseHead(NamedTuple):
 
 
 HEAD_FLOATS = count_floats(CaseHead)
+_LITERALS = np.array([float(len(v.literals)) for v in HELICAL_PAIR if v.is_model_parameter])
 _MOST = 1e6  # of anything in a line mesh
 
 
@@ -64,7 +65,6 @@ class CasePlaces(NamedTuple):
     """Where the parts of the constants begin, and what else all cases have in common."""
 
     film_models: int  # as many numbers of cases lie before
-    oils: int
     cases: int
     work: int  # without pair data
     uniform_size: int  # room for the density of the stiffness model uniform
@@ -204,11 +204,14 @@ def _case_length(case: Any, uniform: bool, places: CasePlaces) -> tuple[int, int
 
 
 @kernel
-def check_cases(data: Any, lengths: Array, places: CasePlaces) -> int:
+def check_cases(data: Any, lengths: Array, literals: Array, places: CasePlaces) -> int:
     """Return 0 if constants of this length can be used, else 1; `data` is a C pointer.
 
-    `lengths` are those of data and work.
+    `lengths` are those of data and work, and `literals` how many options each parameter has.
     """
+    for i in range(_LITERALS.size):
+        if literals[i] != _LITERALS[i]:
+            return 1
     if not places.cases <= lengths[0] <= 1e9:
         return 1
     values = array_at(data, int(lengths[0]))

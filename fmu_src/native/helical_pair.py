@@ -159,7 +159,7 @@ MISSING_CASE = 10  # and its number
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
 _CHECK = int(Operation.CHECK)
 _CASES_AT = _OILS_AT + OIL_FLOATS * len(_PARAMETERS["oil"].literals)
-_PLACES = CasePlaces(_FILM_MODELS_AT, _OILS_AT, _CASES_AT, DATA_AT, _UNIFORM_SIZE)
+_PLACES = CasePlaces(_FILM_MODELS_AT, _CASES_AT, DATA_AT, _UNIFORM_SIZE)
 
 
 @kernel
@@ -264,9 +264,9 @@ def _entry(laws: tuple[OilLaws, ...]) -> Callable[..., int]:
         work: Any,
         outputs: Any,
     ) -> int:
-        """Start, step or read a pair; see `NativeModel`."""
         if operation == _CHECK:
-            return check_cases(data, array_at(parameters, 2), _PLACES)
+            literals = array_at(inputs, N_PARAMETERS)
+            return check_cases(data, array_at(parameters, 2), literals, _PLACES)
         given = array_at(parameters, N_PARAMETERS)
         fixed = array_at(work, DATA_AT)
         if operation in (_START, _RESUME):

@@ -14,13 +14,14 @@ from fmu_src.hypoid_axle import car_axle_in
 from fmu_src.native.axle_data import (
     N_SIZES,
     AxleStructure,
-    MeshSizes,
+    DataEnds,
+    DataSizes,
     axle_structure,
     check_axle_data,
     counting_floats,
+    data_ends,
     kind_of_classes,
     mesh_data,
-    mesh_ends,
     scratch_size,
 )
 from fmu_src.native.model import Exchange, NativeModel, Operation
@@ -87,18 +88,15 @@ _STATE_SIZE = _CONTROL_AT + _N_CONTROL
 class _Places(NamedTuple):
     """Where the parts of `data` and `work` begin; whole numbers, alike for all axles of a kind.
 
-    In data `MeshSizes` come first, then the packed floats of the start values.
+    In data `DataSizes` come first, then the packed floats of the start values. What has any length
+    lies from the options on, see `data_ends`.
     """
 
     # in data
-    options: int
-    rows: int
-    numbers: int
     lossless: int  # for each float of `AxleParameters` its value without losses, or NaN: unchanged
     film_model: int
     roller_model: int
-    levels: int  # then series for each of `Radii`, for each of `MeshStiffness`, and windows for
-    # each of `PRESSURES`
+    options: int
     # in work
     settings: int
     without_losses: int
@@ -124,6 +122,7 @@ def _write_parameters(
     parameters: Array,
     data: Array,
     at: _Places,
+    ends: DataEnds,
     bearing: type[ShaftBearings],
     law: type[FlankLaw],
     work: Array,
@@ -131,10 +130,10 @@ def _write_parameters(
     """Write everything that follows from the FMI parameters into `work`; return a status."""
     write_packed(
         parameters,
-        data[N_SIZES : at.options],
-        data[at.options : at.rows],
-        data[at.rows : at.numbers],
-        data[at.numbers : at.lossless],
+        data[N_SIZES : at.lossless],
+        data[at.options : ends.options],
+        data[ends.options : ends.rows],
+        data[ends.rows : ends.numbers],
         work,
     )
     p: AxleParameters = tuple_from_array(work, AxleParameters, bearing, law)
@@ -162,10 +161,9 @@ def _write_parameters(
 
 
 @kernel
-def _chosen_mesh(sizes: MeshSizes, at: _Places, work: Array) -> tuple[int, int]:
+def _chosen_mesh(ends: DataEnds, at: _Places, work: Array) -> tuple[int, int]:
     """Return where series and windows of the options that are set in `work` begin in data."""
     settings: AxleSettings = tuple_from_array(work[at.settings :], AxleSettings)
-    ends = mesh_ends(at.levels, sizes)
     variant = int(settings.radii) * _STIFFNESSES + int(settings.stiffness)
     series = ends.levels + variant * ends.series_size
     return series, ends.series + int(settings.pressure) * ends.windows_size
@@ -178,12 +176,11 @@ def _entry(
     n_parameters: int,
     at_speed: int,
     structure: AxleStructure,
-    options: Array,
     counting: Array,
 ) -> Callable[..., int]:
     """Return the entry of a model with these bearings, flanks and own laws of the oil.
 
-    `at` says how its data and work lie; the last three, what the data must be like.
+    `at` says how its data and work lie; the last two, what the data must be like.
     """
     bearing, law = kinds
     kernels = axle_kernels(bearing, law)
@@ -204,9 +201,11 @@ def _entry(
         outputs: Any,
     ) -> int:
         if operation == _CHECK:
-            return check_axle_data(data, array_at(parameters, 2), structure, options, counting)
-        head: MeshSizes = tuple_from_array(array_at(data, N_SIZES), MeshSizes)
-        constants = array_at(data, at.levels)
+            literals = array_at(inputs, n_parameters)
+            return check_axle_data(data, array_at(parameters, 2), structure, literals, counting)
+        head: DataSizes = tuple_from_array(array_at(data, N_SIZES), DataSizes)
+        ends = data_ends(at.options, head)
+        constants = array_at(data, ends.numbers)
         work_end = at.scratch + scratch_size(head)
         values = array_at(work, work_end)
         kept = array_at(state, _STATE_SIZE)
@@ -214,13 +213,12 @@ def _entry(
         out = array_at(outputs, N_OUTPUTS)
         if operation in (_START, _RESUME):
             given_parameters = array_at(parameters, n_parameters)
-            status = _write_parameters(given_parameters, constants, at, bearing, law, values)
+            status = _write_parameters(given_parameters, constants, at, ends, bearing, law, values)
             if status != OK or operation == _RESUME:
                 return status
-        ends = mesh_ends(at.levels, head)
-        series, windows = _chosen_mesh(head, at, values)
+        series, windows = _chosen_mesh(ends, at, values)
         mesh = (
-            array_at(pointer_at(data, at.levels), int(head.levels)),
+            array_at(pointer_at(data, ends.numbers), int(head.levels)),
             array_at(pointer_at(data, series), ends.series_size),
             int(head.orders),
             array_at(pointer_at(data, windows), ends.windows_size),
@@ -291,9 +289,9 @@ def _entry(
 
 def _places(found: ParameterMap, place: Any) -> _Places:
     """Return the layout of data and work; `place` is that of `place_of_each`."""
-    ends = (N_SIZES + np.cumsum([array.size for array in found.arrays])).tolist()
     n_parameters = flatten(place).size
-    film_model = ends[3] + n_parameters
+    lossless = N_SIZES + found.base.size
+    film_model = lossless + n_parameters
     roller_model = film_model + N_FLANK_MODEL
     without = n_parameters + _N_SETTINGS
     trial = without + n_parameters
@@ -302,13 +300,10 @@ def _places(found: ParameterMap, place: Any) -> _Places:
     roller_films = films + N_FLANK_MODEL
     scratch = roller_films + N_ARRAY
     return _Places(
-        options=ends[0],
-        rows=ends[1],
-        numbers=ends[2],
-        lossless=ends[3],
+        lossless=lossless,
         film_model=film_model,
         roller_model=roller_model,
-        levels=roller_model + N_ARRAY,
+        options=roller_model + N_ARRAY,
         settings=n_parameters,
         without_losses=without,
         trial=trial,
@@ -345,15 +340,16 @@ def native_model(definition: Definition) -> NativeModel:
     found = parameter_map(definition.variables, pack, derived_places(place, p))
     packed_mesh, series, windows = mesh_data(by_default)
     at = _places(found, place)
-    sizes = MeshSizes.of(packed_mesh)
+    sizes = DataSizes.of(packed_mesh, found)
     unknown = tuple_from_array(np.full(at.settings, np.nan), AxleParameters, *kinds)
     data = np.concatenate(
         [
             flatten(sizes),
-            *found.arrays,
+            found.base,
             flatten(without_losses(unknown)),  # NaN where they stay
             flank_film_model(by_default.flank_film_model or shipped_model(FLANK)),
             roller_film_model("solved_films", by_default.roller_film_model),
+            *found.arrays[1:],
             packed_mesh.levels,
             *series,
             *windows,
@@ -364,12 +360,10 @@ def native_model(definition: Definition) -> NativeModel:
     at_speed = parameters.index("pinion_speed")
     laws = by_default.oil.own_laws()
     structure, counting = axle_structure(at, len(parameters)), counting_floats(place, at)
-    words = (len(parameters), at_speed, at, found.options.tolist(), counting.tolist())
+    words = (len(parameters), at_speed, at, counting.tolist())
     return NativeModel(
         definition=definition,
-        entry=_entry(
-            kinds, laws, at, len(parameters), at_speed, structure, found.options, counting
-        ),
+        entry=_entry(kinds, laws, at, len(parameters), at_speed, structure, counting),
         kind="" if laws else kind_of_classes(kinds, words),
         data=data,
         state_size=_STATE_SIZE,

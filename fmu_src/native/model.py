@@ -62,7 +62,8 @@ class Operation(IntEnum):
     FLANKS = 7  # state after a step -> the outputs of this group, see `groups`
     BEARINGS = 8  # likewise
     RACEWAYS = 9  # likewise
-    CHECK = 10  # lengths of data and work as `parameters` -> OK if the data can be used; see `kind`
+    CHECK = 10  # OK if the data can be used; `parameters` are the lengths of data and work, and
+    # `inputs` how many options each parameter has; see `kind`
 
 
 @dataclass(frozen=True, kw_only=True)

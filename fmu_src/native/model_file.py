@@ -16,7 +16,7 @@ from fmu_src.variable import Variable
 MODEL_FILE = "model.bin"
 MARK, KIND_SIZE, GUID_SIZE = b"gearmod1", 40, 40
 COUNTS_AT = len(MARK) + KIND_SIZE + GUID_SIZE
-N_COUNTS = 5  # data, work, text, members, refusals
+N_COUNTS = 6  # data, work, text, members, refusals, literals
 CHECKSUM_AT = COUNTS_AT + 4 * N_COUNTS
 HEAD_SIZE = CHECKSUM_AT + 4
 # as the enumerations of `model.h` count
@@ -91,6 +91,7 @@ def model_body(model: NativeModel) -> tuple[bytes, list[int]]:
             references[variable.option_of] if variable.option_of else -1,
             _needs(variable, model),
             len(members.get(i, ())),
+            len(variable.literals),
         ]
     rows += [words.place(literal) for variable in variables for literal in variable.literals]
     in_order = [reference for first in sorted(members) for reference in members[first]]
@@ -115,7 +116,9 @@ def model_body(model: NativeModel) -> tuple[bytes, list[int]]:
             words.text,
         ]
     )
-    counts = [len(model.data), model.work_size, len(words.text), len(in_order), len(model.refusals)]
+    n_literals = sum(len(variable.literals) for variable in variables)
+    of_model = [len(model.data), model.work_size, len(words.text)]
+    counts = [*of_model, len(in_order), len(model.refusals), n_literals]
     return body, counts
 
 

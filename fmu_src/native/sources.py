@@ -6,6 +6,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from zlib import crc32
+
+import numpy as np
 
 from fmu_src.native.model import NativeModel
 from fmu_src.variable import Variable
@@ -66,6 +69,12 @@ def _each(name: str) -> str:
     return f", of each {name.partition('[')[0]}"
 
 
+def _macro(name: str, numbers: Sequence[int]) -> list[str]:
+    """Return the lines that define the initialiser of an array."""
+    rows = (numbers[i : i + _A_LINE] for i in range(0, len(numbers), _A_LINE))
+    return [f"#define {name} {{ \\", *(f"    {', '.join(map(str, row))}, \\" for row in rows), "}"]
+
+
 def model_sizes(model: NativeModel, kind: str) -> str:
     """Return `model_sizes.h`: all that a library knows of its model.
 
@@ -95,9 +104,11 @@ def model_sizes(model: NativeModel, kind: str) -> str:
         "EXCEEDED": definition.references.get(RANGE_EXCEEDED, 0),
         "DATA": _ANY if any_length else len(model.data),
         "WORK": _ANY if any_length else model.work_size,
+        "DATA_SUM": f"{_data_sum(model)}u",
     }
-    literals = [str(len(variable.literals)) for variable in variables]
-    rows = [", ".join(literals[i : i + _A_LINE]) for i in range(0, len(literals), _A_LINE)]
+    options = [len(variable.literals) for variable in variables if variable.is_model_parameter]
+    if any_length:
+        options = [_ANY if count else 0 for count in options]
     lines = [f"#define GL_{name} {size}" for name, size in sizes.items()]
     return "\n".join(
         [
@@ -107,14 +118,19 @@ def model_sizes(model: NativeModel, kind: str) -> str:
             f'#define GL_MODEL_NAME "{definition.name}"',
             f'#define GL_KIND "{kind}" /* of which the file of the model must be */',
             *lines,
-            "/* How many options each variable has. */",
-            "#define GL_LITERALS { \\",
-            *(f"    {row}, \\" for row in rows),
-            "}",
+            "/* How many options each parameter of the model has. */",
+            *_macro("GL_OPTIONS", options),
             f"#define GL_LONGEST_STEP {MAX_STEP!r} /* s */",
             "#endif\n",
         ]
     )
+
+
+def _data_sum(model: NativeModel) -> int:
+    """Return the checksum of the data that a library for one model alone takes; else 0."""
+    if model.kind or model.entry is None:
+        return 0
+    return crc32(np.asarray(model.data, dtype="<f8").tobytes())
 
 
 def c_sources(model: NativeModel, kind: str = "") -> dict[str, str]:

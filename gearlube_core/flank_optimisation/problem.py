@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from os.path import isfile
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -210,7 +210,7 @@ def read_gear_file(name: str) -> GearFile:
         return HelicalGearFile.named(name)
     if name in HypoidGearFile.shipped():
         return HypoidGearFile.named(name)
-    if not (name.endswith(".toml") or Path(name).is_file()):
+    if not (name.endswith(".toml") or isfile(name)):
         known = ", ".join((*HypoidGearFile.shipped(), *HelicalGearFile.shipped()))
         raise ParameterError(f"No gear file is called {name!r}. Shipped: {known}. Or give a path.")
     pair = read_toml(name, "gear file").get("pair")

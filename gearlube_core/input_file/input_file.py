@@ -9,6 +9,7 @@ import re
 import tomllib
 from collections.abc import Collection, Mapping, Sequence
 from importlib.resources import files
+from os.path import isdir, isfile  # false for a name that no file can have
 from pathlib import Path
 from typing import Any, ClassVar, Literal, NamedTuple, Self
 
@@ -142,7 +143,7 @@ class InputFile(Section):
         places = cls._places(data, Path(path).parent.absolute())
         found = cls.from_data(data, str(path))
         for field, place in places.items():
-            if not place.is_file():
+            if not isfile(place):
                 reason = IsADirectoryError() if place.is_dir() else FileNotFoundError()
                 raise ParameterError(
                     f"{unread('file', place, reason)}. {path} names it in {field}; a relative "
@@ -186,7 +187,7 @@ class InputFile(Section):
             if not isinstance(text, str) or not text:
                 continue
             place = folder / text
-            if place.is_file() or Path(text).suffix or len(Path(text).parts) > 1:
+            if isfile(place) or Path(text).suffix or len(Path(text).parts) > 1:
                 places[field] = place
                 if cls.absolute_files:
                     section[key] = str(place)
@@ -219,8 +220,8 @@ class InputFile(Section):
     def given(cls, name: str) -> Self:
         """Return the file at a path, where the name is one or ends in .toml, or a shipped one."""
         path = Path(name)
-        is_file = name.endswith(".toml") or path.is_file()
-        is_file = is_file or (path.is_dir() and name not in cls.shipped())
+        is_file = name.endswith(".toml") or isfile(path)
+        is_file = is_file or (isdir(path) and name not in cls.shipped())
         return cls.from_toml(name) if is_file else cls.named(name)
 
     @classmethod

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
+from os.path import isfile
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -284,7 +285,7 @@ def read_oil(name: str | Path) -> DescribedOil:
     3.8
     """
     text = str(name)
-    if text.endswith(".toml") or Path(text).is_file():
+    if text.endswith(".toml") or isfile(text):
         return read_oil_file(Path(text))
     if text in lubricant_names():
         return described_library_oil(text)

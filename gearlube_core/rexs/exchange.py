@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from os.path import isfile
 from pathlib import Path
 from typing import Any
 
@@ -167,7 +168,7 @@ def pair_file(name: str) -> PairFile:
     for kind in kinds:
         if name in kind.shipped():
             return kind.named(name)
-    if not (name.endswith(".toml") or Path(name).is_file()):
+    if not (name.endswith(".toml") or isfile(name)):
         shipped = ", ".join(one for kind in kinds for one in kind.shipped())
         raise ParameterError(f"No gear file is called {name!r}. Shipped: {shipped}")
     from gearlube_core.input_file.input_file import read_toml

@@ -53,9 +53,19 @@ def test_the_report_says_where_the_power_goes(rotors: Path) -> None:
         said = [one.headline for one in findings(found)]
     assert any(re.match(r"The drivetrain loses 31\d W\.", one) for one in said), said
     assert any(one.startswith("The energy balance closes") for one in said)
+    assert not any(one.startswith("The speed of") for one in said)  # the brake takes 0.03 %
     page = (rotors / "report.html").read_text("utf-8")
     assert "Natural frequencies, and which bodies move" in page
     assert "Transmission error of every mesh" not in page  # there is none
+
+
+def test_torques_that_do_not_balance_are_told(rotors: Path) -> None:
+    with xr.open_dataset(rotors / FILE) as found:
+        faster = found.load()
+    faster["load.speed"] = faster["load.speed"] * np.linspace(1.0, 1.5, faster.sizes["time"])
+    (said,) = [one for one in findings(faster) if one.headline.startswith("The speed of")]
+    assert said.level == "warning"
+    assert said.headline == "The speed of load changes from 1000 to 1500 rpm."
 
 
 def test_the_example_is_a_file_to_start_from(tmp_path: Path) -> None:

@@ -9,11 +9,14 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
 
 from drivetrain.train.train_file import TrainFile
 from fmu_src.build import build_models
 from fmu_src.check import problems
 from fmu_src.native.build import NativeOptions
+from fmu_src.native.model_file import HEAD_SIZE, MODEL_FILE, with_checksum
 from fmu_src.native.platforms import platform_of_this_machine
 from fmu_src.train import definition_with_train
 from gearlube_core.errors import ParameterError
@@ -107,9 +110,6 @@ def test_it_computes_what_the_train_computes_in_python(fmus: list[Path], tmp_pat
 
 
 def test_a_saved_state_goes_on_as_if_nothing_had_been(fmus: list[Path]) -> None:
-    from fmpy import extract, read_model_description
-    from fmpy.fmi2 import FMU2Slave
-
     description = read_model_description(str(fmus[0]))
     references = {v.name: v.valueReference for v in description.modelVariables}
     asked = [
@@ -136,6 +136,22 @@ def test_a_saved_state_goes_on_as_if_nothing_had_been(fmus: list[Path]) -> None:
     assert fmu.getReal(asked) == wanted
     assert saved != wanted
     fmu.terminate()
+    fmu.freeInstance()
+
+
+def test_another_number_in_the_file_of_the_model_is_refused(fmus: list[Path]) -> None:
+    """The library is made for the numbers of this train, so it takes no others."""
+    folder = Path(extract(str(fmus[0])))
+    description = read_model_description(str(folder))
+    file = folder / "resources" / MODEL_FILE
+    sound = file.read_bytes()
+    identifier = description.coSimulation.modelIdentifier
+    fmu = FMU2Slave(guid=description.guid, unzipDirectory=str(folder), modelIdentifier=identifier)
+    file.write_bytes(with_checksum(sound[: HEAD_SIZE + 7] + b"\x41" + sound[HEAD_SIZE + 8 :]))
+    with pytest.raises(Exception, match="instantiate"):
+        fmu.instantiate()
+    file.write_bytes(sound)
+    fmu.instantiate()
     fmu.freeInstance()
 
 

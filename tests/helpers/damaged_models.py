@@ -161,10 +161,12 @@ def main() -> None:
             numbers = [f"--count={count}", f"--seed={given.seed}", f"--first={given.first}"]
             command = [sys.executable, "-m", "tests.helpers.damaged_models", f"--library={path}"]
             environment = watching_environment() | {"PYTHONPATH": os.fspath(ROOT)}
-            with Path(os.devnull).open("w") as nowhere:  # refusals are said there too
+            with (folder / "said").open("w") as said:  # refusals too
                 done = subprocess.run(
-                    command + numbers, cwd=ROOT, env=environment, stderr=nowhere, check=False
+                    command + numbers, cwd=ROOT, env=environment, stderr=said, check=False
                 )
+            if done.returncode:
+                sys.stdout.write((folder / "said").read_text("utf-8", "replace")[-3000:])
             sys.stdout.write(f"{name}: {count} files, exit status {done.returncode}\n")
             failed = failed or done.returncode != 0
     sys.exit(failed)

@@ -14,7 +14,7 @@ import pytest
 from fmu_src.native.build import libraries, native_guid
 from fmu_src.native.platforms import PLATFORMS, fmi_headers
 from tests.helpers.native_library import OK, NativeInstance
-from tests.helpers.small_native_builds import MODEL, linux_library, loaded
+from tests.helpers.small_native_builds import MODEL, linux_library, loaded, unpacked
 
 HOST = Path(__file__).with_name("small_host.c")
 NAMES = ("pinion.angle", "pinion.speed", "wheel.angle", "wheel.speed")
@@ -68,8 +68,8 @@ def test_a_host_in_c_gets_the_numbers_that_python_gets(tmp_path: Path) -> None:
 @pytest.mark.skipif(WINE is None, reason="no wine to run a program of Windows")
 def test_the_windows_library_gives_the_numbers_of_the_linux_library(tmp_path: Path) -> None:
     platform = PLATFORM["x86_64-windows"]
-    library = tmp_path / "RotatingMass.dll"
-    library.write_bytes(libraries(MODEL, [platform])[platform.name])
+    built = libraries(MODEL, [platform])[platform.name]
+    library = unpacked(MODEL, tmp_path / "fmu", built, platform)
     host = compiled_host(tmp_path, platform.zig)
     environment = {"WINEPREFIX": str(tmp_path / "wine"), "WINEDEBUG": "-all"}
     found = outputs_of([str(WINE), str(host), str(library)], environment)

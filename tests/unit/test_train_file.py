@@ -1,6 +1,10 @@
 """Train files: what they make of their fields, and what they say of wrong ones."""
 
+import math
+import random
 import tomllib
+from contextlib import suppress
+from copy import deepcopy
 
 import numpy as np
 import pytest
@@ -8,7 +12,6 @@ import pytest
 from drivetrain.train.part_section import section_of
 from drivetrain.train.train_file import TrainFile
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
-from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
 from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
 from gearlube_core.dynamics.train.part import ELEMENTS
 from gearlube_core.errors import ParameterError
@@ -59,53 +62,17 @@ def test_every_kind_of_element_has_fields_in_a_file():
 
 
 def test_the_hypoid_axle_as_a_file_is_its_list():
-    """The paper's axle written by hand has the elements of the builder, number by number."""
+    """The file written by hand has the elements of the builder, number by number."""
     paper = mohammadpour_2015_axle()
     bodies, elements = hypoid_axle(paper)
-    bearing = elements[3].bearing
-    data = {
-        "name": "axle",
-        "oil": {"name": "mohammadpour_2015"},
-        "start": {"speed_rpm": {"gear": 300.0}, "torque_n_m": {"input": 50.0, "output": 178.0}},
-        "bodies": {
-            one.name: {
-                "mass_kg": one.mass,
-                "inertia_kg_m2": 1.0,
-                "polar_inertia_kg_m2": one.polar_inertia,
-                "held": ["rx", "ry"],
-            }
-            for one in bodies
-        },
-        "elements": {
-            "input": {"kind": "port", "body": "pinion"},
-            "output": {"kind": "port", "body": "gear", "sign": -1.0},
-            "mesh": {
-                "kind": "hypoid_mesh",
-                "pinion": "pinion",
-                "gear": "gear",
-                "torque_of": "input",
-                "axle_file": "mohammadpour_2015",
-            },
-            "pinion_bearings": {
-                "kind": "opposed_bearings",
-                "body": "pinion",
-                "orders": elements[3].orders,
-                "axes": [2, 1, 0],
-                "bearing": {"preload_n": bearing.preload_force()},
-            },
-        },
-    }
-    train = TrainFile.from_data(data, "axle.toml").case().train
+    train = TrainFile.named("hypoid_axle").case().train
     assert train.bodies == tuple(bodies)
-    assert train.elements[:2] == tuple(elements[:2])
-    made = train.elements[3]
-    assert isinstance(made, OpposedBearings)
-    assert made.bearing.parameters() == pytest.approx(bearing.parameters(), rel=1e-12)
-    assert made.axes == elements[3].axes
-    np.testing.assert_array_equal(train.elements[2].memory(), elements[2].memory())
-    np.testing.assert_array_equal(
-        flatten(train.elements[2].numbers()), flatten(elements[2].numbers())
-    )
+    assert train.steps_per_highest_period == paper.steps_per_highest_period
+    for one, other in zip(train.elements, elements, strict=True):
+        assert type(one) is type(other)
+        np.testing.assert_allclose(flatten(one.numbers()), flatten(other.numbers()), rtol=1e-12)
+        np.testing.assert_array_equal(one.memory(), other.memory())
+        assert one.sizes() == other.sizes()
 
 
 def test_an_element_from_outside_the_package_has_a_section():
@@ -171,6 +138,27 @@ def test_all_that_is_wrong_is_said_at_once():
     with pytest.raises(ParameterError, match=r"my\.toml has 2 wrong field\(s\)") as caught:
         read(WRONG["another unit"][0], WRONG["a mass as a text"][0])
     assert "bodies.motor.mass_kg" in str(caught.value)
+
+
+def test_any_value_in_any_place_is_taken_or_refused_in_words():
+    """Nothing but a ParameterError comes of a wrong file."""
+    values = (None, True, -1, 0, 1e300, math.nan, math.inf, "", "x" * 300, [], [1, 2], {},
+              {"a": 1}, 10**17, ["x", "x"], "mohammadpour_2015", "../x.toml")  # fmt: skip
+    chance = random.Random(3)
+    for name in TrainFile.shipped():
+        whole = tomllib.loads(TrainFile.shipped_text(name))
+        sections = [whole, *whole.values(), *whole["bodies"].values(), *whole["elements"].values()]
+        count = sum(isinstance(one, dict) for one in sections)
+        for _ in range(40):
+            data = deepcopy(whole)
+            sections = [data, *data.values(), *data["bodies"].values(), *data["elements"].values()]
+            section = [one for one in sections if isinstance(one, dict)][chance.randrange(count)]
+            key, value = chance.choice(list(section)), chance.choice(values)
+            section[key] = value
+            if value is None:
+                del section[key]
+            with suppress(ParameterError):
+                TrainFile.from_data(data, "my.toml")
 
 
 def test_paths_count_from_the_folder_of_the_file(tmp_path):

@@ -91,7 +91,7 @@ enum {
     GL_BEARINGS,
     GL_RACEWAYS,
     GL_CHECK /* only of an entry that takes data of any length: `parameters` are the lengths of data
-                and work */
+                and work, `inputs` how many options each parameter has */
 };
 
 /* The physics: compiled from the same kernels as the Python models. Returns 0 or the status of a

@@ -15,13 +15,13 @@
 
 enum { MARK_SIZE = 8, KIND_SIZE = 40, GUID_AT = MARK_SIZE + KIND_SIZE, COUNTS_AT = GUID_AT + 40 };
 /* What the head counts. */
-enum { DATA, WORK, TEXT, MEMBERS, REFUSALS, COUNTS };
+enum { DATA, WORK, TEXT, MEMBERS, REFUSALS, LITERALS, COUNTS };
 enum { CHECKSUM_AT = COUNTS_AT + 4 * COUNTS, HEAD_SIZE = CHECKSUM_AT + 4 };
-enum { NUMBERS_OF_VARIABLE = 4, ROW_OF_VARIABLE = 8, ROW_OF_RANGE = 5 };
+enum { NUMBERS_OF_VARIABLE = 4, ROW_OF_VARIABLE = 9, ROW_OF_RANGE = 5 };
 enum { MOST = 1 << 27 }; /* of anything */
 static const char MARK[MARK_SIZE + 1] = "gearmod1";
 static const char KIND[KIND_SIZE] = GL_KIND;
-static const int literals_of[GL_VARIABLES] = GL_LITERALS;
+static const int options_of[GL_PARAMETERS] = GL_OPTIONS; /* by place; negative: any number */
 
 /* What is left of the file, and whether all that was read of it is sound. */
 typedef struct {
@@ -77,15 +77,6 @@ static int is_text(const unsigned char *bytes, size_t size)
     return is;
 }
 
-static size_t count_literals(void)
-{
-    size_t count = 0;
-    for (int i = 0; i < GL_VARIABLES; i++) {
-        count += (size_t)literals_of[i];
-    }
-    return count;
-}
-
 static int highest_place(gl_causality causality)
 {
     return (causality == GL_PARAMETER ? GL_PARAMETERS
@@ -119,36 +110,52 @@ static void read_variable(reader *file, gl_variable *variable)
 static int has_places(const gl_variable *variables, gl_causality causality)
 {
     unsigned char found[GL_VARIABLES] = {0};
-    int count = 0;
+    int count = 0, places = 0;
     for (int i = 0; i < GL_VARIABLES; i++) {
         int place = variables[i].place;
         if (variables[i].causality == causality && place >= 0) {
-            count += !found[place];
+            count++;
+            places += !found[place];
             found[place] = 1;
         }
     }
-    return count == highest_place(causality) + 1;
+    return count == places && count == highest_place(causality) + 1;
 }
 
-static int is_option(const gl_variable *variables, int option)
+/* Whether a variable names another as whose number it stands, and has the range of that one. */
+static int is_option(const gl_variable *variables, const gl_variable *number)
 {
-    return option < 0 || (variables[option].causality == GL_PARAMETER && variables[option].place >= 0 &&
-                          variables[option].literals);
+    const gl_variable *option = number->option < 0 ? NULL : &variables[number->option];
+    return !option || (option->causality == GL_PARAMETER && option->place >= 0 &&
+                       option->literals && number->causality == GL_PARAMETER &&
+                       number->kind == GL_INTEGER && number->low == 0.0 && number->start == 0.0 &&
+                       number->high == option->high);
+}
+
+/* Whether the model expects so many options in the place of a parameter. */
+static int has_options(const gl_variable *variable, int n)
+{
+    if (variable->causality != GL_PARAMETER || variable->place < 0) {
+        return 1;
+    }
+    int expected = options_of[variable->place];
+    return expected < 0 ? n > 0 : expected == n;
 }
 
 /* What the model needs beyond sound rows: rows that fit each other. */
-static int fits_together(const gl_model *model)
+static int fits_together(const gl_model *model, const int n_literals[GL_VARIABLES])
 {
     const gl_variable *variables = model->variables;
     int fits = has_places(variables, GL_PARAMETER) && has_places(variables, GL_INPUT) &&
                has_places(variables, GL_OUTPUT);
     for (int i = 0; i < GL_VARIABLES; i++) {
         const gl_array *array = &model->arrays[i];
-        int n = literals_of[i];
-        fits &= is_option(variables, variables[i].option) &&
-                (variables[i].option < 0 || variables[i].causality == GL_PARAMETER) &&
+        int n = variables[i].literals ? n_literals[i] : 0;
+        fits &= is_option(variables, &variables[i]) &&
                 (n == 0 || (variables[i].kind == GL_INTEGER && variables[i].low == 1.0 &&
-                            variables[i].high == n));
+                            variables[i].high == n)) &&
+                (variables[i].kind == GL_REAL || variables[i].start == floor(variables[i].start)) &&
+                has_options(&variables[i], n);
         for (int k = 0; k < array->count; k++) {
             const gl_variable *member = &variables[array->members[k]];
             fits &= member->kind == variables[i].kind;
@@ -174,12 +181,11 @@ static int fits_together(const gl_model *model)
 /* Makes the model of a file whose length fits its counts; NULL, and why not. */
 static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
 {
-    size_t n_literals = count_literals();
     size_t size = sizeof(gl_model) + (size_t)counts[DATA] * sizeof(double) +
                   GL_VARIABLES * (sizeof(gl_variable) + sizeof(gl_array)) +
                   GL_CONTINUOUS * sizeof(gl_continuous_state) +
                   (size_t)counts[REFUSALS] * sizeof(gl_refusal) + GL_RANGES * sizeof(gl_range) +
-                  n_literals * sizeof(char *) +
+                  (size_t)counts[LITERALS] * sizeof(char *) +
                   (size_t)counts[MEMBERS] * sizeof(unsigned) +
                   (GL_INPUTS + GL_OUTPUTS + GL_INDICATORS) * sizeof(int) + (size_t)counts[TEXT];
     gl_model *model = calloc(1, size);
@@ -194,7 +200,7 @@ static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
     gl_continuous_state *states = take(&memory, GL_CONTINUOUS, sizeof *states);
     gl_refusal *refusals = take(&memory, (size_t)counts[REFUSALS], sizeof *refusals);
     gl_range *ranges = take(&memory, GL_RANGES, sizeof *ranges);
-    const char **literals = take(&memory, n_literals, sizeof *literals);
+    const char **literals = take(&memory, (size_t)counts[LITERALS], sizeof *literals);
     unsigned *members = take(&memory, (size_t)counts[MEMBERS], sizeof *members);
     int *inputs = take(&memory, GL_INPUTS, sizeof *inputs);
     int *outputs = take(&memory, GL_OUTPUTS, sizeof *outputs);
@@ -207,17 +213,17 @@ static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
                     is_text((const unsigned char *)text, (size_t)counts[TEXT]);
     memcpy(data, file.numbers, (size_t)counts[DATA] * sizeof *data);
     file.numbers += (size_t)counts[DATA] * sizeof *data;
-    int first = 0;
+    int first = 0, first_literal = 0, n_literals[GL_VARIABLES];
     for (int i = 0; i < GL_VARIABLES; i++) {
         read_variable(&file, &variables[i]);
-        variables[i].literals = literals_of[i] ? literals : NULL;
-        literals += literals_of[i];
         arrays[i].count = integer(&file, 0, counts[MEMBERS] - first);
         arrays[i].members = members + first;
         first += arrays[i].count;
+        n_literals[i] = integer(&file, 0, counts[LITERALS] - first_literal);
+        variables[i].literals = n_literals[i] ? literals + first_literal : NULL;
+        first_literal += n_literals[i];
     }
-    literals -= n_literals;
-    for (size_t i = 0; i < n_literals; i++) {
+    for (int i = 0; i < counts[LITERALS]; i++) {
         literals[i] = word(&file);
     }
     for (int i = 0; i < counts[MEMBERS]; i++) {
@@ -261,13 +267,20 @@ static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
     model->ranges = ranges;
     model->data = data;
     const double lengths[] = {counts[DATA], counts[WORK]};
-    int is_sound = file.is_sound && fits_together(model);
+    int is_sound = file.is_sound && fits_together(model, n_literals);
 #if GL_DATA < 0
-    double none[1] = {0.0};
+    double options[GL_PARAMETERS] = {0.0}, none[1] = {0.0};
+    for (int i = 0; is_sound && i < GL_VARIABLES; i++) {
+        if (variables[i].causality == GL_PARAMETER && variables[i].place >= 0) {
+            options[variables[i].place] = n_literals[i];
+        }
+    }
     is_sound = is_sound &&
-               !gearlube_entry(GL_CHECK, 0.0, data, lengths, none, none, none, none);
+               !gearlube_entry(GL_CHECK, 0.0, data, lengths, options, none, none, none);
 #else
-    is_sound = is_sound && lengths[0] == GL_DATA && lengths[1] == GL_WORK;
+    uint32_t sum = gl_checksum(0, (const unsigned char *)data, (size_t)counts[DATA] * sizeof *data);
+    is_sound = is_sound && lengths[0] == GL_DATA && lengths[1] == GL_WORK &&
+               (GL_DATA_SUM == 0u || sum == GL_DATA_SUM);
 #endif
     if (!is_sound) {
         snprintf(why, GL_LONGEST_MESSAGE,
@@ -283,7 +296,8 @@ static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
 static size_t length_of(const int counts[COUNTS])
 {
     size_t numbers = (size_t)counts[DATA] + NUMBERS_OF_VARIABLE * GL_VARIABLES + GL_CONTINUOUS;
-    size_t integers = ROW_OF_VARIABLE * GL_VARIABLES + count_literals() + (size_t)counts[MEMBERS] +
+    size_t integers = ROW_OF_VARIABLE * GL_VARIABLES + (size_t)counts[LITERALS] +
+                      (size_t)counts[MEMBERS] +
                       GL_INPUTS + GL_OUTPUTS + 2 * GL_CONTINUOUS + GL_INDICATORS +
                       2 * (size_t)counts[REFUSALS] + ROW_OF_RANGE * GL_RANGES;
     return HEAD_SIZE + 8 * numbers + 4 * integers + (size_t)counts[TEXT];

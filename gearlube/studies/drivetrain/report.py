@@ -28,6 +28,7 @@ from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import rads_to_rpm
 
 _BALANCED = 1e-3  # share of the energy that may be missing before the report warns
+_STEADY = 0.02  # change of a speed in a run, over the speed
 _SHOWN = 0.1  # last part of the run, of which the transmission errors are drawn
 _DTE, _LOSS = ".dte", ".power_loss"
 _LIMITS = (
@@ -143,6 +144,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         Finding(WARNING, f"{one.partition('. ')[0].rstrip('.')}.", one.partition(". ")[2])
         for one in str(dataset.attrs["exceeded"]).splitlines()
     ]
+    found += _drift(dataset)
     lost = losses(dataset)
     efficiency = float(settled(dataset)["efficiency"].mean())
     if lost:
@@ -166,6 +168,25 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     else:
         found.append(Finding(GOOD, f"The energy balance closes: {words}"))
     return found
+
+
+def _drift(dataset: xr.Dataset) -> list[Finding]:
+    """Return a warning if the torques drive the train away from its speed."""
+    name = max(
+        dataset["body"].values.tolist(),
+        key=lambda body: float(abs(dataset[f"{body}.speed"][-1] - dataset[f"{body}.speed"][0])),
+    )
+    first, last = (float(rads_to_rpm(dataset[f"{name}.speed"].values[i])) for i in (0, -1))
+    if abs(last - first) <= _STEADY * abs(first):
+        return []
+    return [
+        Finding(
+            WARNING,
+            f"The speed of {name} changes from {first:.4g} to {last:.4g} rpm.",
+            "The torques do not balance. For a steady run give the load what the drive leaves "
+            "after losses.",
+        )
+    ]
 
 
 def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input]) -> Report:
