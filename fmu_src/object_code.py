@@ -93,9 +93,9 @@ pointer_at: Any = intrinsic(_pointer_at)
 
 def cpu_of_kernels() -> str:
     """Return the processor that intermediate code is made for: it depends on that one's vectors."""
-    chosen: Any = config  # its names are made when it is loaded
-    if chosen.CPU_NAME:
-        return f"{chosen.CPU_NAME} {chosen.CPU_FEATURES}"
+    settings: Any = config
+    if settings.CPU_NAME:
+        return f"{settings.CPU_NAME} {settings.CPU_FEATURES}"
     return f"{llvm.get_host_cpu_name()} {llvm.get_host_cpu_features().flatten()}"
 
 

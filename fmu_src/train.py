@@ -15,11 +15,24 @@ from fmu_src.definition import Definition, Value
 from fmu_src.variable import Variable, declared_outputs, input_, parameter
 from gearlube_core.arrays import Array
 from gearlube_core.checks import read_content
-from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.dynamics.ranges import MAX_SPEED, RANGE_EXCEEDED, Range
 from gearlube_core.dynamics.train.model import MOST_TORQUE, Train
 from gearlube_core.errors import ParameterError
 
 FILE_IN_FMU = "train.toml"  # for the reader; the model itself is in the library
+
+
+MOST_RANGES = 31  # bits of range.exceeded
+
+
+def train_ranges(train: Train) -> tuple[Range, ...]:
+    """Return the ranges of all elements, under the names of the train's outputs."""
+    found = [
+        one._replace(output=f"{element.name}.{one.output}")
+        for element in train.elements
+        for one in element.ranges()
+    ]
+    return tuple(found[:MOST_RANGES])
 
 
 class TrainModel:
@@ -27,11 +40,18 @@ class TrainModel:
 
     def __init__(self, train: Train, ports: Sequence[str]) -> None:
         self._train, self._ports = train, tuple(ports)
+        self._ranges = train_ranges(train)
 
     @property
     def outputs(self) -> Array:
-        """Present outputs, in the order of the train's."""
-        return np.array(list(self._train.outputs().values()))
+        """Present outputs: those of the train, then which ranges were left, as bits."""
+        found = self._train.outputs()
+        left = [
+            found[one.output] != 0.0 and not one.low <= found[one.output] <= one.high
+            for one in self._ranges
+        ]
+        bits = sum(1 << bit for bit, one in enumerate(left) if one)
+        return np.array([*found.values(), float(bits)])
 
     @property
     def step(self) -> Callable[..., None]:
@@ -96,6 +116,9 @@ def variables(case: TrainCase) -> tuple[Variable, ...]:
             for name, speed in case.speeds.items()
         ),
         *declared_outputs(case.train.output_records),
+        Variable(name=RANGE_EXCEEDED, type="Integer", causality="output",
+                 description="0: all quantities are in range; else the sum of 1, 2, 4 and so on, "
+                 "one for each range of the documentation that was left, in its order"),
     )  # fmt: skip
 
 
@@ -130,7 +153,7 @@ def definition_with_train(path: str | Path) -> tuple[Definition, TrainCase]:
         name=fmu_name(case.name),
         description=f"Drivetrain {case.name}: {bodies} bodies, {elements} elements",
         variables=variables(case),
-        output_names=tuple(one.name for one in case.train.output_records),
+        output_names=(*(one.name for one in case.train.output_records), RANGE_EXCEEDED),
         start=partial(_start, case),
         stop_time=0.1,
         step_size=1e-3,

@@ -43,6 +43,7 @@ from gearlube_core.dynamics.train.elements.spring_support import SpringSupport a
 from gearlube_core.dynamics.train.elements.opposed_bearings import (
     OpposedBearings as OpposedBearings,
 )
+from gearlube_core.dynamics.train.elements.roller_bearing import RollerBearing as RollerBearing
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfShaft
 from gearlube_core.dynamics.train.elements.drag import Seal as Seal
 from gearlube_core.dynamics.train.elements.drag import Churning as Churning

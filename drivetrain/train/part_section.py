@@ -112,7 +112,7 @@ _WORDS = {
     "of the mesh itself",
     "drives_forward": "Whether the pinion drives about +z; else about -z",
     "right_hand": "Whether the pinion's teeth are right-handed",
-    "torque_loss": "Law of the drag, as model.bearing_torque_loss of an axle file",
+    "torque_loss": "Law of the drag, named as model.bearing_torque_loss of an axle file",
     "axes": "Places of the two radial axes and the axial one among x, y, z, counted from 0",
     "law": "Law of the churning loss",
 }

@@ -10,7 +10,7 @@ import numpy as np
 
 from fmu_src.native.model import OK, NativeModel, Operation
 from fmu_src.object_code import array_at, pointer_at
-from fmu_src.train import definition_with_train
+from fmu_src.train import definition_with_train, train_ranges
 from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, RZ, W
 from gearlube_core.dynamics.train.march import ADVANCE, START, WRITE, train_kernel, work_size
 from gearlube_core.dynamics.train.model import MOST_TORQUE, REFUSALS, Train
@@ -33,7 +33,8 @@ class _Places(NamedTuple):
     ports: int  # places of the ports in the state
     bodies: int  # number of the body of each speed; the first bears what the torques leave
     motion: int  # pairs of places, in the outputs and in the state
-    limits: int
+    limits: int  # of the inputs, then of the ranges
+    ranges: int  # places of the ranges in the outputs
     data_end: int
     # sizes
     states: int
@@ -41,9 +42,10 @@ class _Places(NamedTuple):
     n_speeds: int
     n_motion: int
     n_bodies: int
+    n_ranges: int
     inputs: int  # in state, behind that of the train; then the rate of the integrator's steps
     state_end: int
-    own_memory: int  # in work, behind the limits of the inputs
+    own_memory: int  # in work, behind the limits
     trial: int
     scratch: int
     work_end: int
@@ -69,7 +71,7 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
         room = array_at(work, at.work_end)
         memory = array_at(pointer_at(work, at.own_memory), at.trial - at.own_memory)
         if operation in (_START, _RESUME):
-            for i in range(2 * (at.n_ports + 1)):
+            for i in range(at.own_memory):
                 room[i] = fixed[at.limits + i]
             for i in range(memory.size):
                 memory[i] = fixed[at.memory + i]
@@ -121,8 +123,16 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
         s = array_at(state, at.states)
         temperature = kept[at.inputs + at.n_ports]
         operate(WRITE, s, temperature, numbers, memory, 0.0, kept[at.state_end - 1], scratch)
-        for i in range(at.outputs):
+        left, bit = 0.0, 1.0
+        for i in range(at.n_ranges):
+            value = scratch[int(fixed[at.ranges + i])]
+            limits = 2 * (at.n_ports + 1 + i)
+            if value != 0.0 and not room[limits] <= value <= room[limits + 1]:
+                left += bit
+            bit *= 2.0
+        for i in range(at.outputs - 1):
             out[i] = scratch[i]
+        out[at.outputs - 1] = left
         return OK
 
     return entry
@@ -150,6 +160,8 @@ def train_model(path: str | Path) -> NativeModel:
     motion = _motion(train)
     pairs = [(definition.output_names.index(name), at) for name, at in motion.items()]
     oil = train.oil
+    ranges = train_ranges(train)
+    of_ranges = [end for one in ranges for end in (one.low, one.high)]
     limits = [-MOST_TORQUE, MOST_TORQUE] * len(case.torques)
     parts = [
         made.numbers,
@@ -157,11 +169,12 @@ def train_model(path: str | Path) -> NativeModel:
         np.array([made.kept[name] for name in case.torques], float),
         np.array([names.index(name) for name in case.speeds], float),
         np.array(pairs, float).ravel(),
-        np.array([*limits, oil.temperature_low, oil.temperature_high]),
+        np.array([*limits, oil.temperature_low, oil.temperature_high, *of_ranges]),
+        np.array([definition.output_names.index(one.output) for one in ranges], float),
     ]
     starts = np.cumsum([0, *(part.size for part in parts)]).tolist()
     n_inputs, states = len(case.torques) + 1, made.layout.states
-    own_memory = 2 * n_inputs
+    own_memory = 2 * (n_inputs + len(ranges))
     trial = own_memory + made.memory.size
     scratch = trial + states
     room = work_size(made.layout)
@@ -172,6 +185,7 @@ def train_model(path: str | Path) -> NativeModel:
         n_speeds=len(case.speeds),
         n_motion=len(pairs),
         n_bodies=len(names),
+        n_ranges=len(ranges),
         inputs=states,
         state_end=states + n_inputs + 1,
         own_memory=own_memory,
@@ -189,8 +203,8 @@ def train_model(path: str | Path) -> NativeModel:
         control_at=at.state_end - 1,
         work_size=at.work_end,
         limits_at=0,
-        ranges_at=0,
-        ranges=(),
+        ranges_at=2 * n_inputs,
+        ranges=ranges,
         refusals=REFUSALS | _NO_START,
         motion=frozenset(motion),
     )

@@ -87,8 +87,8 @@ def build_fmu(
         if not python:
             if not platform:
                 _LOGGER.info(
-                    "For all %d platforms this takes some minutes. --platform x86_64-linux or "
-                    "x86_64-windows builds for one of them.",
+                    "The first build for all %d platforms takes some minutes, later ones seconds. "
+                    "--platform x86_64-linux or x86_64-windows builds for one of them.",
                     len(PLATFORM_NAMES),
                 )
             native = NativeOptions(

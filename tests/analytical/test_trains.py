@@ -175,6 +175,9 @@ def test_two_stages_carry_torque_speed_and_thrust_as_rigid_gears_do():
     # a left-hand pinion that turns about -z is pushed towards +z; so is a right-hand one about +z
     assert found["first.force.z"] > 0.0
     assert found["second.force.z"] > 0.0
+    # parallel forces on the teeth have M . F = 0, and bearings bear all of M but 200 N.m
+    work = sum(found[f"input bearings.moment.{c}"] * found[f"first.force.{c}"] for c in "xy")
+    assert work == pytest.approx(200.0 * found["first.force.z"], rel=1e-3)
     both = found["left shaft.torque"] + found["right shaft.torque"]
     assert both == pytest.approx(-200.0 * RATIO**2, rel=1e-4)
     # the countershaft feels the first mesh's reaction and the second one's action: with gears of
@@ -281,7 +284,8 @@ def test_bearings_seals_and_churning_of_the_axle_serve_the_helical_pair(bearings
     for _ in range(30):
         train.step(1e-3, load, KELVIN)
     lost, before = train.lost, train.outputs()
-    # the torque of a seal does not depend on the speed
+    # the torque of a seal does not depend on the speed, but for its rounding off near rest
+    assert before["seal.torque"] == pytest.approx(-0.3, rel=1e-4)
     assert lost["seals"] == pytest.approx(0.3 * -train.state("pinion.rz"), rel=1e-3)
     missing = train.work - sum(lost.values()) - (train.energy - start)
     # forces of bearings are expanded about states near by: 1e-5 of what passes through
@@ -300,6 +304,9 @@ def test_bearings_seals_and_churning_of_the_axle_serve_the_helical_pair(bearings
     torque = churning_torque(speed["wheel"], nu, PAIR.oil.density, sump)
     churned = train.lost["churning"] - lost["churning"]
     assert churned == pytest.approx(1e-3 * torque * speed["wheel"], rel=0.01)
+    # kept from the begin of a step that the outputs do not take
+    torque = churning_torque(before["wheel.speed"], nu, PAIR.oil.density, sump)
+    assert before["sump.torque"] == pytest.approx(torque, rel=1e-6)
 
 
 @pytest.mark.parametrize("rollers", [False, pytest.param(True, marks=pytest.mark.slow)])

@@ -13,10 +13,12 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_ma
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle import state as axle_state
+from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.helical_pair import helical_pair
 from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.table import PAIRS
 
 PAIR = helical_march_parameters(HelicalGearFile.named("he_2007"))
 RATIO, KELVIN = PAIR.pair.ratio, 333.15
@@ -48,11 +50,18 @@ def of_pair(train: Train, s: np.ndarray) -> np.ndarray:
     return made
 
 
+_OF_MESHES = (
+    "stiffness", "separated", "coast_contact", "frequency", "load_torque", "film_thickness_min",
+)  # fmt: skip
 _AS_ALONE = {
     "wheel.speed": "wheel.speed",
     "wheel.displacement.z": "wheel.displacement.z",
     "mesh.dte": "mesh.dte",
     "mesh.force.y": "mesh.force.y",
+    **{f"mesh.{one}": f"mesh.{one}" for one in _OF_MESHES},
+    "mesh.load": "mesh.load",
+    "mesh.film.share_outside": "film.share_outside",
+    **{f"mesh.{one}": one for one in RANGE_OUTPUTS},
     "energy.friction": "energy.friction",
     "energy.stored": "energy.stored",
     "friction.power_loss": "friction.power_loss",
@@ -77,7 +86,7 @@ def test_the_pair_in_a_train_is_the_pair_alone_to_the_last_bit():
     control = alone.step_control
     rate = control.highest_frequency * control.steps_per_highest_period
     train.set_state(np.array([*of_pair(train, alone.state_view), KELVIN, rate]))
-    rng, met = np.random.default_rng(38), set()
+    rng, met, ranges = np.random.default_rng(38), set(), set()
     for k in range(120):
         # torques that part the teeth and turn them over
         load = {"input": 226.0 * math.cos(0.05 * k), "output": 280.0 * rng.uniform(-1.0, 1.0)}
@@ -90,11 +99,20 @@ def test_the_pair_in_a_train_is_the_pair_alone_to_the_last_bit():
         for name, other in _AS_ALONE.items():
             # differences of energies, whose sums have other orders
             assert found[name] == pytest.approx(alone.output(other), rel=1e-9, abs=1e-9), name
+        for j, member in ((1, "pinion"), (3, "wheel")):
+            for axis in "xyz":  # of both bearings of a shaft
+                both = sum(alone.output(f"bearing[{j + i}].force.{axis}") for i in (0, 1))
+                force = found[f"{member} bearings.force.{axis}"]
+                assert force == pytest.approx(both, rel=1e-6, abs=1e-6)
         if min(found["input.power"], found["output.power"]) < 0.0:  # one drives, not both
             efficiency = alone.output("pair.efficiency")
             assert found["efficiency"] == pytest.approx(efficiency, rel=1e-9)
+        left = {f"mesh.{name}": f"mesh.{one}" for name, one in alone.exceeded().items()}
+        assert train.exceeded() == left
+        ranges |= set(left)
         met |= {name for name in ("mesh.separated", "mesh.coast_contact") if alone.output(name)}
     assert met == {"mesh.separated", "mesh.coast_contact"}  # both were among the states
+    assert ranges
 
 
 def of_axle(train: Train, s: np.ndarray) -> np.ndarray:
@@ -162,7 +180,27 @@ def test_the_axle_of_a_list_moves_as_the_axle_and_loses_what_it_is_given():
         torque = 50.0 * (1.0 + 0.5 * math.sin(0.1 * k))
         axle.step(1e-4, torque, wheel, kelvin)
         train.step(1e-4, {"input": torque, "output": wheel}, kelvin)
-        errors.append((axle.output("mesh.dte"), train.outputs()["mesh.dte"]))
+        found = train.outputs()
+        errors.append((axle.output("mesh.dte"), found["mesh.dte"]))
+        if k % 20 == 0:
+            thinnest = min(
+                film for i in range(1, PAIRS + 1)
+                if (film := axle.output(f"flank[{i}].film_thickness")) > 0.0
+            )  # fmt: skip
+            wanted = {
+                "mesh.film_thickness_min": thinnest,
+                "mesh.separated": 0.0,
+                "mesh.coast_contact": 0.0,
+                **{f"mesh.{name}": axle.output(name) for name in RANGE_OUTPUTS},
+                **{f"mesh.{one}": axle.output(f"mesh.{one}")
+                   for one in ("force", "stiffness", "frequency", "load_torque")},
+                "friction_boundary.power_loss": axle.output("friction.power_loss_boundary"),
+                "energy.seals": axle.output("energy.seals"),
+                "energy.stored": axle.output("energy.stored"),
+                "efficiency": axle.output("axle.efficiency"),
+            }  # fmt: skip
+            for name, value in wanted.items():  # bearings differ as said below
+                assert found[name] == pytest.approx(value, rel=1e-4), name
     alone, listed = np.array(errors).T
     # bearings are expanded when each has moved, not when either has; 6e-6 was found
     assert np.max(abs(listed - alone)) < 5e-5 * np.ptp(alone)

@@ -77,7 +77,8 @@ def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=
     end = FIRST + size + 1
     out = np.full(end + len(line_outputs.LINE_BOUNDS) + 1, -7.0)
     view = FlankView(0.0, 0.0, PHASE)
-    found = source_of(module.write_lines)(view, mu_at, s, HOT, "data", OIL, p, FIRST, end, out)
+    given = view, mu_at != MU, s, mu_at, s[W_P], HOT, "data", OIL, p
+    found = source_of(module.write_lines)(*given, FIRST, end, out)
     assert np.all(out[:FIRST] == -7.0)
     assert out[end - 1] == out[-1] == -7.0
     if film == SOLVED:

@@ -161,7 +161,10 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
         assert (pinion_torque, wheel_torque) == (50.0, 120.0)
         out[:] = slope
 
-    def write_lines(view, mu_at, s, temperature, data, oil, constants, first, bounds, out):
+    def write_lines(
+        view, coast, mu, mu_at, w_p, temperature, data, oil, constants, first, bounds, out
+    ):
+        assert (coast, w_p) == (mu_at != MU, s[W_P])
         calls["lines"] = (mu_at, temperature, oil, first, bounds)
         return SimpleNamespace(
             thinnest_film=2e-7, film_load=1.0, film_material=2.0, traction=3.0, temperature=4.0,

@@ -174,6 +174,20 @@ class Train:
         self._call(WRITE, self._state, self._work)
         return dict(zip(names, self._work[: len(names)].tolist(), strict=True))
 
+    def exceeded(self) -> dict[str, str]:
+        """Return what is outside its range now: a sentence for each, by its output.
+
+        Tables and formulas are extrapolated there.
+        """
+        found, left = self.outputs(), {}
+        for element in self.elements:
+            for one in element.ranges():
+                named = one._replace(output=f"{element.name}.{one.output}")
+                value = found[named.output]
+                if value != 0.0 and not one.low <= value <= one.high:
+                    left[named.output] = named.sentence(value)
+        return left
+
     @property
     def output_records(self) -> tuple[Output, ...]:
         """Name, unit and words of every output, in order."""

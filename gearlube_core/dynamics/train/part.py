@@ -10,6 +10,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
+from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.helical_geometry.gear_body import INERTIA, MASS
 from gearlube_core.number import Output, check_fields
@@ -117,6 +118,10 @@ class Element(ABC):
     def memory(self) -> Array:
         """Return what the kernels take as `memory`: a new array."""
         return NO_NUMBERS
+
+    def ranges(self) -> tuple[Range, ...]:
+        """Return ranges of outputs, which are named without the element."""
+        return ()
 
     def kept_size(self) -> int:
         """Return how many numbers are kept between steps behind the integrated states."""

@@ -11,9 +11,7 @@ from gearlube_core.dynamics.helical_pair.march.line_points import line_point
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.state import (
     LINES_MAX,
-    MU,
     POINTS_PER_LINE,
-    W_P,
     FlankView,
     MarchConstants,
 )
@@ -136,8 +134,10 @@ class LinesFound(NamedTuple):
 @kernel
 def write_lines(
     view: FlankView,
+    coast: bool,
+    mu: Array,
     mu_at: int,
-    s: Array,
+    pinion_speed: float,
     oil_temperature: float,
     data: Array,
     lubricant: LubricantState,
@@ -150,7 +150,7 @@ def write_lines(
 
     Their outputs begin at `first`, those of `LINE_BOUNDS` at `bounds`. Means are
     weighted with the load. A line without load has no film: zeros, and the temperature of the oil.
-    `mu_at` is the place of the flank's friction coefficients in `s`.
+    From `mu_at` on `mu` has the flank's friction coefficients; `coast` says which flank it is.
     """
     lines = int(p.motion.flanks.lines)
     for i in range(LINES_MAX):
@@ -174,7 +174,7 @@ def write_lines(
         of_line = nothing
         for place in range(POINTS_PER_LINE):
             load, length, motion, film = line_point(
-                view, mu_at != MU, line, place, abs(s[W_P]), data, lubricant, p
+                view, coast, line, place, abs(pinion_speed), data, lubricant, p
             )
             state = film.state
             length_sum += length
@@ -182,7 +182,7 @@ def write_lines(
                 part = load * length
                 total += part
                 film_sum += part * state.film_thickness
-                mu_sum += part * s[mu_at + POINTS_PER_LINE * slot + place]
+                mu_sum += part * mu[mu_at + POINTS_PER_LINE * slot + place]
                 slide_sum += part * abs(motion.sliding)
                 if p.friction_form > 0.0:
                     rise_sum += part * state.temperature_rise

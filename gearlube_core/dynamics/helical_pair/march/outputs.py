@@ -299,22 +299,24 @@ def write_outputs(
     on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
     direction = friction_direction(s[W_P])
     force = flank_wrench(on_drive, direction, plane)
-    back = turned_wrench(flank_wrench(on_coast, -direction, plane), flanks)
+    behind = turned_wrench(flank_wrench(on_coast, -direction, plane), flanks)
     write_motion(s, rates, p.teeth, bearings, out)
     out[PINION_ACCELERATION] = rates[W_P]
     out[WHEEL_ACCELERATION] = rates[W_G]
     out[MESH_LOAD] = on_drive.N - on_coast.N
-    out[MESH_FORCE] = force.F_x + back.F_x
-    out[MESH_FORCE + 1] = force.F_y + back.F_y
-    out[MESH_FORCE + 2] = force.F_z + back.F_z
+    out[MESH_FORCE] = force.F_x + behind.F_x
+    out[MESH_FORCE + 1] = force.F_y + behind.F_y
+    out[MESH_FORCE + 2] = force.F_z + behind.F_z
     out[SEPARATED] = 1.0 if on_drive.N == 0.0 and on_coast.N == 0.0 else 0.0
     out[COAST_CONTACT] = 1.0 if on_coast.N > 0.0 else 0.0
     touching = on_drive.stiffness + on_coast.stiffness
     out[MESH_STIFFNESS] = plane.cos_b * plane.cos_b * touching
     oil = lubricant_state(p.oil, oil_temperature, laws_of_oil(*mesh))
-    view = drive if on_drive.N >= on_coast.N else coast
-    mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
-    found = write_lines(view, mu_at, s, oil_temperature, data, oil, p, LINES, BOUNDS, out)
+    back = on_coast.N > on_drive.N
+    view, mu_at = (coast, MU + FLANK_POINTS) if back else (drive, MU)
+    found = write_lines(
+        view, back, s, mu_at, s[W_P], oil_temperature, data, oil, p, LINES, BOUNDS, out
+    )
     out[THINNEST_FILM] = found.thinnest_film
     bound = found.loss_bound
     out[SHARE_OUTSIDE] = found.outside

@@ -23,7 +23,7 @@ from gearlube_core.drag import (
 from gearlube_core.dynamics.train.element import RATE, RZ, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import check_fields
+from gearlube_core.number import Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
 
@@ -48,6 +48,12 @@ class _Seal(NamedTuple):
     ) -> None:
         _brake(at, memory, s, ds)
 
+    @kernel
+    def write(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
+    ) -> None:
+        out[first] = memory[0]
+
 
 class _Churning(NamedTuple):
     gear: ChurningConstants
@@ -64,9 +70,16 @@ class _Churning(NamedTuple):
     ) -> None:
         _brake(at, memory, s, ds)
 
+    @kernel
+    def write(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
+    ) -> None:
+        out[first] = memory[0]
+
 
 class _Brake(Element):
     on: ClassVar = ("body",)
+    outputs: ClassVar = (Output("torque", "N.m", "drag"),)
 
     def memory(self) -> Array:
         """Return room for the torque of the present step."""

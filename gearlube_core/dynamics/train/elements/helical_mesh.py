@@ -18,6 +18,11 @@ from gearlube_core.dynamics.helical_pair.march.integrate import (
     STATIONS,
     time_to_jump,
 )
+from gearlube_core.dynamics.helical_pair.march.line_outputs import (
+    LINE_BOUNDS,
+    LINE_OUTPUTS,
+    write_lines,
+)
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
@@ -37,6 +42,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     coast_view,
     drive_view,
 )
+from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.element import (
     RATE,
     Axes,
@@ -46,6 +52,13 @@ from gearlube_core.dynamics.train.element import (
     seen_turn,
     unseen,
     unseen_turn,
+)
+from gearlube_core.dynamics.train.elements.mesh_outputs import (
+    FILM_SHARE,
+    MESH_OUTPUTS,
+    OWN,
+    MeshValues,
+    write_mesh,
 )
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.friction.flank_laws import SOLVED
@@ -69,6 +82,8 @@ _ANGLE = Number(
 _ARM = Number(
     "m", -10.0, 10.0, text="Place of mid-face along z, from the centre of the body", shown="mm"
 )
+_BOUNDS = len(LINE_OUTPUTS)
+_LINES_ROOM = _BOUNDS + len(LINE_BOUNDS)  # behind the pair data
 _LEAST_PRESSED = 1e-9  # m
 _TORQUE = 0  # place in the memory: torque on the pinion in the last stage [N.m]
 _TABLE = 1  # torque levels, then density and offset at each, then the pair data
@@ -180,14 +195,41 @@ class _HelicalMesh(NamedTuple):
         out: Array,
         first: int,
     ) -> None:
-        m = _motion(self, at, s)
-        mesh = pair_forces(m, s, at[_KEPT] + 2, _data(at, memory))
-        w = mesh.wrench
-        out[first] = m.psi + m.x_p - m.x_g
-        out[first + 1], out[first + 2], out[first + 3] = unseen(self.axes, w.F_x, w.F_y, w.F_z)
-        out[first + 4] = mesh.heat
-        out[first + 5] = m.ry_p - m.ry_g
-        out[first + 6] = s[at[_KEPT]]
+        data, mu = _data(at, memory), at[_KEPT] + 2
+        p: MarchConstants = tuple_from_array(data, MarchConstants)
+        m, flanks = _motion(self, at, s), p.motion.flanks
+        plane = flanks.plane
+        mesh = pair_forces(m, s, mu, data)
+        drive, coast = drive_view(m, flanks), coast_view(m, flanks)
+        on_drive = line_sums(drive.a, drive.tilt, drive.phase, data, s, mu)
+        on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, mu + FLANK_POINTS)
+        back = on_coast.N > on_drive.N
+        view, mu_at = (coast, mu + FLANK_POINTS) if back else (drive, mu)
+        rest = part(memory, at[_DATA] + at[_DATA_SIZE], _LINES_ROOM)
+        bounds = _BOUNDS
+        found = write_lines(
+            view, back, s, mu_at, m.w_p, oil.temperature, data, oil, p, 0, bounds, rest
+        )
+        touching = on_drive.stiffness + on_coast.stiffness
+        values = MeshValues(
+            m.psi + m.x_p - m.x_g,
+            plane.cos_b * plane.cos_b * touching,
+            1.0 if on_drive.N == 0.0 and on_coast.N == 0.0 else 0.0,
+            1.0 if on_coast.N > 0.0 else 0.0,
+            p.teeth * m.w_p / (2.0 * math.pi),
+            s[at[_KEPT]],
+            mesh.heat,
+            found.loss_bound * abs(mesh.heat),
+            found.thinnest_film,
+            found.outside,
+        )
+        torque = max(on_drive.N, on_coast.N) * plane.r_bp * plane.cos_b
+        torque = max(abs(s[at[_KEPT]]), torque)
+        write_mesh(values, -torque if back else torque, found, p.ranges, first, out)
+        own, w = first + OWN, mesh.wrench
+        out[own] = on_drive.N - on_coast.N
+        out[own + 1], out[own + 2], out[own + 3] = unseen(self.axes, w.F_x, w.F_y, w.F_z)
+        out[own + 4] = m.ry_p - m.ry_g
 
 
 @inside
@@ -287,11 +329,10 @@ class HelicalMesh(Element):
     states: ClassVar = ("rotation",)
     losses: ClassVar = ("friction", "mesh_damping")
     outputs: ClassVar = (
-        Output("dte", "m", "dynamic transmission error along the line of action", 1e-5, "um"),
+        *MESH_OUTPUTS,
+        Output("load", "N", "normal load of the drive flanks less that of the coast flanks", 1e3),
         *(Output(f"force.{c}", "N", f"force along {c} on the pinion", 1e3) for c in "xyz"),
-        Output("friction", "W", "power lost in friction now", 100.0),
         Output("tilt", "rad", "tilt of the pinion against the gear", 1e-5),
-        Output("load_torque", "N.m", "torque that selects the line mesh", 100.0),
     )
 
     def __post_init__(self) -> None:
@@ -321,10 +362,14 @@ class HelicalMesh(Element):
         )
 
     def memory(self) -> Array:
-        """Return the line mesh at all levels and the pair data."""
+        """Return the line mesh at all levels, the pair data and room for its lines."""
         packed = pack_march_mesh(self.parameters.mesh)
         table = packed.torque, packed.density.ravel(), packed.offset.ravel()
-        return np.concatenate([[0.0], *table, self._pair_data()])
+        return np.concatenate([[0.0], *table, self._pair_data(), np.zeros(_LINES_ROOM)])
+
+    def ranges(self) -> tuple[Range, ...]:
+        """Return the ranges of line mesh, oil and formulas, and that of solved films."""
+        return (*self.parameters.ranges, FILM_SHARE)
 
     def kept_size(self) -> int:
         """Return the places of the load level, when friction was last computed, and its numbers."""

@@ -13,7 +13,7 @@ from gearlube_core.dynamics.train.part import Element
 from gearlube_core.helical_geometry.gear_body import COUPLING, STIFFNESS, TILTING
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Number, check_fields, constants_of
+from gearlube_core.number import Number, Output, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
 _DAMPING = Number("N.s/m", 0.0, 1e9)
@@ -62,6 +62,18 @@ class _Support(NamedTuple):
         elastic += self.K_ax * a_x * a_x + self.K_ay * a_y * a_y
         return 0.5 * elastic + (self.K_x_ay * x * a_y + self.K_y_ax * y * a_x)
 
+    @kernel
+    def write(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
+    ) -> None:
+        u, v = at[0], at[0] + RATE
+        x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
+        out[first] = -(self.K_xx * x + self.K_x_ay * a_y + self.c_x * s[v])
+        out[first + 1] = -(self.K_yy * y + self.K_y_ax * a_x + self.c_y * s[v + 1])
+        out[first + 2] = -(self.K_zz * z + self.c_z * s[v + 2])
+        out[first + 3] = -(self.K_ax * a_x + self.K_y_ax * y + self.c_ax * s[v + 3])
+        out[first + 4] = -(self.K_ay * a_y + self.K_x_ay * x + self.c_ay * s[v + 4])
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpringSupport(Element):
@@ -107,6 +119,10 @@ class SpringSupport(Element):
     c_ay: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about y")] = 0.0
     on: ClassVar = ("body",)
     losses: ClassVar = ("bearing_damping",)
+    outputs: ClassVar = (
+        *(Output(f"force.{c}", "N", f"force along {c} on the body", 1e3) for c in "xyz"),
+        *(Output(f"moment.{c}", "N.m", f"moment about {c} on the body", 10.0) for c in "xy"),
+    )
 
     def __post_init__(self) -> None:
         check_fields(self)
