@@ -124,9 +124,12 @@ def variables(case: TrainCase) -> tuple[Variable, ...]:
 
 def _start(case: TrainCase, speeds: Mapping[str, Value], inputs: Sequence[float]) -> TrainModel:
     *torques, temperature = inputs
-    given = dict(zip(case.torques, torques, strict=True))
-    case.train.initialise({n: float(v) for n, v in speeds.items()}, given, temperature)
-    return TrainModel(case.train, tuple(case.torques))
+    given, of = dict(zip(case.torques, torques, strict=True)), case.train
+    train = Train(  # one of its own, as several models may run side by side
+        of.bodies, of.elements, of.oil, steps_per_highest_period=of.steps_per_highest_period
+    )
+    train.initialise({n: float(v) for n, v in speeds.items()}, given, temperature)
+    return TrainModel(train, tuple(case.torques))
 
 
 def definition_with_train(path: str | Path) -> tuple[Definition, TrainCase]:

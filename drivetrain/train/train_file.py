@@ -90,7 +90,7 @@ class TrainFile(InputFile):
     ('e_axle', 'hypoid_axle')
     >>> axle = TrainFile.named("e_axle").case().start()
     >>> round(axle.state("motor.rz.rate"), 1)  # rad/s
-    -837.8
+    -314.1
     """
 
     package: ClassVar[str] = "drivetrain.train"

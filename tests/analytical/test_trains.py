@@ -20,11 +20,14 @@ from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearin
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
 from gearlube_core.dynamics.train.helical_pair import helical_pair, spring_support
+from gearlube_core.dynamics.train.march import START, train_kernel, work_size
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.rest_search import APART, LOOSE, OK
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.coulomb_brake import CoulombBrake
 
@@ -350,6 +353,14 @@ class Twisting(Element):
         return NoKernels(1.0)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Speedometer(Twisting):
+    """An element with an output that bodies have."""
+
+    states: ClassVar = ()
+    outputs: ClassVar = (Output("speed", "rad/s", "speed"),)
+
+
 def test_what_cannot_be_a_train_is_named():
     rotor, port = Body.spinning("rotor", 0.1), Port(name="motor", body="rotor")
     with pytest.raises(ParameterError, match="bodies must have names of their own, got 'rotor'"):
@@ -360,6 +371,8 @@ def test_what_cannot_be_a_train_is_named():
         Body(name="rotor", mass=-1.0, inertia=1.0, polar_inertia=1.0)
     with pytest.raises(ParameterError, match=r"two has own states, .* must include at_rest"):
         Train([rotor], [Twisting(name="two", body="rotor")], OIL)
+    with pytest.raises(ParameterError, match=r"got 'rotor\.speed' twice\. Rename the body or"):
+        Train([rotor], [Speedometer(name="rotor", body="rotor")], OIL)
     loose = Train([rotor, Body.spinning("load", 1.0)], [port], OIL)
     with pytest.raises(StepError, match=r"no state yet\. Call initialise"):
         loose.step(1e-3, {"motor": 0.0}, KELVIN)
@@ -408,3 +421,26 @@ def test_a_torque_that_splits_starts_in_equal_halves():
     assert train.modes()[0] == pytest.approx([0.0, w, w, math.sqrt(2.0) * w], rel=1e-6, abs=1e-3)
     # the march takes as many steps in a period of the highest mode as it is asked for
     assert train.get_state()[-1] == pytest.approx(16.0 * math.sqrt(2.0) * w, rel=1e-9)
+
+
+def test_a_refused_start_leaves_the_state_as_it_was_with_the_number_that_says_why():
+    train = two_rotors()
+    layout, numbers, memory = train.assembly[:3]
+    operate, work = train_kernel(layout), np.zeros(work_size(layout))
+    before = np.random.default_rng(1).normal(size=layout.states)
+
+    def started(*wanted: float) -> tuple[int, list[float]]:
+        work[: len(wanted)] = wanted
+        s = before.copy()
+        status = int(operate(START, s, KELVIN, numbers, memory, 16.0, 0.0, work))
+        assert np.array_equal(s, before) == (status != OK)
+        return status, work[:2].tolist()
+
+    status, (_, free) = started(0.0, math.nan, math.nan)  # both turn as one, at no given speed
+    assert (status, free) == (LOOSE, 1.0)
+    # the shaft and both speeds share what is missing in equal parts
+    status, (_, apart) = started(0.0, 1.0, 4.0)
+    assert (status, apart) == (APART, pytest.approx(1.0))
+    status, (rate, _) = started(1.0, math.nan, 3.0)
+    omega = math.sqrt(1e4 * (1.0 / 0.2 + 1.0 / 2.0))
+    assert (status, rate) == (OK, pytest.approx(max(1e3, 16.0 * omega / (2.0 * math.pi))))

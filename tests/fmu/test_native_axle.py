@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 import re
 from dataclasses import replace
 
@@ -12,8 +13,10 @@ import pytest
 from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.hypoid_axle import DEFINITION, definition_with_axle, definition_with_table, start_axle
+from fmu_src.native.axle_data import N_SIZES, DataSizes, data_ends
 from fmu_src.native.hypoid_axle import MODAL_WITHOUT_LOSS, PRINTED_FILM, REFUSALS, native_model
 from fmu_src.native.model import OK, Operation
+from fmu_src.native.parameter_map import KernelClasses, place_of_each
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle.integrate import MAX_STEPS, TOO_MANY_STEPS
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
@@ -23,6 +26,7 @@ from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, W_P
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.net import N_ARRAY, UNITS
 from gearlube_core.friction.flank_friction import friction_law
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
@@ -354,3 +358,29 @@ def test_words_and_sizes_fit_the_contract(native):
     assert np.all(np.isfinite(model.data[:N]))
     lossless = flatten(without_losses(in_python({}).kernel_parameters()))
     assert lossless.tolist() in np.lib.stride_tricks.sliding_window_view(run.work, N).tolist()
+
+
+def test_constants_are_taken_only_if_every_size_and_place_in_them_fits(native):
+    """So a damaged file is never read past; the values are those that kernels turn into places."""
+    data, work = native.model.data, native.model.work_size
+    assert native.takes(data, work)
+    assert not native.takes(data[:-1].copy(), work)
+    assert not native.takes(data, work - 1)
+    sizes = DataSizes(*data[:N_SIZES])
+    ends = data_ends(data.size, sizes)
+    start = data.size - (ends.windows - data.size)  # where the options begin
+    ends = data_ends(start, sizes)
+    rollers = N_SIZES + int(place_of_each(KernelClasses(*KINDS)).bearing_p.n_rollers)
+    film = start - N_ARRAY + UNITS
+    places = [*range(N_SIZES), start, start + 1, ends.rows, ends.rows + 1, rollers, film]
+    for place in (*places, ends.levels - 1, ends.windows - 1):
+        for value in (math.nan, math.inf, -1.0, 0.5, 1e300):
+            damaged = data.copy()
+            damaged[place] = value
+            mesh = place >= ends.numbers  # where any finite number may be
+            allowed = mesh and (value == 0.5 or (value == -1.0 and place == ends.windows - 1))
+            assert native.takes(damaged, work) == allowed, (place, value)
+    for place, value in ((rollers, 41.0), (rollers, 2.0), (film, 25.0), (start + 1, 1e4)):
+        damaged = data.copy()
+        damaged[place] = value
+        assert not native.takes(damaged, work)

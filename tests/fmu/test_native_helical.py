@@ -7,12 +7,14 @@ from collections.abc import Callable
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
+from typing import get_type_hints
 
 import numpy as np
 import pytest
 
 from fmu_src.helical_pair import DEFINITION, definition_with, pair_parameters
 from fmu_src.helical_variables import HELICAL_PAIR
+from fmu_src.native.helical_cases import GIVEN_FLOATS, HEAD_FLOATS
 from fmu_src.native.helical_pair import (
     BEARINGS_AT,
     COUPLING_TOO_LARGE,
@@ -25,6 +27,7 @@ from fmu_src.native.helical_pair import (
     native_model,
 )
 from fmu_src.native.model import OK, NativeModel, Operation
+from gearlube_core.dynamics.helical_pair.march.given_pair import GivenPair
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     MAX_STEPS,
     NOT_FINITE,
@@ -46,6 +49,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
 from gearlube_core.dynamics.ranges import TOO_FAR, range_limits
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.film_model.net import N_NUMBERS
+from gearlube_core.kernels.flat_tuples import count_floats
 from tests.helpers.native_helical_values import (
     PARAMETERS,
     python_model,
@@ -356,3 +360,33 @@ def test_rates_are_how_the_state_changes_and_events_renew_friction_alone(
     run.state[:] = before
     run.state[PSI] = 0.2
     assert run(Operation.DERIVATIVES) == NOT_FINITE
+
+
+def test_constants_are_taken_only_if_every_size_and_place_in_them_fits(
+    shipped: LoadedModel,
+) -> None:
+    """So a damaged file is never read past."""
+    data, work = shipped.model.data, shipped.model.work_size
+    assert shipped.takes(data, work)
+    assert not shipped.takes(data[:-1].copy(), work)
+    assert not shipped.takes(data, work - 1)
+    case = int(data[1])  # he_2007 with its line mesh: the longest
+    given = case + HEAD_FLOATS
+    lines = GivenPair._fields.index("lines")
+    places = [0, 1, case, case + 1, case + 2]
+    places += [given + int(one) for one in _places_of(GivenPair)[lines : lines + 3]]
+    for place in places:
+        for value in (np.nan, np.inf, -1.0, 0.5, 1e5, 1e300):
+            damaged = data.copy()
+            damaged[place] = value
+            assert not shipped.takes(damaged, work), (place, value)
+    for place in (case + HEAD_FLOATS + GIVEN_FLOATS, data.size - 1):
+        damaged = data.copy()
+        damaged[place] = np.nan
+        assert not shipped.takes(damaged, work)
+
+
+def _places_of(kind: type) -> list[int]:
+    """Return where each field of a tuple class begins among its floats."""
+    sizes = [1 if part is float else count_floats(part) for part in get_type_hints(kind).values()]
+    return [sum(sizes[:i]) for i in range(len(sizes))]

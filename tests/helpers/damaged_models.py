@@ -157,7 +157,7 @@ def main() -> None:
             (folder / "model").write_bytes(
                 pickle.dumps((replace(model, entry=None), str(native_guid(model))))
             )
-            count = given.count // len(models)
+            count = -(-given.count // len(models))
             numbers = [f"--count={count}", f"--seed={given.seed}", f"--first={given.first}"]
             command = [sys.executable, "-m", "tests.helpers.damaged_models", f"--library={path}"]
             environment = watching_environment() | {"PYTHONPATH": os.fspath(ROOT)}

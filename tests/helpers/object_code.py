@@ -94,6 +94,14 @@ class LoadedModel:
         prototype = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_double, *pointers)
         self._entry = prototype(self._engine.get_function_address(_NAME))
 
+    def takes(self, data: np.ndarray, work_size: int) -> bool:
+        """Whether the entry takes constants and a work array of these lengths."""
+        lengths = np.array([float(data.size), float(work_size)])
+        variables = [v for v in self.model.definition.variables if v.is_model_parameter]
+        options = np.array([float(len(v.literals)) for v in variables])
+        pointers = [one.ctypes.data for one in (data, lengths, options, *3 * [np.zeros(1)])]
+        return self._entry(int(Operation.CHECK), 0.0, *pointers) == 0
+
     def instance(self, values: dict[str, Any], inputs: Any) -> NativeRun:
         """Return an instance with parameters by argument, the others at their start values."""
         found = []

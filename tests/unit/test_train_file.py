@@ -43,13 +43,13 @@ def test_fields_are_taken_in_the_units_of_their_names():
 
 def test_the_start_is_in_rpm_newton_metres_and_degrees_celsius():
     case = read().case()
-    assert case.speeds["left_hub"] == pytest.approx(-5203.0 * np.pi / 30.0, rel=1e-15)
-    assert case.torques == {"motor_torque": 200.0, "left_wheel": 153.0, "right_wheel": 153.0}
+    assert case.speeds["left_hub"] == pytest.approx(-1951.0 * np.pi / 30.0, rel=1e-15)
+    assert case.torques == {"motor_torque": 120.0, "left_wheel": 91.0, "right_wheel": 91.0}
     assert case.oil_temperature == pytest.approx(333.15)
 
 
 def test_a_port_without_a_torque_has_none():
-    case = read((", right_wheel = 153.0", "")).case()
+    case = read((", right_wheel = 91.0", "")).case()
     assert case.torques["right_wheel"] == 0.0
 
 
@@ -114,10 +114,10 @@ WRONG = {
     ),
     "a sign": (("sign = -1.0", "sign = 0.5"), "sign of motor_torque must be 1 or -1, got 0.5."),
     "a torque of no port": (
-        ("motor_torque = 200.0", "seal = 200.0"),
+        ("motor_torque = 120.0", "seal = 120.0"),
         "start.torque_n_m.seal names nothing of the train. There are: motor_torque, left_wheel",
     ),
-    "no speed": (("left_hub = -5203.0", ""), "start.speed_rpm must name a body with its speed"),
+    "no speed": (("left_hub = -1951.0", ""), "start.speed_rpm must name a body with its speed"),
     "a mass as a text": (
         ("mass_kg = 3.0", 'mass_kg = "3"'),
         "bodies.motor.mass_kg must be a number, 0.0001 to 1e+06 kg, got '3'.",

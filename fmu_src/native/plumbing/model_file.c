@@ -181,20 +181,21 @@ static int fits_together(const gl_model *model, const int n_literals[GL_VARIABLE
 /* Makes the model of a file whose length fits its counts; NULL, and why not. */
 static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
 {
-    size_t size = sizeof(gl_model) + (size_t)counts[DATA] * sizeof(double) +
+    size_t size = sizeof(gl_model) +
                   GL_VARIABLES * (sizeof(gl_variable) + sizeof(gl_array)) +
                   GL_CONTINUOUS * sizeof(gl_continuous_state) +
                   (size_t)counts[REFUSALS] * sizeof(gl_refusal) + GL_RANGES * sizeof(gl_range) +
                   (size_t)counts[LITERALS] * sizeof(char *) +
                   (size_t)counts[MEMBERS] * sizeof(unsigned) +
                   (GL_INPUTS + GL_OUTPUTS + GL_INDICATORS) * sizeof(int) + (size_t)counts[TEXT];
-    gl_model *model = calloc(1, size);
+    size_t data_at = (size + sizeof(double) - 1) / sizeof(double) * sizeof(double);
+    /* the data come last: tools that watch memory see whoever reads past them */
+    gl_model *model = calloc(1, data_at + (size_t)counts[DATA] * sizeof(double));
     if (!model) {
         snprintf(why, GL_LONGEST_MESSAGE, "There is not enough memory for the model.");
         return NULL;
     }
     unsigned char *memory = (unsigned char *)(model + 1);
-    double *data = take(&memory, (size_t)counts[DATA], sizeof *data);
     gl_variable *variables = take(&memory, GL_VARIABLES, sizeof *variables);
     gl_array *arrays = take(&memory, GL_VARIABLES, sizeof *arrays);
     gl_continuous_state *states = take(&memory, GL_CONTINUOUS, sizeof *states);
@@ -206,6 +207,8 @@ static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
     int *outputs = take(&memory, GL_OUTPUTS, sizeof *outputs);
     int *indicators = take(&memory, GL_INDICATORS, sizeof *indicators);
     char *text = take(&memory, (size_t)counts[TEXT], 1);
+    memory = (unsigned char *)model + data_at;
+    double *data = take(&memory, (size_t)counts[DATA], sizeof *data);
     memcpy(text, file.text, (size_t)counts[TEXT]);
     file.text = text;
     file.n_text = counts[TEXT];

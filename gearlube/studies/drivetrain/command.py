@@ -26,8 +26,13 @@ def drivetrain(
         float, typer.Option(help="Length of the run [ms].", metavar="MS")
     ] = 50.0,
     step_us: Annotated[
-        float, typer.Option(help="Time between two rows of the results [us].", metavar="US")
-    ] = 20.0,
+        float | None,
+        typer.Option(
+            help="Time between two rows of the results [us]. Default: 1/24 of the shortest mesh "
+            "period.",
+            metavar="US",
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_drivetrain"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -50,7 +55,7 @@ def drivetrain(
             dataset = run_drivetrain(
                 given.case(),
                 duration=1e-3 * duration_ms,
-                step=1e-6 * step_us,
+                step=None if step_us is None else 1e-6 * step_us,
                 folder=out,
                 progress=progress,
             )

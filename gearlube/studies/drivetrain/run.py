@@ -18,6 +18,7 @@ from gearlube_core.storage.atomic_file import write_dataset
 
 FILE = "drivetrain.nc"
 MOST_POINTS = 200_000
+_PER_PERIOD, _USUAL_STEP = 24, 1e-4  # steps of a mesh period; without a mesh [s]
 _RIGID = 1.0  # Hz, below which a mode is a turning of the whole train
 
 
@@ -25,7 +26,7 @@ def run_drivetrain(
     case: TrainCase,
     *,
     duration: float = 0.05,
-    step: float = 2e-5,
+    step: float | None = None,
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
@@ -36,7 +37,8 @@ def run_drivetrain(
     case : TrainCase
         The train with its speeds, torques and oil temperature, which stay as they are.
     duration, step : float
-        Of the run, and of a communication step [s]; at most 200,000 steps of at most 0.1 s.
+        Of the run, and of a communication step [s]; at most 200,000 steps of at most 0.1 s. By
+        default a step is 1/24 of the shortest mesh period.
     folder : Path, optional
         Folder for FILE.
     progress : callable, optional
@@ -62,14 +64,20 @@ def run_drivetrain(
     Examples
     --------
     >>> from drivetrain.train.train_file import TrainFile
-    >>> motion = run_drivetrain(TrainFile.named("e_axle").case(), duration=4e-5)
+    >>> motion = run_drivetrain(TrainFile.named("e_axle").case(), duration=4e-5, step=2e-5)
     >>> motion.sizes["time"], motion["motor.speed"].units
     (3, 'rad/s')
     """
     check_within("duration", duration, 1e-6, 1e4, "s")
-    check_within("step", step, max(1e-7, duration / MOST_POINTS), min(0.1, duration), "s")
+    shortest, longest = max(1e-7, duration / MOST_POINTS), min(0.1, duration)
+    if step is not None:
+        check_within("step", step, shortest, longest, "s")
     progress(0.0, "finding the equilibrium; a new list of elements is compiled first")
     train = case.start()
+    if step is None:
+        meshes = [v for name, v in train.outputs().items() if name.endswith(".frequency")]
+        highest = max(map(abs, meshes), default=0.0)
+        step = min(longest, max(shortest, 1.0 / max(_PER_PERIOD * highest, 1.0 / _USUAL_STEP)))
     before = train.energy
     frequency, share = mode_shares(train)
     steps = math.ceil(duration / step - 1e-9)

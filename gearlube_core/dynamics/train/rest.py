@@ -76,7 +76,7 @@ def rest_kernels(
 
     @kernel
     def keep(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> None:
-        """Write what elements keep under the loads, and about what own states then are; renew."""
+        """Write what elements keep under the loads, and about what own states then are."""
         swap_own(s, room.loads, room.held, room, work)
         at_rest(s, oil, numbers, memory)
         swap_own(s, room.held, room.guess, room, work)
@@ -103,29 +103,26 @@ def rest_kernels(
             s[i] = 0.0
         for k in range(room.own):
             work[room.loads + k] = 0.0
-        m = 0
-        for turn in range(_PASSES + 2):  # relations, loads, then the search
+        keep(s, oil, numbers, memory, work)
+        relate(s, oil, numbers, memory, work)
+        status, number = find_speeds(s, numbers, room, work)
+        if status != OK:
+            return status, number, 0
+        m = find_places(numbers, BODY_STATES * bearing + RZ, room, work)
+        keep(s, oil, numbers, memory, work)
+        renew(s, oil, numbers, memory)
+        rates(s, oil, numbers, memory, 0, part(work, 0, n))
+        find_loads(numbers, m, room, work)
+        keep(s, oil, numbers, memory, work)
+        find_own(s, m, room, work)
+        find_scales(m, room, work)
+        moves, scales = part(work, room.moves, m), part(work, room.scales, m)
+        problem = (s, oil, numbers, memory, work)
+        for _ in range(_PASSES):
             keep(s, oil, numbers, memory, work)
-            if turn == 0:
-                relate(s, oil, numbers, memory, work)
-                status, number = find_speeds(s, numbers, room, work)
-                if status != OK:
-                    return status, number, 0
-                m = find_places(numbers, BODY_STATES * bearing + RZ, room, work)
-                continue
-            if turn == 2:
-                find_own(s, m, room, work)
-                find_scales(m, room, work)
             renew(s, oil, numbers, memory)
-            if turn == 1:
-                rates(s, oil, numbers, memory, 0, part(work, 0, n))
-                find_loads(numbers, m, room, work)
-                continue
             begin_search(s, m, room, work)
-            problem = (s, oil, numbers, memory, work)
-            moves = part(work, room.moves, m)
-            solver = part(work, room.solver, room.end - room.solver)
-            newton(moves, part(work, room.scales, m), problem, solver)
+            newton(moves, scales, problem, part(work, room.solver, room.end - room.solver))
             unbalanced(moves, problem, part(work, room.out, m))
         return largest_force(m, room, work)
 
