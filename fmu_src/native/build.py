@@ -155,7 +155,7 @@ def libraries(
     """
     name = model.definition.name
     if model.entry is not None and not model.kind:
-        report(f"{name}: laws of its own, so a library for this model alone, which is not kept")
+        report(f"{name}: a library for this model alone, which is not kept")
         return dict(_built(model, platforms, report))
     shipped = prebuilt_folder(model)
     found = {one.name: kept_library(shipped, one.name) for one in platforms}

@@ -11,7 +11,7 @@ import os
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from gearlube_core.errors import ParameterError
@@ -50,18 +50,19 @@ def keep_library(folder: Path, platform: str, library: bytes) -> None:
 
 @contextmanager
 def one_builds(key: str) -> Iterator[Path]:
-    """Give the folder of a key; other processes that want the same wait until this one is done."""
+    """Give the folder of a key; other processes that want the same wait until this one is done.
+
+    Where nothing can be written each process builds for itself.
+    """
     folder = cache_folder("libraries") / key
-    folder.mkdir(parents=True, exist_ok=True)
-    while True:
-        lock = locked_folder(folder)
-        try:
-            lock.__enter__()
-        except ParameterError:
-            time.sleep(_PAUSE)
-            continue
-        break
-    try:
+    with ExitStack() as held:
+        with suppress(OSError):
+            folder.mkdir(parents=True, exist_ok=True)
+            while True:
+                try:
+                    held.enter_context(locked_folder(folder))
+                except ParameterError:
+                    time.sleep(_PAUSE)
+                    continue
+                break
         yield folder
-    finally:
-        lock.__exit__(None, None, None)

@@ -19,7 +19,8 @@ from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_
 _NO_START = {
     LOOSE: "the start speeds leave bodies free. Give more in the train file, or connect the bodies",
     APART: "the start speeds do not fit together through meshes and shafts. Give one of them",
-    NO_REST: "no static equilibrium. Reduce the torques or stiffen the supports",
+    NO_REST: "no static equilibrium. Reduce the torques, stiffen the supports, or give every body "
+    "that may move along or about an axis a support there",
     NO_MODES: "natural frequencies at rest are not finite. Check masses and stiffness",
 }
 _START, _STEP, _OUTPUTS, _RESUME, _MOTION = map(int, tuple(Operation)[:5])

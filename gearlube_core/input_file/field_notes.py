@@ -193,7 +193,7 @@ def sentence(
         near = " or ".join(likely_fields(field, notes))
         return f"{field} is not a field of this file" + (f"; is it {near}?" if near else ".")
     cure = _rewritten(kind, error["input"])
-    if kind == "model_type":
+    if kind == "model_type" or (kind == "dict_type" and note is None):
         return f"{field} must be a section [{field}], got {error['input']!r}.{cure}"
     if note is None:
         return f"{field or 'The file'}: {error['msg'].lower()}, got {error['input']!r}.{cure}"

@@ -68,6 +68,16 @@ def test_torques_that_do_not_balance_are_told(rotors: Path) -> None:
     assert said.headline == "The speed of load changes from 1000 to 1500 rpm."
 
 
+def test_a_drivetrain_that_stands_has_no_drift_and_no_losses(rotors: Path) -> None:
+    with xr.open_dataset(rotors / FILE) as found:
+        still = found.load()
+    for name in still.data_vars:
+        if str(name).endswith((".speed", ".power_loss")):
+            still[name] = 1e-30 * still[name] * np.linspace(0.0, 1.0, still.sizes["time"])
+    said = [one.headline for one in findings(still)]
+    assert [one for one in said if one.startswith(("The speed of", "The drivetrain loses"))] == []
+
+
 def test_the_example_is_a_file_to_start_from(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["drivetrain", "--example"])
     assert done.exit_code == 0

@@ -131,6 +131,16 @@ def test_one_builds_and_the_others_wait(builds: Builds, monkeypatch: pytest.Monk
     assert seen[0] == seen[1]
 
 
+def test_a_cache_that_cannot_be_written_keeps_nothing(
+    builds: Builds, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "file").write_text("not a folder")
+    monkeypatch.setenv("GEARLUBE_CACHE", str(tmp_path / "file"))
+    first, second = (libraries(of_kind("one"), TWO) for _ in range(2))
+    assert builds.asked == 2 * NAMES
+    assert list(first) == list(second) == NAMES
+
+
 def test_a_library_that_ships_needs_no_build(builds: Builds, tmp_path: Path) -> None:
     model = of_kind("one")
     assert prebuilt_folder(model).parent == tmp_path / "prebuilt"

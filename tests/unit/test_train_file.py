@@ -112,6 +112,27 @@ WRONG = {
         ('gear_file = "he_2007"', 'gear_file = "nope.toml"'),
         "elements.stage_1: The gear file nope.toml was not found",
     ),
+    "one body for both ends": (
+        ('second = "left_hub"', 'second = "differential"'),
+        "left_shaft must act on 2 different bodies, got differential, differential.",
+    ),
+    "a shaft as a port": (
+        ("drives_forward = true", 'torque_of = "left_shaft"'),
+        "stage_2 names 'left_shaft', which is not among the ports of the train. There are: "
+        "motor_torque, left_wheel, right_wheel.",
+    ),
+    "a body without a section": (
+        ("[bodies.motor]\n", "[bodies]\nmotor = 3\n[bodies.other]\n"),
+        "bodies.motor must be a section [bodies.motor], got 3.",
+    ),
+    "an axis twice": (
+        (
+            "[elements.seal]",
+            '[elements.pair]\nkind = "opposed_bearings"\nbody = "motor"\naxes = [0, 0, 7]\n'
+            "[elements.pair.bearing]\n[elements.seal]",
+        ),
+        "axes of pair must be 0, 1 and 2, each once, got [0, 0, 7].",
+    ),
     "a sign": (("sign = -1.0", "sign = 0.5"), "sign of motor_torque must be 1 or -1, got 0.5."),
     "a torque of no port": (
         ("motor_torque = 120.0", "seal = 120.0"),

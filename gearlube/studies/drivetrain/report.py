@@ -29,6 +29,8 @@ from gearlube_core.units import rads_to_rpm
 
 _BALANCED = 1e-3  # share of the energy that may be missing before the report warns
 _STEADY = 0.02  # change of a speed in a run, over the speed
+_AT_REST = 0.05  # speed that counts as none [rad/s]
+_NO_LOSS = 1e-9  # W, rounding
 _SHOWN = 0.1  # last part of the run, of which the transmission errors are drawn
 _DTE, _LOSS = ".dte", ".power_loss"
 _LIMITS = (
@@ -147,7 +149,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     found += _drift(dataset)
     lost = losses(dataset)
     efficiency = float(settled(dataset)["efficiency"].mean())
-    if lost:
+    if sum(lost.values()) > _NO_LOSS:
         name, most = next(iter(lost.items()))
         share = f", {100.0 * efficiency:.2f} % efficiency" if efficiency > 0.0 else ""
         found.append(
@@ -177,7 +179,7 @@ def _drift(dataset: xr.Dataset) -> list[Finding]:
         key=lambda body: float(abs(dataset[f"{body}.speed"][-1] - dataset[f"{body}.speed"][0])),
     )
     first, last = (float(rads_to_rpm(dataset[f"{name}.speed"].values[i])) for i in (0, -1))
-    if abs(last - first) <= _STEADY * abs(first):
+    if abs(last - first) <= _STEADY * max(abs(first), float(rads_to_rpm(_AT_REST))):
         return []
     return [
         Finding(

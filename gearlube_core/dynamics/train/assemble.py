@@ -50,7 +50,8 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
     Raises
     ------
     ParameterError
-        Two bodies or elements have one name, or an element names one that is not there.
+        Two bodies or elements have one name, or an element names one that is not there, or one
+        body twice.
     """
     _check_names(bodies, elements)
     names = [f"{body.name}.{one}" for body in bodies for one in _MOTIONS]
@@ -115,6 +116,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
 def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
     """Raise ParameterError unless all names are unique and those that are referred to exist."""
     there = {"bodies": [one.name for one in bodies], "elements": [one.name for one in elements]}
+    ports = [one.name for one in elements if one.works and one.kept_size()]
     for what, names in there.items():
         for name in names:
             if names.count(name) > 1:
@@ -125,11 +127,16 @@ def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
                 f"{one.name} has own states, so its kernels must include at_rest, which writes "
                 "about what they are at rest."
             )
-        asked = [("bodies", getattr(one, field)) for field in one.on]
-        asked += [("elements", getattr(one, field)) for field in one.beside]
-        for what, name in asked:
-            if name is not None and name not in there[what]:
-                known = ", ".join(there[what]) or "none"
+        asked = [("bodies", there["bodies"], getattr(one, field)) for field in one.on]
+        on = [name for _, _, name in asked]
+        if len(set(on)) < len(on):
+            raise ParameterError(
+                f"{one.name} must act on {len(on)} different bodies, got {', '.join(on)}."
+            )
+        asked += [("ports", ports, getattr(one, field)) for field in one.beside]
+        for what, names, name in asked:
+            if name is not None and name not in names:
+                known = ", ".join(names) or "none"
                 raise ParameterError(
                     f"{one.name} names {name!r}, which is not among the {what} of the train. "
                     f"There are: {known}."

@@ -306,12 +306,14 @@ class Train:
         if status == APART:
             raise ParameterError(
                 "speeds must fit together through meshes and shafts, got "
-                f"{dict(speeds)}, which are {number:.3g} rad/s apart. Give one of them."
+                f"{dict(speeds)}, which are {number:.3g} rad/s apart. Give one of them; a body "
+                "that holds rz does not turn."
             )
         if status == NO_REST:
             raise ConvergenceError(
                 f"no static equilibrium: forces on {self._made.names[int(place)]} are out by "
-                f"{number:g} N or N.m. Reduce the torques or stiffen the supports."
+                f"{number:g} N or N.m. Reduce the torques, stiffen the supports, or give every "
+                "body that may move along or about an axis a support there."
             )
         raise ConvergenceError(
             "natural frequencies at rest are not finite numbers. Check masses and stiffness."

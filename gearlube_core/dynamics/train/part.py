@@ -92,7 +92,7 @@ class Element(ABC):
     name: str
     kind: ClassVar[str] = ""
     on: ClassVar[tuple[str, ...]]  # fields that name the bodies
-    beside: ClassVar[tuple[str, ...]] = ()  # fields that name other elements, or None
+    beside: ClassVar[tuple[str, ...]] = ()  # fields that name ports, or None
     states: ClassVar[tuple[str, ...]] = ()  # own integrated states that stay in steady turning
     angles: ClassVar[tuple[str, ...]] = ()  # own integrated states that turn on
     works: ClassVar[tuple[str, ...]] = ()  # energies put into the train

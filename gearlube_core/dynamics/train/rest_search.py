@@ -33,7 +33,7 @@ NO_MODES = 7  # natural frequencies are not finite
 
 _SETTLED = 1e-6  # of the largest force of a member at rest
 _SAME_SPEED = 1e-6  # of the largest speed
-_SHARE, _NO_LOAD = 0.1, 1e-6  # of an own state, a move that matters; and without own states
+_SHARE, _NO_LOAD = 0.1, 1e-6  # of an own state, a move that matters; without load [m, rad]
 
 
 class Room(NamedTuple):
@@ -216,18 +216,24 @@ def find_own(s: Array, m: int, room: Room, work: Array) -> None:
 
 @kernel
 def find_scales(m: int, room: Room, work: Array) -> None:
-    """Write what move of each coordinate matters: a share of what moves the own states."""
+    """Write what move of each coordinate matters: a share of what moves the own states.
+
+    Members without load, such as the shaft of a wheel that turns freely, do not narrow it to zero.
+    """
     scales, guess = part(work, room.scales, m), part(work, room.guess, room.own)
-    others = _SHARE * _NO_LOAD if room.own == 0 else math.inf
+    least = _SHARE * _NO_LOAD
+    others = least if room.own == 0 else math.inf
     for k in range(room.own):
         others = min(others, _SHARE * abs(guess[k]))
     for i in range(m):
         scales[i] = math.inf
         for k in range(room.own):
             gain = abs(work[room.related + k * m + i])
-            scales[i] = min(scales[i], _SHARE * abs(guess[k]) / gain)
+            if gain > 0.0:
+                scales[i] = min(scales[i], _SHARE * abs(guess[k]) / gain)
         if not scales[i] < math.inf:
             scales[i] = others
+        scales[i] = max(scales[i], least)
 
 
 @kernel

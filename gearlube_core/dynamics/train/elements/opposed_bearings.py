@@ -275,6 +275,11 @@ class OpposedBearings(Element):
                 "has. Take a law such as zhou_hoeprich_1991."
             )
 
+        if sorted(self.axes) != [0, 1, 2]:
+            raise ParameterError(
+                f"axes of {self.name} must be 0, 1 and 2, each once, got {list(self.axes)}."
+            )
+
     def variants(self) -> tuple[type, ...]:
         """Return the class of the bearings."""
         return (type(self.bearing.parameters()),)
