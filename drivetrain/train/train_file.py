@@ -10,21 +10,21 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import Field
 
 from drivetrain.train.part_section import OF_THE_TRAIN, files_in, read_part
+from gearlube_core.checks import check_within
+from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.elements.port import Port
-from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.model import MOST_TORQUE, Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.oil.oil_file import Temperature, read_oil
-from gearlube_core.units import ZERO_CELSIUS, rpm_to_rads
+from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm, rpm_to_rads
 
 _NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
 _RESERVED = ("oil", "range", "energy", "efficiency", "start")  # words of the FMU's own variables
 _TOLD, _SHOWN = 20, 80  # wrong fields in an error, signs of a wrong text
 Text = Annotated[str, Field(min_length=1)]
-_FASTEST = 1e5  # 1/min
-Speed = Annotated[float, Field(ge=-_FASTEST, le=_FASTEST, allow_inf_nan=False)]
-Torque = Annotated[float, Field(ge=-1e7, le=1e7, allow_inf_nan=False)]
+_FASTEST = rads_to_rpm(MAX_SPEED)
 
 
 class OilSection(Section):
@@ -37,11 +37,11 @@ class StartSection(Section):
     """The state at the start: a static equilibrium, turning."""
 
     oil_temperature_degc: Temperature = Field(default=60.0, description="Temperature of the oil")
-    speed_rpm: dict[str, Speed] = Field(
+    speed_rpm: dict[str, float] = Field(
         description="Speeds about z of as many bodies as can turn independently, by their names; "
         "all others follow"
     )
-    torque_n_m: dict[str, Torque] = Field(
+    torque_n_m: dict[str, float] = Field(
         description="Torques of the ports by their names; those left out are 0. The first body "
         "with a speed bears what they leave"
     )
@@ -187,11 +187,12 @@ class TrainFile(InputFile):
         """
         bodies, elements, _ = self._parts()
         ports = [one.name for one in elements if isinstance(one, Port)]
-        for field, names, there in (
-            ("start.torque_n_m", self.start.torque_n_m, ports),
-            ("start.speed_rpm", self.start.speed_rpm, list(self.bodies)),
+        for field, given, there, most, unit in (
+            ("start.torque_n_m", self.start.torque_n_m, ports, MOST_TORQUE, "N.m"),
+            ("start.speed_rpm", self.start.speed_rpm, list(self.bodies), _FASTEST, "rpm"),
         ):
-            for name in names:
+            for name, value in given.items():
+                check_within(f"{field}.{name}", value, -most, most, unit)
                 if name not in there:
                     known = ", ".join(there) or "none"
                     raise ParameterError(
@@ -199,10 +200,13 @@ class TrainFile(InputFile):
                     )
         if not self.start.speed_rpm:
             raise ParameterError("start.speed_rpm must name a body with its speed, got none.")
+        oil = read_oil(self.oil.name).lubricant
+        kelvin = self.start.oil_temperature_degc + ZERO_CELSIUS
+        oil.check_temperature(kelvin, "start.oil_temperature_degc, in K,")
         train = Train(
             bodies,
             elements,
-            read_oil(self.oil.name).lubricant,
+            oil,
             steps_per_highest_period=self.steps_per_highest_period,
         )
         return TrainCase(
@@ -210,5 +214,5 @@ class TrainFile(InputFile):
             train=train,
             speeds={name: rpm_to_rads(one) for name, one in self.start.speed_rpm.items()},
             torques={name: self.start.torque_n_m.get(name, 0.0) for name in ports},
-            oil_temperature=self.start.oil_temperature_degc + ZERO_CELSIUS,
+            oil_temperature=kelvin,
         )

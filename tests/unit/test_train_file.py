@@ -138,6 +138,18 @@ WRONG = {
         ("motor_torque = 120.0", "seal = 120.0"),
         "start.torque_n_m.seal names nothing of the train. There are: motor_torque, left_wheel",
     ),
+    "a torque out of range": (
+        ("motor_torque = 120.0", "motor_torque = 1e9"),
+        "start.torque_n_m.motor_torque must be within -1e+07 to 1e+07 N.m, got 1e+09 N.m.",
+    ),
+    "a speed out of range": (
+        ("left_hub = -1951.0", "left_hub = 1e6"),
+        "start.speed_rpm.left_hub must be within -47746.5 to 47746.5 rpm, got 1e+06 rpm.",
+    ),
+    "oil that is too cold": (
+        ("oil_temperature_degc = 60.0", "oil_temperature_degc = -50.0"),
+        "start.oil_temperature_degc, in K, must be within 273.15 to 423.15 K, got 223.15 K.",
+    ),
     "no speed": (("left_hub = -1951.0", ""), "start.speed_rpm must name a body with its speed"),
     "a mass as a text": (
         ("mass_kg = 3.0", 'mass_kg = "3"'),

@@ -48,8 +48,12 @@ def drivetrain(
     from gearlube.report.inputs import file_inputs
     from gearlube.studies.drivetrain.report import losses, report, save_figures
     from gearlube.studies.drivetrain.run import run_drivetrain
+    from gearlube_core.checks import check_within
 
     with study_run("drivetrain", out, overwrite=overwrite) as run:
+        check_within("--duration-ms", duration_ms, 1e-3, 1e7, "ms")
+        if step_us is not None:
+            check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
         given = TrainFile.given(file)
         with run.results() as progress:
             dataset = run_drivetrain(

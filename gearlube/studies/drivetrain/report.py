@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,7 @@ from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import rads_to_rpm
 
 _BALANCED = 1e-3  # share of the energy that may be missing before the report warns
+_DIGITS = 9  # behind the point, of a loss in W
 _STEADY = 0.02  # change of a speed in a run, over the speed
 _AT_REST = 0.05  # speed that counts as none [rad/s]
 _NO_LOSS = 1e-9  # W, rounding
@@ -49,11 +51,17 @@ def losses(dataset: xr.Dataset) -> dict[str, float]:
     """Return the mean losses in the second half of a run by name, the largest first [W]."""
     half = settled(dataset)
     found = {
-        str(name).removesuffix(_LOSS): float(half[name].mean())
+        str(name).removesuffix(_LOSS): float(half[name].mean().round(_DIGITS))
         for name in half.data_vars
         if str(name).endswith(_LOSS) and "." not in str(name).removesuffix(_LOSS)
     }
     return dict(sorted(found.items(), key=lambda one: -one[1]))
+
+
+def efficiency(dataset: xr.Dataset) -> float:
+    """Return the mean efficiency of the second half [-]; NaN if more is lost than driven."""
+    found = float(settled(dataset)["efficiency"].mean())
+    return found if found > 0.0 else math.nan
 
 
 def transmission_errors(dataset: xr.Dataset) -> dict[str, float]:
@@ -148,10 +156,10 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     ]
     found += _drift(dataset)
     lost = losses(dataset)
-    efficiency = float(settled(dataset)["efficiency"].mean())
+    share_kept = efficiency(dataset)
     if sum(lost.values()) > _NO_LOSS:
         name, most = next(iter(lost.items()))
-        share = f", {100.0 * efficiency:.2f} % efficiency" if efficiency > 0.0 else ""
+        share = "" if np.isnan(share_kept) else f", {100.0 * share_kept:.2f} % efficiency"
         found.append(
             Finding(
                 NOTE,
@@ -212,7 +220,7 @@ def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input
         findings=findings(dataset),
         numbers=[
             Number("power lost", sum(lost.values()), "W"),
-            Number("efficiency", 100.0 * float(half["efficiency"].mean()), "%", 4),
+            Number("efficiency", 100.0 * efficiency(dataset), "%", 4),
             *(
                 Number(f"transmission error of {mesh}, peak to peak", 1e6 * swing, "µm")
                 for mesh, swing in transmission_errors(dataset).items()
