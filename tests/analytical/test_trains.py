@@ -13,6 +13,7 @@ from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, churning_torque
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
@@ -201,6 +202,24 @@ def test_a_wheel_without_load_leaves_its_shaft_straight(left: float, right: floa
     # the left wheel bears what the work of moving lines leaves, 1e-4 of it
     assert found["left shaft.torque"] == pytest.approx(-road["left"], rel=1e-4, abs=0.05)
     assert found["right shaft.torque"] == pytest.approx(-road["right"], rel=1e-9, abs=1e-6)
+
+
+def test_a_shaft_that_is_locked_at_one_end_starts_at_rest():
+    """The lock bears the torque: each shaft is twisted by T/k, and nothing moves."""
+    locked = Body(name="lock", mass=1.0, inertia=1.0, polar_inertia=1.0, held=COORDINATES)
+    rotors = [Body.spinning("motor", 0.2), Body.spinning("middle", 1.0), locked]
+    shafts = [
+        HalfShaft(name="first", first="motor", second="middle", stiffness=1e4),
+        HalfShaft(name="second", first="middle", second="lock", stiffness=2e4),
+    ]
+    train = Train(rotors, [Port(name="drive", body="motor"), *shafts], PAIR.oil)
+    train.initialise({"motor": 0.0}, {"drive": 30.0}, KELVIN)
+    assert train.state("first.twist") == pytest.approx(30.0 / 1e4, rel=1e-9)
+    assert train.state("second.twist") == pytest.approx(30.0 / 2e4, rel=1e-9)
+    train.step(0.01, {"drive": 30.0}, KELVIN)
+    assert train.state("motor.rz.rate") == pytest.approx(0.0, abs=1e-9)
+    with pytest.raises(ParameterError, match="speeds must fit together"):
+        train.initialise({"motor": 5.0}, {"drive": 30.0}, KELVIN)
 
 
 def test_energy_of_two_stages_is_balanced_while_torques_swing():

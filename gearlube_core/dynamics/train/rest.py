@@ -105,10 +105,12 @@ def rest_kernels(
             work[room.loads + k] = 0.0
         keep(s, oil, numbers, memory, work)
         relate(s, oil, numbers, memory, work)
-        status, number = find_speeds(s, numbers, room, work)
+        status, number, turnings = find_speeds(s, numbers, room, work)
         if status != OK:
             return status, number, 0
-        m = find_places(numbers, BODY_STATES * bearing + RZ, room, work)
+        # where nothing turns freely, as on a shaft locked at one end, torques balance by themselves
+        without = BODY_STATES * bearing + RZ if turnings > 0 else -1
+        m = find_places(numbers, without, room, work)
         keep(s, oil, numbers, memory, work)
         renew(s, oil, numbers, memory)
         rates(s, oil, numbers, memory, 0, part(work, 0, n))

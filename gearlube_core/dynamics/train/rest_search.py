@@ -124,8 +124,33 @@ def find_places(numbers: Array, without: int, room: Room, work: Array) -> int:
 
 
 @kernel
-def find_speeds(s: Array, numbers: Array, room: Room, work: Array) -> tuple[int, float]:
-    """Write the speeds at which no own state changes; return a status and its number."""
+def relate_turning(count: int, room: Room, work: Array) -> None:
+    """Write the rates of own states over the speeds of the bodies that turn, row by row.
+
+    Rows are scaled, so that base radii and ones compare. They have nothing on their right.
+    """
+    relations = part(work, room.relations, room.own * room.coordinates)
+    turning, right = part(work, room.turning, room.vector), part(work, room.right, room.vector)
+    matrix = part(work, room.solver, room.vector * room.vector)
+    for k in range(room.own):
+        right[k], most = 0.0, 0.0
+        for j in range(count):
+            one = relations[k * room.coordinates + int(turning[j]) * N_COORDINATES + RZ]
+            matrix[k * count + j] = one
+            most = max(most, abs(one))
+        for j in range(count):
+            matrix[k * count + j] /= most if most > 0.0 else 1.0
+
+
+@kernel
+def find_speeds(s: Array, numbers: Array, room: Room, work: Array) -> tuple[int, float, int]:
+    """Write the speeds at which no own state changes.
+
+    Returns
+    -------
+    tuple of (int, float, int)
+        A status and its number; in how many ways bodies can turn without a change of own states.
+    """
     bodies, own, q = room.bodies, room.own, room.vector
     relations = part(work, room.relations, own * room.coordinates)
     wanted, turning = part(work, room.wanted, q), part(work, room.turning, q)
@@ -136,15 +161,11 @@ def find_speeds(s: Array, numbers: Array, room: Room, work: Array) -> tuple[int,
         if _mobility(numbers, BODY_STATES * body + RZ, room) > 0.0:
             turning[count] = body
             count += 1
+    solver = part(work, room.solver + q * q, count * count)
+    relate_turning(count, room, work)
+    turnings = least_squares(matrix, own, count, right, found, solver)
+    relate_turning(count, room, work)
     rows, largest = own, 1.0
-    for k in range(own):
-        right[k], most = 0.0, 0.0
-        for j in range(count):
-            one = relations[k * room.coordinates + int(turning[j]) * N_COORDINATES + RZ]
-            matrix[k * count + j] = one
-            most = max(most, abs(one))
-        for j in range(count):  # base radii, and ones
-            matrix[k * count + j] /= most if most > 0.0 else 1.0
     for body in range(bodies):
         if not math.isnan(wanted[body]):
             largest = max(largest, abs(wanted[body]))
@@ -152,10 +173,9 @@ def find_speeds(s: Array, numbers: Array, room: Room, work: Array) -> tuple[int,
             for j in range(count):
                 matrix[rows * count + j] = 1.0 if int(turning[j]) == body else 0.0
             rows += 1
-    solver = part(work, room.solver + q * q, count * count)
     free = least_squares(matrix, rows, count, right, found, solver)
     if free > 0:
-        return LOOSE, float(free)
+        return LOOSE, float(free), turnings
     for j in range(count):
         s[BODY_STATES * int(turning[j]) + W] = found[j]
     apart = 0.0
@@ -169,7 +189,7 @@ def find_speeds(s: Array, numbers: Array, room: Room, work: Array) -> tuple[int,
             total += one * s[BODY_STATES * body + W]
             most = max(most, abs(one))
         apart = max(apart, abs(total) / most if most > 0.0 else 0.0)
-    return OK if apart <= _SAME_SPEED * largest else APART, apart
+    return OK if apart <= _SAME_SPEED * largest else APART, apart, turnings
 
 
 @kernel
