@@ -148,7 +148,7 @@ def _roller_counts(bearing: Any) -> list[float]:
     inside = [
         count for part in bearing if isinstance(part, tuple) for count in _roller_counts(part)
     ]
-    return inside + [bearing.n_rollers] * ("n_rollers" in names)
+    return [*inside, bearing.n_rollers] if "n_rollers" in names else inside
 
 
 @kernel
