@@ -38,6 +38,7 @@ def tilting() -> Train:
     return rotor((), ARM, "palmgren")
 
 
+@pytest.mark.slow
 def test_two_of_them_at_one_place_are_the_opposed_pair() -> None:
     """Forces of both, and the heat of their rollers, at states of some micrometres."""
     held = ("rx", "ry")

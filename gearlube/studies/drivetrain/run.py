@@ -63,10 +63,15 @@ def run_drivetrain(
 
     Examples
     --------
-    >>> from drivetrain.train.train_file import TrainFile
-    >>> motion = run_drivetrain(TrainFile.named("e_axle").case(), duration=4e-5, step=2e-5)
-    >>> motion.sizes["time"], motion["motor.speed"].units
-    (3, 'rad/s')
+    >>> import gearlube as gl
+    >>> rotors = [gl.TrainBody.spinning("engine", 0.2), gl.TrainBody.spinning("wheel", 2.0)]
+    >>> shaft = gl.HalfShaft(name="shaft", first="engine", second="wheel", stiffness=1e4)
+    >>> parts = [shaft, gl.Port(name="motor", body="engine")]
+    >>> train = gl.Train(rotors, parts, gl.Lubricant.named("mohammadpour_2015"))
+    >>> start = {"speeds": {"engine": 100.0}, "torques": {"motor": 5.0}, "oil_temperature": 340.0}
+    >>> motion = run_drivetrain(TrainCase(name="rotors", train=train, **start), duration=0.01)
+    >>> motion.sizes["time"], motion["shaft.torque"].units
+    (101, 'N.m')
     """
     check_within("duration", duration, 1e-6, 1e4, "s")
     shortest, longest = max(1e-7, duration / MOST_POINTS), min(0.1, duration)

@@ -21,12 +21,9 @@ def hypoid_axle(parameters: HypoidAxleParameters) -> tuple[list[Body], list[Elem
     Examples
     --------
     >>> from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
-    >>> from gearlube_core.dynamics.train.model import Train
-    >>> axle = mohammadpour_2015_axle()
-    >>> train = Train(*hypoid_axle(axle), axle.oil, steps_per_highest_period=17)
-    >>> load = {"input": 50.0, "output": 178.0}
-    >>> train.initialise({"gear": 30.0}, load, 363.15)
-    >>> train.step(1e-4, load, 363.15)
+    >>> bodies, elements = hypoid_axle(mohammadpour_2015_axle())
+    >>> [one.name for one in elements[:4]]
+    ['input', 'output', 'mesh', 'pinion bearings']
     """
     given, held = parameters, ("rx", "ry")
     bodies = [
