@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
+from fmu_src.native.model import all_finite, is_whole
 from fmu_src.native.parameter_map import AxleSettings, KernelClasses, ParameterMap
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
@@ -152,19 +153,6 @@ def _roller_counts(bearing: Any) -> list[float]:
 
 
 @kernel
-def _is_whole(value: float, low: float, high: float) -> bool:
-    return low <= value <= high and value == float(int(value))
-
-
-@kernel
-def _all_finite(values: Array, start: int, end: int) -> bool:
-    finite = True
-    for i in range(start, end):
-        finite = finite and abs(values[i]) < 1e300
-    return finite
-
-
-@kernel
 def _fits_map(
     data: Array, s: AxleStructure, ends: DataEnds, literals: Array, counting: Array
 ) -> bool:
@@ -174,23 +162,23 @@ def _fits_map(
     rows = (ends.rows - ends.options) // packed
     for k in range((ends.options - s.options) // 2):
         index, row = data[s.options + 2 * k], data[s.options + 2 * k + 1]
-        fits = fits and _is_whole(index, 0.0, s.parameters - 1.0)
-        fits = fits and _is_whole(row, 0.0, float(rows))
+        fits = fits and is_whole(index, 0.0, s.parameters - 1.0)
+        fits = fits and is_whole(row, 0.0, float(rows))
         if fits:
             options = literals[int(index)]
             fits = options >= 1.0 and row + options <= rows
     for k in range((ends.numbers - ends.rows) // 2):
         place, index = data[ends.rows + 2 * k], data[ends.rows + 2 * k + 1]
-        fits = fits and _is_whole(place, 0.0, packed - 1.0)
-        fits = fits and _is_whole(index, 0.0, s.parameters - 1.0)
+        fits = fits and is_whole(place, 0.0, packed - 1.0)
+        fits = fits and is_whole(index, 0.0, s.parameters - 1.0)
         for i in range(counting.size // 3):
             fits = fits and place != counting[3 * i]
     for i in range(counting.size // 3):
         counts, low, high = int(counting[3 * i]), counting[3 * i + 1], counting[3 * i + 2]
-        fits = fits and _is_whole(data[N_SIZES + counts], low, high)
+        fits = fits and is_whole(data[N_SIZES + counts], low, high)
         for row in range(rows):
             value = data[ends.options + row * packed + counts]
-            fits = fits and (value != value or _is_whole(value, low, high))
+            fits = fits and (value != value or is_whole(value, low, high))
     return fits
 
 
@@ -199,12 +187,12 @@ def _fits_mesh(data: Array, ends: DataEnds, sizes: DataSizes) -> bool:
     """Whether a mesh table whose sizes are sound has an end of its levels and of its series."""
     tail = N_SERIES * (2 * int(sizes.orders) + 1)
     room = float(int(sizes.series) - tail - SHAFT_HEAD)
-    fits = data[ends.levels - 1] >= 0.0 and _all_finite(data, ends.numbers, ends.windows)
+    fits = data[ends.levels - 1] >= 0.0 and all_finite(data, ends.numbers, ends.windows)
     if fits and int(sizes.series) > tail:
         for k in range(VARIANTS * int(sizes.levels)):
             at = ends.levels + k * int(sizes.series) + tail
             p, q = data[at], data[at + 1]
-            fits = fits and _is_whole(p, 0.0, _MOST) and _is_whole(q, 0.0, _MOST)
+            fits = fits and is_whole(p, 0.0, _MOST) and is_whole(q, 0.0, _MOST)
             fits = fits and 2.0 * (p + q) <= room
     return fits
 
@@ -229,11 +217,11 @@ def check_axle_data(
     if not lengths[0] >= s.options:
         return 1
     sizes: DataSizes = tuple_from_array(array_at(data, N_SIZES), DataSizes)
-    whole = _is_whole(sizes.levels, 1.0, _MOST) and _is_whole(sizes.orders, 0.0, _MOST)
-    whole = whole and _is_whole(sizes.nodes, 1.0, _MOST) and _is_whole(sizes.series, 1.0, _MOST)
+    whole = is_whole(sizes.levels, 1.0, _MOST) and is_whole(sizes.orders, 0.0, _MOST)
+    whole = whole and is_whole(sizes.nodes, 1.0, _MOST) and is_whole(sizes.series, 1.0, _MOST)
     packed = s.lossless - N_SIZES
-    whole = whole and _is_whole(sizes.options, 0.0, _MOST) and _is_whole(sizes.rows, 0.0, _MOST)
-    whole = whole and _is_whole(sizes.numbers, 0.0, _MOST) and int(sizes.rows) % packed == 0
+    whole = whole and is_whole(sizes.options, 0.0, _MOST) and is_whole(sizes.rows, 0.0, _MOST)
+    whole = whole and is_whole(sizes.numbers, 0.0, _MOST) and int(sizes.rows) % packed == 0
     if not (whole and int(sizes.options) % 2 == 0 and int(sizes.numbers) % 2 == 0):
         return 1
     least = N_SERIES * (2 * int(sizes.orders) + 1)
@@ -245,9 +233,9 @@ def check_axle_data(
         return 1
     values = array_at(data, ends.windows)
     fits = _fits_map(values, s, ends, literals, counting) and _fits_mesh(values, ends, sizes)
-    fits = fits and _all_finite(values, 0, s.lossless)
-    fits = fits and _is_whole(values[s.film_model + UNITS], 1.0, float(WIDTH))
-    fits = fits and _is_whole(values[s.roller_model + UNITS], 1.0, float(WIDTH))
+    fits = fits and all_finite(values, 0, s.lossless)
+    fits = fits and is_whole(values[s.film_model + UNITS], 1.0, float(WIDTH))
+    fits = fits and is_whole(values[s.roller_model + UNITS], 1.0, float(WIDTH))
     return 0 if fits else 1
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from fmu_src.definition import Definition
 from fmu_src.helical_pair import EmbeddedPair, chosen_pair, embedded_pair, line_model_of
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
+from fmu_src.native.model import all_finite, is_whole
 from fmu_src.object_code import array_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
@@ -172,28 +173,15 @@ def _case(parameters: HelicalMarchParameters) -> tuple[Array, int]:
 
 
 @kernel
-def _is_count(value: float, low: float, high: float) -> bool:
-    return low <= value <= high and value == float(int(value))
-
-
-@kernel
-def _all_finite(values: Array, start: int, end: int) -> bool:
-    finite = True
-    for i in range(start, end):
-        finite = finite and abs(values[i]) < 1e300
-    return finite
-
-
-@kernel
 def _case_length(case: Any, uniform: bool, places: CasePlaces) -> tuple[int, int]:
     """Return the lengths of a case and of its pair data; 0, 0 if its sizes cannot be."""
     head: CaseHead = tuple_from_array(array_at(case, HEAD_FLOATS), CaseHead)
     given: GivenPair = tuple_from_array(
         array_at(pointer_at(case, HEAD_FLOATS), GIVEN_FLOATS), GivenPair
     )
-    fits = _is_count(head.levels, 1.0, _MOST) and _is_count(head.stations, 2.0, _MOST)
-    fits = fits and _is_count(head.size, 2.0, _MOST) and _is_count(given.lines, 1.0, LINES_MAX)
-    fits = fits and _is_count(given.phases, 1.0, _MOST) and given.stations == head.stations
+    fits = is_whole(head.levels, 1.0, _MOST) and is_whole(head.stations, 2.0, _MOST)
+    fits = fits and is_whole(head.size, 2.0, _MOST) and is_whole(given.lines, 1.0, LINES_MAX)
+    fits = fits and is_whole(given.phases, 1.0, _MOST) and given.stations == head.stations
     if not (fits and given.lines * given.phases * given.stations == head.size):
         return 0, 0
     levels, stations, size = int(head.levels), int(head.stations), int(head.size)
@@ -216,14 +204,14 @@ def check_cases(data: Any, lengths: Array, literals: Array, places: CasePlaces) 
         return 1
     values = array_at(data, int(lengths[0]))
     fits = True
-    fits = fits and _is_count(values[places.film_models + UNITS], 1.0, float(WIDTH))
-    fits = fits and _is_count(values[places.film_models + N_ARRAY + UNITS], 1.0, float(WIDTH))
+    fits = fits and is_whole(values[places.film_models + UNITS], 1.0, float(WIDTH))
+    fits = fits and is_whole(values[places.film_models + N_ARRAY + UNITS], 1.0, float(WIDTH))
     for number in range(places.film_models):
         place = values[number]
         if not fits or place == 0.0:
             continue
         last = lengths[0] - HEAD_FLOATS - GIVEN_FLOATS
-        fits = _is_count(place, float(places.cases), last)
+        fits = is_whole(place, float(places.cases), last)
         if fits:
             uniform = number % STIFFNESS_MODELS == 0
             length, own = _case_length(pointer_at(data, int(place)), uniform, places)
@@ -231,7 +219,7 @@ def check_cases(data: Any, lengths: Array, literals: Array, places: CasePlaces) 
             fits = fits and places.work + own <= lengths[1]
             if fits:
                 mesh = int(place) + HEAD_FLOATS + GIVEN_FLOATS
-                fits = _all_finite(values, mesh, int(place) + length)
+                fits = all_finite(values, mesh, int(place) + length)
     return 0 if fits else 1
 
 

@@ -11,6 +11,7 @@ from numba import types
 from fmu_src.definition import Definition
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.ranges import Range
+from gearlube_core.kernels.jit import kernel
 
 _POINTER = types.CPointer(types.float64)
 # operation, step, data, parameters, inputs, state, work, outputs
@@ -130,3 +131,18 @@ class NativeModel:
     groups: Mapping[Operation, frozenset[str]] = field(default_factory=dict)
     exchange: Exchange | None = None
     kind: str = ""
+
+
+@kernel
+def is_whole(value: float, low: float, high: float) -> bool:
+    """Whether a number among the constants is a whole one within limits."""
+    return low <= value <= high and value == float(int(value))
+
+
+@kernel
+def all_finite(values: Array, start: int, end: int) -> bool:
+    """Whether the constants from one place up to another can be computed with."""
+    finite = True
+    for i in range(start, end):
+        finite = finite and abs(values[i]) < 1e300
+    return finite

@@ -3,47 +3,29 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import ClassVar, NamedTuple
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, churning_torque
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
-from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
-from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
-from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
-from gearlube_core.dynamics.train.elements.port import Port
-from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
-from gearlube_core.dynamics.train.helical_pair import helical_pair, spring_support
-from gearlube_core.dynamics.train.march import START, train_kernel, work_size
+from gearlube_core.dynamics.train.helical_pair import helical_pair
 from gearlube_core.dynamics.train.model import Train
-from gearlube_core.dynamics.train.part import Body, Element
-from gearlube_core.dynamics.train.rest_search import APART, LOOSE, OK
-from gearlube_core.errors import ConvergenceError, ParameterError, StepError
-from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Output
-from gearlube_core.oil.lubricant import Lubricant
-from tests.helpers.coulomb_brake import CoulombBrake
-
-PAIR = helical_march_parameters(HelicalGearFile.named("he_2007"))
-PLANE, RATIO = PAIR.pair.plane, PAIR.pair.ratio
-OIL = Lubricant.named("mohammadpour_2015")
-KELVIN = 333.15
-LOAD = {"input": 226.0, "output": 280.0}
-
-
-def two_rotors(*, brake: float = 0.0, damping: float = 0.0) -> Train:
-    rotors = [Body.spinning("engine", 0.2), Body.spinning("load", 2.0)]
-    shaft = HalfShaft(name="shaft", first="engine", second="load", stiffness=1e4, damping=damping)
-    stopping = CoulombBrake(name="brake", body="load", torque=brake)
-    return Train(rotors, [shaft, Port(name="motor", body="engine"), stopping], OIL)
+from tests.helpers.small_trains import (
+    KELVIN,
+    PAIR,
+    PLANE,
+    RATIO,
+    e_axle,
+    loads,
+    two_rotors,
+)
 
 
 def test_two_rotors_on_a_shaft_swing_as_the_closed_form():
@@ -119,49 +101,6 @@ def test_a_brake_from_outside_the_package_stops_a_rotor_after_its_angle():
     assert sum(train.lost.values()) == pytest.approx(start - train.energy, rel=1e-7)
 
 
-def e_axle(turned: float = 0.0, friction: str = "film", hand: bool = True) -> Train:
-    """Return two stages: a rotor's shaft, a countershaft and a differential with two wheels.
-
-    Gears are those of he_2007 twice, masses and shafts invented. Bearings are alike in x and y, so
-    that the whole can be turned about z.
-    """
-    pair = replace(PAIR, friction=friction)
-    support = PAIR.constants().motion.gear
-    even = support._replace(K_yy=support.K_xx, K_ax=support.K_ay, c_y=support.c_x,
-                            c_ax=support.c_ay, K_x_ay=0.0, K_y_ax=0.0)  # fmt: skip
-    bodies = [
-        Body(name="input", mass=3.0, inertia=0.004, polar_inertia=0.02),
-        Body(name="counter", mass=6.0, inertia=0.02, polar_inertia=0.01),
-        Body(name="differential", mass=9.0, inertia=0.03, polar_inertia=0.04),
-        Body.spinning("left", 1.0),
-        Body.spinning("right", 1.0),
-    ]
-    first = HelicalMesh(
-        name="first", pinion="input", gear="counter", parameters=pair, angle=0.3 + turned,
-        right_hand=not hand, gear_arm=-0.03,
-    )  # fmt: skip
-    second = HelicalMesh(
-        name="second", pinion="counter", gear="differential", parameters=pair, angle=2.0 + turned,
-        drives_forward=True, right_hand=hand, pinion_arm=0.03,
-    )  # fmt: skip
-    elements = [
-        Port(name="motor", body="input", sign=-1.0),
-        Port(name="left wheel", body="left"),
-        Port(name="right wheel", body="right"),
-        first,
-        second,
-        *(spring_support(f"{b.name} bearings", b.name, even) for b in bodies[:3]),
-        HalfShaft(name="left shaft", first="differential", second="left", stiffness=8e3),
-        HalfShaft(name="right shaft", first="differential", second="right", stiffness=6e3),
-    ]
-    return Train(bodies, elements, PAIR.oil)
-
-
-def loads(torque: float) -> dict[str, float]:
-    each = 0.5 * torque * RATIO**2
-    return {"motor": torque, "left wheel": each, "right wheel": each}
-
-
 def test_two_stages_carry_torque_speed_and_thrust_as_rigid_gears_do():
     train = e_axle(friction="off")
     train.initialise({"left": -50.0, "right": -50.0}, loads(200.0), KELVIN)
@@ -189,37 +128,6 @@ def test_two_stages_carry_torque_speed_and_thrust_as_rigid_gears_do():
     other = e_axle(friction="off", hand=False)
     other.initialise({"left": -50.0, "right": -50.0}, loads(200.0), KELVIN)
     assert other.outputs()["first.force.z"] == pytest.approx(-found["first.force.z"], rel=1e-4)
-
-
-@pytest.mark.parametrize(("left", "right"), [(1.0, 0.0), (0.0, 1.0), (0.0, 0.0)])
-def test_a_wheel_without_load_leaves_its_shaft_straight(left: float, right: float) -> None:
-    train = e_axle(friction="off")
-    road = {"left": 200.0 * RATIO**2 * left, "right": 200.0 * RATIO**2 * right}
-    torques = {f"{one} wheel": torque for one, torque in road.items()}
-    torques["motor"] = 200.0 * (left + right)
-    train.initialise({"left": -50.0}, torques, KELVIN)
-    found = train.outputs()
-    # the left wheel bears what the work of moving lines leaves, 1e-4 of it
-    assert found["left shaft.torque"] == pytest.approx(-road["left"], rel=1e-4, abs=0.05)
-    assert found["right shaft.torque"] == pytest.approx(-road["right"], rel=1e-9, abs=1e-6)
-
-
-def test_a_shaft_that_is_locked_at_one_end_starts_at_rest():
-    """The lock bears the torque: each shaft is twisted by T/k, and nothing moves."""
-    locked = Body(name="lock", mass=1.0, inertia=1.0, polar_inertia=1.0, held=COORDINATES)
-    rotors = [Body.spinning("motor", 0.2), Body.spinning("middle", 1.0), locked]
-    shafts = [
-        HalfShaft(name="first", first="motor", second="middle", stiffness=1e4),
-        HalfShaft(name="second", first="middle", second="lock", stiffness=2e4),
-    ]
-    train = Train(rotors, [Port(name="drive", body="motor"), *shafts], PAIR.oil)
-    train.initialise({"motor": 0.0}, {"drive": 30.0}, KELVIN)
-    assert train.state("first.twist") == pytest.approx(30.0 / 1e4, rel=1e-9)
-    assert train.state("second.twist") == pytest.approx(30.0 / 2e4, rel=1e-9)
-    train.step(0.01, {"drive": 30.0}, KELVIN)
-    assert train.state("motor.rz.rate") == pytest.approx(0.0, abs=1e-9)
-    with pytest.raises(ParameterError, match="speeds must fit together"):
-        train.initialise({"motor": 5.0}, {"drive": 30.0}, KELVIN)
 
 
 def test_energy_of_two_stages_is_balanced_while_torques_swing():
@@ -364,117 +272,3 @@ def test_a_train_goes_on_from_a_saved_state_to_the_last_bit(rollers):
         one.set_state(saved)
         assert one.outputs() == before  # and reading them leaves the motion as it is
         assert np.array_equal(go_on(one), first)
-
-
-class NoKernels(NamedTuple):
-    """Of an element that forgets its kernels."""
-
-    number: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Twisting(Element):
-    """An element with an own state."""
-
-    name: str
-    body: str
-    on: ClassVar = ("body",)
-    states: ClassVar = ("twist",)
-
-    def numbers(self) -> NoKernels:
-        return NoKernels(1.0)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Speedometer(Twisting):
-    """An element with an output that bodies have."""
-
-    states: ClassVar = ()
-    outputs: ClassVar = (Output("speed", "rad/s", "speed"),)
-
-
-def test_what_cannot_be_a_train_is_named():
-    rotor, port = Body.spinning("rotor", 0.1), Port(name="motor", body="rotor")
-    with pytest.raises(ParameterError, match="bodies must have names of their own, got 'rotor'"):
-        Train([rotor, rotor], [port], OIL)
-    with pytest.raises(ParameterError, match=r"motor names 'shaft', which is not .* are: rotor"):
-        Train([rotor], [replace(port, body="shaft")], OIL)
-    with pytest.raises(ParameterError, match="mass must be within"):
-        Body(name="rotor", mass=-1.0, inertia=1.0, polar_inertia=1.0)
-    with pytest.raises(ParameterError, match=r"two has own states, .* must include at_rest"):
-        Train([rotor], [Twisting(name="two", body="rotor")], OIL)
-    with pytest.raises(ParameterError, match=r"got 'rotor\.speed' twice\. Rename the body or"):
-        Train([rotor], [Speedometer(name="rotor", body="rotor")], OIL)
-    loose = Train([rotor, Body.spinning("load", 1.0)], [port], OIL)
-    with pytest.raises(StepError, match=r"no state yet\. Call initialise"):
-        loose.step(1e-3, {"motor": 0.0}, KELVIN)
-    with pytest.raises(ParameterError, match="leave 1 free"):
-        loose.initialise({"rotor": 1.0}, {"motor": 0.0}, KELVIN)
-    train = two_rotors()
-    with pytest.raises(ParameterError, match="every port, which are motor; wrong is moter"):
-        train.initialise({"engine": 1.0}, {"motor": 0.0, "moter": 0.0}, KELVIN)
-    with pytest.raises(ParameterError, match="speeds must name bodies of the train, got 'wheel'"):
-        train.initialise({"wheel": 1.0}, {"motor": 0.0}, KELVIN)
-    with pytest.raises(ParameterError, match=r"fit together .* apart\. Give one of them"):
-        train.initialise({"engine": 1.0, "load": 2.0}, {"motor": 0.0}, KELVIN)
-    with pytest.raises(ParameterError, match="at least one body of the train, got none"):
-        train.initialise({}, {"motor": 0.0}, KELVIN)
-    train.initialise({"engine": 1.0}, {"motor": 0.0}, KELVIN)
-    saved = train.get_state()
-    with pytest.raises(ParameterError, match=r"0\.333 rad/s apart"):
-        train.initialise({"engine": 1.0, "load": 2.0}, {"motor": 9.0}, 300.0)
-    assert np.array_equal(train.get_state(), saved)
-    with pytest.raises(StepError, match="turns faster than"):
-        train.step(0.1, {"motor": 1e7}, KELVIN)
-    assert np.array_equal(train.get_state(), saved)
-
-
-def test_teeth_without_bearings_have_no_rest():
-    bodies, elements = helical_pair(PAIR)
-    loose = [SpringSupport(name=one.name, body=one.body) for one in elements[3:]]
-    train = Train(bodies, [*elements[:3], *loose], PAIR.oil)
-    with pytest.raises(
-        ConvergenceError, match=r"no static equilibrium: forces on .* a support there"
-    ):
-        train.initialise({"wheel": 80.0}, LOAD, KELVIN)
-
-
-def test_a_torque_that_splits_starts_in_equal_halves():
-    # four equal shafts close a loop: loads on them are not determined by the torques alone
-    rotors = [Body.spinning(name, 0.1) for name in ("in", "upper", "lower", "out")]
-    ways = [("in", "upper"), ("in", "lower"), ("upper", "out"), ("lower", "out")]
-    shafts = [HalfShaft(name=f"{a} {b}", first=a, second=b, stiffness=1e4) for a, b in ways]
-    ports = [Port(name="drive", body="in"), Port(name="load", body="out", sign=-1.0)]
-    train = Train(rotors, [*shafts, *ports], OIL)
-    train.initialise({"out": 10.0}, {"drive": 60.0, "load": 60.0}, KELVIN)
-    found = train.outputs()
-    assert [found[f"{a} {b}.torque"] for a, b in ways] == pytest.approx(4 * [30.0], rel=1e-9)
-    assert [found[f"{one.name}.speed"] for one in rotors] == pytest.approx(4 * [10.0], rel=1e-12)
-    # a ring of four inertias and springs: 0, w, w and sqrt(2) w with w^2 = 2 k/I
-    w = math.sqrt(2.0 * 1e4 / 0.1) / (2.0 * math.pi)
-    assert train.modes()[0] == pytest.approx([0.0, w, w, math.sqrt(2.0) * w], rel=1e-6, abs=1e-3)
-    # the march takes as many steps in a period of the highest mode as it is asked for
-    assert train.get_state()[-1] == pytest.approx(16.0 * math.sqrt(2.0) * w, rel=1e-9)
-
-
-def test_a_refused_start_leaves_the_state_as_it_was_with_the_number_that_says_why():
-    train = two_rotors()
-    layout, numbers, memory = train.assembly[:3]
-    operate, work = train_kernel(layout), np.zeros(work_size(layout))
-    before = np.random.default_rng(1).normal(size=layout.states)
-
-    def started(*wanted: float) -> tuple[int, list[float]]:
-        work[: len(wanted)] = wanted
-        s = before.copy()
-        status = int(operate(START, s, KELVIN, numbers, memory, 16.0, 0.0, work))
-        assert np.array_equal(s, before) == (status != OK)
-        return status, work[:2].tolist()
-
-    status, (_, free) = started(0.0, math.nan, math.nan)  # both turn as one, at no given speed
-    assert (status, free) == (LOOSE, 1.0)
-    # the shaft and both speeds share what is missing in equal parts
-    status, (_, apart) = started(0.0, 1.0, 4.0)
-    assert (status, apart) == (APART, pytest.approx(1.0))
-    status, (rate, _) = started(1.0, math.nan, 3.0)
-    omega = math.sqrt(1e4 * (1.0 / 0.2 + 1.0 / 2.0))
-    assert (status, rate) == (OK, pytest.approx(max(1e3, 16.0 * omega / (2.0 * math.pi))))

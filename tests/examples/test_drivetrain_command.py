@@ -108,5 +108,6 @@ def test_the_shipped_axle_balances_its_energy(tmp_path: Path) -> None:
         speeds = [found[f"{body}.speed"].values.mean() for body in ("motor", "counter")]
         assert speeds[0] / speeds[1] == pytest.approx(-31.0 / 25.0, rel=1e-4)  # teeth
         assert np.isfinite(found["stage_1.dte"]).all()
+        # helical meshes lose 0.3 to 1.5 % each
         assert 0.97 < float(found["efficiency"][-1]) < 0.995
         assert found.sizes["mode"] == 19  # 20 free coordinates less the turning of the whole

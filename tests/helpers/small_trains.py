@@ -1,5 +1,18 @@
-"""Train files of two rotors on a shaft, whose motion has a closed form."""
+"""Two rotors on a shaft, whose motion has a closed form, as file and list; a two-stage e-axle."""
 
+from __future__ import annotations
+
+from dataclasses import replace
+
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
+from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
+from gearlube_core.dynamics.train.elements.port import Port
+from gearlube_core.dynamics.train.helical_pair import spring_support
+from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.part import Body
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.coulomb_brake import CoulombBrake
 
 FIRST, SECOND = 0.2, 2.0  # kg.m2
@@ -46,3 +59,59 @@ kind = "{CoulombBrake.kind}"
 body = "load"
 torque_n_m = {BRAKE}
 """
+
+PAIR = helical_march_parameters(HelicalGearFile.named("he_2007"))
+PLANE, RATIO = PAIR.pair.plane, PAIR.pair.ratio
+OIL = Lubricant.named("mohammadpour_2015")
+KELVIN = 333.15
+LOAD = {"input": 226.0, "output": 280.0}
+
+
+def two_rotors(*, brake: float = 0.0, damping: float = 0.0) -> Train:
+    rotors = [Body.spinning("engine", 0.2), Body.spinning("load", 2.0)]
+    shaft = HalfShaft(name="shaft", first="engine", second="load", stiffness=1e4, damping=damping)
+    stopping = CoulombBrake(name="brake", body="load", torque=brake)
+    return Train(rotors, [shaft, Port(name="motor", body="engine"), stopping], OIL)
+
+
+def e_axle(turned: float = 0.0, friction: str = "film", hand: bool = True) -> Train:
+    """Return two stages: a rotor's shaft, a countershaft and a differential with two wheels.
+
+    Gears are those of he_2007 twice, masses and shafts invented. Bearings are alike in x and y, so
+    that the whole can be turned about z.
+    """
+    pair = replace(PAIR, friction=friction)
+    support = PAIR.constants().motion.gear
+    even = support._replace(K_yy=support.K_xx, K_ax=support.K_ay, c_y=support.c_x,
+                            c_ax=support.c_ay, K_x_ay=0.0, K_y_ax=0.0)  # fmt: skip
+    bodies = [
+        Body(name="input", mass=3.0, inertia=0.004, polar_inertia=0.02),
+        Body(name="counter", mass=6.0, inertia=0.02, polar_inertia=0.01),
+        Body(name="differential", mass=9.0, inertia=0.03, polar_inertia=0.04),
+        Body.spinning("left", 1.0),
+        Body.spinning("right", 1.0),
+    ]
+    first = HelicalMesh(
+        name="first", pinion="input", gear="counter", parameters=pair, angle=0.3 + turned,
+        right_hand=not hand, gear_arm=-0.03,
+    )  # fmt: skip
+    second = HelicalMesh(
+        name="second", pinion="counter", gear="differential", parameters=pair, angle=2.0 + turned,
+        drives_forward=True, right_hand=hand, pinion_arm=0.03,
+    )  # fmt: skip
+    elements = [
+        Port(name="motor", body="input", sign=-1.0),
+        Port(name="left wheel", body="left"),
+        Port(name="right wheel", body="right"),
+        first,
+        second,
+        *(spring_support(f"{b.name} bearings", b.name, even) for b in bodies[:3]),
+        HalfShaft(name="left shaft", first="differential", second="left", stiffness=8e3),
+        HalfShaft(name="right shaft", first="differential", second="right", stiffness=6e3),
+    ]
+    return Train(bodies, elements, PAIR.oil)
+
+
+def loads(torque: float) -> dict[str, float]:
+    each = 0.5 * torque * RATIO**2
+    return {"motor": torque, "left wheel": each, "right wheel": each}

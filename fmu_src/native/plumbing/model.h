@@ -68,7 +68,7 @@ typedef struct {
     char guid[GL_GUID_SIZE];
     int work, n_data, n_refusals;
     const gl_variable *variables; /* GL_VARIABLES of them */
-    const gl_array *arrays;       /* ditto */
+    const gl_array *arrays;       /* as many */
     const int *inputs;            /* reference of each input of the model */
     const int *outputs;           /* reference of each output of the model */
     const gl_continuous_state *states; /* GL_CONTINUOUS of them */

@@ -132,7 +132,7 @@ static int is_option(const gl_variable *variables, const gl_variable *number)
                        number->high == option->high);
 }
 
-/* Whether the model expects so many options in the place of a parameter. */
+/* Whether a parameter has as many options as the model expects. */
 static int has_options(const gl_variable *variable, int n)
 {
     if (variable->causality != GL_PARAMETER || variable->place < 0) {

@@ -1,0 +1,176 @@
+"""The start of a train: its equilibrium, and what cannot be one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+import pytest
+
+from gearlube_core.dynamics.train.element import COORDINATES
+from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
+from gearlube_core.dynamics.train.elements.port import Port
+from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
+from gearlube_core.dynamics.train.helical_pair import helical_pair
+from gearlube_core.dynamics.train.march import START, train_kernel, work_size
+from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.rest_search import APART, LOOSE, OK
+from gearlube_core.errors import ConvergenceError, ParameterError, StepError
+from gearlube_core.number import Output
+from tests.helpers.small_trains import (
+    KELVIN,
+    LOAD,
+    OIL,
+    PAIR,
+    RATIO,
+    e_axle,
+    two_rotors,
+)
+
+
+@pytest.mark.parametrize(("left", "right"), [(1.0, 0.0), (0.0, 1.0), (0.0, 0.0)])
+def test_a_wheel_without_load_leaves_its_shaft_straight(left: float, right: float) -> None:
+    train = e_axle(friction="off")
+    road = {"left": 200.0 * RATIO**2 * left, "right": 200.0 * RATIO**2 * right}
+    torques = {f"{one} wheel": torque for one, torque in road.items()}
+    torques["motor"] = 200.0 * (left + right)
+    train.initialise({"left": -50.0}, torques, KELVIN)
+    found = train.outputs()
+    # the left wheel bears what the work of moving lines leaves, 1e-4 of it
+    assert found["left shaft.torque"] == pytest.approx(-road["left"], rel=1e-4, abs=0.05)
+    assert found["right shaft.torque"] == pytest.approx(-road["right"], rel=1e-9, abs=1e-6)
+
+
+def test_a_shaft_that_is_locked_at_one_end_starts_at_rest():
+    """The lock bears the torque: each shaft is twisted by T/k, and nothing moves."""
+    locked = Body(name="lock", mass=1.0, inertia=1.0, polar_inertia=1.0, held=COORDINATES)
+    rotors = [Body.spinning("motor", 0.2), Body.spinning("middle", 1.0), locked]
+    shafts = [
+        HalfShaft(name="first", first="motor", second="middle", stiffness=1e4),
+        HalfShaft(name="second", first="middle", second="lock", stiffness=2e4),
+    ]
+    train = Train(rotors, [Port(name="drive", body="motor"), *shafts], PAIR.oil)
+    train.initialise({"motor": 0.0}, {"drive": 30.0}, KELVIN)
+    assert train.state("first.twist") == pytest.approx(30.0 / 1e4, rel=1e-9)
+    assert train.state("second.twist") == pytest.approx(30.0 / 2e4, rel=1e-9)
+    train.step(0.01, {"drive": 30.0}, KELVIN)
+    assert train.state("motor.rz.rate") == pytest.approx(0.0, abs=1e-9)
+    with pytest.raises(ParameterError, match="speeds must fit together"):
+        train.initialise({"motor": 5.0}, {"drive": 30.0}, KELVIN)
+
+
+class NoKernels(NamedTuple):
+    """Of an element that forgets its kernels."""
+
+    number: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Twisting(Element):
+    """An element with an own state."""
+
+    name: str
+    body: str
+    on: ClassVar = ("body",)
+    states: ClassVar = ("twist",)
+
+    def numbers(self) -> NoKernels:
+        return NoKernels(1.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Speedometer(Twisting):
+    """An element with an output that bodies have."""
+
+    states: ClassVar = ()
+    outputs: ClassVar = (Output("speed", "rad/s", "speed"),)
+
+
+def test_what_cannot_be_a_train_is_named():
+    rotor, port = Body.spinning("rotor", 0.1), Port(name="motor", body="rotor")
+    with pytest.raises(ParameterError, match="bodies must have names of their own, got 'rotor'"):
+        Train([rotor, rotor], [port], OIL)
+    with pytest.raises(ParameterError, match=r"motor names 'shaft', which is not .* are: rotor"):
+        Train([rotor], [replace(port, body="shaft")], OIL)
+    with pytest.raises(ParameterError, match="mass must be within"):
+        Body(name="rotor", mass=-1.0, inertia=1.0, polar_inertia=1.0)
+    with pytest.raises(ParameterError, match=r"two has own states, .* must include at_rest"):
+        Train([rotor], [Twisting(name="two", body="rotor")], OIL)
+    with pytest.raises(ParameterError, match=r"got 'rotor\.speed' twice\. Rename the body or"):
+        Train([rotor], [Speedometer(name="rotor", body="rotor")], OIL)
+    loose = Train([rotor, Body.spinning("load", 1.0)], [port], OIL)
+    with pytest.raises(StepError, match=r"no state yet\. Call initialise"):
+        loose.step(1e-3, {"motor": 0.0}, KELVIN)
+    with pytest.raises(ParameterError, match="leave 1 free"):
+        loose.initialise({"rotor": 1.0}, {"motor": 0.0}, KELVIN)
+    train = two_rotors()
+    with pytest.raises(ParameterError, match="every port, which are motor; wrong is moter"):
+        train.initialise({"engine": 1.0}, {"motor": 0.0, "moter": 0.0}, KELVIN)
+    with pytest.raises(ParameterError, match="speeds must name bodies of the train, got 'wheel'"):
+        train.initialise({"wheel": 1.0}, {"motor": 0.0}, KELVIN)
+    with pytest.raises(ParameterError, match=r"fit together .* apart\. Give one of them"):
+        train.initialise({"engine": 1.0, "load": 2.0}, {"motor": 0.0}, KELVIN)
+    with pytest.raises(ParameterError, match="at least one body of the train, got none"):
+        train.initialise({}, {"motor": 0.0}, KELVIN)
+    train.initialise({"engine": 1.0}, {"motor": 0.0}, KELVIN)
+    saved = train.get_state()
+    with pytest.raises(ParameterError, match=r"0\.333 rad/s apart"):
+        train.initialise({"engine": 1.0, "load": 2.0}, {"motor": 9.0}, 300.0)
+    assert np.array_equal(train.get_state(), saved)
+    with pytest.raises(StepError, match="turns faster than"):
+        train.step(0.1, {"motor": 1e7}, KELVIN)
+    assert np.array_equal(train.get_state(), saved)
+
+
+def test_teeth_without_bearings_have_no_rest():
+    bodies, elements = helical_pair(PAIR)
+    loose = [SpringSupport(name=one.name, body=one.body) for one in elements[3:]]
+    train = Train(bodies, [*elements[:3], *loose], PAIR.oil)
+    with pytest.raises(
+        ConvergenceError, match=r"no static equilibrium: forces on .* a support there"
+    ):
+        train.initialise({"wheel": 80.0}, LOAD, KELVIN)
+
+
+def test_a_torque_that_splits_starts_in_equal_halves():
+    # four equal shafts close a loop: loads on them are not determined by the torques alone
+    rotors = [Body.spinning(name, 0.1) for name in ("in", "upper", "lower", "out")]
+    ways = [("in", "upper"), ("in", "lower"), ("upper", "out"), ("lower", "out")]
+    shafts = [HalfShaft(name=f"{a} {b}", first=a, second=b, stiffness=1e4) for a, b in ways]
+    ports = [Port(name="drive", body="in"), Port(name="load", body="out", sign=-1.0)]
+    train = Train(rotors, [*shafts, *ports], OIL)
+    train.initialise({"out": 10.0}, {"drive": 60.0, "load": 60.0}, KELVIN)
+    found = train.outputs()
+    assert [found[f"{a} {b}.torque"] for a, b in ways] == pytest.approx(4 * [30.0], rel=1e-9)
+    assert [found[f"{one.name}.speed"] for one in rotors] == pytest.approx(4 * [10.0], rel=1e-12)
+    # a ring of four inertias and springs: 0, w, w and sqrt(2) w with w^2 = 2 k/I
+    w = math.sqrt(2.0 * 1e4 / 0.1) / (2.0 * math.pi)
+    assert train.modes()[0] == pytest.approx([0.0, w, w, math.sqrt(2.0) * w], rel=1e-6, abs=1e-3)
+    # the march takes as many steps in a period of the highest mode as it is asked for
+    assert train.get_state()[-1] == pytest.approx(16.0 * math.sqrt(2.0) * w, rel=1e-9)
+
+
+def test_a_refused_start_leaves_the_state_as_it_was_with_the_number_that_says_why():
+    train = two_rotors()
+    layout, numbers, memory = train.assembly[:3]
+    operate, work = train_kernel(layout), np.zeros(work_size(layout))
+    before = np.random.default_rng(1).normal(size=layout.states)
+
+    def started(*wanted: float) -> tuple[int, list[float]]:
+        work[: len(wanted)] = wanted
+        s = before.copy()
+        status = int(operate(START, s, KELVIN, numbers, memory, 16.0, 0.0, work))
+        assert np.array_equal(s, before) == (status != OK)
+        return status, work[:2].tolist()
+
+    status, (_, free) = started(0.0, math.nan, math.nan)  # both turn as one, at no given speed
+    assert (status, free) == (LOOSE, 1.0)
+    # the shaft and both speeds share what is missing in equal parts
+    status, (_, apart) = started(0.0, 1.0, 4.0)
+    assert (status, apart) == (APART, pytest.approx(1.0))
+    status, (rate, _) = started(1.0, math.nan, 3.0)
+    omega = math.sqrt(1e4 * (1.0 / 0.2 + 1.0 / 2.0))
+    assert (status, rate) == (OK, pytest.approx(max(1e3, 16.0 * omega / (2.0 * math.pi))))
