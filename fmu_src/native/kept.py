@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from gearlube_core.storage.folders import cache_folder, locked_folder
 PREBUILT = Path(__file__).with_name("prebuilt")
 _DIGEST_SIZE = hashlib.sha256().digest_size
 _PAUSE = 0.1  # s, between looks at a folder that another process writes to
+_UNUSED = 90 * 86400.0  # s, after which libraries that nobody took are removed
 
 
 def kept_file(folder: Path, platform: str) -> Path:
@@ -49,20 +51,35 @@ def keep_library(folder: Path, platform: str, library: bytes) -> None:
 
 
 @contextmanager
-def one_builds(key: str) -> Iterator[Path]:
+def one_builds(key: str, report: Callable[[str], None]) -> Iterator[Path]:
     """Give the folder of a key; other processes that want the same wait until this one is done.
 
-    Where nothing can be written each process builds for itself.
+    Where nothing can be written each process builds for itself. Folders that nobody has locked
+    for _UNUSED are removed.
     """
     folder = cache_folder("libraries") / key
     with ExitStack() as held:
         with suppress(OSError):
             folder.mkdir(parents=True, exist_ok=True)
+            _remove_unused(folder)
+            waits = False
             while True:
                 try:
                     held.enter_context(locked_folder(folder))
                 except ParameterError:
+                    if not waits:
+                        report(f"waiting for another process that builds the same ({folder})")
+                    waits = True
                     time.sleep(_PAUSE)
                     continue
                 break
         yield folder
+
+
+def _remove_unused(mine: Path) -> None:
+    """Remove the folders beside mine whose files are all older than _UNUSED."""
+    oldest = time.time() - _UNUSED
+    for other in mine.parent.iterdir():
+        newest = max((one.stat().st_mtime for one in (other, *other.glob("*"))), default=0.0)
+        if other != mine and other.is_dir() and newest < oldest:
+            shutil.rmtree(other, ignore_errors=True)

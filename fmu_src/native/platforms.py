@@ -97,7 +97,7 @@ def check_linker() -> None:
     if find_spec("ziglang") is None:
         raise GearLubeError(
             "Building a native FMU needs the compiler package ziglang, not found. Install it with "
-            "`pip install ziglang`, or build an FMU that runs in Python with --python."
+            "`pip install ziglang`, or build an axle or a pair that runs in Python with --python."
         )
 
 

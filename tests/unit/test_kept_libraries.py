@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import threading
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -117,8 +119,9 @@ def test_one_builds_and_the_others_wait(builds: Builds, monkeypatch: pytest.Monk
         yield from builds(model, platforms, report)
 
     monkeypatch.setattr(build, "_built", slowly)
+    said: list[str] = []
     first, second = (
-        threading.Thread(target=lambda: seen.append(libraries(of_kind("one"), TWO)))
+        threading.Thread(target=lambda: seen.append(libraries(of_kind("one"), TWO, said.append)))
         for _ in range(2)
     )
     first.start()
@@ -129,6 +132,25 @@ def test_one_builds_and_the_others_wait(builds: Builds, monkeypatch: pytest.Monk
     second.join()
     assert builds.asked == NAMES
     assert seen[0] == seen[1]
+    assert sum("waiting for another process" in text for text in said) == 1
+
+
+def test_libraries_that_nobody_takes_are_removed_after_three_months(
+    builds: Builds, tmp_path: Path
+) -> None:
+    for kind in ("old", "taken", "young"):
+        libraries(of_kind(kind), TWO[:1])
+    folders = {one.parent for one in (tmp_path / "cache" / "libraries").rglob("*.kept")}
+    assert len(folders) == 3
+    month = 30 * 86400.0
+    for kind, age in (("old", 3.1), ("taken", 3.1), ("young", 2.9)):
+        (path,) = {one for one in folders if one.name == build._key(of_kind(kind))}
+        for one in (path, *path.iterdir()):
+            os.utime(one, 2 * (time.time() - age * month,))
+    libraries(of_kind("taken"), TWO[:1])
+    libraries(of_kind("new"), TWO[:1])
+    left = {one.name for one in (tmp_path / "cache" / "libraries").iterdir()}
+    assert left == {build._key(of_kind(kind)) for kind in ("taken", "young", "new")}
 
 
 def test_a_cache_that_cannot_be_written_keeps_nothing(
