@@ -41,11 +41,9 @@ Roughness = Annotated[float, _axle("roughness_rms_um"), Usual(0.02, 5.0)]
 LossFactor = Annotated[float, _axle("modal_loss_factor")]
 Hysteresis = Annotated[float, _axle("hysteretic_loss")]
 Floor = Annotated[float, _axle("frequency_floor_hz"), Usual(1.0, 1000.0)]
-Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False), Usual(50.0, 700.0)]
+Modulus = Annotated[float, _solid("youngs_modulus_gpa"), Usual(50.0, 700.0)]
 Poisson = Annotated[float, _solid("poisson_ratio")]
-Density = Annotated[
-    float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False), Usual(2000.0, 20000.0)
-]
+Density = Annotated[float, _solid("density_kg_m3"), Usual(2000.0, 20000.0)]
 Conductivity = Annotated[float, _solid("conductivity_w_m_k"), Usual(5.0, 500.0)]
 BulkResistance = Annotated[
     float, _axle("bulk_resistance_k_w", "flank_bulk_resistance"), Usual(0.001, 2.0)

@@ -153,7 +153,7 @@ def helical(
     from gearlube.studies.helical import run
     from gearlube.studies.helical.findings import findings
     from gearlube.studies.helical.gear_surfaces import write_gears
-    from gearlube.studies.helical.settings import HelicalSettings, quick_settings
+    from gearlube.studies.helical.settings import LINE_DENSITY, HelicalSettings, quick_settings
     from gearlube.studies.helical.summary import remarks, summary_rows
     from gearlube_core.dynamics.helical_pair.gear_file_pair import gear_file_oil
     from gearlube_core.film_model.chosen_model import chosen_model
@@ -175,7 +175,8 @@ def helical(
         check_within("--torque", torque, 1e-3, 1e6, "N.m", "Give its magnitude.")
         check_within("--speed-rpm", speed_rpm, 0.1, 1e6, "rpm", "Give its magnitude.")
         if density is not None:
-            check_within("--density", density, 1e-2, 1e4, "N/(um mm)", "13 is usual for steel.")
+            low, high = 1e-9 * LINE_DENSITY.low, 1e-9 * LINE_DENSITY.high
+            check_within("--density", density, low, high, "N/(um mm)", "13 is usual for steel.")
         speeds = numbers_from(
             "--speeds-rpm", speeds_rpm or (), "rpm", 0.1, 1e6, example="100:3000:100"
         )

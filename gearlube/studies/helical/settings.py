@@ -39,6 +39,7 @@ MESHES = ("contact", "density")
 FRICTIONS = ("film", "constant")
 PARTS = ("all", "contact", "dynamics", "geometry", "losses")
 RPM = math.pi / 30.0  # rad/s
+LINE_DENSITY = Number("N/m2", 1e7, 1e13, "About 1.3e10 N/m2 is usual for steel.")
 
 HARMONICS = 15  # [he_2007 sec. 6]
 SHOWN_MU = (0.01, 0.1)  # [he_2007], figures 6 to 8
@@ -152,8 +153,7 @@ class HelicalSettings:
                     "density cannot be given with mesh contact, which computes the stiffness, got "
                     f"{self.density:g} N/m2. Leave it out, or take mesh density."
                 )
-            cure = "About 1.3e10 N/m2 is usual for steel."
-            check_within("density", self.density, 1e7, 1e13, "N/m2", cure)
+            LINE_DENSITY.check("density", self.density)
         if self.with_contact:
             self.cycle()
         low, high = 0.999 * self.load_steps[0], 1.001 * self.load_steps[-1]
