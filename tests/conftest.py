@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import settings
+from threadpoolctl import threadpool_limits
 
 from tests.helpers.session_folder import open_session_folder
 
@@ -45,13 +46,12 @@ def _equal_arrays(wanted: Any, found: Any) -> bool:
 
 _ApproxArray.__eq__ = _equal_arrays
 
+# threads of linear algebra in several processes wait for one another, which takes ten times the
+# processor time of small matrices; a plugin of pytest has loaded numpy, with its threads, by now
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+threadpool_limits(1, user_api="blas")
+
 _folder = open_session_folder()
-
-
-def pytest_configure(config: pytest.Config) -> None:
-    """Give each of several workers one thread of linear algebra."""
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
