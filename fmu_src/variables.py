@@ -34,10 +34,10 @@ from fmu_src.variable import (
     rates,
     velocities,
 )
+from gearlube_core.bearings.followed_shaft import TORQUE_LOSSES
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.bearings.tapered_roller_bearing import PRELOAD, Approach, TaperedRollerBearing
 from gearlube_core.drag import CHURNING_LAWS
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
 from gearlube_core.dynamics.hypoid_axle.output_names import OWN_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.parameters import (

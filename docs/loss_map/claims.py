@@ -16,7 +16,7 @@ from docs.page import ROOT, Page
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
+from gearlube_core.bearings.followed_shaft import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.units import celsius_to_kelvin, kmh_to_ms
 

@@ -12,9 +12,9 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.section import ModelSection
+from gearlube_core.bearings.followed_shaft import TORQUE_LOSSES
 from gearlube_core.bearings.tapered_roller_bearing import Approach
 from gearlube_core.contact.solid import Solid
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     Equations,
     Film,

@@ -27,6 +27,8 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import GearLubeError
+from gearlube_core.film_model.chosen_model import chosen_model
+from gearlube_core.film_model.model import ROLLER, FilmModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.input_file.field_notes import Declared, field_notes, sentence
 from gearlube_core.input_file.field_units import attribute_of, field_value, si_value, unit_ending
@@ -83,6 +85,24 @@ class HypoidGears(Section):
         return read_axle(self.axle_file).axle
 
 
+class RollerFilmModel(Section):
+    """Film model of the rollers of a bearing."""
+
+    files: ClassVar[tuple[str, ...]] = ("film_model",)
+
+    film_model: Text | None = Field(
+        default=None,
+        description="Film model of rollers (.json) for torque_loss solved_films, or its name in "
+        "the package; left out: that of the package",
+    )
+
+    def read(self) -> FilmModel | None:
+        """Return the model, or None."""
+        if self.film_model is None:
+            return None
+        return chosen_model(self.film_model, ROLLER, "film_model")
+
+
 @dataclass(frozen=True)
 class _Reader(Generic[_Value]):
     """How a field that is a part is read.
@@ -95,9 +115,10 @@ class _Reader(Generic[_Value]):
     nested: bool = False
 
 
-READERS: Mapping[type, _Reader[Any]] = {
+READERS: Mapping[Any, _Reader[Any]] = {
     HelicalMarchParameters: _Reader(HelicalGears, HelicalGears.read),
     HypoidAxleParameters: _Reader(HypoidGears, HypoidGears.read),
+    FilmModel | None: _Reader(RollerFilmModel, RollerFilmModel.read),
     Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
 }
 OF_THE_TRAIN = ("steps_per_highest_period",)  # fields that elements have from their train

@@ -36,7 +36,7 @@ from gearlube_core.oil.lubricant import LubricantState
 from gearlube_core.part import Kind, Part
 
 N_EXPANSION = 25  # largest number of floats in the expansion of the forces on one shaft
-_NO_HYSTERESIS = 1e12  # Hz, reference frequency beyond which rollers lose nothing
+NO_HYSTERESIS = 1e12  # Hz, reference frequency beyond which rollers lose nothing
 
 
 class ShaftMotion(NamedTuple):
@@ -272,6 +272,14 @@ def _no_drag(
 
 
 @kernel
+def _drag_of_both(bearings: Any, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
+    F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, _ = shaft_forces(bearings, motion, NO_HYSTERESIS, oil)
+    first = shaft_drag(bearings, motion.speed, abs(F1_a), math.hypot(F1_r1, F1_r2), law, oil)
+    second = shaft_drag(bearings, motion.speed, abs(F2_a), math.hypot(F2_r1, F2_r2), law, oil)
+    return first + second
+
+
+@kernel
 def _no_torque(bearings: Any, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
     return 0.0
 
@@ -306,15 +314,11 @@ write_derived = by_class(_nothing_derived)(ShaftBearings.write_derived)
 without_loss = by_class(lambda bearings: bearings)(ShaftBearings.without_loss)
 
 
-@kernel
-def loaded_drag(
-    bearings: ShaftBearings, motion: ShaftMotion, law: int, oil: LubricantState
+@by_class(_drag_of_both)
+def loaded_drag(  # type: ignore[empty-body]
+    bearings: Any, motion: ShaftMotion, law: int, oil: LubricantState
 ) -> float:
     """Return the drag of both bearings of a shaft under their present forces [N m].
 
     `law` is PALMGREN or SKF of `losses.laws`. The rollers' hysteresis is no load here.
     """
-    F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, _ = shaft_forces(bearings, motion, _NO_HYSTERESIS, oil)
-    first = shaft_drag(bearings, motion.speed, abs(F1_a), math.hypot(F1_r1, F1_r2), law, oil)
-    second = shaft_drag(bearings, motion.speed, abs(F2_a), math.hypot(F2_r1, F2_r2), law, oil)
-    return first + second

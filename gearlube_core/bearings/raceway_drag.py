@@ -1,4 +1,4 @@
-"""Drag torque of the raceways of two opposed bearings under the load of each roller."""
+"""Drag torque of the raceways of two opposed bearings, or one, under the load of each roller."""
 
 from __future__ import annotations
 
@@ -69,8 +69,10 @@ def line_radii(p: BearingParameters) -> tuple[float, float]:
 
 
 @kernel
-def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingParameters) -> float:
-    """Return the torque of the raceways of both bearings, with the sign of the speed [N m].
+def raceway_drag(
+    motion: ShaftMotion, law: int, oil: LubricantState, p: BearingParameters, side: float = 0.0
+) -> float:
+    """Return the torque of the raceways of the bearings, with the sign of the speed [N m].
 
     T = sum over rollers and races of 2 F phi r_u l
 
@@ -84,6 +86,8 @@ def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingP
         At the inlet.
     p
         Either bearing.
+    side
+        0: both bearings; +1 or -1: the one of that side alone.
 
     Notes
     -----
@@ -103,8 +107,11 @@ def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingP
     E = p.reduced_modulus
     total = 0.0
     for bearing in range(2):
+        here = 1.0 - 2.0 * bearing
+        if here * side < 0.0:
+            continue
         for i in range(int(p.n_rollers)):
-            load = steady_load(rollers, 1.0 - 2.0 * bearing, i, p)
+            load = steady_load(rollers, here, i, p)
             if load <= 0.0:
                 continue
             q = load / p.roller_length

@@ -187,9 +187,13 @@ def races_of(oil: LubricantState, p: BearingParameters) -> Races:
 
 @kernel
 def solved_raceway_drag(
-    motion: ShaftMotion, oil: LubricantState, p: BearingParameters, films: RollerFilms
+    motion: ShaftMotion,
+    oil: LubricantState,
+    p: BearingParameters,
+    films: RollerFilms,
+    side: float = 0.0,
 ) -> SolvedRaceways:
-    """Return torque, bound and films of the raceways of both bearings.
+    """Return torque, bound and films of the raceways of the bearings.
 
     T = sum over rollers and races of 2 F r_u l
 
@@ -203,6 +207,8 @@ def solved_raceway_drag(
         Either bearing.
     films
         With the nodes of this shaft.
+    side
+        0: both bearings; +1 or -1: the one of that side alone.
 
     Notes
     -----
@@ -220,9 +226,10 @@ def solved_raceway_drag(
     total = doubt = carried = outside = 0.0
     first_film = first_bound = thinnest = bound = 0.0
     for bearing in range(2):
+        here = 1.0 - 2.0 * bearing
         thinnest, bound, loaded = math.inf, 0.0, 0
-        for i in range(int(p.n_rollers)):
-            load = steady_load(rollers, 1.0 - 2.0 * bearing, i, p)
+        for i in range(int(p.n_rollers) if here * side >= 0.0 else 0):
+            load = steady_load(rollers, here, i, p)
             if load <= 0.0:
                 continue
             q = load / p.roller_length

@@ -133,7 +133,7 @@ def skf_drag(
 
 
 class RibDrag(NamedTuple):
-    """Torques of both bearings, not negative [N m]."""
+    """Torques of the bearings, not negative [N m]."""
 
     rib: float
     hysteresis: float
@@ -205,7 +205,9 @@ def rib_contact(p: BearingParameters) -> tuple[RibParameters, float]:
 
 
 @kernel
-def rib_drag(motion: ShaftMotion, oil: LubricantState, p: BearingParameters) -> RibDrag:
+def rib_drag(
+    motion: ShaftMotion, oil: LubricantState, p: BearingParameters, side: float = 0.0
+) -> RibDrag:
     """Return the torques of the ribs, of the steel's hysteresis and of the oil on the rollers.
 
     Parameters
@@ -216,6 +218,8 @@ def rib_drag(motion: ShaftMotion, oil: LubricantState, p: BearingParameters) -> 
         At the inlet.
     p
         Either bearing; with a rib height or a contact angle of 0 there is no rib.
+    side
+        0: both bearings; +1 or -1: the one of that side alone.
 
     Returns
     -------
@@ -239,10 +243,11 @@ def rib_drag(motion: ShaftMotion, oil: LubricantState, p: BearingParameters) -> 
     rib, share = rib_contact(p)
     on_rib = hysteresis = 0.0
     for bearing in range(2):
+        here = 1.0 - 2.0 * bearing
         total = 0.0
         loaded = 0
-        for i in range(int(p.n_rollers)):
-            load = steady_load(rollers, 1.0 - 2.0 * bearing, i, p)
+        for i in range(int(p.n_rollers) if here * side >= 0.0 else 0):
+            load = steady_load(rollers, here, i, p)
             if load <= 0.0:
                 continue
             total += load
@@ -254,7 +259,7 @@ def rib_drag(motion: ShaftMotion, oil: LubricantState, p: BearingParameters) -> 
             end = rib_friction(rib, share * total / loaded, speed, oil)
             on_rib += end.coefficient * share * total * rib.sliding_ratio
     on_rib *= speed / math.sqrt(speed * speed + SMOOTHING_SPEED * SMOOTHING_SPEED)
-    in_oil = 2.0 * liebrecht_drag(
+    in_oil = (2.0 if side == 0.0 else 1.0) * liebrecht_drag(
         oil.eta0 / oil.nu,
         oil.nu,
         p.roller_length,

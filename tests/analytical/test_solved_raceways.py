@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.bearings.bearing_type import NO_RACEWAYS, RollerFilms, ShaftMotion
-from gearlube_core.bearings.losses.laws import NO_HEATING, SOLVED_FILMS
+from gearlube_core.bearings.losses.laws import NO_HEATING, ROLLING_LAWS, SOLVED_FILMS
 from gearlube_core.bearings.losses.physical_loss import LossSettings, physical_loss
 from gearlube_core.bearings.losses.race_rolling import (
     FORMULA_FORCE_BOUND,
@@ -28,6 +28,7 @@ from gearlube_core.bearings.roller_nodes import (
     solved_raceway_drag,
 )
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.bearings.tapered_roller_kernels import rib_drag
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
@@ -96,6 +97,22 @@ def test_raceways_of_a_shaft_lose_what_the_bearing_study_finds_under_the_same_lo
     assert found.second_film == pytest.approx(two[1].film_ratio, rel=1e-9)
     assert found.load == pytest.approx(loads(1.0).sum() + loads(-1.0).sum(), rel=1e-9)
     assert np.count_nonzero(loads(-1.0)[:12]) < 12
+
+
+def test_either_bearing_alone_loses_its_part():
+    for side, one in zip((1.0, -1.0), alone(), strict=True):
+        found = solved_raceway_drag(MOVED, OIL, P, films(), side)
+        assert found.torque * SPEED == pytest.approx(one.inner + one.outer, rel=1e-9)
+        thinnest = found.first_film if side > 0.0 else found.second_film
+        assert thinnest == pytest.approx(one.film_ratio, rel=1e-9)
+        assert found.load == pytest.approx(loads(side).sum(), rel=1e-9)
+    for law in ROLLING_LAWS.values():
+        parts = [raceway_drag(MOVED, law, OIL, P, side) for side in (1.0, -1.0, 0.0)]
+        assert 0.0 < parts[1] != parts[0] > 0.0
+        assert parts[0] + parts[1] == pytest.approx(parts[2], rel=1e-12)
+    first, second, both = (rib_drag(MOVED, OIL, P, side) for side in (1.0, -1.0, 0.0))
+    assert np.add(first, second) == pytest.approx(both, rel=1e-12)
+    assert first.oil == second.oil
 
 
 @pytest.mark.parametrize("kept", [0.0, 1.0])

@@ -38,13 +38,20 @@ def tilting() -> Train:
     return rotor((), ARM, "palmgren")
 
 
+def opposed_and_singles(law: str) -> tuple[Train, Train]:
+    """The opposed pair, and two single ones at one place, at rest alike."""
+    held = ("rx", "ry")
+    body = Body(name="rotor", mass=MASS, inertia=INERTIA, polar_inertia=0.01, held=held)
+    of_pair = {"palmgren": "palmgren_loaded"}.get(law, law)
+    pair = OpposedBearings(name="pair", body="rotor", bearing=BEARING, torque_loss=of_pair)
+    opposed = Train([body], [Port(name="drive", body="rotor"), pair], OIL)
+    return opposed, rotor(held, 0.0, law)
+
+
 @pytest.mark.slow
 def test_two_of_them_at_one_place_are_the_opposed_pair() -> None:
     """Forces of both, and the heat of their rollers, at states of some micrometres."""
-    held = ("rx", "ry")
-    body = Body(name="rotor", mass=MASS, inertia=INERTIA, polar_inertia=0.01, held=held)
-    pair = OpposedBearings(name="pair", body="rotor", bearing=BEARING)
-    opposed, single = Train([body], [Port(name="drive", body="rotor"), pair], OIL), rotor(held, 0.0)
+    opposed, single = opposed_and_singles("none")
     chance = np.random.default_rng(5)
     for one in (opposed, single):
         one.initialise({"rotor": SPEED}, {"drive": 0.0}, KELVIN)
@@ -60,6 +67,26 @@ def test_two_of_them_at_one_place_are_the_opposed_pair() -> None:
             heat = at[train.state_names.index("energy.bearing_damping")]
             found.append([*at[6:9], at[11], heat])
         np.testing.assert_allclose(found[1], found[0], rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.slow
+def test_two_of_them_drag_as_the_opposed_pair_by_every_law() -> None:
+    found = {}
+    for law in ("palmgren", "skf_2013", "zhou_hoeprich_1991", "solved_films"):
+        opposed, single = opposed_and_singles(law)
+        for one in (opposed, single):
+            one.initialise({"rotor": SPEED}, {"drive": 0.0}, KELVIN)
+            s = one.get_state()
+            # moved and slowed down: what is kept must be found again
+            s[:3], s[11] = (50e-6, -30e-6, 8e-6), 0.5 * SPEED
+            one.set_state(s)
+            one.step(1e-6, {"drive": 0.0}, KELVIN)
+        torque, alone = opposed.outputs(), single.outputs()
+        # the shafts move apart by round-off alone
+        two = alone["first.torque"] + alone["second.torque"]
+        assert two == pytest.approx(torque["pair.torque"], rel=1e-7), law
+        found[law] = two
+    assert len(set(found.values())) == len(found)
 
 
 def test_bearings_apart_carry_a_tilt_with_their_arms(tilting: Train) -> None:

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from gearlube.studies.bearing.figures import LAW_NAMES
+from gearlube_core.bearings.followed_shaft import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.bearings.losses import laws
 from gearlube_core.bearings.losses.geometry import Rib
 from gearlube_core.bearings.losses.loss import UNCALIBRATED, LossModel
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.bearing_32216 import BEARING, DEG, loss_at

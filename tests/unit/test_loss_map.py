@@ -21,9 +21,9 @@ from gearlube.report.parts import WARNING
 from gearlube.studies.loss_map.exports import lossy_gear_table
 from gearlube.studies.loss_map.findings import findings
 from gearlube.studies.loss_map.sampling import moving_inputs
+from gearlube_core.bearings.followed_shaft import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN

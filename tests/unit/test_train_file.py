@@ -125,6 +125,15 @@ WRONG = {
         ("[bodies.motor]\n", "[bodies]\nmotor = 3\n[bodies.other]\n"),
         "bodies.motor must be a section [bodies.motor], got 3.",
     ),
+    "a film model of other contacts": (
+        (
+            "[elements.seal]",
+            '[elements.pair]\nkind = "opposed_bearings"\nbody = "motor"\n'
+            'torque_loss = "solved_films"\nfilm_model = "hypoid_flank"\n'
+            "[elements.pair.bearing]\n[elements.seal]",
+        ),
+        "elements.pair: film_model must be a film model of rollers on races",
+    ),
     "an axis twice": (
         (
             "[elements.seal]",

@@ -6,19 +6,10 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import RollerFilms
+from gearlube_core.bearings.bearing_type import NO_RACEWAYS, RollerFilms
+from gearlube_core.bearings.followed_shaft import DRAG_COST, PALMGREN
 from gearlube_core.drag import churning_torque, seal_drag
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
-    NO_AXLE_RACEWAYS,
-    PALMGREN,
-    AxleRaceways,
-    BearingDrag,
-    bearing_drag,
-    drag_holds,
-    drag_near,
-    renew_drag,
-)
 from gearlube_core.dynamics.hypoid_axle.flanks import (
     BOUND_POWER,
     FILMS,
@@ -34,10 +25,15 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
 from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force, reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import (
     SCRATCH,
+    AxleDrag,
+    AxleRaceways,
     StepInputs,
+    axle_drag,
     axle_rhs,
     expand_bearings,
+    follow_drag,
     follow_flank_of,
+    kept_drag,
     mesh_motion,
 )
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -83,7 +79,6 @@ TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
 MAX_STEPS = 200_000  # in one communication interval, or their cost; half a second of computing
-RACEWAY_COST = 6.0  # of the drag of all rollers, in integrator steps
 STEPS_PER_EXPANSION = 12  # integrator steps that share an expansion of the bearing forces, at most
 # um at 1 step per highest period, displacement from where they were expanded that ends it sooner;
 # 0.07 um at 17 steps. It falls with the square of the step, so that what is left out, of second
@@ -254,8 +249,8 @@ def step_inputs(
     p: AxleParameters,
     raceways: AxleRaceways,
 ) -> StepInputs:
-    """Return torques on both shafts and what drags on each; `raceways` as in `bearing_drag`."""
-    drag = bearing_drag(s, oil, p, raceways)
+    """Return torques on both shafts and what drags on each; `raceways` as in `axle_drag`."""
+    drag = axle_drag(s, oil, p, raceways)
     return inputs_with_drag(s, pinion_torque, wheel_torque, drag, oil, p)
 
 
@@ -264,7 +259,7 @@ def inputs_with_drag(
     s: Array,
     pinion_torque: float,
     wheel_torque: float,
-    drag: BearingDrag,
+    drag: AxleDrag,
     oil: LubricantState,
     p: AxleParameters,
 ) -> StepInputs:
@@ -272,8 +267,8 @@ def inputs_with_drag(
     return StepInputs(
         pinion_torque,
         wheel_torque,
-        drag.pinion,
-        drag.gear,
+        drag.pinion.torque,
+        drag.gear.torque,
         churning_torque(s[W_G], oil.nu, p.oil.density, p.churning),
         seal_drag(s[W_P], p.pinion_seal_torque),
         seal_drag(s[W_G], p.wheel_seal_torque),
@@ -355,11 +350,10 @@ def advance(
             at_load = s[LOAD_TORQUE]
             blend_mesh(at_load, s[SIDE], table, mesh)
         if p.drag <= PALMGREN:
-            drag = bearing_drag(s, oil, p, NO_AXLE_RACEWAYS)
+            drag = axle_drag(s, oil, p, AxleRaceways(NO_RACEWAYS, NO_RACEWAYS))
         else:  # dear
-            if not drag_holds(s, oil_temperature, kept):
-                cost += RACEWAY_COST * renew_drag(s, oil, p, rollers, kept, stages)
-            drag = drag_near(s, kept)
+            cost += DRAG_COST * follow_drag(s, oil, p, rollers, kept)
+            drag = kept_drag(s, kept)
         if k == 0 or age == span or largest_change(displacements(s, h), expanded_at) > reach:
             # about where the shafts are half of the time later that the expansion will serve
             speed = largest_change(displacements(s, 1.0), displacements(s, 0.0))
@@ -381,7 +375,7 @@ def advance(
             if table.levels[0] < 0.0:
                 follow_flank_of(s, table, p.mesh, mesh)
         rate = stages[N_STATE + X]
-        s[DRAG_BOUND] += h * drag.bound
+        s[DRAG_BOUND] += h * (drag.pinion.bound + drag.gear.bound)
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
     for i in range(n_films):

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import RollerFilms, ShaftBearings
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, axle_raceways
+from gearlube_core.bearings.followed_shaft import PALMGREN
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
     FILM_RATIO,
     LOAD,
@@ -42,7 +42,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
 from gearlube_core.dynamics.hypoid_axle.outputs import (
     write_outputs,
 )
-from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_raceways, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.start import N_FREE, REST_WORK, rest_under
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,

@@ -8,7 +8,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import RollerFilms
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import axle_raceways
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import CONTROL_WORK, NO_MODES_WORDS
 from gearlube_core.dynamics.hypoid_axle.integrate import (
@@ -34,7 +33,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     OUTPUT_NAMES,
 )
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
-from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_raceways, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM_CURE, OK, REST_WORK
 from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, SIDE
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh

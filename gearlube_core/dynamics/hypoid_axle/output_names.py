@@ -8,9 +8,9 @@ from gearlube_core.bearings.bearing_type import (
     ShaftMotion,
     bearing_loads,
 )
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import AxleRaceways
 from gearlube_core.dynamics.hypoid_axle.continuous import EVENT_INDICATORS, RATE_NAMES, STATE_NAMES
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.rhs import AxleRaceways
 from gearlube_core.dynamics.hypoid_axle.state import (
     BEARING_DAMPING,
     BEARING_TORQUE,

@@ -5,17 +5,8 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import RollerFilms, shaft_energy
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
-    NO_AXLE_RACEWAYS,
-    PALMGREN,
-    SOLVED_FILMS,
-    AxleRaceways,
-    axle_raceways,
-    bearing_drag,
-    drag_bound_of,
-    drag_near,
-)
+from gearlube_core.bearings.bearing_type import NO_RACEWAYS, RollerFilms, shaft_energy
+from gearlube_core.bearings.followed_shaft import PALMGREN, SOLVED_FILMS
 from gearlube_core.dynamics.hypoid_axle.continuous import (
     write_event_indicators,
     write_rates,
@@ -83,8 +74,12 @@ from gearlube_core.dynamics.hypoid_axle.rhs import (
     AT_EXPANSION,
     AT_ROLLERS,
     SCRATCH,
+    AxleRaceways,
+    axle_drag,
+    axle_raceways,
     axle_rhs,
     gear_motion,
+    kept_drag,
     mesh_motion,
     pinion_motion,
 )
@@ -217,7 +212,8 @@ def write_derivatives(
     They are those among the outputs of `write_outputs`, with the same arguments: a function of the
     state alone, whatever was read before.
     """
-    _write_rates(s, torques, oil_temperature, table, p, True, NO_AXLE_RACEWAYS, work, out)
+    none = AxleRaceways(NO_RACEWAYS, NO_RACEWAYS)
+    _write_rates(s, torques, oil_temperature, table, p, True, none, work, out)
 
 
 @kernel
@@ -265,11 +261,11 @@ def _write_rates(
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     scratch = work[N_ODE:at_series]
     if s[TIME_IN_STEP] > 0.0 and p.drag > PALMGREN:  # as the step has taken it
-        drag = drag_near(s, s[KEPT_DRAG:N_STATE])
+        drag = kept_drag(s, s[KEPT_DRAG:N_STATE])
     else:
         if alone:
             raceways = raceways_of(s, oil, p, data.roller_model, scratch)
-        drag = bearing_drag(s, oil, p, raceways)
+        drag = axle_drag(s, oil, p, raceways)
     inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
     if data.film_model.size > 0:
         for i in range(N_FILMS):
@@ -362,7 +358,7 @@ def write_outputs(
     raceways = raceways_of(s, oil, p, data.roller_model, scratch)
     write_raceways(raceways, FIRST_BEARING_FILM, BEARING_SHARE_OUTSIDE, out)
     _write_rates(s, torques, oil_temperature, table, p, False, raceways, work, out)
-    bound = drag_bound_of(s, raceways)
+    bound = raceways.pinion.torque_bound * abs(s[W_P]) + raceways.gear.torque_bound * abs(s[W_G])
     at_bound = scratch[BOUND_POWER]
     mesh = write_motion(s, rates, at_bound, bound, data.series, data.n_orders, p, out)
     write_flank_group(s, mesh.force, oil_temperature, oil, data, p, scratch, out)

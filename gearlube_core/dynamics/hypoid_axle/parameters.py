@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
+from gearlube_core.bearings.followed_shaft import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.checks import check_option
@@ -29,10 +30,6 @@ from gearlube_core.drag import (
     OilVolume,
     RingDiameter,
     RingWidth,
-)
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import (
-    BEARING_LAWS,
-    TORQUE_LOSSES,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL
@@ -130,11 +127,11 @@ class HypoidAxleParameters(AxleScalars):
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : str
-        Drag torque of the bearings, one of `bearing_drag.TORQUE_LOSSES`. "none". "palmgren": under
-        the preload. "palmgren_loaded", "skf_2013":
-        laws of catalogues under the forces on each bearing. The others: a law of rolling for the
-        raceways, with ribs, hysteresis and oil drag, under the load of each roller. "solved_films":
-        rolling and films of the raceways by a model of solved films, see `solved_race`.
+        Drag torque of the bearings, one of `followed_shaft.TORQUE_LOSSES`. "none". "palmgren":
+        under the preload. "palmgren_loaded", "skf_2013": laws of catalogues under the forces on
+        each bearing. The others: a law of rolling for the raceways, with ribs, hysteresis and oil
+        drag, under the load of each roller. "solved_films": rolling and films of the raceways by a
+        model of solved films, see `solved_race`.
     churning : {"none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
         Law of the gear's churning loss, see `churning_torque`.
     ring_diameter, ring_width : float

@@ -7,11 +7,23 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     N_EXPANSION,
+    NO_RACEWAYS,
+    RollerFilms,
     ShaftMotion,
+    SolvedRaceways,
     expand_forces,
     expanded_forces,
 )
+from gearlube_core.bearings.followed_shaft import (
+    ShaftDrag,
+    drag_holds,
+    drag_near,
+    drag_of_shaft,
+    raceways_of_shaft,
+    renew_drag,
+)
 from gearlube_core.bearings.parameters import cage_torque
+from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.dynamics.hypoid_axle.flanks import N_FRICTION, flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, follow_flank
@@ -31,6 +43,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     MESH_DAMPING,
     MICRO,
+    N_DRAG,
     N_ROLLERS,
     PHI_G,
     PHI_P,
@@ -51,6 +64,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantState
 
@@ -119,6 +133,85 @@ def mesh_motion(s: Array) -> MeshMotion:
         s[V_P + 1] - s[V_G + 1],
         s[V_P + 2] - s[V_G + 2],
     )
+
+
+class AxleRaceways(NamedTuple):
+    """Raceways of both shafts by solved films."""
+
+    pinion: SolvedRaceways = NO_RACEWAYS
+    gear: SolvedRaceways = NO_RACEWAYS
+
+
+class AxleDrag(NamedTuple):
+    """Drag of the bearings of both shafts."""
+
+    pinion: ShaftDrag
+    gear: ShaftDrag
+
+
+@inside
+def _films_of(films: RollerFilms, shaft: int) -> RollerFilms:
+    if films.nodes.size == 0:
+        return films
+    return RollerFilms(
+        films.model, part(films.nodes, shaft * N_ROLLER_NODES, N_ROLLER_NODES), films.kept
+    )
+
+
+@kernel
+def axle_raceways(
+    s: Array, oil: LubricantState, p: AxleParameters, films: RollerFilms
+) -> AxleRaceways:
+    """Return torques and films of the raceways if p.drag is SOLVED_FILMS; else NO_RACEWAYS.
+
+    `films` has the nodes of both shafts, shape (N_ROLLERS,), read only if they are kept.
+    """
+    return AxleRaceways(
+        raceways_of_shaft(p.bearing_p, pinion_motion(s), p.drag, oil, _films_of(films, 0)),
+        raceways_of_shaft(p.bearing_g, gear_motion(s), p.drag, oil, _films_of(films, 1)),
+    )
+
+
+@kernel
+def axle_drag(s: Array, oil: LubricantState, p: AxleParameters, raceways: AxleRaceways) -> AxleDrag:
+    """Return the drag of the bearings by the law p.drag, see `drag_of_shaft`.
+
+    `raceways` are those of `axle_raceways` at this state.
+    """
+    pinion, gear = pinion_motion(s), gear_motion(s)
+    return AxleDrag(
+        drag_of_shaft(p.bearing_p, pinion, p.preload_p, p.drag, oil, raceways.pinion),
+        drag_of_shaft(p.bearing_g, gear, p.preload_g, p.drag, oil, raceways.gear),
+    )
+
+
+@kernel
+def kept_drag(s: Array, kept: Array) -> AxleDrag:
+    """Return the drag by what is kept of both shafts, shape (N_DRAG,), see `drag_near`."""
+    half = N_DRAG // 2
+    return AxleDrag(
+        drag_near(pinion_motion(s), part(kept, 0, half)),
+        drag_near(gear_motion(s), part(kept, half, half)),
+    )
+
+
+@kernel
+def follow_drag(
+    s: Array, oil: LubricantState, p: AxleParameters, films: RollerFilms, kept: Array
+) -> float:
+    """Renew what is kept where it no longer holds; return how many evaluations that took.
+
+    Both shafts are evaluated when either has moved. Arguments as in `axle_raceways`, `kept_drag`.
+    """
+    pinion, gear, half = pinion_motion(s), gear_motion(s), N_DRAG // 2
+    of_pinion, of_gear = part(kept, 0, half), part(kept, half, half)
+    if drag_holds(pinion, oil.temperature, of_pinion) and drag_holds(
+        gear, oil.temperature, of_gear
+    ):
+        return 0.0
+    films_p, films_g = _films_of(films, 0), _films_of(films, 1)
+    taken = renew_drag(p.bearing_p, pinion, p.preload_p, p.drag, oil, films_p, of_pinion)
+    return taken + renew_drag(p.bearing_g, gear, p.preload_g, p.drag, oil, films_g, of_gear)
 
 
 @kernel

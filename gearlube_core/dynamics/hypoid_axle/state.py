@@ -19,6 +19,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.followed_shaft import N_FOLLOWED
 from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.friction.flank_film import ModelFilm
 from gearlube_core.kernels.jit import kernel
@@ -81,7 +82,7 @@ FILM_NODES = DRAG_BOUND + 1  # films at the nodes of the mesh table, with a film
 ROLLER_NODES = FILM_NODES + N_FILMS  # `roller_nodes` of both shafts, with a film model of rollers
 N_ROLLERS = 2 * N_ROLLER_NODES
 KEPT_DRAG = ROLLER_NODES + N_ROLLERS  # drag that is kept, with a law that takes single rollers
-N_DRAG = 21
+N_DRAG = 2 * N_FOLLOWED
 N_STATE = KEPT_DRAG + N_DRAG
 N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events
 

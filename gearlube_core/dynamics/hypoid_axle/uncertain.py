@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.followed_shaft import BEARING_LAWS
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW, RACE_LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.bearings.losses.rib import RIB_FRICTION_FACTOR, RIB_ROUGHNESS_FACTOR
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError

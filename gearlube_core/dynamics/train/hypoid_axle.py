@@ -44,6 +44,7 @@ def hypoid_axle(parameters: HypoidAxleParameters) -> tuple[list[Body], list[Elem
             body=name,
             bearing=bearing,
             torque_loss=given.bearing_torque_loss,
+            film_model=given.roller_film_model,
             orders=orders,
             least_frequency=at_rest,
             steps_per_highest_period=given.steps_per_highest_period,

@@ -17,6 +17,7 @@ from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.followed_shaft import SOLVED_FILMS
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.raceway_drag import steady_load, steady_rollers
 from gearlube_core.bearings.roller_loads import roller_films, roller_loads
@@ -24,7 +25,6 @@ from gearlube_core.bearings.roller_nodes import races_of, roller_film
 from gearlube_core.checks import check_within
 from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import SOLVED_FILMS
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_QUANTITIES
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion

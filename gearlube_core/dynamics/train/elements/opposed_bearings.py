@@ -11,41 +11,46 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     N_EXPANSION,
+    NO_RACEWAYS,
     Bearing,
+    RollerFilms,
     ShaftBearings,
     ShaftMotion,
     expand_forces,
     expanded_forces,
     shaft_energy,
 )
+from gearlube_core.bearings.followed_shaft import (
+    BEARING_LAWS,
+    DRAG_COST,
+    N_FOLLOWED,
+    PALMGREN,
+    TORQUE_LOSSES,
+    drag_holds,
+    drag_near,
+    drag_of_shaft,
+    renew_drag,
+)
+from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.bearings.parameters import cage_torque
+from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.checks import check_option
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, TORQUE_LOSSES, drag_of_shaft
 from gearlube_core.dynamics.hypoid_axle.integrate import EXPANSION_REACH, STEPS_PER_EXPANSION
 from gearlube_core.dynamics.train.element import RATE, RZ, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.model import FilmModel
 from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
+_FILM = 8  # place of the size of the film model, behind the axes
 # places in the memory behind the expansion: steps since then, 0 for none; displacements of then
-# [m]; drag of the present step [N.m]
+# [m]; drag of the present step [N.m]; the film model
 _AGE, _THEN, _DRAG = N_EXPANSION, N_EXPANSION + 1, N_EXPANSION + 4
 _MEMORY = N_EXPANSION + 5
-# what is kept of a drag that takes single rollers: 1 where it is, oil temperature of then [K],
-# torque [N.m], displacements and speed of then, slopes over their reaches
-_KNOWN, _OIL, _TORQUE, _KEPT_THEN = range(4)
-_N_MOVES = 4  # displacements and speed
-_SLOPES = _KEPT_THEN + _N_MOVES
-_N_KEPT = _SLOPES + _N_MOVES
-# what asks for another evaluation, see `bearing_drag`
-_REACH = 0.3e-6  # m
-_SPEED_REACH = 0.02  # of 1 rad/s more than the speed
-_OIL_REACH = 0.02  # K
-_LEAST_MOVE = 0.25  # square of a move over its reach that says something of the slopes
-_DRAG_COST = 3.0  # of an evaluation, in integrator steps
 
 
 class _OpposedBearings(NamedTuple):
@@ -58,7 +63,7 @@ class _OpposedBearings(NamedTuple):
 
     @kernel
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-        for i in range(_N_KEPT):
+        for i in range(N_FOLLOWED + (N_ROLLER_NODES if at[_FILM] > 0 else 0)):
             s[at[4] + i] = 0.0
 
     @kernel
@@ -94,10 +99,13 @@ class _OpposedBearings(NamedTuple):
             _expand(self, ahead, memory, oil)
             age = 0.0
         memory[_AGE] = age + 1.0
-        kept, cost = part(s, at[4], _N_KEPT), 0.0
-        if self.law > PALMGREN and not _drag_holds(m, oil, kept):
-            cost = _DRAG_COST * _renew_drag(self, m, oil, kept)
-        memory[_DRAG] = _drag_near(self, m, oil, kept)
+        kept, cost = part(s, at[4], N_FOLLOWED), 0.0
+        if self.law > PALMGREN and not drag_holds(m, oil.temperature, kept):
+            films = _films(at, memory, s)
+            cost = DRAG_COST * renew_drag(
+                self.bearings, m, self.preload, self.law, oil, films, kept
+            )
+        memory[_DRAG] = _drag(self, m, oil, kept)
         return cost
 
     @kernel
@@ -127,73 +135,21 @@ class _OpposedBearings(NamedTuple):
         m = _motion(at, s)
         f_1, f_2, f_a, _ = expanded_forces(self.bearings, m, part(memory, 0, N_EXPANSION))
         out[first + at[5]], out[first + at[6]], out[first + at[7]] = f_1, f_2, f_a
-        out[first + 3] = _drag_near(self, m, oil, part(s, at[4], _N_KEPT))
+        out[first + 3] = _drag(self, m, oil, part(s, at[4], N_FOLLOWED))
+
+
+@inside
+def _films(at: Any, memory: Array, s: Array) -> RollerFilms:
+    """Return the film model and its nodes; both empty where the law has none."""
+    nodes = N_ROLLER_NODES if at[_FILM] > 0 else 0
+    return RollerFilms(part(memory, _MEMORY, at[_FILM]), part(s, at[4] + N_FOLLOWED, nodes), 1.0)
 
 
 @kernel
-def _change(m: ShaftMotion, kept: Array, i: int) -> float:
-    """Return how far a number is from where the drag was evaluated, over its reach."""
-    then = kept[_KEPT_THEN + i]
-    if i == 3:
-        return (m.speed - then) / (_SPEED_REACH * (1.0 + abs(then)))
-    return ((m.r1, m.r2, m.axial)[i] - then) / _REACH
-
-
-@kernel
-def _drag_holds(m: ShaftMotion, oil: LubricantState, kept: Array) -> bool:
-    holds = kept[_KNOWN] == 1.0 and abs(oil.temperature - kept[_OIL]) <= _OIL_REACH
-    for i in range(_N_MOVES):
-        holds = holds and abs(_change(m, kept, i)) <= 1.0
-    return holds
-
-
-@kernel
-def _drag_near(self: _OpposedBearings, m: ShaftMotion, oil: LubricantState, kept: Array) -> float:
-    if self.law <= PALMGREN:
-        return drag_of_shaft(self.bearings, m, self.preload, self.law, oil)
-    torque = kept[_TORQUE]
-    for i in range(_N_MOVES):
-        torque += kept[_SLOPES + i] * _change(m, kept, i)
-    return torque
-
-
-@kernel
-def _renew_drag(self: _OpposedBearings, m: ShaftMotion, oil: LubricantState, kept: Array) -> float:
-    """Evaluate the drag and keep it with its slopes; return how many evaluations that took.
-
-    Slopes from nothing take one each; later ones follow from what a move has done to the torque.
-    Source: [broyden_1965], method 1.
-    """
-    torque = drag_of_shaft(self.bearings, m, self.preload, self.law, oil)
-    square, missed = 0.0, torque - kept[_TORQUE]
-    for i in range(_N_MOVES):
-        step = _change(m, kept, i)
-        square += step * step
-        missed -= kept[_SLOPES + i] * step
-    evaluations = 1.0
-    if kept[_KNOWN] == 0.0:
-        evaluations += _N_MOVES
-        w = _SPEED_REACH * (1.0 + abs(m.speed))
-        for i in range(_N_MOVES):
-            moved = ShaftMotion(
-                m.r1 + (_REACH if i == 0 else 0.0),
-                m.r2 + (_REACH if i == 1 else 0.0),
-                m.axial + (_REACH if i == 2 else 0.0),
-                m.v1,
-                m.v2,
-                m.v_axial,
-                m.cage_angle,
-                m.speed + (w if i == 3 else 0.0),
-            )
-            there = drag_of_shaft(self.bearings, moved, self.preload, self.law, oil)
-            kept[_SLOPES + i] = there - torque
-    elif square > _LEAST_MOVE:
-        for i in range(_N_MOVES):
-            kept[_SLOPES + i] += missed * _change(m, kept, i) / square
-    kept[_KNOWN], kept[_OIL], kept[_TORQUE] = 1.0, oil.temperature, torque
-    kept[_KEPT_THEN], kept[_KEPT_THEN + 1], kept[_KEPT_THEN + 2] = m.r1, m.r2, m.axial
-    kept[_KEPT_THEN + 3] = m.speed
-    return evaluations
+def _drag(self: _OpposedBearings, m: ShaftMotion, oil: LubricantState, kept: Array) -> float:
+    if self.law > PALMGREN:
+        return drag_near(m, kept).torque
+    return drag_of_shaft(self.bearings, m, self.preload, self.law, oil, NO_RACEWAYS).torque
 
 
 @kernel
@@ -224,7 +180,9 @@ class OpposedBearings(Element):
     bearing : Bearing
         Of any type among `bearing_types`.
     torque_loss : str
-        Law of the drag, as `bearing_torque_loss` of the axle; not "solved_films".
+        Law of the drag, as `bearing_torque_loss` of the axle.
+    film_model : FilmModel, optional
+        Of rollers, for "solved_films"; default: that of the package.
     orders : float
         Cycles in a turn that the hysteresis of the rollers is taken at, such as the teeth of the
         gear, 1 to 1000.
@@ -249,6 +207,7 @@ class OpposedBearings(Element):
     body: str
     bearing: Bearing
     torque_loss: str = "none"
+    film_model: FilmModel | None = None
     orders: Annotated[
         float, Number("1", 1.0, 1000.0, text="Cycles in a turn for the hysteresis of the rollers")
     ] = 20.0
@@ -269,12 +228,6 @@ class OpposedBearings(Element):
     def __post_init__(self) -> None:
         check_fields(self)
         check_option(f"torque_loss of {self.name}", self.torque_loss, TORQUE_LOSSES)
-        if self.torque_loss == "solved_films":
-            raise ParameterError(
-                f"torque_loss of {self.name} must not be solved_films, which only the hypoid axle "
-                "has. Take a law such as zhou_hoeprich_1991."
-            )
-
         if sorted(self.axes) != [0, 1, 2]:
             raise ParameterError(
                 f"axes of {self.name} must be 0, 1 and 2, each once, got {list(self.axes)}."
@@ -297,13 +250,16 @@ class OpposedBearings(Element):
         )
 
     def sizes(self) -> tuple[int, ...]:
-        """Return the axes."""
-        return self.axes
+        """Return the axes and the size of the film model."""
+        return (*self.axes, self._film_model().size)
+
+    def _film_model(self) -> Array:
+        return roller_film_model(BEARING_LAWS.get(self.torque_loss, ""), self.film_model)
 
     def memory(self) -> Array:
-        """Return room for the expansion of the forces and the drag."""
-        return np.zeros(_MEMORY)
+        """Return room for the expansion of the forces and the drag, then the film model."""
+        return np.concatenate([np.zeros(_MEMORY), self._film_model()])
 
     def kept_size(self) -> int:
-        """Return the places of what is kept of the drag."""
-        return _N_KEPT
+        """Return the places of what is kept of the drag and of the films of rollers."""
+        return N_FOLLOWED + (N_ROLLER_NODES if self.torque_loss == "solved_films" else 0)

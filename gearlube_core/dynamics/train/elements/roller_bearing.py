@@ -4,47 +4,115 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import Bearing, ShaftMotion, shaft_drag
-from gearlube_core.bearings.losses.laws import PALMGREN, SKF
+from gearlube_core.bearings.bearing_type import (
+    NO_HYSTERESIS,
+    Bearing,
+    RollerFilms,
+    ShaftMotion,
+    SolvedRaceways,
+    shaft_drag,
+)
+from gearlube_core.bearings.followed_shaft import (
+    BEARING_LAWS,
+    DRAG_COST,
+    N_FOLLOWED,
+    TORQUE_LOSSES,
+    drag_holds,
+    drag_near,
+    renew_drag,
+)
+from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.bearings.parameters import cage_torque
+from gearlube_core.bearings.raceway_drag import raceway_drag
 from gearlube_core.bearings.roller_loads import bearing_forces
+from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES, solved_raceway_drag
 from gearlube_core.bearings.shaft_expansion import bearing_energy
-from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters, rib_drag
+from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import RATE, W, add_wrench
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
+from gearlube_core.film_model.model import FilmModel
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
-_DRAG = 0  # place in the memory: drag of the present step [N.m]
-_LAWS = {"none": -1.0, "palmgren": float(PALMGREN), "skf_2013": float(SKF)}
-TorqueLoss = Literal["none", "palmgren", "skf_2013"]
+_KEPT, _FILM = 4, 5  # places of `at` behind body and energies: what is kept, size of the film model
+_DRAG, _MODEL = 0, 1  # places in the memory: drag of the present step [N.m], the film model
+_LOADED = {"palmgren": "palmgren_loaded"}  # it has no preload of its own
+_LAWS = tuple(one for one in TORQUE_LOSSES if one not in _LOADED.values())
+
+
+class _Rollers(NamedTuple):
+    """What drags in one bearing alone, with kernels as those of `ShaftBearings`."""
+
+    side: float
+    bearings: TaperedRollerParameters
+
+    @kernel
+    def loaded_drag(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
+        f_1, f_2, f_a, _ = bearing_forces(
+            motion, NO_HYSTERESIS, oil.eta0, oil.alpha, self.bearings, self.side
+        )
+        radial, bearings = math.hypot(f_1, f_2), self.bearings
+        return shaft_drag(bearings, motion.speed, abs(f_a), radial, law, oil)  # type: ignore[arg-type]
+
+    @kernel
+    def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
+        return raceway_drag(motion, law, oil, self.bearings, self.side)
+
+    @kernel
+    def solved_raceways(
+        self, motion: ShaftMotion, oil: LubricantState, films: RollerFilms
+    ) -> SolvedRaceways:
+        return solved_raceway_drag(motion, oil, self.bearings, films, self.side)
+
+    @kernel
+    def beside_raceways(self, motion: ShaftMotion, oil: LubricantState) -> float:
+        ends = rib_drag(motion, oil, self.bearings, self.side)
+        beside = ends.rib + ends.hysteresis + ends.oil
+        return -beside if motion.speed < 0.0 else beside
 
 
 class _RollerBearing(NamedTuple):
     side: float  # +1: a displacement along +z loads it, -1: along -z
     arm: float  # of its middle along z from the centre of the body [m]
-    law: float
+    law: float  # place in TORQUE_LOSSES
     orders: float  # of the reference frequency of the hysteresis, over that of rotation
     least_frequency: float  # [Hz]
     bearings: TaperedRollerParameters
 
     @kernel
+    def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        for i in range(N_FOLLOWED + _nodes(at)):
+            s[at[_KEPT] + i] = 0.0
+
+    @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
-        memory[_DRAG] = _drag(self, at, s, oil)
-        return 0.0
+        memory[_DRAG] = 0.0
+        if self.law == 0.0:
+            return 0.0
+        m, kept, cost = _motion(self, at, s), part(s, at[_KEPT], N_FOLLOWED), 0.0
+        if not drag_holds(m, oil.temperature, kept):
+            nodes = part(s, at[_KEPT] + N_FOLLOWED, _nodes(at))
+            films = RollerFilms(part(memory, _MODEL, at[_FILM]), nodes, 1.0)
+            rollers: Any = _Rollers(self.side, self.bearings)
+            cost = 0.5 * DRAG_COST * renew_drag(rollers, m, 0.0, self.law, oil, films, kept)
+        memory[_DRAG] = drag_near(m, kept).torque
+        return cost
 
     @kernel
     def add_forces(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
     ) -> None:
-        body, cage, damping, drag = at
+        body, cage, damping, drag = at[0], at[1], at[2], at[3]
         m = _motion(self, at, s)
         f_1, f_2, f_a, lost = _forces(self, m, oil)
         turning = self.bearings.cage_ratio * cage_torque(m.r1, m.r2, f_1, f_2) - memory[_DRAG]
@@ -72,9 +140,17 @@ class _RollerBearing(NamedTuple):
     def write(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
     ) -> None:
-        f_1, f_2, f_a, _ = _forces(self, _motion(self, at, s), oil)
+        m = _motion(self, at, s)
+        f_1, f_2, f_a, _ = _forces(self, m, oil)
         out[first], out[first + 1], out[first + 2] = f_1, f_2, f_a
-        out[first + 3] = _drag(self, at, s, oil)
+        out[first + 3] = 0.0
+        if self.law > 0.0:
+            out[first + 3] = drag_near(m, part(s, at[_KEPT], N_FOLLOWED)).torque
+
+
+@inside
+def _nodes(at: Any) -> int:
+    return N_ROLLER_NODES if at[_FILM] > 0 else 0
 
 
 @kernel
@@ -101,16 +177,6 @@ def _forces(
     return bearing_forces(m, frequency, oil.eta0, oil.alpha, self.bearings, self.side)
 
 
-@kernel
-def _drag(self: _RollerBearing, at: Any, s: Array, oil: LubricantState) -> float:
-    if self.law < 0.0:
-        return 0.0
-    m = _motion(self, at, s)
-    f_1, f_2, f_a, _ = _forces(self, m, oil)
-    radial = math.sqrt(f_1 * f_1 + f_2 * f_2)
-    return shaft_drag(self.bearings, m.speed, abs(f_a), radial, int(self.law), oil)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RollerBearing(Element):
     """One tapered roller bearing on a shaft along z; two of them carry a tilting shaft.
@@ -127,8 +193,11 @@ class RollerBearing(Element):
         [m], -10 to 10.
     side : int
         +1 where a displacement of the shaft along +z loads it, -1 where one along -z does.
-    torque_loss : {"none", "palmgren", "skf_2013"}
-        Law of the drag, under the present loads.
+    torque_loss : str
+        Law of the drag under the present loads, as `bearing_torque_loss` of the axle; "palmgren"
+        is its "palmgren_loaded".
+    film_model : FilmModel, optional
+        Of rollers, for "solved_films"; default: that of the package.
     orders : float
         Cycles in a turn that the hysteresis of the rollers is taken at, 1 to 1000.
     least_frequency : float
@@ -160,7 +229,8 @@ class RollerBearing(Element):
         int,
         Number("1", -1, 1, text="1: a displacement along +z loads it, -1: one along -z"),
     ] = 1
-    torque_loss: TorqueLoss = "none"
+    torque_loss: str = "none"
+    film_model: FilmModel | None = None
     orders: Annotated[
         float, Number("1", 1.0, 1000.0, text="Cycles in a turn for the hysteresis of the rollers")
     ] = 20.0
@@ -178,6 +248,7 @@ class RollerBearing(Element):
 
     def __post_init__(self) -> None:
         check_fields(self)
+        check_option(f"torque_loss of {self.name}", self.torque_loss, _LAWS)
         if self.side == 0:
             raise ParameterError(f"side of {self.name} must be 1 or -1, got 0.")
         if not isinstance(self.bearing.parameters(), TaperedRollerParameters):
@@ -192,12 +263,23 @@ class RollerBearing(Element):
         return _RollerBearing(
             float(self.side),
             float(self.arm),
-            _LAWS[self.torque_loss],
+            float(TORQUE_LOSSES.index(_LOADED.get(self.torque_loss, self.torque_loss))),
             float(self.orders),
             float(self.least_frequency),
             bearings,
         )
 
+    def _film_model(self) -> Array:
+        return roller_film_model(BEARING_LAWS.get(self.torque_loss, ""), self.film_model)
+
+    def sizes(self) -> tuple[int, ...]:
+        """Return the size of the film model."""
+        return (self._film_model().size,)
+
     def memory(self) -> Array:
-        """Return room for the drag of the present step."""
-        return np.zeros(1)
+        """Return room for the drag of the present step, then the film model."""
+        return np.concatenate([np.zeros(1), self._film_model()])
+
+    def kept_size(self) -> int:
+        """Return the places of what is kept of the drag and of the films of rollers."""
+        return N_FOLLOWED + (N_ROLLER_NODES if self.torque_loss == "solved_films" else 0)
