@@ -106,8 +106,8 @@ def outputs_kernel(
 ) -> Callable[..., None]:
     """Return the kernel that writes the outputs into the first places of `work`.
 
-    The arguments are kernels of all elements. Rates are those with which the next step begins, so
-    accelerations and the powers before the first step are. The state stays as it is.
+    The arguments are kernels of all elements. Accelerations, and the powers before the first step,
+    are those of the present state with what elements keep in it. The state stays as it is.
     """
     bodies, first_mobility = layout.bodies, layout.first_mobility
     n, n_state, n_kept, n_outputs = layout[4:8]
@@ -123,6 +123,8 @@ def outputs_kernel(
         for i in range(n_state):
             begun[i] = s[i]
         each_step(begun, oil, numbers, memory, 0.0)
+        for i in range(n, n_kept):
+            begun[i] = s[i]
         expand(begun, oil, numbers, memory)
         rates(begun, oil, numbers, memory, 0, slope)
         k = 0
