@@ -12,7 +12,14 @@ import numpy as np
 
 from drivetrain.train.train_file import TrainCase, TrainFile
 from fmu_src.definition import Definition, Value
-from fmu_src.variable import Variable, declared_outputs, input_, parameter
+from fmu_src.variable import (
+    Variable,
+    declared_locals,
+    declared_outputs,
+    input_,
+    parameter,
+    rates,
+)
 from gearlube_core.arrays import Array
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics.ranges import MAX_SPEED, RANGE_EXCEEDED, Range
@@ -44,14 +51,18 @@ class TrainModel:
 
     @property
     def outputs(self) -> Array:
-        """Present outputs: those of the train, then which ranges were left, as bits."""
+        """Present outputs: of the train, which ranges were left as bits, then locals."""
         found = self._train.outputs()
+        x = self._train.continuous
+        others = dict(zip(self._train.continuous_names, x.tolist(), strict=True))
+        others = {name: value for name, value in others.items() if name not in found}
         left = [
             found[one.output] != 0.0 and not one.low <= found[one.output] <= one.high
             for one in self._ranges
         ]
         bits = sum(1 << bit for bit, one in enumerate(left) if one)
-        return np.array([*found.values(), float(bits)])
+        exchanged = [self._train.derivative(x), self._train.indicators(x)]
+        return np.concatenate([[*found.values(), bits, *others.values()], *exchanged])
 
     @property
     def step(self) -> Callable[..., None]:
@@ -99,8 +110,12 @@ def fmu_name(name: str) -> str:
 
 
 def variables(case: TrainCase) -> tuple[Variable, ...]:
-    """Return the variables of a train: inputs, parameters, then its outputs."""
-    oil = case.train.oil
+    """Return the variables of a train: inputs, parameters, then its outputs and locals."""
+    oil, made = case.train.oil, case.train.assembly
+    outputs = declared_outputs(made.outputs)
+    known = {one.name for one in outputs}
+    states = declared_locals(one.record for one in made.continuous)
+    of_name = {one.name: one for one in (*states, *outputs)}
     return (
         *(
             input_(f"{name}.torque", "N.m", f"Torque of the port {name}", start=float(torque),
@@ -115,10 +130,13 @@ def variables(case: TrainCase) -> tuple[Variable, ...]:
                       argument=name)
             for name, speed in case.speeds.items()
         ),
-        *declared_outputs(case.train.output_records),
+        *outputs,
         Variable(name=RANGE_EXCEEDED, type="Integer", causality="output",
                  description="0: all quantities are in range; else the sum of 1, 2, 4 and so on, "
                  "one for each range of the documentation that was left, in its order"),
+        *(one for one in states if one.name not in known),
+        *rates([of_name[one.record.name] for one in made.continuous]),
+        *declared_locals(one.record for one in made.events),
     )  # fmt: skip
 
 
@@ -151,12 +169,13 @@ def definition_with_train(path: str | Path) -> tuple[Definition, TrainCase]:
     content = (
         TrainFile.shipped_text(str(path)).encode() if shipped else read_content(path, "train file")
     )
+    table = variables(case)
     bodies, elements = len(case.train.bodies), len(case.train.elements)
     definition = Definition(
         name=fmu_name(case.name),
         description=f"Drivetrain {case.name}: {bodies} bodies, {elements} elements",
-        variables=variables(case),
-        output_names=(*(one.name for one in case.train.output_records), RANGE_EXCEEDED),
+        variables=table,
+        output_names=tuple(one.name for one in table if one.is_computed),
         start=partial(_start, case),
         stop_time=0.1,
         step_size=1e-3,

@@ -177,6 +177,11 @@ def declared_outputs(outputs: Iterable[Output]) -> tuple[Variable, ...]:
     return tuple(output(one.name, one.unit, one.text, one.nominal, one.shown) for one in outputs)
 
 
+def declared_locals(outputs: Iterable[Output]) -> tuple[Variable, ...]:
+    """Return what a model declares that a solver needs and no connection."""
+    return tuple(local(one.name, one.unit, one.text, one.nominal, one.shown) for one in outputs)
+
+
 def in_order(released: Sequence[str], *variables: Variable) -> tuple[Variable, ...]:
     """Return variables that a model declares: the released names in their order, then new ones."""
     place = {name: i for i, name in enumerate(released)}
@@ -221,7 +226,15 @@ def local(
 
 
 def rates(states: Sequence[Variable]) -> tuple[Variable, ...]:
-    """Return the derivative by time of each continuous state."""
+    """Return the derivative by time of each continuous state.
+
+    Raises
+    ------
+    ParameterError
+        A state has a unit whose rate has none.
+    """
+    for one in states:
+        check_option(f"unit of the state {one.name}", one.unit, tuple(_RATES))
     return tuple(
         replace(
             local(f"der({one.name})", unit, f"Time derivative: {_in_a_sentence(one)}", nominal),

@@ -392,6 +392,7 @@ def native_model(definition: Definition) -> NativeModel:
         motion=frozenset(MOTION_OUTPUTS),
         exchange=Exchange(
             states=STATE_NAMES,
+            places=tuple(range(len(STATE_NAMES))),
             units=(1.0,) * N_CONTINUOUS,
             indicators=EVENT_INDICATORS,
             inputs_at=INPUTS_AT,

@@ -382,6 +382,7 @@ def native_model(definition: Definition) -> NativeModel:
         },
         exchange=Exchange(
             states=STATE_NAMES,
+            places=tuple(range(len(STATE_NAMES))),
             units=UNITS_OF_STATES,
             indicators=EVENT_INDICATORS,
             inputs_at=N_STATE,

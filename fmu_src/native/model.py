@@ -26,10 +26,11 @@ class Exchange:
     Parameters
     ----------
     states : tuple of str
-        Variables that hold the continuous states, which are the first in `state`. Each has a
-        variable with it as `rate_of`.
+        Variables that hold the continuous states. Each has a variable with it as `rate_of`.
+    places : tuple of int
+        Where they stand in `state`.
     units : tuple of float
-        One in `state` is so much in the variable's unit.
+        One in `state` is so much in the variable's unit; below 0 where the signs differ.
     indicators : tuple of str
         Variables whose change of sign is an event.
     inputs_at : int
@@ -39,6 +40,7 @@ class Exchange:
     """
 
     states: tuple[str, ...]
+    places: tuple[int, ...]
     units: tuple[float, ...]
     indicators: tuple[str, ...]
     inputs_at: int

@@ -99,8 +99,8 @@ def model_body(model: NativeModel) -> tuple[bytes, list[int]]:
     rows += [references[name] for name in definition.output_names]
     if exchange:
         rates = exchange.rates(definition)
-        for name, rate in zip(exchange.states, rates, strict=True):
-            rows += [references[name], references[rate]]
+        for name, rate, place in zip(exchange.states, rates, exchange.places, strict=True):
+            rows += [references[name], references[rate], place]
         rows += [references[name] for name in exchange.indicators]
         numbers += exchange.units
     for status, text in model.refusals.items():

@@ -8,12 +8,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fmu_src.native.model import OK, NativeModel, Operation
+from fmu_src.native.model import OK, Exchange, NativeModel, Operation
 from fmu_src.object_code import array_at, pointer_at
 from fmu_src.train import definition_with_train, train_ranges
-from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, RZ, W
-from gearlube_core.dynamics.train.march import ADVANCE, START, WRITE, train_kernel, work_size
+from gearlube_core.dynamics.train.element import BODY_STATES, RZ, W
+from gearlube_core.dynamics.train.march import (
+    ADVANCE,
+    EVENT,
+    EXCHANGE,
+    START,
+    WRITE,
+    train_kernel,
+    work_size,
+)
 from gearlube_core.dynamics.train.model import MOST_TORQUE, REFUSALS, Train
+from gearlube_core.dynamics.train.outputs import outputs_at
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST
 
 _NO_START = {
@@ -23,7 +32,7 @@ _NO_START = {
     "that may move along or about an axis a support there",
     NO_MODES: "natural frequencies at rest are not finite. Check masses and stiffness",
 }
-_START, _STEP, _OUTPUTS, _RESUME, _MOTION = map(int, tuple(Operation)[:5])
+_START, _STEP, _OUTPUTS, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
 
 
 class _Places(NamedTuple):
@@ -34,6 +43,7 @@ class _Places(NamedTuple):
     ports: int  # places of the ports in the state
     bodies: int  # number of the body of each speed; the first bears what the torques leave
     motion: int  # pairs of places, in the outputs and in the state
+    exchanged: int  # likewise, in the outputs and in what EXCHANGE writes
     limits: int  # of the inputs, then of the ranges
     ranges: int  # places of the ranges in the outputs
     data_end: int
@@ -42,6 +52,7 @@ class _Places(NamedTuple):
     n_ports: int
     n_speeds: int
     n_motion: int
+    n_exchanged: int
     n_bodies: int
     n_ranges: int
     inputs: int  # in state, behind that of the train; then the rate of the integrator's steps
@@ -51,6 +62,8 @@ class _Places(NamedTuple):
     scratch: int
     work_end: int
     outputs: int
+    train_outputs: int  # the first of them, from a place in what WRITE writes
+    written: int
     per_period: int
 
 
@@ -82,13 +95,15 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
         given = array_at(inputs, at.n_ports + 1)
         trial = array_at(pointer_at(work, at.trial), at.states)
         scratch = array_at(pointer_at(work, at.scratch), at.work_end - at.scratch)
+        if operation not in (_START, _STEP):
+            given = array_at(pointer_at(state, at.inputs), at.n_ports + 1)
+        for i in range(at.states):
+            trial[i] = 0.0 if operation == _START else kept[i]
+        for i in range(at.n_ports):
+            trial[int(fixed[at.ports + i])] = given[i]
+        temperature = given[at.n_ports]
         if operation in (_START, _STEP):
             rate = 0.0
-            for i in range(at.states):
-                trial[i] = 0.0 if operation == _START else kept[i]
-            for i in range(at.n_ports):
-                trial[int(fixed[at.ports + i])] = given[i]
-            temperature = given[at.n_ports]
             if operation == _START:
                 speeds = array_at(parameters, at.n_speeds)
                 scratch[0] = fixed[at.bodies]
@@ -116,24 +131,37 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
             if operation == _STEP:
                 return OK
         out = array_at(outputs, at.outputs)
-        if operation == _MOTION:
+        if operation in (_MOTION, _OUTPUTS, _START):
             for i in range(at.n_motion):
                 to, of = int(fixed[at.motion + 2 * i]), int(fixed[at.motion + 2 * i + 1])
                 out[to] = kept[of]
+        if operation == _MOTION:
             return OK
-        s = array_at(state, at.states)
-        temperature = kept[at.inputs + at.n_ports]
-        operate(WRITE, s, temperature, numbers, memory, 0.0, kept[at.state_end - 1], scratch)
+        if operation == _EVENT:
+            status = int(operate(EVENT, trial, temperature, numbers, memory, 0.0, 0.0, scratch))
+            for i in range(at.states if status == OK else 0):
+                kept[i] = trial[i]
+            return status
+        if operation == _DERIVATIVES:
+            status = int(operate(EXCHANGE, trial, temperature, numbers, memory, 0.0, 0.0, scratch))
+        else:
+            operate(WRITE, trial, temperature, numbers, memory, 0.0, 0.0, scratch)
+            status = OK
+        for i in range(at.n_exchanged):
+            to, of = int(fixed[at.exchanged + 2 * i]), int(fixed[at.exchanged + 2 * i + 1])
+            out[to] = scratch[of]
+        if operation == _DERIVATIVES:
+            return status
         left, bit = 0.0, 1.0
+        for i in range(at.train_outputs):
+            out[i] = scratch[at.written + i]
         for i in range(at.n_ranges):
-            value = scratch[int(fixed[at.ranges + i])]
+            value = out[int(fixed[at.ranges + i])]
             limits = 2 * (at.n_ports + 1 + i)
             if value != 0.0 and not room[limits] <= value <= room[limits + 1]:
                 left += bit
             bit *= 2.0
-        for i in range(at.outputs - 1):
-            out[i] = scratch[i]
-        out[at.outputs - 1] = left
+        out[at.train_outputs] = left  # range.exceeded
         return OK
 
     return entry
@@ -141,14 +169,10 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
 
 def _motion(train: Train) -> dict[str, int]:
     """Return the outputs that stand in the state as they are, with their places."""
-    found: dict[str, int] = {}
-    for i, body in enumerate(train.bodies):
+    found = {one.record.name: one.place for one in train.assembly.continuous}
+    for i, body in enumerate(train.bodies):  # of one that does not turn too
         first = BODY_STATES * i
         found |= {f"{body.name}.angle": first + RZ, f"{body.name}.speed": first + W}
-        for j, one in enumerate(COORDINATES[:-1]):
-            word = "displacement" if j < 3 else "tilt"
-            if one not in body.held:
-                found[f"{body.name}.{word}.{one[-1]}"] = first + j
     return found
 
 
@@ -160,6 +184,9 @@ def train_model(path: str | Path) -> NativeModel:
     names = [body.name for body in train.bodies]
     motion = _motion(train)
     pairs = [(definition.output_names.index(name), at) for name, at in motion.items()]
+    of_rates = {f"der({one.record.name})": one.rate for one in made.continuous}
+    of_rates |= {one.record.name: one.place for one in made.events}
+    exchanged = [(definition.output_names.index(name), at) for name, at in of_rates.items()]
     oil = train.oil
     ranges = train_ranges(train)
     of_ranges = [end for one in ranges for end in (one.low, one.high)]
@@ -170,6 +197,7 @@ def train_model(path: str | Path) -> NativeModel:
         np.array([made.kept[name] for name in case.torques], float),
         np.array([names.index(name) for name in case.speeds], float),
         np.array(pairs, float).ravel(),
+        np.array(exchanged, float).ravel(),
         np.array([*limits, oil.temperature_low, oil.temperature_high, *of_ranges]),
         np.array([definition.output_names.index(one.output) for one in ranges], float),
     ]
@@ -185,6 +213,7 @@ def train_model(path: str | Path) -> NativeModel:
         n_ports=len(case.torques),
         n_speeds=len(case.speeds),
         n_motion=len(pairs),
+        n_exchanged=len(exchanged),
         n_bodies=len(names),
         n_ranges=len(ranges),
         inputs=states,
@@ -194,6 +223,8 @@ def train_model(path: str | Path) -> NativeModel:
         scratch=scratch,
         work_end=scratch + room,
         outputs=len(definition.output_names),
+        train_outputs=len(made.outputs),
+        written=outputs_at(made.layout),
         per_period=train.steps_per_highest_period,
     )
     return NativeModel(
@@ -208,4 +239,12 @@ def train_model(path: str | Path) -> NativeModel:
         ranges=ranges,
         refusals=REFUSALS | _NO_START,
         motion=frozenset(motion),
+        exchange=Exchange(
+            states=tuple(one.record.name for one in made.continuous),
+            places=tuple(one.place for one in made.continuous),
+            units=(1.0,) * len(made.continuous),
+            indicators=tuple(one.record.name for one in made.events),
+            inputs_at=at.inputs,
+            of_states=frozenset(motion),
+        ),
     )

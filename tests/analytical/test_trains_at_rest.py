@@ -75,7 +75,7 @@ class Twisting(Element):
     name: str
     body: str
     on: ClassVar = ("body",)
-    states: ClassVar = ("twist",)
+    states: ClassVar = (Output("twist", "rad", "rotation against the ground"),)
 
     def numbers(self) -> NoKernels:
         return NoKernels(1.0)

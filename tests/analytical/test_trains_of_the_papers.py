@@ -9,14 +9,17 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.march import state as pair_state
+from gearlube_core.dynamics.helical_pair.march.continuous import EVENT_INDICATORS, STATE_NAMES
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle import continuous as axle_exchange
 from gearlube_core.dynamics.hypoid_axle import state as axle_state
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.helical_pair import helical_pair
 from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
 from gearlube_core.dynamics.train.model import Train
+from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.table import PAIRS
 
@@ -107,12 +110,48 @@ def test_the_pair_in_a_train_is_the_pair_alone_to_the_last_bit():
         if min(found["input.power"], found["output.power"]) < 0.0:  # one drives, not both
             efficiency = alone.output("pair.efficiency")
             assert found["efficiency"] == pytest.approx(efficiency, rel=1e-9)
+        check_exchange(train, alone)
         left = {f"mesh.{name}": f"mesh.{one}" for name, one in alone.exceeded().items()}
         assert train.exceeded() == left
         ranges |= set(left)
         met |= {name for name in ("mesh.separated", "mesh.coast_contact") if alone.output(name)}
     assert met == {"mesh.separated", "mesh.coast_contact"}  # both were among the states
     assert ranges
+
+
+def check_exchange(train: Train, alone: HelicalPairModel) -> None:
+    """Rates and event indicators in the same state: sums of the bodies have other orders."""
+    x = train.continuous
+    rates = dict(zip(train.continuous_names, train.derivative(x), strict=True))
+    signs = {"pinion.speed": -1.0, "pinion.angle": -1.0, "energy.wheel_work": -1.0}
+    works = {"energy.pinion_work": "energy.input.work", "energy.wheel_work": "energy.output.work"}
+    assert len(rates) == len(STATE_NAMES)
+    for name in STATE_NAMES:
+        wanted = signs.get(name, 1.0) * alone.output(f"der({name})")
+        assert rates[works.get(name, name)] == pytest.approx(wanted, rel=1e-9, abs=1e-9), name
+    assert train.outputs()["wheel.acceleration"] == rates["wheel.speed"]
+    wanted = [alone.output(name) for name in EVENT_INDICATORS]
+    assert train.indicators(x) == pytest.approx(wanted, rel=1e-12)
+
+
+def test_an_integrator_of_ones_own_renews_friction_at_events():
+    """The event does what the next step begins with; without one friction stays as it is."""
+    train, load = Train(*helical_pair(PAIR), PAIR.oil), LOAD
+    train.initialise({"wheel": 84.4}, load, KELVIN)
+    before = train.continuous
+    moved = before.copy()
+    moved[train.continuous_names.index("pinion.angle")] -= 0.03
+    kept = train.get_state()
+    rates = train.derivative(moved)
+    assert np.array_equal(train.get_state(), kept)
+    assert np.array_equal(train.event(moved), moved)
+    assert not np.array_equal(train.get_state()[33:], kept[33:])
+    assert not np.array_equal(train.derivative(moved), rates)
+    assert np.array_equal(train.event(moved), moved)  # nothing is due twice
+    with pytest.raises(StepError, match=r"0\.1 m"):
+        train.derivative(np.full(moved.size, 1.0))
+    with pytest.raises(ParameterError, match=r"must have the shape \(31,\), got \(2,\)"):
+        train.derivative(np.zeros(2))
 
 
 def of_axle(train: Train, s: np.ndarray) -> np.ndarray:
@@ -147,6 +186,9 @@ def test_the_axle_of_a_list_is_the_axle():
     for k in range(60):
         axle.step(1e-4, *load.values(), kelvin)
         s = np.array(axle.state_view)
+        train.set_state(np.array([*of_axle(train, s), *train.get_state()[-2:]]))
+        indicators = [axle.output(name) for name in axle_exchange.EVENT_INDICATORS]
+        assert train.indicators(train.continuous) == pytest.approx(indicators, rel=1e-9), k
         s[:n] *= 1.0 + 0.1 * rng.normal(size=n)
         # the bearings of the gear take the mesh frequency from its own speed
         s[axle_state.W_G] = s[axle_state.W_P] / given.mesh.ratio

@@ -82,6 +82,7 @@ OUTPUT_NAMES = tuple(variable.name for variable in _OUTPUTS + _LOCALS)
 N_OUTPUTS = len(OUTPUT_NAMES)
 EXCHANGE = Exchange(
     states=("pinion.angle", "pinion.speed"),
+    places=(0, 1),
     units=(1.0, 1.0),
     indicators=("event.wall",),
     inputs_at=TORQUE,

@@ -55,7 +55,11 @@ gl_status gl_update_discrete(gl_instance *instance, int *states_changed)
     if (status != GL_OK) {
         return status;
     }
-    *states_changed = memcmp(state, instance->now.state, GL_CONTINUOUS * sizeof *state) != 0;
+    *states_changed = 0;
+    for (int i = 0; i < GL_CONTINUOUS; i++) {
+        int place = instance->model->states[i].place;
+        *states_changed |= memcmp(&state[place], &instance->now.state[place], sizeof *state) != 0;
+    }
     if (memcmp(state, instance->now.state, sizeof state)) {
         memcpy(instance->now.state, state, sizeof state);
         instance->fresh = 0;
@@ -103,15 +107,22 @@ static gl_status check_array(gl_instance *instance, const double *values, size_t
     return values || !count ? GL_OK : gl_refuse(instance, "The values are missing: a null pointer.");
 }
 
-gl_status gl_check_state(gl_instance *instance, int place, double value)
+gl_status gl_check_state(gl_instance *instance, int number, double value)
 {
-    const gl_continuous_state *state = &instance->model->states[place];
+    const gl_continuous_state *state = &instance->model->states[number];
     if (isfinite(value / state->unit)) {
         return GL_OK;
     }
     gl_say(instance, GL_DISCARD, "%s must be finite, also in the unit of the model, got %g.",
            instance->model->variables[state->reference].name, value);
     return GL_DISCARD;
+}
+
+void gl_put_state(gl_instance *instance, int number, double value)
+{
+    const gl_continuous_state *state = &instance->model->states[number];
+    instance->now.state[state->place] = value / state->unit;
+    instance->fresh = 0;
 }
 
 gl_status gl_set_states(gl_instance *instance, const double *values, size_t count)
@@ -123,15 +134,14 @@ gl_status gl_set_states(gl_instance *instance, const double *values, size_t coun
     if (status != GL_OK) {
         return status;
     }
-    double state[GL_STATE];
-    for (int i = 0; i < GL_CONTINUOUS; i++) {
+    for (int i = 0; i < GL_CONTINUOUS; i++) { /* all or none */
         if (gl_check_state(instance, i, values[i]) != GL_OK) {
             return GL_DISCARD;
         }
-        state[i] = values[i] / instance->model->states[i].unit;
     }
-    memcpy(instance->now.state, state, GL_CONTINUOUS * sizeof *state);
-    instance->fresh = 0;
+    for (int i = 0; i < GL_CONTINUOUS; i++) {
+        gl_put_state(instance, i, values[i]);
+    }
     return GL_OK;
 }
 
@@ -152,7 +162,8 @@ gl_status gl_get_states(gl_instance *instance, double *values, size_t count)
     int needed = instance->now.phase < GL_STEPPING ? GL_ALL : GL_NOTHING;
     gl_status status = check_get(instance, values, count, GL_CONTINUOUS, needed);
     for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
-        values[i] = instance->now.state[i] * instance->model->states[i].unit;
+        const gl_continuous_state *state = &instance->model->states[i];
+        values[i] = instance->now.state[state->place] * state->unit;
     }
     return status;
 }
@@ -184,7 +195,7 @@ gl_status gl_get_indicators(gl_instance *instance, double *values, size_t count)
     return status;
 }
 
-int gl_state_place(const gl_model *model, unsigned reference)
+int gl_state_number(const gl_model *model, unsigned reference)
 {
     for (int i = 0; i < GL_CONTINUOUS; i++) {
         if (model->states[i].reference == (int)reference) {
@@ -197,10 +208,10 @@ int gl_state_place(const gl_model *model, unsigned reference)
 /* Place in the state of what a direction changes, with the size of one there; -1: none such. */
 static int place_of(const gl_model *model, unsigned reference, double *unit)
 {
-    int place = gl_state_place(model, reference);
-    *unit = place >= 0 ? model->states[place].unit : 1.0;
-    if (place >= 0) {
-        return place;
+    int number = gl_state_number(model, reference);
+    *unit = number >= 0 ? model->states[number].unit : 1.0;
+    if (number >= 0) {
+        return model->states[number].place;
     }
     const gl_variable *variable = &model->variables[reference];
     return variable->causality == GL_INPUT ? GL_INPUTS_AT + variable->place : -1;

@@ -54,11 +54,13 @@ const char *gl_refusal_text(const gl_model *model, int64_t status);
 /* In model exchange: puts the present inputs into the state, unless they are refused. */
 gl_status gl_take_inputs(gl_instance *instance);
 
-/* Refuses a value of the continuous state at a place that is not finite in the model's unit. */
-gl_status gl_check_state(gl_instance *instance, int place, double value);
+/* Refuses a value of a continuous state that is not finite in the model's unit. */
+gl_status gl_check_state(gl_instance *instance, int number, double value);
+/* Sets one that `gl_check_state` has seen. */
+void gl_put_state(gl_instance *instance, int number, double value);
 
-/* Place of a continuous state by the reference of its variable; -1: none such. */
-int gl_state_place(const gl_model *model, unsigned reference);
+/* Number of a continuous state by the reference of its variable; -1: none such. */
+int gl_state_number(const gl_model *model, unsigned reference);
 
 /* Counts and says what is outside its range; all outputs must be those of now. */
 void gl_watch_ranges(gl_instance *instance);

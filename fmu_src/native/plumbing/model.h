@@ -42,9 +42,10 @@ typedef struct {
     const unsigned *members; /* their references in FMI 2 */
 } gl_array;
 
-/* A continuous state: the first ones of the model's state, in their order. */
+/* A continuous state. */
 typedef struct {
     int reference, rate; /* of the variables that hold it and its derivative */
+    int place;           /* in the model's state */
     double unit;         /* one in the model's state is so much in that of the variable */
 } gl_continuous_state;
 

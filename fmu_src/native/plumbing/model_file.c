@@ -173,7 +173,7 @@ static int fits_together(const gl_model *model, const int n_literals[GL_VARIABLE
         const gl_continuous_state *state = &model->states[i];
         fits &= variables[state->reference].causality == GL_OUTPUT &&
                 variables[state->reference].kind == GL_REAL && isfinite(state->unit) &&
-                state->unit > 0.0;
+                state->unit != 0.0;
     }
     return fits;
 }
@@ -241,6 +241,7 @@ static gl_model *model_of(reader file, const int counts[COUNTS], char *why)
     for (int i = 0; i < GL_CONTINUOUS; i++) {
         states[i].reference = reference(&file);
         states[i].rate = reference(&file);
+        states[i].place = integer(&file, 0, GL_STATE - 1);
         states[i].unit = number(&file);
     }
     for (int i = 0; i < GL_INDICATORS; i++) {
@@ -301,7 +302,7 @@ static size_t length_of(const int counts[COUNTS])
     size_t numbers = (size_t)counts[DATA] + NUMBERS_OF_VARIABLE * GL_VARIABLES + GL_CONTINUOUS;
     size_t integers = ROW_OF_VARIABLE * GL_VARIABLES + (size_t)counts[LITERALS] +
                       (size_t)counts[MEMBERS] +
-                      GL_INPUTS + GL_OUTPUTS + 2 * GL_CONTINUOUS + GL_INDICATORS +
+                      GL_INPUTS + GL_OUTPUTS + 3 * GL_CONTINUOUS + GL_INDICATORS +
                       2 * (size_t)counts[REFUSALS] + ROW_OF_RANGE * GL_RANGES;
     return HEAD_SIZE + 8 * numbers + 4 * integers + (size_t)counts[TEXT];
 }

@@ -127,7 +127,7 @@ gl_status gl_check_read(gl_instance *instance, gl_kind kind, size_t count, const
 static int is_set_as_state(const gl_instance *instance, unsigned reference)
 {
     return (instance->now.phase == GL_EVENTS || instance->now.phase == GL_CONTINUOUS_TIME) &&
-           gl_state_place(instance->model, reference) >= 0;
+           gl_state_number(instance->model, reference) >= 0;
 }
 
 static int can_be_set(const gl_instance *instance, const gl_variable *variable)
@@ -149,25 +149,19 @@ gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const 
                                "termination, outputs never.",
                                variable->name);
         } else if (is_set_as_state(instance, refs[i])) {
-            status = gl_check_state(instance, gl_state_place(instance->model, refs[i]),
+            status = gl_check_state(instance, gl_state_number(instance->model, refs[i]),
                                     ((const double *)values)[i]);
         }
     }
     return status;
 }
 
-static gl_status set_state(gl_instance *instance, int place, double value)
-{
-    instance->now.state[place] = value / instance->model->states[place].unit;
-    instance->fresh = 0;
-    return GL_OK;
-}
-
 gl_status gl_set(gl_instance *instance, unsigned reference, double value)
 {
     const gl_variable *variable = &instance->model->variables[reference];
     if (variable->causality == GL_OUTPUT) {
-        return set_state(instance, gl_state_place(instance->model, reference), value);
+        gl_put_state(instance, gl_state_number(instance->model, reference), value);
+        return GL_OK;
     }
     instance->now.values[reference] = value;
     instance->stale = 1;

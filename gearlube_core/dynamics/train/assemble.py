@@ -15,6 +15,12 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, Call, Layout
+from gearlube_core.dynamics.train.exchange import (
+    Continuous,
+    Indicator,
+    continuous_states,
+    event_indicators,
+)
 from gearlube_core.dynamics.train.outputs import train_outputs
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import ParameterError
@@ -37,6 +43,8 @@ class Assembly(NamedTuple):
     losses: dict[str, int]  # of those lost
     outputs: tuple[Output, ...]
     kept: dict[str, int]  # first place of what each element keeps
+    continuous: tuple[Continuous, ...]
+    events: tuple[Indicator, ...]
 
 
 def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant) -> Assembly:
@@ -59,7 +67,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
     own, works, losses, kept = {}, {}, {}, {}
     for one in elements:
         own[one.name] = [*range(len(names), len(names) + len(one.states))]
-        names += [f"{one.name}.{state}" for state in one.states]
+        names += [f"{one.name}.{state.name}" for state in one.states]
     for one in elements:
         own[one.name] += range(len(names), len(names) + len(one.angles))
         names += [f"{one.name}.{angle}" for angle in one.angles]
@@ -75,7 +83,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         kept[one.name] = size
         size += one.kept_size()
     numbers, memory, calls = [flatten(oil.parameters())], [], []
-    at_number, at_memory, at_output = numbers[0].size, 0, 0
+    at_number, at_memory, at_output, at_exchanged = numbers[0].size, 0, 0, 0
     for one in elements:
         constants, room = one.numbers(), one.memory()
         beside = [getattr(one, field) for field in one.beside]
@@ -93,14 +101,17 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         of_numbers = at_number, numbers[-1].size
         of_memory = at_memory, room.size
         kind, variants = type(constants), one.variants()
-        calls.append(Call(kind, variants, places, *of_numbers, *of_memory, at_output))
+        found = at_output, at_exchanged
+        calls.append(Call(kind, variants, places, *of_numbers, *of_memory, *found))
         at_output += len(one.outputs)
+        at_exchanged += len(one.levels) + len(one.events)
         at_number += numbers[-1].size
         at_memory += room.size
     laws = (*oil.own_laws(), FORMULA_LAWS)[0]
     own_states = sum(len(one.states) for one in elements)
     energies = len(works) + len(losses)
-    sizes = len(names), size + energies + 1, size, at_output, len(works), energies
+    sizes = len(names), size + energies + 1, size, at_output, len(works), energies, at_exchanged
+    outputs = train_outputs(bodies, elements, works, losses)
     return Assembly(
         Layout(tuple(calls), len(bodies), own_states, at_number, *sizes, laws),
         np.concatenate([*numbers, *(body.mobility for body in bodies)]),
@@ -108,8 +119,10 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         tuple(names),
         works,
         losses,
-        train_outputs(bodies, elements, works, losses),
+        outputs,
         kept,
+        continuous_states(bodies, elements, names, kept, outputs),
+        event_indicators(elements, len(names)),
     )
 
 

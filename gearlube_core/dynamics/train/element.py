@@ -38,6 +38,7 @@ class Call(NamedTuple):
     first_memory: int
     n_memory: int
     first_output: int
+    first_exchanged: int
 
 
 class Layout(NamedTuple):
@@ -53,6 +54,7 @@ class Layout(NamedTuple):
     outputs: int  # of elements
     works: int  # of the energies, which are the last integrated states, first those put in
     energies: int
+    exchanged: int  # rates of levels and event indicators of the elements
     laws: OilLaws  # of an oil with laws of its own
 
 
@@ -125,6 +127,17 @@ class Kernels(Protocol):
         first: int,
     ) -> None:
         """Write the element's outputs into `out` from place `first` on."""
+
+    def exchange(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
+    ) -> None:
+        """Write the rates of the element's levels and then its event indicators into `out`.
+
+        They go from place `first` on. Rates of this state have been computed before.
+        """
+
+    def event(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """Change what an event changes, as between two steps: own states, what is kept."""
 
 
 class Axes(NamedTuple):

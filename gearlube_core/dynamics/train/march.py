@@ -27,6 +27,7 @@ from gearlube_core.dynamics.train.element import (
     Layout,
     W,
 )
+from gearlube_core.dynamics.train.exchange import now_kernel
 from gearlube_core.dynamics.train.outputs import outputs_kernel, write_work_size
 from gearlube_core.dynamics.train.rest import rest_kernels
 from gearlube_core.dynamics.train.rest_search import OK, rest_work_size
@@ -36,7 +37,7 @@ from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
 
-RATES, RENEW, START, ADVANCE, WRITE, ENERGY, STIFFNESS = range(7)
+RATES, RENEW, START, ADVANCE, WRITE, ENERGY, STIFFNESS, EXCHANGE, EVENT = range(9)
 # statuses of a step, beside OK
 NOT_FINITE = 1
 TOO_MANY_STEPS = 2
@@ -67,7 +68,9 @@ _LINES = {
     "time_to_jump": (", h", "total = min(total, {call})", "total"),
     "stored_energy": ("", "total += {call}", "total"),
     "add_forces": (", stage, ds", "{call}", "None"),
+    "event": ("", "{call}", "None"),
     "write": (", out", "{call}", "None"),
+    "exchange": (", out", "{call}", "None"),
 }
 
 
@@ -81,7 +84,7 @@ def _text(elements: Sequence[Call]) -> tuple[str, list[Any]]:
     given: list[Any] = [kernel, inside, part, tuple_from_array]
     lines, calls = [], []
     for i, call in enumerate(elements):
-        names += (f"{one}{i}" for one in ("e", "v", "at", "n", "c", "m", "z", "o"))
+        names += (f"{one}{i}" for one in ("e", "v", "at", "n", "c", "m", "z", "o", "x"))
         given += call
         chosen = "".join(f", v{i}_{k}" for k in range(len(call.variants)))
         lines += [f"    v{i}_{k} = v{i}[{k}]" for k in range(len(call.variants))]
@@ -95,7 +98,7 @@ def _text(elements: Sequence[Call]) -> tuple[str, list[Any]]:
             if hasattr(call.numbers, name):
                 names.append(f"{name}{i}")
                 given.append(getattr(call.numbers, name))
-                place = f", o{i}" if name == "write" else ""
+                place = {"write": f", o{i}", "exchange": f", x{i}"}.get(name, "")
                 code = f"{name}{i}({calls[i]}{more}{place})"
                 lines.append(f"        {line.format(call=code)}")
         lines.append(f"        return {result}")
@@ -124,7 +127,12 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
     RENEW
         What elements keep is found again for this state.
     ENERGY, WRITE
-        The energy [J]; WRITE writes the outputs into `work` before.
+        The energy [J]; WRITE writes what EXCHANGE does and then the outputs into `work` before.
+    EXCHANGE
+        Rates of all integrated states into `work`, then rates of levels and event indicators of
+        each element; returns the status of the state, and only writes where it is OK.
+    EVENT
+        The state is changed as between two steps, where anything is due; returns as EXCHANGE does.
     ADVANCE
         A time of `size` [s] with at least `least_rate` steps a second; returns a status.
     START
@@ -142,7 +150,7 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
     made = dict(zip(_LINES, _called(layout.calls), strict=True))
     at_rest, begin, expand, each_step, after_step, finish = (made[name] for name in _IN_TIME)
     step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
-    add_forces = made["add_forces"]
+    add_forces, event = made["add_forces"], made["event"]
     bodies, first_mobility, energies = layout.bodies, layout.first_mobility, layout.energies
     n, n_state, n_kept, laws = layout.integrated, layout.states, layout.kept, layout.laws
     first_energy = n - energies
@@ -267,7 +275,8 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         expand(s, oil, numbers, memory)
 
     start, stiffness = rest_kernels(layout, renew, expand, at_rest, rates, forces)
-    write_all = outputs_kernel(layout, each_step, expand, rates, made["write"])
+    now = now_kernel(layout, each_step, expand, rates, made["exchange"])
+    write_all = outputs_kernel(layout, now, made["write"])
 
     @kernel
     def operate(
@@ -292,6 +301,16 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         if operation == RENEW:
             renew(s, oil, numbers, memory)
             return 0.0
+        if operation in (EXCHANGE, EVENT):
+            status = status_of(s)
+            if status == OK:
+                begin(s, oil, numbers, memory)
+                if operation == EVENT:
+                    event(s, oil, numbers, memory)
+                    finish(s, oil, numbers, memory)
+                else:
+                    now(s, oil, numbers, memory, work)
+            return float(status)
         begin(s, oil, numbers, memory)
         if operation == ADVANCE:
             return float(advance(s, size, oil, numbers, memory, least_rate, work))

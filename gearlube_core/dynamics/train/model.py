@@ -17,6 +17,8 @@ from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import (
     ADVANCE,
     ENERGY,
+    EVENT,
+    EXCHANGE,
     MAX_STEPS,
     NOT_FINITE,
     RATES,
@@ -29,6 +31,7 @@ from gearlube_core.dynamics.train.march import (
     train_kernel,
     work_size,
 )
+from gearlube_core.dynamics.train.outputs import outputs_at
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.dynamics.train.rest import LEAST_RATE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK
@@ -98,6 +101,9 @@ class Train:
         self._temperature = math.nan
         ports = (one.name for one in elements if isinstance(one, Port))
         self._ports = {name: self._made.kept[name] for name in ports}
+        self._continuous = np.array([one.place for one in self._made.continuous])
+        self._rates = np.array([one.rate for one in self._made.continuous])
+        self._events = np.array([one.place for one in self._made.events], dtype=int)
 
     @property
     def assembly(self) -> Assembly:
@@ -172,7 +178,8 @@ class Train:
         """
         names = self._output_names
         self._call(WRITE, self._state, self._work)
-        return dict(zip(names, self._work[: len(names)].tolist(), strict=True))
+        at = outputs_at(self._made.layout)
+        return dict(zip(names, self._work[at : at + len(names)].tolist(), strict=True))
 
     def exceeded(self) -> dict[str, str]:
         """Return what is outside its range now: a sentence for each, by its output.
@@ -218,6 +225,72 @@ class Train:
         self._call(RENEW, s, found)
         self._call(RATES, s, found)
         return found
+
+    @property
+    def continuous_names(self) -> tuple[str, ...]:
+        """Names of the states for another integrator: integrated and free, then load levels."""
+        return tuple(one.record.name for one in self._made.continuous)
+
+    @property
+    def continuous(self) -> Array:
+        """The present values of `continuous_names`, in SI units."""
+        return self._state[self._continuous]
+
+    def derivative(self, continuous: Array) -> Array:
+        """Return d/dt of the continuous states at these values, for any other integrator.
+
+        Torques, oil temperature and all that changes at events alone are those of the train, which
+        stays as it is.
+
+        Parameters
+        ----------
+        continuous : ndarray of shape (len(continuous_names),)
+
+        Raises
+        ------
+        StepError
+            The values are not finite or beyond what the model has a meaning for.
+        """
+        found = self._exchanged(continuous)
+        return found[self._rates]
+
+    def indicators(self, continuous: Array) -> Array:
+        """Return what changes its sign where `event` has to be called.
+
+        The arguments and errors are those of `derivative`; `assembly.events` has names and words.
+        """
+        found = self._exchanged(continuous)
+        return found[self._events]
+
+    def event(self, continuous: Array) -> Array:
+        """Go on from these values with what an event changes there; return them as they now are.
+
+        To be called after each step of another integrator, as friction of films is renewed so many
+        times in a mesh period and gears change flanks. Errors as in `derivative`.
+        """
+        s = self._at(continuous)
+        self._accept(self._call(EVENT, s, self._work))
+        self._state[:] = s
+        return self.continuous
+
+    def _at(self, continuous: Array) -> Array:
+        wanted = self._continuous.shape
+        if np.shape(continuous) != wanted:
+            raise ParameterError(
+                f"continuous must have the shape {wanted}, got {np.shape(continuous)}. "
+                "continuous_names has their order."
+            )
+        s = self._state.copy()
+        s[self._continuous] = continuous
+        return s
+
+    def _exchanged(self, continuous: Array) -> Array:
+        self._accept(self._call(EXCHANGE, self._at(continuous), self._work))
+        return self._work[: outputs_at(self._made.layout)].copy()
+
+    def _accept(self, status: float) -> None:
+        if status != OK:
+            raise StepError(f"these values are refused: {REFUSALS[int(status)]}.")
 
     def get_state(self) -> Array:
         """Return everything that the future depends on."""

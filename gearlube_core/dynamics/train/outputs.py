@@ -25,12 +25,12 @@ from gearlube_core.oil.lubricant import LubricantState
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 _MEAN = "mean over the last step"
 # of a body: about its axis, and along and about the coordinates that it does not hold
-_TURNING = (
+TURNING = (
     Output("angle", "rad", "rotation about z"),
     Output("speed", "rad/s", "speed about z", 100.0),
     Output("acceleration", "rad/s2", "acceleration about z", 1e3),
 )
-_MOVING = {
+MOVING = {
     **{c: Output(f"displacement.{c}", "m", f"displacement along {c}", 1e-6, "um") for c in "xyz"},
     **{f"r{c}": Output(f"tilt.{c}", "rad", f"tilt about {c}", 1e-5) for c in "xy"},
 }
@@ -57,9 +57,9 @@ def train_outputs(
     """
     made = []
     for body in bodies:
-        moving = (one for name, one in _MOVING.items() if name not in body.held)
-        made += [_of(body.name, one) for one in (*_TURNING, *moving)]
-    made += [_of(one.name, output) for one in elements for output in one.outputs]
+        moving = (one for name, one in MOVING.items() if name not in body.held)
+        made += [named_of(body.name, one) for one in (*TURNING, *moving)]
+    made += [named_of(one.name, output) for one in elements for output in one.outputs]
     words = {label: label.replace("_", " ") for label in losses}
     made += [
         Output(f"{label}.power_loss", "W", f"power lost in {word}, {_MEAN}", 10.0)
@@ -86,48 +86,42 @@ def train_outputs(
     return tuple(made)
 
 
-def _of(name: str, one: Output) -> Output:
+def named_of(name: str, one: Output) -> Output:
+    """Return the record of an output of a body or element under its name in the train."""
     return one._replace(name=f"{name}.{one.name}", text=f"{one.text} of {name}")
+
+
+def outputs_at(layout: Layout) -> int:
+    """Return where the outputs begin in the `work` of the kernel of `outputs_kernel`."""
+    return layout.integrated + layout.exchanged
 
 
 def write_work_size(layout: Layout) -> int:
     """Return the length of `work` for the kernel of `outputs_kernel`."""
-    bodies = (len(_TURNING) + len(_MOVING)) * layout.bodies
-    outputs = bodies + layout.outputs + 2 * layout.energies + 2
-    return outputs + layout.states + layout.integrated
+    of_bodies = (len(TURNING) + len(MOVING)) * layout.bodies
+    outputs = of_bodies + layout.outputs + 2 * layout.energies + 2
+    return outputs_at(layout) + max(outputs, layout.states)
 
 
 def outputs_kernel(
-    layout: Layout,
-    each_step: Callable[..., Any],
-    expand: Callable[..., Any],
-    rates: Callable[..., Any],
-    write: Callable[..., Any],
+    layout: Layout, now: Callable[..., Any], write: Callable[..., Any]
 ) -> Callable[..., None]:
-    """Return the kernel that writes the outputs into the first places of `work`.
+    """Return the kernel that writes what `now` gives and then the outputs into `work`.
 
-    The arguments are kernels of all elements. Accelerations, and the powers before the first step,
-    are those of the present state with what elements keep in it. The state stays as it is.
+    Accelerations, and the powers before the first step, are those of `now`, see `now_kernel`.
+    `write` is the kernel of all elements. The state stays as it is.
     """
     bodies, first_mobility = layout.bodies, layout.first_mobility
     n, n_state, n_kept, n_outputs = layout[4:8]
-    works, energies = layout.works, layout.energies
+    works, energies, at_outputs = layout.works, layout.energies, outputs_at(layout)
     first = n - energies
 
     @kernel
     def write_all(
         s: Array, oil: LubricantState, numbers: Array, memory: Array, stored: float, work: Array
     ) -> None:
-        at = work.size - n_state - n
-        begun, slope = part(work, at, n_state), part(work, at + n_state, n)
-        for i in range(n_state):
-            begun[i] = s[i]
-        each_step(begun, oil, numbers, memory, 0.0)
-        for i in range(n, n_kept):
-            begun[i] = s[i]
-        expand(begun, oil, numbers, memory)
-        rates(begun, oil, numbers, memory, 0, slope)
-        k = 0
+        now(s, oil, numbers, memory, work)
+        slope, k = part(work, 0, n), at_outputs
         for body in range(bodies):
             u = BODY_STATES * body
             work[k], work[k + 1], work[k + 2] = s[u + RZ], s[u + W], slope[u + RATE + RZ]

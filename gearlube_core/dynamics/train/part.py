@@ -93,11 +93,15 @@ class Element(ABC):
     kind: ClassVar[str] = ""
     on: ClassVar[tuple[str, ...]]  # fields that name the bodies
     beside: ClassVar[tuple[str, ...]] = ()  # fields that name ports, or None
-    states: ClassVar[tuple[str, ...]] = ()  # own integrated states that stay in steady turning
+    states: ClassVar[tuple[Output, ...]] = ()  # own integrated states, steady in steady turning
     angles: ClassVar[tuple[str, ...]] = ()  # own integrated states that turn on
     works: ClassVar[tuple[str, ...]] = ()  # energies put into the train
     losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
     outputs: ClassVar[tuple[Output, ...]] = ()  # named without the element
+    levels: ClassVar[
+        tuple[str, ...]
+    ] = ()  # outputs that are the first numbers kept, see `exchange`
+    events: ClassVar[tuple[Output, ...]] = ()  # what changes its sign where `event` has to do
 
     def __init_subclass__(cls) -> None:
         if kind := cls.__dict__.get("kind"):

@@ -83,7 +83,9 @@ class HalfShaft(Element):
     ] = 0.0
     kind: ClassVar = "half_shaft"
     on: ClassVar = ("first", "second")
-    states: ClassVar = ("twist",)
+    states: ClassVar = (
+        Output("twist", "rad", "rotation of the first body against the second", 1e-3),
+    )
     losses: ClassVar = ("shaft_damping",)
     outputs: ClassVar = (Output("torque", "N.m", "torque on the second body", 100.0),)
 

@@ -57,9 +57,17 @@ class HypoidMesh(Element):
     kind: ClassVar = "hypoid_mesh"
     on: ClassVar = ("pinion", "gear")
     beside: ClassVar = ("torque_of",)
-    states: ClassVar = ("transmission_error",)
+    states: ClassVar = (
+        Output("transmission_error", "m", "dynamic transmission error", 1e-5, "um"),
+    )
     losses: ClassVar = ("friction_viscous", "friction_boundary", "friction_rolling", "mesh_damping")
     outputs: ClassVar = (*MESH_OUTPUTS, Output("force", "N", "normal mesh force", 1e3))
+    levels: ClassVar = ("load_torque",)
+    events: ClassVar = (
+        Output("event.drive_flank", "1", "deflection of the drive flanks over 1 um"),
+        Output("event.coast_flank", "1", "distance of the coast flanks from contact over 1 um"),
+        Output("event.side", "1", "place of the pinion from the middle of the gap over 1 um"),
+    )
 
     def variants(self) -> tuple[type, ...]:
         """Return the class of the friction law."""

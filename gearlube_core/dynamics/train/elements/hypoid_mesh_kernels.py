@@ -27,6 +27,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshLevels,
     blend_mesh,
     follow_flank,
+    gap_rotation,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     MeshForceConstants,
@@ -48,7 +49,7 @@ from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import K_M, R_P
+from gearlube_core.mesh_table.kernels import K_M, R_P, mesh_series
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant import LubricantState
 
@@ -174,16 +175,31 @@ class HypoidMeshKernels(NamedTuple):
     def after_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         """See `Kernels.after_step`."""
         memory[_ANEW] = 0.0
-        load, side = at[_KEPT] + _LOAD, at[_KEPT] + _SIDE
+        load = at[_KEPT] + _LOAD
         s[load] += -math.expm1(-h / LOAD_FILTER_TIME) * (abs(_torque(at, memory, s)) - s[load])
-        table = _table(at, memory)
-        if table.levels[0] < 0.0:
-            x, other = follow_flank(
-                _motion(at, s), memory[_AT_LOAD], s[side], table, self.mesh, _now(at, memory)
-            )
-            if other != s[side]:
-                s[at[_X]], s[side], memory[_AT_SIDE] = x, other, other
+        _follow(self, at, memory, s)
         return 0.0
+
+    @kernel
+    def exchange(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
+    ) -> None:
+        """See `Kernels.exchange`."""
+        load, x, gap = s[at[_KEPT] + _LOAD], s[at[_X]], self.mesh.backlash
+        out[first] = (abs(_torque(at, memory, s)) - load) / LOAD_FILTER_TIME
+        out[first + 1] = x * MICRO
+        out[first + 2] = (x + gap) * MICRO
+        out[first + 3] = 1.0
+        if _table(at, memory).levels[0] < 0.0:
+            now, m = _now(at, memory), _motion(at, s)
+            series = mesh_series(now.series, now.n_orders, self.mesh.z_p, m.angle)
+            rotation = gap_rotation(m, series, self.mesh, now.series, now.n_orders)
+            out[first + 3] = rotation * MICRO
+
+    @kernel
+    def event(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """See `Kernels.event`."""
+        _follow(self, at, memory, s)
 
     @kernel
     def time_to_jump(
@@ -269,6 +285,18 @@ class HypoidMeshKernels(NamedTuple):
         torque = -torque if s[at[_KEPT] + _SIDE] < 0.0 else torque
         write_mesh(values, torque, found, self.ranges, first, out)
         out[first + OWN] = mesh.force
+
+
+@kernel
+def _follow(self: HypoidMeshKernels, at: Any, memory: Array, s: Array) -> None:
+    """Change the side of the mesh data where teeth have crossed the middle of the gap."""
+    table, side = _table(at, memory), at[_KEPT] + _SIDE
+    if table.levels[0] < 0.0:
+        x, other = follow_flank(
+            _motion(at, s), memory[_AT_LOAD], s[side], table, self.mesh, _now(at, memory)
+        )
+        if other != s[side]:
+            s[at[_X]], s[side], memory[_AT_SIDE] = x, other, other
 
 
 @inside

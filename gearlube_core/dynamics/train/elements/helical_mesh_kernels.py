@@ -1,0 +1,302 @@
+"""Kernels of the mesh of two helical or spur gears."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.march.equilibrium import largest_offset, mean_density
+from gearlube_core.dynamics.helical_pair.march.integrate import (
+    LOAD_FILTER_TIME,
+    LOAD_REACH,
+    REFRESH_COST,
+    SOLVED_REFRESH_COST,
+    STATIONS,
+    time_to_jump,
+)
+from gearlube_core.dynamics.helical_pair.march.line_outputs import (
+    LINE_BOUNDS,
+    LINE_OUTPUTS,
+    write_lines,
+)
+from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    LEAST_OFFSET,
+    LEVEL,
+    mesh_at_torque,
+)
+from gearlube_core.dynamics.helical_pair.march.rates import pair_forces
+from gearlube_core.dynamics.helical_pair.march.state import (
+    FLANK_POINTS,
+    N_FRICTION,
+    MarchConstants,
+    PairMotion,
+    coast_deepest,
+    coast_view,
+    deepest,
+    drive_view,
+)
+from gearlube_core.dynamics.train.element import (
+    RATE,
+    Axes,
+    W,
+    add_wrench,
+    seen,
+    seen_turn,
+    unseen,
+    unseen_turn,
+)
+from gearlube_core.dynamics.train.elements.mesh_outputs import (
+    OWN,
+    MeshValues,
+    write_mesh,
+)
+from gearlube_core.friction.flank_laws import SOLVED
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.array_rows import rows
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.inlining import inside
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import LubricantState
+
+# places of `at` behind both bodies, the relative rotation, and both losses
+_PSI, _HEAT, _DAMPING, _KEPT, _PORT, _LEVELS, _SIZE, _DATA, _DATA_SIZE = range(2, 11)
+_BOUNDS = len(LINE_OUTPUTS)
+LINES_ROOM = _BOUNDS + len(LINE_BOUNDS)  # behind the pair data
+_LEAST_PRESSED = 1e-9  # m
+_MICRO = 1e6  # um per m: indicators of order 1, which solvers with a tolerance for roots expect
+_TORQUE = 0  # place in the memory: torque on the pinion in the last stage [N.m]
+TABLE = 1  # torque levels, then density and offset at each, then the pair data
+
+
+class HelicalMeshKernels(NamedTuple):
+    """Constants of a mesh, and its kernels: see `HelicalMesh` and `element.Kernels`."""
+
+    axes: Axes
+    arm_p: float  # of the mesh along z from the centre of the pinion's body [m]
+    arm_g: float
+    steps_per_period: float
+
+    @kernel
+    def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """See `Kernels.at_rest`."""
+        constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
+        flanks, load, kept = constants.motion.flanks, s[at[_PSI]], at[_KEPT]
+        plane, table = flanks.plane, _table(at, memory)
+        s[kept], s[kept + 1] = abs(load) * plane.r_bp, -1.0
+        for i in range(1, N_FRICTION):
+            s[kept + 1 + i] = constants.mu
+        # the relative rotation at which all lines touch, see `equilibrium.settle`
+        pressed = 2.0 * abs(load) / (plane.W * mean_density(table)) + largest_offset(table)
+        pressed = max(pressed, _LEAST_PRESSED)
+        rotation = pressed if load >= 0.0 else -pressed - flanks.backlash
+        s[at[_PSI]] = rotation / plane.cos_b
+
+    @kernel
+    def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """See `Kernels.begin`."""
+        _follow_level(at, memory, s[at[_KEPT]])
+
+    @kernel
+    def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        """See `Kernels.each_step`."""
+        data = _data(at, memory)
+        p: MarchConstants = tuple_from_array(data, MarchConstants)
+        level, before = s[at[_KEPT]], data[LEVEL]
+        if abs(level - before) > LOAD_REACH * (1.0 + before):
+            _follow_level(at, memory, level)
+        cost = max(1.0, p.motion.flanks.stations / STATIONS)
+        if p.friction_form > 0.0:
+            kept = part(s, at[_KEPT] + 1, N_FRICTION)
+            if refresh_friction(_motion(self, at, s), kept, data, oil):
+                cost += SOLVED_REFRESH_COST if p.film == SOLVED else REFRESH_COST
+        return cost
+
+    @inside
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
+        """See `Kernels.add_forces`."""
+        data = _data(at, memory)
+        constants: MarchConstants = tuple_from_array(data, MarchConstants)
+        plane = constants.motion.flanks.plane
+        mesh = pair_forces(_motion(self, at, s), s, at[_KEPT] + 2, data)
+        w = mesh.wrench
+        # dampers act along the line of action, and the work of moving lines on the pinion alone
+        on_pinion = w.M_pz + plane.r_bp * (mesh.damping + mesh.moving)
+        on_gear = w.M_gz + plane.r_bg * mesh.damping
+        memory[_TORQUE] = on_pinion
+        axes = self.axes
+        f_x, f_y, f_z = unseen(axes, w.F_x, w.F_y, w.F_z)
+        on_p = unseen_turn(axes, w.M_px, w.M_py, on_pinion)
+        on_g = unseen_turn(axes, w.M_gx, w.M_gy, on_gear)
+        add_wrench(ds, at[0], self.arm_p, (f_x, f_y, f_z), on_p)
+        add_wrench(ds, at[1], self.arm_g, (-f_x, -f_y, -f_z), on_g)
+        ds[at[_PSI]] = mesh.closing
+        ds[at[_HEAT]] += mesh.heat
+        ds[at[_DAMPING]] += mesh.damping * mesh.closing
+
+    @kernel
+    def after_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        """See `Kernels.after_step`."""
+        level = at[_KEPT]
+        follows = -math.expm1(-h / LOAD_FILTER_TIME)
+        s[level] += follows * (abs(_torque(at, memory, s)) - s[level])
+        return 0.0
+
+    @kernel
+    def exchange(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
+    ) -> None:
+        """See `Kernels.exchange`."""
+        out[first] = (abs(_torque(at, memory, s)) - s[at[_KEPT]]) / LOAD_FILTER_TIME
+        data = _data(at, memory)
+        p: MarchConstants = tuple_from_array(data, MarchConstants)
+        m, flanks = _motion(self, at, s), p.motion.flanks
+        drive = drive_view(m, flanks)
+        out[first + 1] = deepest(drive, data[LEAST_OFFSET], flanks) * _MICRO
+        out[first + 2] = coast_deepest(m, data[LEAST_OFFSET], flanks) * _MICRO
+        out[first + 3] = 1.0
+        if p.friction_form > 0.0:
+            out[first + 3] = math.sin(math.pi * drive.phase * p.refreshes)
+
+    @kernel
+    def event(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """See `Kernels.event`."""
+        data = _data(at, memory)
+        p: MarchConstants = tuple_from_array(data, MarchConstants)
+        if p.friction_form > 0.0:
+            kept = part(s, at[_KEPT] + 1, N_FRICTION)
+            refresh_friction(_motion(self, at, s), kept, data, oil)
+
+    @kernel
+    def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        """See `Kernels.stored_energy`."""
+        data = _data(at, memory)
+        constants: MarchConstants = tuple_from_array(data, MarchConstants)
+        m, flanks = _motion(self, at, s), constants.motion.flanks
+        mu = at[_KEPT] + 2
+        drive, coast = drive_view(m, flanks), coast_view(m, flanks)
+        stored = line_sums(drive.a, drive.tilt, drive.phase, data, s, mu).energy
+        mu += FLANK_POINTS
+        return stored + line_sums(coast.a, coast.tilt, coast.phase, data, s, mu).energy
+
+    @kernel
+    def step_rate(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        """See `Kernels.step_rate`."""
+        constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
+        frequency = constants.teeth * abs(s[at[0] + W]) / (2.0 * math.pi)
+        return frequency * self.steps_per_period
+
+    @kernel
+    def time_to_jump(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
+    ) -> float:
+        """See `Kernels.time_to_jump`."""
+        data = _data(at, memory)
+        constants: MarchConstants = tuple_from_array(data, MarchConstants)
+        m = _motion(self, at, s)
+        return time_to_jump(m, data[LEAST_OFFSET], constants.motion.flanks)
+
+    @kernel
+    def write(
+        self,
+        at: Any,
+        memory: Array,
+        s: Array,
+        oil: LubricantState,
+        out: Array,
+        first: int,
+    ) -> None:
+        """See `Kernels.write`."""
+        data, mu = _data(at, memory), at[_KEPT] + 2
+        p: MarchConstants = tuple_from_array(data, MarchConstants)
+        m, flanks = _motion(self, at, s), p.motion.flanks
+        plane = flanks.plane
+        mesh = pair_forces(m, s, mu, data)
+        drive, coast = drive_view(m, flanks), coast_view(m, flanks)
+        on_drive = line_sums(drive.a, drive.tilt, drive.phase, data, s, mu)
+        on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, mu + FLANK_POINTS)
+        back = on_coast.N > on_drive.N
+        view, mu_at = (coast, mu + FLANK_POINTS) if back else (drive, mu)
+        rest = part(memory, at[_DATA] + at[_DATA_SIZE], LINES_ROOM)
+        bounds = _BOUNDS
+        found = write_lines(
+            view, back, s, mu_at, m.w_p, oil.temperature, data, oil, p, 0, bounds, rest
+        )
+        touching = on_drive.stiffness + on_coast.stiffness
+        values = MeshValues(
+            m.psi + m.x_p - m.x_g,
+            plane.cos_b * plane.cos_b * touching,
+            1.0 if on_drive.N == 0.0 and on_coast.N == 0.0 else 0.0,
+            1.0 if on_coast.N > 0.0 else 0.0,
+            p.teeth * m.w_p / (2.0 * math.pi),
+            s[at[_KEPT]],
+            mesh.heat,
+            found.loss_bound * abs(mesh.heat),
+            found.thinnest_film,
+            found.outside,
+        )
+        torque = max(on_drive.N, on_coast.N) * plane.r_bp * plane.cos_b
+        torque = max(abs(s[at[_KEPT]]), torque)
+        write_mesh(values, -torque if back else torque, found, p.ranges, first, out)
+        own, w = first + OWN, mesh.wrench
+        out[own] = on_drive.N - on_coast.N
+        out[own + 1], out[own + 2], out[own + 3] = unseen(self.axes, w.F_x, w.F_y, w.F_z)
+        out[own + 4] = m.ry_p - m.ry_g
+
+
+@inside
+def _torque(at: Any, memory: Array, s: Array) -> float:
+    return s[at[_PORT]] if at[_PORT] >= 0 else memory[_TORQUE]
+
+
+@inside
+def _data(at: Any, memory: Array) -> Array:
+    return part(memory, at[_DATA], at[_DATA_SIZE])
+
+
+@inside
+def _table(at: Any, memory: Array) -> tuple[Array, Array, Array]:
+    levels, size = at[_LEVELS], at[_SIZE]
+    at_density = TABLE + levels
+    return (
+        part(memory, TABLE, levels),
+        rows(memory, at_density, levels, size),
+        rows(memory, at_density + levels * size, levels, size),
+    )
+
+
+@kernel
+def _follow_level(at: Any, memory: Array, torque: float) -> None:
+    mesh_at_torque(torque, _table(at, memory), _data(at, memory))
+
+
+@inside
+def _motion(self: HelicalMeshKernels, at: Any, s: Array) -> PairMotion:
+    """Return the motion of both members in the axes of the mesh, where the pinion drives to -z."""
+    a, p, g = self.axes, at[0], at[1]
+    x_p, y_p, z_p = seen(
+        a, s[p] + self.arm_p * s[p + 4], s[p + 1] - self.arm_p * s[p + 3], s[p + 2]
+    )
+    x_g, y_g, z_g = seen(
+        a, s[g] + self.arm_g * s[g + 4], s[g + 1] - self.arm_g * s[g + 3], s[g + 2]
+    )
+    rx_p, ry_p, rz_p = seen_turn(a, s[p + 3], s[p + 4], s[p + 5])
+    rx_g, ry_g, _ = seen_turn(a, s[g + 3], s[g + 4], s[g + 5])
+    vp, vg = p + RATE, g + RATE
+    vx_p, vy_p, _ = seen(
+        a, s[vp] + self.arm_p * s[vp + 4], s[vp + 1] - self.arm_p * s[vp + 3], s[vp + 2]
+    )
+    vx_g, vy_g, _ = seen(
+        a, s[vg] + self.arm_g * s[vg + 4], s[vg + 1] - self.arm_g * s[vg + 3], s[vg + 2]
+    )
+    ox_p, oy_p, w_p = seen_turn(a, s[vp + 3], s[vp + 4], s[vp + 5])
+    ox_g, oy_g, w_g = seen_turn(a, s[vg + 3], s[vg + 4], s[vg + 5])
+    return PairMotion(
+        s[at[_PSI]], -rz_p, -w_p, w_g,
+        x_p, y_p, z_p, rx_p, ry_p, x_g, y_g, z_g, rx_g, ry_g,
+        vx_p, vy_p, ox_p, oy_p, vx_g, vy_g, ox_g, oy_g,
+    )  # fmt: skip

@@ -1,0 +1,132 @@
+"""A train for any other integrator: its continuous states, and the kernels of rates and events.
+
+The continuous states are the integrated ones that are not held, and the levels of the elements,
+which follow by a filter of their own in `march`. What elements keep besides changes at events
+alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, N_COORDINATES, Layout
+from gearlube_core.dynamics.train.outputs import MOVING, TURNING, named_of
+from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Output
+from gearlube_core.oil.lubricant import LubricantState
+
+# of the coordinates of a body, and of their rates
+_OF_BODY = (*MOVING.values(), TURNING[0])
+_RATES_OF_BODY = (
+    *(Output(f"velocity.{c}", "m/s", f"velocity along {c}", 0.01) for c in "xyz"),
+    *(Output(f"tilt_speed.{c}", "rad/s", f"tilting speed about {c}", 0.1) for c in "xy"),
+    TURNING[1],
+)
+
+
+class Continuous(NamedTuple):
+    """A continuous state."""
+
+    record: Output  # that of the output that shows it, if there is one
+    place: int  # in the state of the train
+    rate: int  # place of its rate in what EXCHANGE writes
+
+
+class Indicator(NamedTuple):
+    """An event indicator."""
+
+    record: Output
+    place: int  # in what EXCHANGE writes
+
+
+def continuous_states(
+    bodies: Sequence[Body],
+    elements: Sequence[Element],
+    names: Sequence[str],
+    kept: Mapping[str, int],
+    outputs: Sequence[Output],
+) -> tuple[Continuous, ...]:
+    """Return the continuous states of a train, in the order of its state.
+
+    Parameters
+    ----------
+    bodies, elements
+    names : sequence of str
+        Of the integrated states.
+    kept : mapping
+        First place of what each element keeps.
+    outputs : sequence of Output
+        Of the train.
+    """
+    shown = {one.name: one for one in outputs}
+    found = []
+    for i, body in enumerate(bodies):
+        for of, records in enumerate((_OF_BODY, _RATES_OF_BODY)):
+            first = BODY_STATES * i + N_COORDINATES * of
+            found += [
+                Continuous(named_of(body.name, record), first + j, first + j)
+                for j, (record, c) in enumerate(zip(records, COORDINATES, strict=True))
+                if c not in body.held
+            ]
+    own = [named_of(one.name, state) for one in elements for state in one.states]
+    own += [
+        named_of(one.name, Output(f"{angle}.angle", "rad", f"angle of the {angle}"))
+        for one in elements
+        for angle in one.angles
+    ]
+    first = BODY_STATES * len(bodies)
+    own += [shown[name] for name in names[first + len(own) :]]  # energies
+    found += [Continuous(record, first + j, first + j) for j, record in enumerate(own)]
+    rate = len(names)
+    for one in elements:
+        levels = [shown[f"{one.name}.{level}"] for level in one.levels]
+        at = kept[one.name] if levels else 0
+        found += [Continuous(record, at + j, rate + j) for j, record in enumerate(levels)]
+        rate += len(one.levels) + len(one.events)
+    return tuple(found)
+
+
+def event_indicators(elements: Sequence[Element], integrated: int) -> tuple[Indicator, ...]:
+    """Return the event indicators of all elements, behind so many rates of integrated states."""
+    found, at = [], integrated
+    for one in elements:
+        at += len(one.levels)
+        for event in one.events:
+            found.append(Indicator(named_of(one.name, event), at))
+            at += 1
+    return tuple(found)
+
+
+def now_kernel(
+    layout: Layout,
+    each_step: Callable[..., Any],
+    expand: Callable[..., Any],
+    rates: Callable[..., Any],
+    exchange: Callable[..., Any],
+) -> Callable[..., None]:
+    """Return the kernel of the rates of a state in which elements keep what they keep.
+
+    The other arguments are kernels of all elements. It writes the rates of all integrated states
+    into `work`, behind them what `Kernels.exchange` gives; the state stays as it is. `work` has
+    room for a state behind that.
+    """
+    n, n_state, n_kept = layout.integrated, layout.states, layout.kept
+    exchanged = layout.exchanged
+
+    @kernel
+    def now(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> None:
+        slope, begun = part(work, 0, n), part(work, n + exchanged, n_state)
+        for i in range(n_state):
+            begun[i] = s[i]
+        each_step(begun, oil, numbers, memory, 0.0)
+        for i in range(n, n_kept):
+            begun[i] = s[i]
+        expand(begun, oil, numbers, memory)
+        rates(begun, oil, numbers, memory, 0, slope)
+        exchange(s, oil, numbers, memory, part(work, n, exchanged))
+
+    return now
