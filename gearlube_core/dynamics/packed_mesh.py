@@ -11,6 +11,7 @@ from gearlube_core.contact.hertz import ellipticity
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_rolling import rolling_geometry
 from gearlube_core.friction.thermal_eyring_data import circular_pressure_coefficient
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_G, R_P, E
 from gearlube_core.mesh_table.sliding_direction import pair_sliding_direction, turned_on
 from gearlube_core.mesh_table.table import MEMBERS, MeshTable
@@ -102,31 +103,24 @@ def pack_mesh(
     levels, nodes = table.torque.size, table.nodes
     windows = np.empty((levels, nodes + 1, N_CHANNELS))
     data = table.windows
-    sliding = _sliding_angles(table)
-    for level in range(levels):
-        for node in range(nodes):
-            R_x, R_y = data["R_x"][level, node], data["R_y"][level, node]
-            psi = data["psi"][level, node]
-            geometry = contact_geometry(R_x, R_y, psi, contact_modulus)
-            if pressure == "circular":
-                circle = circular_pressure_coefficient(R_x, R_y, contact_modulus)
-                geometry = geometry._replace(pressure_coefficient=circle)
-            windows[level, node] = (
-                data["share"][level, node],
-                *geometry,
-                data["entrainment_arm"][level, node],
-                data["friction_arm_p"][level, node],
-                data["friction_arm_g"][level, node],
-                data["xi_x"][level, node],
-                data["xi_y"][level, node],
-                data["xi_z"][level, node],
-                *rolling_geometry(R_x, R_y, contact_modulus),
-                data["entrainment_arm"][level, node] * np.cos(psi),
-                R_y,
-                ellipticity(max(R_x, R_y) / min(R_x, R_y)),
-                psi,
-                sliding[level, node] - psi,
-            )
+    psi = data["psi"]
+    for channel, values in (
+        (SHARE, data["share"]),
+        (ENTRAIN, data["entrainment_arm"]),
+        (ARM_P, data["friction_arm_p"]),
+        (ARM_G, data["friction_arm_g"]),
+        (XI_X, data["xi_x"]),
+        (XI_Y, data["xi_y"]),
+        (XI_Z, data["xi_z"]),
+        (ROLL, data["entrainment_arm"] * np.cos(psi)),
+        (R_E, data["R_x"]),
+        (R_Y, data["R_y"]),
+        (PSI, psi),
+        (DELTA, _sliding_angles(table) - psi),
+    ):
+        windows[:, :nodes, channel] = values
+    for level in windows[:, :nodes]:
+        write_ellipses(level, contact_modulus, pressure == "circular")
     windows[:, nodes] = windows[:, 0]
     return PackedMesh(
         np.array(table.torque),  # writable like the others: kernels are compiled for either kind
@@ -135,6 +129,32 @@ def pack_mesh(
         table.orders,
         nodes,
     )
+
+
+@kernel
+def write_ellipses(nodes: Array, contact_modulus: float, circular: bool) -> int:
+    """Write what films and rolling need of the Hertz ellipse at every node; return their number.
+
+    Parameters
+    ----------
+    nodes : ndarray of shape (N, N_CHANNELS)
+        Pair data; PSI and R_Y are read, and R_E holds R_x on entry.
+    contact_modulus
+        E* [Pa].
+    circular
+        Mean pressure is that of `circular_pressure_coefficient`.
+    """
+    for k in range(nodes.shape[0]):
+        R_x, R_y = nodes[k, R_E], nodes[k, R_Y]
+        geometry = contact_geometry(R_x, R_y, nodes[k, PSI], contact_modulus)
+        line = rolling_geometry(R_x, R_y, contact_modulus)
+        nodes[k, R_E], nodes[k, SIDE_FLOW] = geometry.R_e, geometry.side_flow
+        nodes[k, PRESSURE] = geometry.pressure_coefficient
+        if circular:
+            nodes[k, PRESSURE] = circular_pressure_coefficient(R_x, R_y, contact_modulus)
+        nodes[k, LINE_RADIUS], nodes[k, LINE_LENGTH] = line.R, line.length_coefficient
+        nodes[k, ELLIPTICITY] = ellipticity(max(R_x, R_y) / min(R_x, R_y))
+    return nodes.shape[0]
 
 
 def _sliding_angles(table: MeshTable) -> Array:

@@ -9,6 +9,8 @@ from __future__ import annotations
 import io
 import logging
 import warnings
+from copy import deepcopy
+from functools import cache
 from importlib.resources import as_file, files
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -225,6 +227,11 @@ def shipped_mesh_table(name: str) -> MeshTable:
     >>> round(shipped_mesh_table("mohammadpour_2015").ratio, 3)
     2.769
     """
+    return deepcopy(_shipped(name))  # its arrays can be written
+
+
+@cache
+def _shipped(name: str) -> MeshTable:
     resource = files("gearlube_core.mesh_table") / "data" / f"{name}.nc"
     if not resource.is_file():
         raise TableError(
