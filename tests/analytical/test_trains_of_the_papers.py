@@ -21,6 +21,7 @@ from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.table import PAIRS
 
 PAIR = helical_march_parameters(HelicalGearFile.named("he_2007"))
@@ -132,6 +133,20 @@ def check_exchange(train: Train, alone: HelicalPairModel) -> None:
     assert train.outputs()["wheel.acceleration"] == rates["wheel.speed"]
     wanted = [alone.output(name) for name in EVENT_INDICATORS]
     assert train.indicators(x) == pytest.approx(wanted, rel=1e-12)
+
+
+def test_a_mesh_in_the_axes_of_its_train_needs_no_turning():
+    """The shorter way, for a pair by itself, gives the bits of the general one."""
+    train = Train(*helical_pair(PAIR), PAIR.oil)
+    train.initialise({"wheel": 84.4}, LOAD, KELVIN)
+    train.step(1e-3, LOAD, KELVIN)
+    rates, made = train.rates(), train.assembly
+    numbers = train.elements[2].numbers()
+    marked = flatten(numbers._replace(aligned=-7.0)).tolist().index(-7.0)
+    place = made.layout.calls[2].first_number + marked
+    assert made.numbers[place] == 1.0
+    made.numbers[place] = 0.0
+    assert np.array_equal(train.rates(), rates)
 
 
 def test_an_integrator_of_ones_own_renews_friction_at_events():

@@ -216,6 +216,16 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         return OK
 
     @kernel
+    def is_wild(s: Array) -> bool:
+        """Whether a body has left its range, which is looked at after each step."""
+        wild = False
+        for body in range(bodies):
+            at = BODY_STATES * body
+            wild |= abs(s[at]) > DIVERGED or abs(s[at + 1]) > DIVERGED or abs(s[at + 2]) > DIVERGED
+            wild |= abs(s[at + W]) > MAX_SPEED
+        return wild
+
+    @kernel
     def advance(
         s: Array,
         duration: float,
@@ -248,9 +258,11 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
                 rk4_step(s, piece, oil, numbers, memory, work)
                 rest -= piece
             after_step(s, oil, numbers, memory, h)
-            status = status_of(s)
-            if status != OK:
-                return status
+            if is_wild(s):
+                break
+        status = status_of(s)
+        if status != OK:
+            return status
         finish(s, oil, numbers, memory)
         for i in range(energies):  # a short step leaves the means as they were, see `keep_means`
             if duration < LEAST_WINDOW:

@@ -126,18 +126,18 @@ class HelicalMesh(Element):
         plane = self.parameters.pair.plane
         centres = math.atan2(plane.r_bp + plane.r_bg, plane.x_g)
         x_axis = self.angle + centres if self.drives_forward else self.angle - centres
+        axes = Axes.turned(x_axis, over=self.drives_forward, mirrored=self.right_hand)
+        arms = float(self.pinion_arm), float(self.gear_arm)
+        aligned = axes == Axes.turned(0.0) and arms == (0.0, 0.0)
         return HelicalMeshKernels(
-            Axes.turned(x_axis, over=self.drives_forward, mirrored=self.right_hand),
-            float(self.pinion_arm),
-            float(self.gear_arm),
-            float(self.parameters.steps_per_mesh_period),
+            axes, *arms, float(self.parameters.steps_per_mesh_period), float(aligned)
         )
 
     def memory(self) -> Array:
         """Return the line mesh at all levels, the pair data and room for its lines."""
         packed = pack_march_mesh(self.parameters.mesh)
         table = packed.torque, packed.density.ravel(), packed.offset.ravel()
-        return np.concatenate([[0.0], *table, self._pair_data(), np.zeros(LINES_ROOM)])
+        return np.concatenate([np.zeros(TABLE), *table, self._pair_data(), np.zeros(LINES_ROOM)])
 
     def ranges(self) -> tuple[Range, ...]:
         """Return the ranges of line mesh, oil and formulas, and that of solved films."""

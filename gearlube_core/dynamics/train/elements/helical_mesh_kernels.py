@@ -67,8 +67,10 @@ _BOUNDS = len(LINE_OUTPUTS)
 LINES_ROOM = _BOUNDS + len(LINE_BOUNDS)  # behind the pair data
 _LEAST_PRESSED = 1e-9  # m
 _MICRO = 1e6  # um per m: indicators of order 1, which solvers with a tolerance for roots expect
-_TORQUE = 0  # place in the memory: torque on the pinion in the last stage [N.m]
-TABLE = 1  # torque levels, then density and offset at each, then the pair data
+# places in the memory: torque on the pinion in the last stage [N.m], length of the last step [s],
+# how much of a difference the load level follows in it
+_TORQUE, _STEP, _FOLLOWS = range(3)
+TABLE = 3  # torque levels, then density and offset at each, then the pair data
 
 
 class HelicalMeshKernels(NamedTuple):
@@ -78,6 +80,7 @@ class HelicalMeshKernels(NamedTuple):
     arm_p: float  # of the mesh along z from the centre of the pinion's body [m]
     arm_g: float
     steps_per_period: float
+    aligned: float  # 1 where axes and centres of train and mesh are the same: less to compute
 
     @kernel
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -128,10 +131,13 @@ class HelicalMeshKernels(NamedTuple):
         on_pinion = w.M_pz + plane.r_bp * (mesh.damping + mesh.moving)
         on_gear = w.M_gz + plane.r_bg * mesh.damping
         memory[_TORQUE] = on_pinion
-        axes = self.axes
-        f_x, f_y, f_z = unseen(axes, w.F_x, w.F_y, w.F_z)
-        on_p = unseen_turn(axes, w.M_px, w.M_py, on_pinion)
-        on_g = unseen_turn(axes, w.M_gx, w.M_gy, on_gear)
+        f_x, f_y, f_z = w.F_x, w.F_y, w.F_z
+        on_p, on_g = (w.M_px, w.M_py, on_pinion), (w.M_gx, w.M_gy, on_gear)
+        if self.aligned == 0.0:
+            axes = self.axes
+            f_x, f_y, f_z = unseen(axes, f_x, f_y, f_z)
+            on_p = unseen_turn(axes, w.M_px, w.M_py, on_pinion)
+            on_g = unseen_turn(axes, w.M_gx, w.M_gy, on_gear)
         add_wrench(ds, at[0], self.arm_p, (f_x, f_y, f_z), on_p)
         add_wrench(ds, at[1], self.arm_g, (-f_x, -f_y, -f_z), on_g)
         ds[at[_PSI]] = mesh.closing
@@ -142,8 +148,9 @@ class HelicalMeshKernels(NamedTuple):
     def after_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         """See `Kernels.after_step`."""
         level = at[_KEPT]
-        follows = -math.expm1(-h / LOAD_FILTER_TIME)
-        s[level] += follows * (abs(_torque(at, memory, s)) - s[level])
+        if h != memory[_STEP]:
+            memory[_STEP], memory[_FOLLOWS] = h, -math.expm1(-h / LOAD_FILTER_TIME)
+        s[level] += memory[_FOLLOWS] * (abs(_torque(at, memory, s)) - s[level])
         return 0.0
 
     @kernel
@@ -197,6 +204,8 @@ class HelicalMeshKernels(NamedTuple):
         """See `Kernels.time_to_jump`."""
         data = _data(at, memory)
         constants: MarchConstants = tuple_from_array(data, MarchConstants)
+        if constants.motion.flanks.plane.sin_b > 0.0:  # before the motion is put together
+            return math.inf
         m = _motion(self, at, s)
         return time_to_jump(m, data[LEAST_OFFSET], constants.motion.flanks)
 
@@ -278,6 +287,14 @@ def _follow_level(at: Any, memory: Array, torque: float) -> None:
 def _motion(self: HelicalMeshKernels, at: Any, s: Array) -> PairMotion:
     """Return the motion of both members in the axes of the mesh, where the pinion drives to -z."""
     a, p, g = self.axes, at[0], at[1]
+    if self.aligned > 0.0:
+        return PairMotion(
+            s[at[_PSI]], -s[p + 5], -s[p + W], s[g + W],
+            s[p], s[p + 1], s[p + 2], s[p + 3], s[p + 4],
+            s[g], s[g + 1], s[g + 2], s[g + 3], s[g + 4],
+            s[p + 6], s[p + 7], s[p + 9], s[p + 10],
+            s[g + 6], s[g + 7], s[g + 9], s[g + 10],
+        )  # fmt: skip
     x_p, y_p, z_p = seen(
         a, s[p] + self.arm_p * s[p + 4], s[p + 1] - self.arm_p * s[p + 3], s[p + 2]
     )

@@ -103,7 +103,7 @@ class HypoidMesh(Element):
         packed = _packed(self.parameters)
         table = packed.levels, packed.series.ravel(), packed.windows.ravel()
         now = packed.series_size + packed.window_size + N_FRICTION + N_CHANNELS
-        head = np.array([np.nan, 0.0, 0.0, 0.0, 1.0])
+        head = np.array([np.nan, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0])
         room = np.zeros(FLANKS_ROOM)
         return np.concatenate([head, *table, np.zeros(now), self.parameters.film_model(), room])
 

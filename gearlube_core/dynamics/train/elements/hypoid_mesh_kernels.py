@@ -62,8 +62,9 @@ _LEAST = 1e-9  # m, deflection
 # what is kept: load that selects the level [N.m], side, films at the nodes with a film model
 _LOAD, _SIDE, OWN_FILMS = range(3)
 # places in the memory: load and side of the data in use, torque on the pinion [N.m], rate of the
-# transmission error [m/s] in the last stage, 1 while tractions are to be found again, the table
-_AT_LOAD, _AT_SIDE, _TORQUE, _RATE, _ANEW, _TABLE = range(6)
+# transmission error [m/s] in the last stage, 1 while tractions are to be found again, length of
+# the last step [s], how much of a difference the load level follows in it, the table
+_AT_LOAD, _AT_SIDE, _TORQUE, _RATE, _ANEW, _STEP, _FOLLOWS, _TABLE = range(8)
 
 
 class HypoidMeshKernels(NamedTuple):
@@ -176,7 +177,9 @@ class HypoidMeshKernels(NamedTuple):
         """See `Kernels.after_step`."""
         memory[_ANEW] = 0.0
         load = at[_KEPT] + _LOAD
-        s[load] += -math.expm1(-h / LOAD_FILTER_TIME) * (abs(_torque(at, memory, s)) - s[load])
+        if h != memory[_STEP]:
+            memory[_STEP], memory[_FOLLOWS] = h, -math.expm1(-h / LOAD_FILTER_TIME)
+        s[load] += memory[_FOLLOWS] * (abs(_torque(at, memory, s)) - s[load])
         _follow(self, at, memory, s)
         return 0.0
 
