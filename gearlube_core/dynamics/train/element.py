@@ -88,6 +88,12 @@ class Kernels(Protocol):
         scale of the search too, so that it must not be zero.
         """
 
+    def full_contact(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """Move own states of a state at rest to where all contacts touch, if they do not.
+
+        The modes there decide the length of steps. Without it those at rest do.
+        """
+
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         """Make ready for a communication step."""
 

@@ -53,12 +53,13 @@ def work_size(layout: Layout) -> int:
     return max(advance, write_work_size(layout), rest_work_size(layout))
 
 
-_IN_TIME = "at_rest", "begin", "expand", "each_step", "after_step", "finish"
+_IN_TIME = "at_rest", "full_contact", "begin", "expand", "each_step", "after_step", "finish"
 _NUMBERS = "step_rate", "time_to_jump", "stored_energy"
 _GIVEN = "s, oil, numbers, memory"
 # kernels of all elements: what they take more, a line for each element, what they return
 _LINES = {
     "at_rest": ("", "{call}", "None"),
+    "full_contact": ("", "{call}", "None"),
     "begin": ("", "{call}", "None"),
     "expand": ("", "{call}", "None"),
     "each_step": (", h", "total += {call}", "total"),
@@ -148,7 +149,8 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
     `work` has `work_size` numbers.
     """
     made = dict(zip(_LINES, _called(layout.calls), strict=True))
-    at_rest, begin, expand, each_step, after_step, finish = (made[name] for name in _IN_TIME)
+    in_time = (made[name] for name in _IN_TIME)
+    at_rest, full_contact, begin, expand, each_step, after_step, finish = in_time
     step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
     add_forces, event = made["add_forces"], made["event"]
     bodies, first_mobility, energies = layout.bodies, layout.first_mobility, layout.energies
@@ -286,7 +288,7 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         each_step(s, oil, numbers, memory, 0.0)
         expand(s, oil, numbers, memory)
 
-    start, stiffness = rest_kernels(layout, renew, expand, at_rest, rates, forces)
+    start, stiffness = rest_kernels(layout, renew, expand, (at_rest, full_contact), rates, forces)
     now = now_kernel(layout, each_step, expand, rates, made["exchange"])
     write_all = outputs_kernel(layout, now, made["write"])
 

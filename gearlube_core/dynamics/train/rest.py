@@ -48,14 +48,15 @@ def rest_kernels(
     layout: Layout,
     renew: Callable[..., Any],
     expand: Callable[..., Any],
-    at_rest: Callable[..., Any],
+    own: tuple[Callable[..., Any], Callable[..., Any]],
     rates: Callable[..., Any],
     forces: Callable[..., Any],
 ) -> tuple[Callable[..., Any], Callable[..., Any]]:
     """Return the kernels of START and STIFFNESS of a list, see `train_kernel`.
 
-    The other arguments are kernels of all elements.
+    The other arguments are kernels of all elements; `own` are `at_rest` and `full_contact`.
     """
+    at_rest, full_contact = own
     room, n, n_state, n_kept = room_of(layout), layout.integrated, layout.states, layout.kept
 
     @kernel
@@ -174,7 +175,12 @@ def rest_kernels(
         copy(s, before)
         status, number, where = find_rest(s, oil, numbers, memory, bearing, work)
         if status == OK:
+            for k in range(room.own):
+                work[room.held + k] = s[room.first + k]
+            full_contact(s, oil, numbers, memory)
             m = stiffness(s, oil, numbers, memory, work)
+            for k in range(room.own):
+                s[room.first + k] = work[room.held + k]
             matrix = part(work, room.solver, m * m)
             square = spectral_radius(matrix, m, part(work, room.solver + m * m, m * m))
             highest = math.sqrt(square) / (2.0 * math.pi)

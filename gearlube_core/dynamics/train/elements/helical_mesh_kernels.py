@@ -66,6 +66,7 @@ _PSI, _HEAT, _DAMPING, _KEPT, _PORT, _LEVELS, _SIZE, _DATA, _DATA_SIZE = range(2
 _BOUNDS = len(LINE_OUTPUTS)
 LINES_ROOM = _BOUNDS + len(LINE_BOUNDS)  # behind the pair data
 _LEAST_PRESSED = 1e-9  # m
+_ALL_TOUCH = 1e-5  # m, compression at which all lines touch
 _MICRO = 1e6  # um per m: indicators of order 1, which solvers with a tolerance for roots expect
 # places in the memory: torque on the pinion in the last stage [N.m], length of the last step [s],
 # how much of a difference the load level follows in it
@@ -96,6 +97,17 @@ class HelicalMeshKernels(NamedTuple):
         pressed = max(pressed, _LEAST_PRESSED)
         rotation = pressed if load >= 0.0 else -pressed - flanks.backlash
         s[at[_PSI]] = rotation / plane.cos_b
+
+    @kernel
+    def full_contact(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """See `Kernels.full_contact`."""
+        constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
+        flanks, table = constants.motion.flanks, _table(at, memory)
+        plane = flanks.plane
+        if s[at[_KEPT]] < plane.r_bp * plane.W * mean_density(table) * _ALL_TOUCH:
+            pressed = (_ALL_TOUCH + largest_offset(table)) / plane.cos_b
+            on_coast = s[at[_PSI]] * plane.cos_b < -0.5 * flanks.backlash
+            s[at[_PSI]] += -pressed if on_coast else pressed
 
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:

@@ -59,6 +59,7 @@ _LEVELS, _ORDERS, _NODES, _SERIES, _FILM = range(9, 14)
 _BOUNDS = len(FLANK_OUTPUTS)
 FLANKS_ROOM = _BOUNDS + len(FLANK_BOUNDS)  # behind the film model
 _LEAST = 1e-9  # m, deflection
+_ALL_TOUCH = 1e-6  # m, deflection that no difference of a linearisation ends
 # what is kept: load that selects the level [N.m], side, films at the nodes with a film model
 _LOAD, _SIDE, OWN_FILMS = range(3)
 # places in the memory: load and side of the data in use, torque on the pinion [N.m], rate of the
@@ -95,6 +96,15 @@ class HypoidMeshKernels(NamedTuple):
         deflection = load / _now(at, memory).series[K_M]
         deflection = deflection if abs(deflection) > _LEAST else _LEAST
         s[at[_X]] = deflection - (self.mesh.backlash if load < 0.0 else 0.0)
+
+    @kernel
+    def full_contact(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """See `Kernels.full_contact`."""
+        on_coast, x = s[at[_KEPT] + _SIDE] < 0.0, s[at[_X]]
+        if on_coast:
+            s[at[_X]] = min(x, -self.mesh.backlash - _ALL_TOUCH)
+        else:
+            s[at[_X]] = max(x, _ALL_TOUCH)
 
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
