@@ -41,9 +41,9 @@ _GUARDS = {
 }
 
 
-def _array_of(lengths: int) -> Any:
+def _array_of(lengths: int, kind: Type = types.float64) -> Any:
     """Return the code that makes an array with so many lengths of a pointer and the lengths."""
-    array_type = types.Array(types.float64, lengths, "C")
+    array_type = types.Array(kind, lengths, "C")
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         address, *shape = arguments
@@ -77,6 +77,12 @@ def _matrix_at(typingctx: Any, pointer: Type, rows: Type, columns: Type) -> Any:
     return array_type(pointer, types.intp, types.intp), generate
 
 
+def _whole_at(typingctx: Any, pointer: Type, length: Type) -> Any:
+    """Return the int64 array of `length` elements at a C pointer."""
+    array_type, generate = _array_of(1, types.int64)
+    return array_type(pointer, types.intp), generate
+
+
 def _pointer_at(typingctx: Any, pointer: Type, place: Type) -> Any:
     """Return the pointer to the double at `place` behind a C pointer to doubles."""
 
@@ -89,6 +95,7 @@ def _pointer_at(typingctx: Any, pointer: Type, place: Type) -> Any:
 array_at: Any = intrinsic(_array_at)
 matrix_at: Any = intrinsic(_matrix_at)
 pointer_at: Any = intrinsic(_pointer_at)
+whole_at: Any = intrinsic(_whole_at)
 
 
 def cpu_of_kernels() -> str:

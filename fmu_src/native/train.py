@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fmu_src.native.model import OK, Exchange, NativeModel, Operation
-from fmu_src.object_code import array_at, pointer_at
+from fmu_src.object_code import array_at, pointer_at, whole_at
 from fmu_src.train import definition_with_train, train_ranges
+from gearlube_core.dynamics.train.choice import generated_kernel
 from gearlube_core.dynamics.train.element import BODY_STATES, RZ, W
 from gearlube_core.dynamics.train.march import (
     ADVANCE,
@@ -18,7 +19,6 @@ from gearlube_core.dynamics.train.march import (
     EXCHANGE,
     START,
     WRITE,
-    train_kernel,
     work_size,
 )
 from gearlube_core.dynamics.train.model import MOST_TORQUE, REFUSALS, Train
@@ -40,6 +40,7 @@ class _Places(NamedTuple):
 
     numbers: int  # in data, of which it is the first
     memory: int
+    plan: int  # whole numbers, bit by bit
     ports: int  # places of the ports in the state
     bodies: int  # number of the body of each speed; the first bears what the torques leave
     motion: int  # pairs of places, in the outputs and in the state
@@ -82,6 +83,7 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
     ) -> int:
         fixed = array_at(data, at.data_end)
         numbers = array_at(data, at.memory)
+        plan = whole_at(pointer_at(data, at.plan), at.ports - at.plan)
         room = array_at(work, at.work_end)
         memory = array_at(pointer_at(work, at.own_memory), at.trial - at.own_memory)
         if operation in (_START, _RESUME):
@@ -113,13 +115,15 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
                     scratch[1 + int(fixed[at.bodies + i])] = speeds[i]
                 per_period = float(at.per_period)
                 status = int(
-                    operate(START, trial, temperature, numbers, memory, per_period, 0.0, scratch)
+                    operate(
+                        START, trial, temperature, numbers, memory, plan, per_period, 0.0, scratch
+                    )
                 )
                 rate = scratch[0]
             else:
                 rate = kept[at.state_end - 1]
                 status = int(
-                    operate(ADVANCE, trial, temperature, numbers, memory, step, rate, scratch)
+                    operate(ADVANCE, trial, temperature, numbers, memory, plan, step, rate, scratch)
                 )
             if status != OK:
                 return status
@@ -138,14 +142,18 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
         if operation == _MOTION:
             return OK
         if operation == _EVENT:
-            status = int(operate(EVENT, trial, temperature, numbers, memory, 0.0, 0.0, scratch))
+            status = int(
+                operate(EVENT, trial, temperature, numbers, memory, plan, 0.0, 0.0, scratch)
+            )
             for i in range(at.states if status == OK else 0):
                 kept[i] = trial[i]
             return status
         if operation == _DERIVATIVES:
-            status = int(operate(EXCHANGE, trial, temperature, numbers, memory, 0.0, 0.0, scratch))
+            status = int(
+                operate(EXCHANGE, trial, temperature, numbers, memory, plan, 0.0, 0.0, scratch)
+            )
         else:
-            operate(WRITE, trial, temperature, numbers, memory, 0.0, 0.0, scratch)
+            operate(WRITE, trial, temperature, numbers, memory, plan, 0.0, 0.0, scratch)
             status = OK
         for i in range(at.n_exchanged):
             to, of = int(fixed[at.exchanged + 2 * i]), int(fixed[at.exchanged + 2 * i + 1])
@@ -194,6 +202,7 @@ def train_model(path: str | Path) -> NativeModel:
     parts = [
         made.numbers,
         made.memory,
+        made.plan.view(float),
         np.array([made.kept[name] for name in case.torques], float),
         np.array([names.index(name) for name in case.speeds], float),
         np.array(pairs, float).ravel(),
@@ -202,11 +211,11 @@ def train_model(path: str | Path) -> NativeModel:
         np.array([definition.output_names.index(one.output) for one in ranges], float),
     ]
     starts = np.cumsum([0, *(part.size for part in parts)]).tolist()
-    n_inputs, states = len(case.torques) + 1, made.layout.states
+    n_inputs, states = len(case.torques) + 1, made.sizes.states
     own_memory = 2 * (n_inputs + len(ranges))
     trial = own_memory + made.memory.size
     scratch = trial + states
-    room = work_size(made.layout)
+    room = work_size(made.sizes)
     at = _Places(
         **dict(zip(_Places._fields, starts, strict=False)),
         states=states,
@@ -224,12 +233,12 @@ def train_model(path: str | Path) -> NativeModel:
         work_end=scratch + room,
         outputs=len(definition.output_names),
         train_outputs=len(made.outputs),
-        written=outputs_at(made.layout),
+        written=outputs_at(made.sizes),
         per_period=train.steps_per_highest_period,
     )
     return NativeModel(
         definition=definition,
-        entry=_entry(train_kernel(made.layout), at),
+        entry=_entry(generated_kernel(made), at),
         data=np.concatenate(parts),
         state_size=at.state_end,
         control_at=at.state_end - 1,

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.train.choice import interpreted_kernel
 from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
 from gearlube_core.dynamics.train.helical_pair import helical_pair
-from gearlube_core.dynamics.train.march import START, train_kernel, work_size
+from gearlube_core.dynamics.train.march import START, work_size
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, OK
@@ -155,15 +156,16 @@ def test_a_torque_that_splits_starts_in_equal_halves():
 
 
 def test_a_refused_start_leaves_the_state_as_it_was_with_the_number_that_says_why():
-    train = two_rotors()
-    layout, numbers, memory = train.assembly[:3]
-    operate, work = train_kernel(layout), np.zeros(work_size(layout))
-    before = np.random.default_rng(1).normal(size=layout.states)
+    made = two_rotors().assembly
+    operate, work = interpreted_kernel(), np.zeros(work_size(made.sizes))
+    before = np.random.default_rng(1).normal(size=made.sizes.states)
 
     def started(*wanted: float) -> tuple[int, list[float]]:
         work[: len(wanted)] = wanted
         s = before.copy()
-        status = int(operate(START, s, KELVIN, numbers, memory, 16.0, 0.0, work))
+        status = int(
+            operate(START, s, KELVIN, made.numbers, made.memory, made.plan, 16.0, 0.0, work)
+        )
         assert np.array_equal(s, before) == (status != OK)
         return status, work[:2].tolist()
 

@@ -19,6 +19,7 @@ from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.helical_pair import helical_pair
 from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
 from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.plan import AT, FIRST_ROW, N_PLACES, NUMBER
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.kernels.flat_tuples import flatten
@@ -143,7 +144,10 @@ def test_a_mesh_in_the_axes_of_its_train_needs_no_turning():
     rates, made = train.rates(), train.assembly
     numbers = train.elements[2].numbers()
     marked = flatten(numbers._replace(aligned=-7.0)).tolist().index(-7.0)
-    place = made.layout.calls[2].first_number + marked
+    row = FIRST_ROW
+    for _ in range(2):
+        row += AT + made.plan[row + N_PLACES]
+    place = made.plan[row + NUMBER] + marked
     assert made.numbers[place] == 1.0
     made.numbers[place] = 0.0
     assert np.array_equal(train.rates(), rates)

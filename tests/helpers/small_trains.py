@@ -10,7 +10,7 @@ from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.helical_pair import spring_support
 from gearlube_core.dynamics.train.model import Train
-from gearlube_core.dynamics.train.part import Body
+from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.coulomb_brake import CoulombBrake
@@ -70,8 +70,10 @@ LOAD = {"input": 226.0, "output": 280.0}
 def two_rotors(*, brake: float = 0.0, damping: float = 0.0) -> Train:
     rotors = [Body.spinning("engine", 0.2), Body.spinning("load", 2.0)]
     shaft = HalfShaft(name="shaft", first="engine", second="load", stiffness=1e4, damping=damping)
-    stopping = CoulombBrake(name="brake", body="load", torque=brake)
-    return Train(rotors, [shaft, Port(name="motor", body="engine"), stopping], OIL)
+    elements: list[Element] = [shaft, Port(name="motor", body="engine")]
+    if brake:
+        elements.append(CoulombBrake(name="brake", body="load", torque=brake))
+    return Train(rotors, elements, OIL)
 
 
 def e_axle(turned: float = 0.0, friction: str = "film", hand: bool = True) -> Train:

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.arrays import Array
-from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, Call, Layout
+from gearlube_core.arrays import Array, Offsets
+from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, Listed
 from gearlube_core.dynamics.train.exchange import (
     Continuous,
     Indicator,
@@ -22,11 +22,12 @@ from gearlube_core.dynamics.train.exchange import (
     event_indicators,
 )
 from gearlube_core.dynamics.train.outputs import train_outputs
-from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.part import Body, Element, shipped_kinds
+from gearlube_core.dynamics.train.plan import UNKNOWN, Sizes, pack_plan
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.number import Output
-from gearlube_core.oil.formula_laws import FORMULA_LAWS
+from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws
 from gearlube_core.oil.lubricant import Lubricant
 
 _MOTIONS = (*COORDINATES, *(f"{one}.rate" for one in COORDINATES))
@@ -35,7 +36,10 @@ _MOTIONS = (*COORDINATES, *(f"{one}.rate" for one in COORDINATES))
 class Assembly(NamedTuple):
     """A train put together."""
 
-    layout: Layout
+    listed: tuple[Listed, ...]
+    laws: OilLaws  # of an oil with laws of its own
+    sizes: Sizes
+    plan: Offsets
     numbers: Array
     memory: Array
     names: tuple[str, ...]  # of the integrated states
@@ -82,27 +86,27 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
     for one in elements:
         kept[one.name] = size
         size += one.kept_size()
-    numbers, memory, calls = [flatten(oil.parameters())], [], []
+    numbers, memory = [flatten(oil.parameters())], []
+    kinds, listed, rows = shipped_kinds(), list[Listed](), []
     at_number, at_memory, at_output, at_exchanged = numbers[0].size, 0, 0, 0
     for one in elements:
         constants, room = one.numbers(), one.memory()
         beside = [getattr(one, field) for field in one.beside]
-        places = (
+        at = (
             *(of_body[getattr(one, field)] for field in one.on),
             *own[one.name],
             *(works[f"{one.name}.{work}"] for work in one.works),
             *(losses[loss] for loss in one.losses),
             *((kept[one.name],) if one.kept_size() else ()),
-            *(-1 if other is None else kept[other] for other in beside),
+            *(0 if other is None else kept[other] for other in beside),
             *one.sizes(),
         )
         numbers.append(flatten(constants))
         memory.append(room)
-        of_numbers = at_number, numbers[-1].size
-        of_memory = at_memory, room.size
-        kind, variants = type(constants), one.variants()
-        found = at_output, at_exchanged
-        calls.append(Call(kind, variants, places, *of_numbers, *of_memory, *found))
+        listed.append(Listed(type(constants), one.variants(), len(at)))
+        number = kinds.index(listed[-1]) if listed[-1] in kinds else UNKNOWN
+        row = number, at_number, at_memory, room.size, at_output, at_exchanged, len(at)
+        rows.append((*row, *at))
         at_output += len(one.outputs)
         at_exchanged += len(one.levels) + len(one.events)
         at_number += numbers[-1].size
@@ -110,10 +114,25 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
     laws = (*oil.own_laws(), FORMULA_LAWS)[0]
     own_states = sum(len(one.states) for one in elements)
     energies = len(works) + len(losses)
-    sizes = len(names), size + energies + 1, size, at_output, len(works), energies, at_exchanged
+    sizes = Sizes(
+        elements=len(elements),
+        bodies=len(bodies),
+        own=own_states,
+        first_mobility=at_number,
+        integrated=len(names),
+        states=size + energies + 1,
+        kept=size,
+        outputs=at_output,
+        works=len(works),
+        energies=energies,
+        exchanged=at_exchanged,
+    )
     outputs = train_outputs(bodies, elements, works, losses)
     return Assembly(
-        Layout(tuple(calls), len(bodies), own_states, at_number, *sizes, laws),
+        tuple(listed),
+        laws,
+        sizes,
+        pack_plan(sizes, rows),
         np.concatenate([*numbers, *(body.mobility for body in bodies)]),
         np.concatenate([*memory, np.zeros(1)]),
         tuple(names),

@@ -6,8 +6,8 @@ bearing or a friction law; it acts on one or two bodies by adding to the places 
 there forces [N] and moments [N.m] are summed before each body turns its sums into accelerations.
 
 The kernels of an element take where it stands, `at`: the first place of each of its bodies, then of
-its own integrated states, of its energies, and of what it keeps between steps, then its sizes.
-They do not allocate and do not raise.
+its own integrated states, of its energies, of what it keeps between steps, and of what the ports
+beside it keep, 0 for none; then its sizes. They do not allocate and do not raise.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ from typing import Any, NamedTuple, Protocol
 
 from gearlube_core.arrays import Array
 from gearlube_core.kernels.inlining import inside
-from gearlube_core.oil.formula_laws import OilLaws
 from gearlube_core.oil.lubricant import LubricantState
 
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
@@ -27,35 +26,12 @@ BODY_STATES = 12
 RZ, W = 5, 11  # angle [rad] and speed [rad/s] about the shaft's axis z
 
 
-class Call(NamedTuple):
-    """How an element is called."""
+class Listed(NamedTuple):
+    """What of one element the kernels of a list are compiled for."""
 
     numbers: type  # NamedTuple class of its constants
     variants: tuple[type, ...]  # classes of its parts, see `tuple_from_array`
-    at: tuple[int, ...]
-    first_number: int
-    n_numbers: int
-    first_memory: int
-    n_memory: int
-    first_output: int
-    first_exchanged: int
-
-
-class Layout(NamedTuple):
-    """What is compiled for: all of it constant."""
-
-    calls: tuple[Call, ...]
-    bodies: int
-    own: int  # states of elements, behind those of the bodies
-    first_mobility: int  # among the numbers
-    integrated: int
-    states: int
-    kept: int  # end of what elements keep, then a mark of each energy and the length of the step
-    outputs: int  # of elements
-    works: int  # of the energies, which are the last integrated states, first those put in
-    energies: int
-    exchanged: int  # rates of levels and event indicators of the elements
-    laws: OilLaws  # of an oil with laws of its own
+    places: int  # how many `at` has
 
 
 class Kernels(Protocol):

@@ -8,10 +8,11 @@ alone.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from gearlube_core.arrays import Array
-from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, N_COORDINATES, Layout
+from gearlube_core.arrays import Array, Offsets
+from gearlube_core.dynamics.train.drivers import AllElements
+from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, N_COORDINATES
 from gearlube_core.dynamics.train.outputs import MOVING, TURNING, named_of
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.kernels.array_part import part
@@ -101,32 +102,30 @@ def event_indicators(elements: Sequence[Element], integrated: int) -> tuple[Indi
     return tuple(found)
 
 
-def now_kernel(
-    layout: Layout,
-    each_step: Callable[..., Any],
-    expand: Callable[..., Any],
-    rates: Callable[..., Any],
-    exchange: Callable[..., Any],
-) -> Callable[..., None]:
+def now_kernel(elements: AllElements, rates: Callable[..., None]) -> Callable[..., None]:
     """Return the kernel of the rates of a state in which elements keep what they keep.
 
-    The other arguments are kernels of all elements. It writes the rates of all integrated states
+    It writes the rates of all integrated states
     into `work`, behind them what `Kernels.exchange` gives; the state stays as it is. `work` has
     room for a state behind that.
     """
-    n, n_state, n_kept = layout.integrated, layout.states, layout.kept
-    exchanged = layout.exchanged
+    sizes_of, each_step = elements.sizes_of, elements.each_step
+    expand, exchange = elements.expand, elements.exchange
 
     @kernel
-    def now(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> None:
+    def now(
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets, work: Array
+    ) -> None:
+        sizes = sizes_of(plan)
+        n, n_state, exchanged = sizes.integrated, sizes.states, sizes.exchanged
         slope, begun = part(work, 0, n), part(work, n + exchanged, n_state)
         for i in range(n_state):
             begun[i] = s[i]
-        each_step(begun, oil, numbers, memory, 0.0)
-        for i in range(n, n_kept):
+        each_step(begun, oil, numbers, memory, plan, 0.0)
+        for i in range(n, sizes.kept):
             begun[i] = s[i]
-        expand(begun, oil, numbers, memory)
-        rates(begun, oil, numbers, memory, 0, slope)
-        exchange(s, oil, numbers, memory, part(work, n, exchanged))
+        expand(begun, oil, numbers, memory, plan)
+        rates(begun, oil, numbers, memory, plan, 0, slope)
+        exchange(s, oil, numbers, memory, plan, part(work, n, exchanged))
 
     return now

@@ -1,9 +1,5 @@
 """Kernels of a list of elements: rates, rest and march.
 
-The elements' kernels are called one after the other by source text made here: their classes and
-places are constants of the compiled code. Order of the list is order of the sums, hence of the
-bits.
-
 State of a train: twelve states of each body, the elements' own states, the energies, and behind
 these N integrated states what elements keep between steps, a mark of each energy at the start of
 the last communication step, and its length, for mean powers.
@@ -12,29 +8,23 @@ the last communication step, and its length, for mean powers.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import cache
-from typing import Any
+from collections.abc import Callable
 
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.mean_power import LEAST_WINDOW
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
-from gearlube_core.dynamics.train.element import (
-    BODY_STATES,
-    N_COORDINATES,
-    RATE,
-    Call,
-    Layout,
-    W,
-)
+from gearlube_core.dynamics.train.drivers import AllElements
+from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, W
 from gearlube_core.dynamics.train.exchange import now_kernel
 from gearlube_core.dynamics.train.outputs import outputs_kernel, write_work_size
+from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.dynamics.train.rest import rest_kernels
 from gearlube_core.dynamics.train.rest_search import OK, rest_work_size
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.formula_laws import OilLaws
 from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
 
 RATES, RENEW, START, ADVANCE, WRITE, ENERGY, STIFFNESS, EXCHANGE, EVENT = range(9)
@@ -47,81 +37,17 @@ MAX_STEPS = 150_000  # in one communication interval, or their cost
 DIVERGED = 0.1  # m, displacement of a body: supports long broken
 
 
-def work_size(layout: Layout) -> int:
+def work_size(sizes: Sizes) -> int:
     """Return the length of `work` for all operations."""
-    advance = layout.states + 2 * layout.integrated
-    return max(advance, write_work_size(layout), rest_work_size(layout))
+    advance = sizes.states + 2 * sizes.integrated
+    return max(advance, write_work_size(sizes), rest_work_size(sizes))
 
 
-_IN_TIME = "at_rest", "full_contact", "begin", "expand", "each_step", "after_step", "finish"
-_NUMBERS = "step_rate", "time_to_jump", "stored_energy"
-_GIVEN = "s, oil, numbers, memory"
-# kernels of all elements: what they take more, a line for each element, what they return
-_LINES = {
-    "at_rest": ("", "{call}", "None"),
-    "full_contact": ("", "{call}", "None"),
-    "begin": ("", "{call}", "None"),
-    "expand": ("", "{call}", "None"),
-    "each_step": (", h", "total += {call}", "total"),
-    "after_step": (", h", "{call}", "None"),
-    "step_rate": ("", "total = max(total, {call})", "total"),
-    "finish": ("", "{call}", "None"),
-    "time_to_jump": (", h", "total = min(total, {call})", "total"),
-    "stored_energy": ("", "total += {call}", "total"),
-    "add_forces": (", stage, ds", "{call}", "None"),
-    "event": ("", "{call}", "None"),
-    "write": (", out", "{call}", "None"),
-    "exchange": (", out", "{call}", "None"),
-}
+def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
+    """Return the compiled function of trains.
 
-
-def _text(elements: Sequence[Call]) -> tuple[str, list[Any]]:
-    """Return the source of a function that makes one kernel of every kind for all elements.
-
-    Its arguments come second: classes, places and kernels, which become constants of the compiled
-    code. An element without a kernel of one kind is left out there.
-    """
-    names = ["kernel", "inside", "part", "tuple_from_array"]
-    given: list[Any] = [kernel, inside, part, tuple_from_array]
-    lines, calls = [], []
-    for i, call in enumerate(elements):
-        names += (f"{one}{i}" for one in ("e", "v", "at", "n", "c", "m", "z", "o", "x"))
-        given += call
-        chosen = "".join(f", v{i}_{k}" for k in range(len(call.variants)))
-        lines += [f"    v{i}_{k} = v{i}[{k}]" for k in range(len(call.variants))]
-        own = f"tuple_from_array(part(numbers, n{i}, c{i}), e{i}{chosen})"
-        calls.append(f"{own}, at{i}, part(memory, m{i}, z{i}), s, oil")
-    for name, (more, line, result) in _LINES.items():
-        lines.append("    @inside" if name == "add_forces" else "    @kernel")
-        begin = "math.inf" if name == "time_to_jump" else "0.0"
-        lines += [f"    def all_{name}({_GIVEN}{more}):", f"        total = {begin}"]
-        for i, call in enumerate(elements):
-            if hasattr(call.numbers, name):
-                names.append(f"{name}{i}")
-                given.append(getattr(call.numbers, name))
-                place = {"write": f", o{i}", "exchange": f", x{i}"}.get(name, "")
-                code = f"{name}{i}({calls[i]}{more}{place})"
-                lines.append(f"        {line.format(call=code)}")
-        lines.append(f"        return {result}")
-    made = f"    return {', '.join(f'all_{name}' for name in _LINES)}"
-    return "\n".join([f"def make({', '.join(names)}):", *lines, made]), given
-
-
-def _called(elements: Sequence[Call]) -> tuple[Callable[..., Any], ...]:
-    """Return the kernels that call all elements, in the order of _LINES."""
-    space: dict[str, Any] = {"__name__": __name__, "math": math}
-    text, given = _text(elements)
-    exec(compile(text, __file__, "exec"), space)
-    made: tuple[Callable[..., Any], ...] = space["make"](*given)
-    return made
-
-
-@cache
-def train_kernel(layout: Layout) -> Callable[..., float]:
-    """Return the compiled function of all trains of a layout: one, so that it compiles once.
-
-    Its arguments are an operation, the state, the oil's temperature [K], numbers and memory of
-    the assembly, then `size`, `least_rate` and `work`:
+    Its arguments are an operation, the state, the oil's temperature [K], numbers, memory and plan
+    of the assembly, then `size`, `least_rate` and `work`:
 
     RATES
         Rates of all integrated states into `work`.
@@ -148,66 +74,83 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
 
     `work` has `work_size` numbers.
     """
-    made = dict(zip(_LINES, _called(layout.calls), strict=True))
-    in_time = (made[name] for name in _IN_TIME)
-    at_rest, full_contact, begin, expand, each_step, after_step, finish = in_time
-    step_rate, time_to_jump, stored_energy = (made[name] for name in _NUMBERS)
-    add_forces, event = made["add_forces"], made["event"]
-    bodies, first_mobility, energies = layout.bodies, layout.first_mobility, layout.energies
-    n, n_state, n_kept, laws = layout.integrated, layout.states, layout.kept, layout.laws
-    first_energy = n - energies
+    sizes_of, begin, expand = of_all.sizes_of, of_all.begin, of_all.expand
+    each_step, after_step, finish = of_all.each_step, of_all.after_step, of_all.finish
+    add_forces, event, stored_energy = of_all.add_forces, of_all.event, of_all.stored_energy
+    step_rate, time_to_jump = of_all.step_rate, of_all.time_to_jump
 
     @inside
     def forces(
-        s: Array, oil: LubricantState, numbers: Array, memory: Array, stage: int, ds: Array
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        stage: int,
+        ds: Array,
     ) -> None:
-        for i in range(n):
+        for i in range(sizes_of(plan).integrated):
             ds[i] = 0.0
-        add_forces(s, oil, numbers, memory, stage, ds)
+        add_forces(s, oil, numbers, memory, plan, stage, ds)
 
     @kernel
     def rates(
-        s: Array, oil: LubricantState, numbers: Array, memory: Array, stage: int, ds: Array
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        stage: int,
+        ds: Array,
     ) -> None:
-        forces(s, oil, numbers, memory, stage, ds)
-        for body in range(bodies):
+        forces(s, oil, numbers, memory, plan, stage, ds)
+        sizes = sizes_of(plan)
+        for body in range(sizes.bodies):
             at = BODY_STATES * body
-            mobility = first_mobility + N_COORDINATES * body
+            mobility = sizes.first_mobility + N_COORDINATES * body
             for i in range(N_COORDINATES):
                 ds[at + i] = s[at + RATE + i]
                 ds[at + RATE + i] *= numbers[mobility + i]
 
     @kernel
     def rk4_step(
-        s: Array, h: float, oil: LubricantState, numbers: Array, memory: Array, stages: Array
+        s: Array,
+        h: float,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        stages: Array,
     ) -> None:
+        sizes = sizes_of(plan)
+        n, n_state = sizes.integrated, sizes.states
         trial = part(stages, 0, n_state)
         slope = part(stages, n_state, n)
         total = part(stages, n_state + n, n)
-        rates(s, oil, numbers, memory, 1, slope)
+        rates(s, oil, numbers, memory, plan, 1, slope)
         for i in range(n):
             total[i] = slope[i]
             trial[i] = s[i] + 0.5 * h * slope[i]
-        rates(trial, oil, numbers, memory, 2, slope)
+        rates(trial, oil, numbers, memory, plan, 2, slope)
         for i in range(n):
             total[i] += 2.0 * slope[i]
             trial[i] = s[i] + 0.5 * h * slope[i]
-        rates(trial, oil, numbers, memory, 3, slope)
+        rates(trial, oil, numbers, memory, plan, 3, slope)
         for i in range(n):
             total[i] += 2.0 * slope[i]
             trial[i] = s[i] + h * slope[i]
-        rates(trial, oil, numbers, memory, 4, slope)
+        rates(trial, oil, numbers, memory, plan, 4, slope)
         for i in range(n):
             s[i] += h / 6.0 * (total[i] + slope[i])
 
     @kernel
-    def status_of(s: Array) -> int:
-        total = 0.0
-        for i in range(n):
+    def status_of(s: Array, plan: Offsets) -> int:
+        total, sizes = 0.0, sizes_of(plan)
+        for i in range(sizes.integrated):
             total += abs(s[i])
         if not total < math.inf:
             return NOT_FINITE
-        for body in range(bodies):
+        for body in range(sizes.bodies):
             at = BODY_STATES * body
             if max(abs(s[at]), max(abs(s[at + 1]), abs(s[at + 2]))) > DIVERGED:
                 return NOT_FINITE
@@ -218,10 +161,10 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         return OK
 
     @kernel
-    def is_wild(s: Array) -> bool:
+    def is_wild(s: Array, plan: Offsets) -> bool:
         """Whether a body has left its range, which is looked at after each step."""
         wild = False
-        for body in range(bodies):
+        for body in range(sizes_of(plan).bodies):
             at = BODY_STATES * body
             wild |= abs(s[at]) > DIVERGED or abs(s[at + 1]) > DIVERGED or abs(s[at + 2]) > DIVERGED
             wild |= abs(s[at + W]) > MAX_SPEED
@@ -234,63 +177,67 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         oil: LubricantState,
         numbers: Array,
         memory: Array,
+        plan: Offsets,
         least_rate: float,
         work: Array,
     ) -> int:
-        wanted = duration * max(least_rate, step_rate(s, oil, numbers, memory))
+        wanted = duration * max(least_rate, step_rate(s, oil, numbers, memory, plan))
         if not wanted < MAX_STEPS:
             return TOO_MANY_STEPS
         steps = max(1, math.ceil(wanted))
         h = duration / steps
+        sizes = sizes_of(plan)
+        n, n_kept, energies = sizes.integrated, sizes.kept, sizes.energies
+        first_energy = n - energies
         for i in range(energies):
             now = s[first_energy + i]
             s[n_kept + i] = now if duration >= LEAST_WINDOW else s[n_kept + i] - now
         if duration >= LEAST_WINDOW:
-            s[n_state - 1] = duration
+            s[sizes.states - 1] = duration
         cost = 0.0
         for _ in range(steps):
             rest = h
             while rest > 0.0:
-                cost += each_step(s, oil, numbers, memory, rest)
+                cost += each_step(s, oil, numbers, memory, plan, rest)
                 if cost > MAX_STEPS:
                     return TOO_MANY_STEPS
                 for i in range(n, n_kept):
                     work[i] = s[i]
-                piece = min(rest, time_to_jump(s, oil, numbers, memory, h))
-                rk4_step(s, piece, oil, numbers, memory, work)
+                piece = min(rest, time_to_jump(s, oil, numbers, memory, plan, h))
+                rk4_step(s, piece, oil, numbers, memory, plan, work)
                 rest -= piece
-            after_step(s, oil, numbers, memory, h)
-            if is_wild(s):
+            after_step(s, oil, numbers, memory, plan, h)
+            if is_wild(s, plan):
                 break
-        status = status_of(s)
+        status = status_of(s, plan)
         if status != OK:
             return status
-        finish(s, oil, numbers, memory)
+        finish(s, oil, numbers, memory, plan)
         for i in range(energies):  # a short step leaves the means as they were, see `keep_means`
             if duration < LEAST_WINDOW:
                 s[n_kept + i] += s[first_energy + i]
         return OK
 
     @kernel
-    def kinetic_energy(s: Array, numbers: Array) -> float:
-        twice = 0.0
-        for body in range(bodies):
+    def kinetic_energy(s: Array, numbers: Array, plan: Offsets) -> float:
+        twice, sizes = 0.0, sizes_of(plan)
+        for body in range(sizes.bodies):
             at = BODY_STATES * body + RATE
-            mobility = first_mobility + N_COORDINATES * body
+            mobility = sizes.first_mobility + N_COORDINATES * body
             for i in range(N_COORDINATES):
                 if numbers[mobility + i] > 0.0:
                     twice += s[at + i] * s[at + i] / numbers[mobility + i]
         return 0.5 * twice
 
     @kernel
-    def renew(s: Array, oil: LubricantState, numbers: Array, memory: Array) -> None:
-        begin(s, oil, numbers, memory)
-        each_step(s, oil, numbers, memory, 0.0)
-        expand(s, oil, numbers, memory)
+    def renew(s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets) -> None:
+        begin(s, oil, numbers, memory, plan)
+        each_step(s, oil, numbers, memory, plan, 0.0)
+        expand(s, oil, numbers, memory, plan)
 
-    start, stiffness = rest_kernels(layout, renew, expand, (at_rest, full_contact), rates, forces)
-    now = now_kernel(layout, each_step, expand, rates, made["exchange"])
-    write_all = outputs_kernel(layout, now, made["write"])
+    start, stiffness = rest_kernels(of_all, renew, rates, forces)
+    now = now_kernel(of_all, rates)
+    write_all = outputs_kernel(of_all, now)
 
     @kernel
     def operate(
@@ -299,6 +246,7 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         temperature: float,
         numbers: Array,
         memory: Array,
+        plan: Offsets,
         size: float,
         least_rate: float,
         work: Array,
@@ -306,32 +254,32 @@ def train_kernel(layout: Layout) -> Callable[..., float]:
         given: LubricantParameters = tuple_from_array(numbers, LubricantParameters)
         oil = lubricant_state(given, temperature, laws)
         if operation == RATES:
-            rates(s, oil, numbers, memory, 0, work)
+            rates(s, oil, numbers, memory, plan, 0, work)
             return 0.0
         if operation == START:
-            return float(start(s, oil, numbers, memory, size, work))
+            return float(start(s, oil, numbers, memory, plan, size, work))
         if operation == STIFFNESS:
-            return float(stiffness(s, oil, numbers, memory, work))
+            return float(stiffness(s, oil, numbers, memory, plan, work))
         if operation == RENEW:
-            renew(s, oil, numbers, memory)
+            renew(s, oil, numbers, memory, plan)
             return 0.0
         if operation in (EXCHANGE, EVENT):
-            status = status_of(s)
+            status = status_of(s, plan)
             if status == OK:
-                begin(s, oil, numbers, memory)
+                begin(s, oil, numbers, memory, plan)
                 if operation == EVENT:
-                    event(s, oil, numbers, memory)
-                    finish(s, oil, numbers, memory)
+                    event(s, oil, numbers, memory, plan)
+                    finish(s, oil, numbers, memory, plan)
                 else:
-                    now(s, oil, numbers, memory, work)
+                    now(s, oil, numbers, memory, plan, work)
             return float(status)
-        begin(s, oil, numbers, memory)
+        begin(s, oil, numbers, memory, plan)
         if operation == ADVANCE:
-            return float(advance(s, size, oil, numbers, memory, least_rate, work))
-        expand(s, oil, numbers, memory)
-        stored = kinetic_energy(s, numbers) + stored_energy(s, oil, numbers, memory)
+            return float(advance(s, size, oil, numbers, memory, plan, least_rate, work))
+        expand(s, oil, numbers, memory, plan)
+        stored = kinetic_energy(s, numbers, plan) + stored_energy(s, oil, numbers, memory, plan)
         if operation == WRITE:
-            write_all(s, oil, numbers, memory, stored, work)
+            write_all(s, oil, numbers, memory, plan, stored, work)
         return stored
 
     return operate

@@ -13,6 +13,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED, TOO_FAR
 from gearlube_core.dynamics.stepped_model import TOO_FAR_WORDS, TOO_FAST_WORDS, too_many_steps_words
 from gearlube_core.dynamics.train.assemble import Assembly, assemble
+from gearlube_core.dynamics.train.choice import Driver, kernel_of
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import (
     ADVANCE,
@@ -28,7 +29,6 @@ from gearlube_core.dynamics.train.march import (
     TOO_FAST,
     TOO_MANY_STEPS,
     WRITE,
-    train_kernel,
     work_size,
 )
 from gearlube_core.dynamics.train.outputs import outputs_at
@@ -62,6 +62,9 @@ class Train:
         Of all elements.
     steps_per_highest_period : int
         Integrator steps per period of the highest mode, 6 to 4096.
+    driver : {"automatic", "interpreted", "generated"}
+        One compiled code for all lists of the package's elements, or code generated for this list:
+        10 to 20 % faster, after some 10 s of compilation. Automatic: interpreted where it can be.
 
     Notes
     -----
@@ -88,14 +91,15 @@ class Train:
         oil: Lubricant,
         *,
         steps_per_highest_period: int = 16,
+        driver: Driver = "automatic",
     ) -> None:
         check_within("steps_per_highest_period", steps_per_highest_period, 6, 4096)
         self.bodies, self.elements, self.oil = tuple(bodies), tuple(elements), oil
         self._made = assemble(bodies, elements, oil)
-        self._operate = train_kernel(self._made.layout)
-        size = self._made.layout.states
-        self._n, self._state, self._trial = self._made.layout.integrated, *np.zeros((2, size))
-        self._work = np.zeros(work_size(self._made.layout))
+        self._operate = kernel_of(self._made, driver, [one.name for one in elements])
+        sizes = self._made.sizes
+        self._n, self._state, self._trial = sizes.integrated, *np.zeros((2, sizes.states))
+        self._work = np.zeros(work_size(sizes))
         self._output_names = tuple(one.name for one in self._made.outputs)
         self.steps_per_highest_period, self._least_rate = steps_per_highest_period, LEAST_RATE
         self._temperature = math.nan
@@ -178,7 +182,7 @@ class Train:
         """
         names = self._output_names
         self._call(WRITE, self._state, self._work)
-        at = outputs_at(self._made.layout)
+        at = outputs_at(self._made.sizes)
         return dict(zip(names, self._work[at : at + len(names)].tolist(), strict=True))
 
     def exceeded(self) -> dict[str, str]:
@@ -286,7 +290,7 @@ class Train:
 
     def _exchanged(self, continuous: Array) -> Array:
         self._accept(self._call(EXCHANGE, self._at(continuous), self._work))
-        return self._work[: outputs_at(self._made.layout)].copy()
+        return self._work[: outputs_at(self._made.sizes)].copy()
 
     def _accept(self, status: float) -> None:
         if status != OK:
@@ -328,7 +332,8 @@ class Train:
 
     def _call(self, operation: int, s: Array, work: Array, size: float = 0.0) -> float:
         self._check_started()
-        given = self._temperature, self._made.numbers, self._made.memory
+        made = self._made
+        given = self._temperature, made.numbers, made.memory, made.plan
         return self._operate(operation, s, *given, size, self._least_rate, work)
 
     def _check_started(self) -> None:

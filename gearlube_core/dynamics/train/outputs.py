@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
 
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.mean_power import mean_power
+from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import (
     BODY_STATES,
     N_COORDINATES,
     RATE,
     RZ,
-    Layout,
     W,
 )
 from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
@@ -91,38 +91,44 @@ def named_of(name: str, one: Output) -> Output:
     return one._replace(name=f"{name}.{one.name}", text=f"{one.text} of {name}")
 
 
-def outputs_at(layout: Layout) -> int:
+@kernel
+def outputs_at(sizes: Sizes) -> int:
     """Return where the outputs begin in the `work` of the kernel of `outputs_kernel`."""
-    return layout.integrated + layout.exchanged
+    return sizes.integrated + sizes.exchanged
 
 
-def write_work_size(layout: Layout) -> int:
+def write_work_size(sizes: Sizes) -> int:
     """Return the length of `work` for the kernel of `outputs_kernel`."""
-    of_bodies = (len(TURNING) + len(MOVING)) * layout.bodies
-    outputs = of_bodies + layout.outputs + 2 * layout.energies + 2
-    return outputs_at(layout) + max(outputs, layout.states)
+    of_bodies = (len(TURNING) + len(MOVING)) * sizes.bodies
+    outputs = of_bodies + sizes.outputs + 2 * sizes.energies + 2
+    return outputs_at(sizes) + max(outputs, sizes.states)
 
 
-def outputs_kernel(
-    layout: Layout, now: Callable[..., Any], write: Callable[..., Any]
-) -> Callable[..., None]:
+def outputs_kernel(elements: AllElements, now: Callable[..., None]) -> Callable[..., None]:
     """Return the kernel that writes what `now` gives and then the outputs into `work`.
 
     Accelerations, and the powers before the first step, are those of `now`, see `now_kernel`.
-    `write` is the kernel of all elements. The state stays as it is.
+    The state stays as it is.
     """
-    bodies, first_mobility = layout.bodies, layout.first_mobility
-    n, n_state, n_kept, n_outputs = layout[4:8]
-    works, energies, at_outputs = layout.works, layout.energies, outputs_at(layout)
-    first = n - energies
+    sizes_of, write = elements.sizes_of, elements.write
 
     @kernel
     def write_all(
-        s: Array, oil: LubricantState, numbers: Array, memory: Array, stored: float, work: Array
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        stored: float,
+        work: Array,
     ) -> None:
-        now(s, oil, numbers, memory, work)
-        slope, k = part(work, 0, n), at_outputs
-        for body in range(bodies):
+        now(s, oil, numbers, memory, plan, work)
+        sizes = sizes_of(plan)
+        first_mobility, works, energies = sizes.first_mobility, sizes.works, sizes.energies
+        n, n_state, n_kept = sizes.integrated, sizes.states, sizes.kept
+        first = n - energies
+        slope, k = part(work, 0, n), outputs_at(sizes)
+        for body in range(sizes.bodies):
             u = BODY_STATES * body
             work[k], work[k + 1], work[k + 2] = s[u + RZ], s[u + W], slope[u + RATE + RZ]
             k += 3
@@ -130,8 +136,8 @@ def outputs_kernel(
                 if numbers[first_mobility + N_COORDINATES * body + i] > 0.0:
                     work[k] = s[u + i]
                     k += 1
-        write(s, oil, numbers, memory, part(work, k, n_outputs))
-        k += n_outputs
+        write(s, oil, numbers, memory, plan, part(work, k, sizes.outputs))
+        k += sizes.outputs
         duration = s[n_state - 1]
         lost = put_in = 0.0
         for i in range(works, energies):

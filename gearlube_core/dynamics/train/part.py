@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cache
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.ranges import Range
-from gearlube_core.dynamics.train.element import COORDINATES
+from gearlube_core.dynamics.train.element import COORDINATES, Listed
 from gearlube_core.helical_geometry.gear_body import INERTIA, MASS
 from gearlube_core.number import Output, check_fields
 from gearlube_core.part import Kind
@@ -103,6 +104,8 @@ class Element(ABC):
     ] = ()  # outputs that are the first numbers kept, see `exchange`
     events: ClassVar[tuple[Output, ...]] = ()  # what changes its sign where `event` has to do
 
+    interpreted: ClassVar[tuple[Listed, ...]] = ()  # what of it ships, see `shipped_kinds`
+
     def __init_subclass__(cls) -> None:
         if kind := cls.__dict__.get("kind"):
             ELEMENTS.add(cls, kind)
@@ -130,3 +133,14 @@ class Element(ABC):
     def kept_size(self) -> int:
         """Return how many numbers are kept between steps behind the integrated states."""
         return 0
+
+
+@cache
+def shipped_kinds() -> tuple[Listed, ...]:
+    """Return what the elements of the package are compiled for, one for each class of their parts.
+
+    A list of these alone needs no compiled code of its own, see `drivers.interpreted`.
+    """
+    # by name: the order of registration is that of imports
+    ours = [one for _, one in sorted(ELEMENTS.known().items()) if ELEMENTS.is_ours(one)]
+    return tuple(kind for one in ours for kind in one.interpreted)

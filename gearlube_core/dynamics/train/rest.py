@@ -9,17 +9,18 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Offsets
+from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import (
     BODY_STATES,
     N_COORDINATES,
     RATE,
     RZ,
-    Layout,
 )
 from gearlube_core.dynamics.train.rest_search import (
     NO_MODES,
     OK,
+    Room,
     begin_search,
     copy,
     displace,
@@ -45,49 +46,60 @@ _PASSES = 4  # friction of films depends on the loads, weakly
 
 
 def rest_kernels(
-    layout: Layout,
-    renew: Callable[..., Any],
-    expand: Callable[..., Any],
-    own: tuple[Callable[..., Any], Callable[..., Any]],
-    rates: Callable[..., Any],
-    forces: Callable[..., Any],
-) -> tuple[Callable[..., Any], Callable[..., Any]]:
-    """Return the kernels of START and STIFFNESS of a list, see `train_kernel`.
-
-    The other arguments are kernels of all elements; `own` are `at_rest` and `full_contact`.
-    """
-    at_rest, full_contact = own
-    room, n, n_state, n_kept = room_of(layout), layout.integrated, layout.states, layout.kept
+    elements: AllElements,
+    renew: Callable[..., None],
+    rates: Callable[..., None],
+    forces: Callable[..., None],
+) -> tuple[Callable[..., int], Callable[..., int]]:
+    """Return the kernels of START and STIFFNESS of a list, see `train_kernel`."""
+    sizes_of, expand = elements.sizes_of, elements.expand
+    at_rest, full_contact = elements.at_rest, elements.full_contact
 
     @kernel
-    def relate(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> None:
+    def relate(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        room: Room,
+        work: Array,
+    ) -> None:
         """Write the relations of the state `s`, and stop it."""
-        slope = part(work, 0, n)
+        slope = part(work, 0, room.before)
         for body in range(room.bodies):
             for i in range(N_COORDINATES):
                 s[BODY_STATES * body + RATE + i] = 0.0
-        renew(s, oil, numbers, memory)
+        renew(s, oil, numbers, memory, plan)
         for j in range(room.coordinates):
             at = BODY_STATES * (j // N_COORDINATES) + RATE + j % N_COORDINATES
             s[at] = 1.0
-            rates(s, oil, numbers, memory, 0, slope)
+            rates(s, oil, numbers, memory, plan, 0, slope)
             s[at] = 0.0
             for k in range(room.own):
                 work[room.relations + k * room.coordinates + j] = slope[room.first + k]
 
     @kernel
-    def keep(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> None:
+    def keep(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        room: Room,
+        work: Array,
+    ) -> None:
         """Write what elements keep under the loads, and about what own states then are."""
         swap_own(s, room.loads, room.held, room, work)
-        at_rest(s, oil, numbers, memory)
+        at_rest(s, oil, numbers, memory, plan)
         swap_own(s, room.held, room.guess, room, work)
 
     @kernel
     def unbalanced(u: Array, problem: Any, out: Array) -> None:
-        s, oil, numbers, memory, work = problem
+        s, oil, numbers, memory, plan, room, work = problem
         displace(u, s, room, work)
-        expand(s, oil, numbers, memory)
-        forces(s, oil, numbers, memory, 0, work)
+        expand(s, oil, numbers, memory, plan)
+        forces(s, oil, numbers, memory, plan, 0, work)
         for i in range(u.size):
             out[i] = work[int(work[room.places + i]) + RATE]
 
@@ -95,50 +107,67 @@ def rest_kernels(
 
     @kernel
     def find_rest(
-        s: Array, oil: LubricantState, numbers: Array, memory: Array, bearing: int, work: Array
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        room: Room,
+        bearing: int,
+        work: Array,
     ) -> tuple[int, float, int]:
         """Write the static equilibrium; return a status, its number and its place."""
-        for i in range(n):
+        sizes = sizes_of(plan)
+        for i in range(sizes.integrated):
             s[i] = 0.0
-        for i in range(n_kept, n_state):
+        for i in range(sizes.kept, sizes.states):
             s[i] = 0.0
         for k in range(room.own):
             work[room.loads + k] = 0.0
-        keep(s, oil, numbers, memory, work)
-        relate(s, oil, numbers, memory, work)
+        keep(s, oil, numbers, memory, plan, room, work)
+        relate(s, oil, numbers, memory, plan, room, work)
         status, number, turnings = find_speeds(s, numbers, room, work)
         if status != OK:
             return status, number, 0
         # where nothing turns freely, as on a shaft locked at one end, torques balance by themselves
         without = BODY_STATES * bearing + RZ if turnings > 0 else -1
         m = find_places(numbers, without, room, work)
-        keep(s, oil, numbers, memory, work)
-        renew(s, oil, numbers, memory)
-        rates(s, oil, numbers, memory, 0, part(work, 0, n))
+        keep(s, oil, numbers, memory, plan, room, work)
+        renew(s, oil, numbers, memory, plan)
+        rates(s, oil, numbers, memory, plan, 0, part(work, 0, room.before))
         find_loads(numbers, m, room, work)
-        keep(s, oil, numbers, memory, work)
+        keep(s, oil, numbers, memory, plan, room, work)
         find_own(s, m, room, work)
         find_scales(m, room, work)
         moves, scales = part(work, room.moves, m), part(work, room.scales, m)
-        problem = (s, oil, numbers, memory, work)
+        problem = (s, oil, numbers, memory, plan, room, work)
         for _ in range(_PASSES):
-            keep(s, oil, numbers, memory, work)
-            renew(s, oil, numbers, memory)
+            keep(s, oil, numbers, memory, plan, room, work)
+            renew(s, oil, numbers, memory, plan)
             begin_search(s, m, room, work)
             newton(moves, scales, problem, part(work, room.solver, room.end - room.solver))
             unbalanced(moves, problem, part(work, room.out, m))
         return largest_force(m, room, work)
 
     @kernel
-    def stiffness(s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array) -> int:
+    def stiffness(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        room: Room,
+        work: Array,
+    ) -> int:
         """Write M^-1 K of the free coordinates into the solver's room; return their number."""
-        slope, moved = part(work, 0, n), part(work, room.moved, n_state)
+        n_state = room.moved - room.before
+        slope, moved = part(work, 0, room.before), part(work, room.moved, n_state)
         copy(s, moved)
-        relate(moved, oil, numbers, memory, work)
+        relate(moved, oil, numbers, memory, plan, room, work)
         m = find_places(numbers, -1, room, work)
         matrix = part(work, room.solver, m * m)
         copy(s, moved)
-        renew(moved, oil, numbers, memory)
+        renew(moved, oil, numbers, memory, plan)
         for body in range(room.bodies):
             for i in range(N_COORDINATES - 1):
                 moved[BODY_STATES * body + RATE + i] = 0.0
@@ -153,7 +182,7 @@ def rest_kernels(
                 for k in range(room.own):
                     gain = work[room.related + k * m + j]
                     moved[room.first + k] = s[room.first + k] + step * gain
-                rates(moved, oil, numbers, memory, 0, slope)
+                rates(moved, oil, numbers, memory, plan, 0, slope)
                 for i in range(m):
                     matrix[i * m + j] -= slope[int(work[room.places + i]) + RATE] / (2.0 * step)
             moved[place] = s[place]
@@ -165,20 +194,21 @@ def rest_kernels(
         oil: LubricantState,
         numbers: Array,
         memory: Array,
+        plan: Offsets,
         per_period: float,
         work: Array,
     ) -> int:
-        bearing = int(work[0])
+        room, bearing = room_of(sizes_of(plan)), int(work[0])
         for body in range(room.bodies):
             work[room.wanted + body] = work[1 + body]
-        before = part(work, room.before, n_state)
+        before = part(work, room.before, room.moved - room.before)
         copy(s, before)
-        status, number, where = find_rest(s, oil, numbers, memory, bearing, work)
+        status, number, where = find_rest(s, oil, numbers, memory, plan, room, bearing, work)
         if status == OK:
             for k in range(room.own):
                 work[room.held + k] = s[room.first + k]
-            full_contact(s, oil, numbers, memory)
-            m = stiffness(s, oil, numbers, memory, work)
+            full_contact(s, oil, numbers, memory, plan)
+            m = stiffness(s, oil, numbers, memory, plan, room, work)
             for k in range(room.own):
                 s[room.first + k] = work[room.held + k]
             matrix = part(work, room.solver, m * m)
@@ -194,9 +224,10 @@ def rest_kernels(
 
     @kernel
     def write_stiffness(
-        s: Array, oil: LubricantState, numbers: Array, memory: Array, work: Array
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets, work: Array
     ) -> int:
-        m = stiffness(s, oil, numbers, memory, work)
+        room = room_of(sizes_of(plan))
+        m = stiffness(s, oil, numbers, memory, plan, room, work)
         for i in range(m * m):
             work[i] = work[room.solver + i]
         return m

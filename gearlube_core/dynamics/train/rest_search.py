@@ -6,7 +6,6 @@ Kernels of every list. They share one work space, whose places `Room` has.
 from __future__ import annotations
 
 import math
-from itertools import accumulate
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
@@ -15,9 +14,9 @@ from gearlube_core.dynamics.train.element import (
     N_COORDINATES,
     RATE,
     RZ,
-    Layout,
     W,
 )
+from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.damped_newton import newton_work_size
 from gearlube_core.kernels.jit import kernel
@@ -31,13 +30,14 @@ NO_REST = 6  # no static equilibrium: the largest force out of balance [N, N.m],
 NO_MODES = 7  # natural frequencies are not finite
 
 
+_newton_size, _squares_size = kernel(newton_work_size), kernel(least_squares_work)
 _SETTLED = 1e-6  # of the largest force of a member at rest
 _SAME_SPEED = 1e-6  # of the largest speed
 _SHARE, _NO_LOAD = 0.1, 1e-6  # of an own state, a move that matters; without load [m, rad]
 
 
 class Room(NamedTuple):
-    """Sizes of a layout, and places in the work space behind the rates; all whole numbers."""
+    """Sizes of a train, and places in the work space behind the rates; all whole numbers."""
 
     bodies: int
     own: int
@@ -65,19 +65,49 @@ class Room(NamedTuple):
     end: int
 
 
-def room_of(layout: Layout) -> Room:
-    """Return the places for a layout."""
-    bodies, own = layout.bodies, layout.own
+@kernel
+def room_of(sizes: Sizes) -> Room:
+    """Return the places for a train."""
+    bodies, own = sizes.bodies, sizes.own
     m, q = N_COORDINATES * bodies, bodies + own
-    solver = max(newton_work_size(m), 2 * m * m, q * q + least_squares_work(q))
-    sizes = *2 * (layout.states,), *2 * (own * m,), *4 * (m,), m + own, *7 * (q,), solver
-    places = accumulate(sizes, initial=layout.integrated)
-    return Room(bodies, own, m, BODY_STATES * bodies, layout.first_mobility, q, *places)
+    before = sizes.integrated
+    relations = before + 2 * sizes.states
+    places = relations + 2 * own * m
+    base = places + 4 * m
+    loads = base + m + own
+    solver = loads + 7 * q
+    end = solver + max(_newton_size(m), max(2 * m * m, q * q + _squares_size(q)))
+    return Room(
+        bodies,
+        own,
+        m,
+        BODY_STATES * bodies,
+        sizes.first_mobility,
+        q,
+        before,
+        before + sizes.states,
+        relations,
+        relations + own * m,
+        places,
+        places + m,
+        places + 2 * m,
+        places + 3 * m,
+        base,
+        loads,
+        loads + q,
+        loads + 2 * q,
+        loads + 3 * q,
+        loads + 4 * q,
+        loads + 5 * q,
+        loads + 6 * q,
+        solver,
+        end,
+    )
 
 
-def rest_work_size(layout: Layout) -> int:
+def rest_work_size(sizes: Sizes) -> int:
     """Return the length of `work` for the kernels of `rest_kernels`."""
-    return room_of(layout).end
+    return int(room_of(sizes).end)
 
 
 @kernel

@@ -20,7 +20,7 @@ from gearlube_core.drag import (
     churning_torque,
     seal_drag,
 )
-from gearlube_core.dynamics.train.element import RATE, RZ, W
+from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output, check_fields
@@ -107,6 +107,7 @@ class Seal(_Brake):
     body: str
     torque: SealTorque
     kind: ClassVar = "seal"
+    interpreted: ClassVar = (Listed(_Seal, (), 2),)
     losses: ClassVar = ("seals",)
 
     def __post_init__(self) -> None:
@@ -149,6 +150,7 @@ class Churning(_Brake):
     immersion: Immersion
     oil_volume: OilVolume
     kind: ClassVar = "churning"
+    interpreted: ClassVar = (Listed(_Churning, (), 2),)
     losses: ClassVar = ("churning",)
 
     def __post_init__(self) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.train.element import RATE, RZ, W
+from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -82,6 +82,7 @@ class HalfShaft(Element):
         float, Number("N.m.s/rad", 0.0, 1e6, text="Torque per difference of the speeds")
     ] = 0.0
     kind: ClassVar = "half_shaft"
+    interpreted: ClassVar = (Listed(_HalfShaft, (), 4),)
     on: ClassVar = ("first", "second")
     states: ClassVar = (
         Output("twist", "rad", "rotation of the first body against the second", 1e-3),

@@ -20,6 +20,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.element import (
     Axes,
+    Listed,
 )
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import (
     LINES_ROOM,
@@ -88,6 +89,7 @@ class HelicalMesh(Element):
     gear_arm: Annotated[float, _ARM] = 0.0
     torque_of: str | None = None
     kind: ClassVar = "helical_mesh"
+    interpreted: ClassVar = (Listed(HelicalMeshKernels, (), 11),)
     on: ClassVar = ("pinion", "gear")
     beside: ClassVar = ("torque_of",)
     states: ClassVar = (

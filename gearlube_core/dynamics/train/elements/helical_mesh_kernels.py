@@ -271,7 +271,7 @@ class HelicalMeshKernels(NamedTuple):
 
 @inside
 def _torque(at: Any, memory: Array, s: Array) -> float:
-    return s[at[_PORT]] if at[_PORT] >= 0 else memory[_TORQUE]
+    return s[at[_PORT]] if at[_PORT] > 0 else memory[_TORQUE]
 
 
 @inside

@@ -14,6 +14,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import N_FILMS
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
 from gearlube_core.dynamics.ranges import Range
+from gearlube_core.dynamics.train.element import Listed
 from gearlube_core.dynamics.train.elements.hypoid_mesh_kernels import (
     FLANKS_ROOM,
     OWN_FILMS,
@@ -21,6 +22,7 @@ from gearlube_core.dynamics.train.elements.hypoid_mesh_kernels import (
 )
 from gearlube_core.dynamics.train.elements.mesh_outputs import FILM_SHARE, MESH_OUTPUTS
 from gearlube_core.dynamics.train.part import Element
+from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.number import Output
 
 
@@ -55,6 +57,7 @@ class HypoidMesh(Element):
     parameters: HypoidAxleParameters
     torque_of: str | None = None
     kind: ClassVar = "hypoid_mesh"
+    interpreted: ClassVar = (Listed(HypoidMeshKernels, (MixedFlankFriction,), 14),)
     on: ClassVar = ("pinion", "gear")
     beside: ClassVar = ("torque_of",)
     states: ClassVar = (

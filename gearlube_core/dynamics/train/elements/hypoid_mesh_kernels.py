@@ -324,7 +324,7 @@ def _motion(at: Any, s: Array) -> MeshMotion:
 
 @inside
 def _torque(at: Any, memory: Array, s: Array) -> float:
-    return s[at[_PORT]] if at[_PORT] >= 0 else memory[_TORQUE]
+    return s[at[_PORT]] if at[_PORT] > 0 else memory[_TORQUE]
 
 
 @inside

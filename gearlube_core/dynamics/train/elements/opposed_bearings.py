@@ -34,9 +34,10 @@ from gearlube_core.bearings.followed_shaft import (
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.bearings.parameters import cage_torque
 from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.hypoid_axle.integrate import EXPANSION_REACH, STEPS_PER_EXPANSION
-from gearlube_core.dynamics.train.element import RATE, RZ, W
+from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
@@ -217,6 +218,7 @@ class OpposedBearings(Element):
     steps_per_highest_period: int = 16
     axes: tuple[int, int, int] = (0, 1, 2)
     kind: ClassVar = "opposed_bearings"
+    interpreted: ClassVar = (Listed(_OpposedBearings, (TaperedRollerParameters,), 9),)
     on: ClassVar = ("body",)
     angles: ClassVar = ("cage",)
     losses: ClassVar = ("bearing_damping", "bearing_torque")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.train.element import RATE, RZ, W
+from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.inlining import inside
@@ -50,6 +50,7 @@ class Port(Element):
         float, Number("1", -1.0, 1.0, text="1: a positive torque acts about +z, -1: about -z")
     ] = 1.0
     kind: ClassVar = "port"
+    interpreted: ClassVar = (Listed(_Port, (), 3),)
     on: ClassVar = ("body",)
     works: ClassVar = ("work",)
 

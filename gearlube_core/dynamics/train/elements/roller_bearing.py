@@ -34,7 +34,7 @@ from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES, solved_raceway_d
 from gearlube_core.bearings.shaft_expansion import bearing_energy
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters, rib_drag
 from gearlube_core.checks import check_option
-from gearlube_core.dynamics.train.element import RATE, W, add_wrench
+from gearlube_core.dynamics.train.element import RATE, Listed, W, add_wrench
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
@@ -238,6 +238,7 @@ class RollerBearing(Element):
         float, Number("Hz", 1.0, 1e4, text="Lower clamp of the frequency of these cycles")
     ] = 50.0
     kind: ClassVar = "roller_bearing"
+    interpreted: ClassVar = (Listed(_RollerBearing, (), 6),)
     on: ClassVar = ("body",)
     angles: ClassVar = ("cage",)
     losses: ClassVar = ("bearing_damping", "bearing_torque")

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE, coupling_limit
-from gearlube_core.dynamics.train.element import RATE
+from gearlube_core.dynamics.train.element import RATE, Listed
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.helical_geometry.gear_body import COUPLING, STIFFNESS, TILTING
 from gearlube_core.kernels.inlining import inside
@@ -105,6 +105,7 @@ class SpringSupport(Element):
     name: str
     body: str
     kind: ClassVar = "spring_support"
+    interpreted: ClassVar = (Listed(_Support, (), 2),)
     K_xx: Annotated[float, _worded(STIFFNESS, "Stiffness along x", "N/um")] = 0.0
     K_yy: Annotated[float, _worded(STIFFNESS, "Stiffness along y", "N/um")] = 0.0
     K_zz: Annotated[float, _worded(STIFFNESS, "Stiffness along z", "N/um")] = 0.0
