@@ -22,23 +22,36 @@ from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.friction.solved_line import BoundedLine
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Output
 from gearlube_core.oil.formula_laws import mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
-BOUND_QUANTITIES = ("film_bound", "friction_bound")
+_BOUNDS = (
+    Output("film_bound", "1", "bound of the film thickness, relative", 0.05),
+    Output("friction_bound", "1", "bound of the friction, relative", 0.05),
+)
+BOUND_QUANTITIES = tuple(one.name for one in _BOUNDS)
 LINE_BOUNDS = tuple(f"line[{i}].{q}" for i in range(1, LINES_MAX + 1) for q in BOUND_QUANTITIES)
 N_BOUNDS = len(BOUND_QUANTITIES)
-LINE_QUANTITIES = (
-    "load",
-    "length",
-    "film_thickness_min",
-    "film_thickness_mean",
-    "film_ratio",
-    "friction_coefficient",
-    "sliding_speed",
-    "temperature",
+_QUANTITIES = (
+    Output("load", "N", "normal load", 1e3, "kN"),
+    Output("length", "m", "length", 1e-2, "mm"),
+    Output("film_thickness_min", "m", "thinnest central film", 1e-6, "um"),
+    Output("film_thickness_mean", "m", "mean central film", 1e-6, "um"),
+    Output("film_ratio", "1", "least film over roughness"),
+    Output("friction_coefficient", "1", "mean friction coefficient", 0.05),
+    Output("sliding_speed", "m/s", "mean sliding speed"),
+    Output("temperature", "K", "mean film temperature", 300.0, "degC"),
 )
+LINE_QUANTITIES = tuple(one.name for one in _QUANTITIES)
 LINE_OUTPUTS = tuple(f"line[{i}].{q}" for i in range(1, LINES_MAX + 1) for q in LINE_QUANTITIES)
+# both, with units and words
+LINE_RECORDS = tuple(
+    one._replace(name=f"line[{i}].{one.name}", text=f"{one.text}, contact line {i}")
+    for quantities in (_QUANTITIES, _BOUNDS)
+    for i in range(1, LINES_MAX + 1)
+    for one in quantities
+)
 
 # places within the outputs of one contact line
 LOAD = LINE_QUANTITIES.index("load")

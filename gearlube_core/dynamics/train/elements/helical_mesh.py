@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_RECORDS
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     pack_march_mesh,
     pair_data,
@@ -23,7 +24,6 @@ from gearlube_core.dynamics.train.element import (
     Listed,
 )
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import (
-    LINES_ROOM,
     TABLE,
     HelicalMeshKernels,
 )
@@ -101,6 +101,8 @@ class HelicalMesh(Element):
         Output("load", "N", "normal load of the drive flanks less that of the coast flanks", 1e3),
         *(Output(f"force.{c}", "N", f"force along {c} on the pinion", 1e3) for c in "xyz"),
         Output("tilt", "rad", "tilt of the pinion against the gear", 1e-5),
+        Output("friction_bound_relative", "1", "bound of the friction over it", 0.05),
+        *LINE_RECORDS,
     )
     levels: ClassVar = ("load_torque",)
     events: ClassVar = (
@@ -139,7 +141,7 @@ class HelicalMesh(Element):
         """Return the line mesh at all levels, the pair data and room for its lines."""
         packed = pack_march_mesh(self.parameters.mesh)
         table = packed.torque, packed.density.ravel(), packed.offset.ravel()
-        return np.concatenate([np.zeros(TABLE), *table, self._pair_data(), np.zeros(LINES_ROOM)])
+        return np.concatenate([np.zeros(TABLE), *table, self._pair_data()])
 
     def ranges(self) -> tuple[Range, ...]:
         """Return the ranges of line mesh, oil and formulas, and that of solved films."""

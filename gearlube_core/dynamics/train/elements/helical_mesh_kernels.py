@@ -16,7 +16,6 @@ from gearlube_core.dynamics.helical_pair.march.integrate import (
     time_to_jump,
 )
 from gearlube_core.dynamics.helical_pair.march.line_outputs import (
-    LINE_BOUNDS,
     LINE_OUTPUTS,
     write_lines,
 )
@@ -63,8 +62,7 @@ from gearlube_core.oil.lubricant import LubricantState
 
 # places of `at` behind both bodies, the relative rotation, and both losses
 _PSI, _HEAT, _DAMPING, _KEPT, _PORT, _LEVELS, _SIZE, _DATA, _DATA_SIZE = range(2, 11)
-_BOUNDS = len(LINE_OUTPUTS)
-LINES_ROOM = _BOUNDS + len(LINE_BOUNDS)  # behind the pair data
+_LINES, _BOUNDS = 6, len(LINE_OUTPUTS)  # places of the lines behind own outputs, of their bounds
 _LEAST_PRESSED = 1e-9  # m
 _ALL_TOUCH = 1e-5  # m, compression at which all lines touch
 _MICRO = 1e6  # um per m: indicators of order 1, which solvers with a tolerance for roots expect
@@ -242,10 +240,10 @@ class HelicalMeshKernels(NamedTuple):
         on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, mu + FLANK_POINTS)
         back = on_coast.N > on_drive.N
         view, mu_at = (coast, mu + FLANK_POINTS) if back else (drive, mu)
-        rest = part(memory, at[_DATA] + at[_DATA_SIZE], LINES_ROOM)
-        bounds = _BOUNDS
+        lines = first + OWN + _LINES
+        bounds = lines + _BOUNDS
         found = write_lines(
-            view, back, s, mu_at, m.w_p, oil.temperature, data, oil, p, 0, bounds, rest
+            view, back, s, mu_at, m.w_p, oil.temperature, data, oil, p, lines, bounds, out
         )
         touching = on_drive.stiffness + on_coast.stiffness
         values = MeshValues(
@@ -267,6 +265,7 @@ class HelicalMeshKernels(NamedTuple):
         out[own] = on_drive.N - on_coast.N
         out[own + 1], out[own + 2], out[own + 3] = unseen(self.axes, w.F_x, w.F_y, w.F_z)
         out[own + 4] = m.ry_p - m.ry_g
+        out[own + 5] = found.loss_bound
 
 
 @inside
