@@ -94,11 +94,13 @@ class UnloadedError:
         return float(np.trapezoid(self.linear, self.gear_angle) / np.ptp(self.gear_angle))
 
 
-def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
+def unloaded_error(
+    pair: FlankPair, count: int = 65, coarse: ContactPath | None = None
+) -> UnloadedError:
     """Return the unloaded transmission error over a mesh period, `count` positions.
 
     The pair that the pinion closes first touches: the smallest error on drive flanks, the largest
-    on coast flanks.
+    on coast flanks. `coarse` is the `coarse_path` of the pair, where it is known.
 
     Raises
     ------
@@ -112,8 +114,7 @@ def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
     [litvin_fuentes_2004 ch. 9.2] (transmission errors of parabolic type).
     """
     check_within("count", count, 3, 100_001, "", "Positions over the mesh period.")
-    coarse = _coarse_path(pair)
-    extreme, error = _extreme(coarse)
+    extreme, error = _extreme(coarse_path(pair) if coarse is None else coarse)
 
     def difference(angle: float) -> float:
         two = contact_path(pair, np.array([angle, angle + pair.gear_pitch])).transmission_error
@@ -141,9 +142,12 @@ def _zero(
         return None
 
 
-def contact_ratio(pair: FlankPair) -> ContactRatio:
-    """Return the number of pitches over which the unloaded path of contact lies on both teeth."""
-    path = _coarse_path(pair)
+def contact_ratio(pair: FlankPair, coarse: ContactPath | None = None) -> ContactRatio:
+    """Return the number of pitches over which the unloaded path of contact lies on both teeth.
+
+    `coarse` is the `coarse_path` of the pair, where it is known.
+    """
+    path = coarse_path(pair) if coarse is None else coarse
     margin = _margin(path)
     inside = margin >= 0.0
     middle = int(np.argmax(np.where(np.isnan(margin), -np.inf, margin)))
@@ -183,7 +187,8 @@ def _step(pair: FlankPair) -> float:
     return pair.gear_pitch / _SCAN
 
 
-def _coarse_path(pair: FlankPair) -> ContactPath:
+def coarse_path(pair: FlankPair) -> ContactPath:
+    """Return the unloaded path of contact over all positions in which a pair can be in mesh."""
     count = int(2 * _REACH * _SCAN) + 1
     return contact_path(pair, np.linspace(-_REACH, _REACH, count) * pair.gear_pitch)
 

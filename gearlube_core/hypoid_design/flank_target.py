@@ -12,7 +12,11 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.ease_off import MARKING_COMPOUND
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.unloaded_error import contact_ratio, unloaded_error
+from gearlube_core.hypoid_contact.unloaded_error import (
+    coarse_path,
+    contact_ratio,
+    unloaded_error,
+)
 from gearlube_core.hypoid_design.conjugate_flank import ConjugateFlank, conjugate_flank
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -234,10 +238,11 @@ def measured_contact(file: HypoidGearFile, side: Side) -> MeasuredContact | str:
     """Return the contact of one side of a gear file, or why it has no parabolic error."""
     try:
         pair = FlankPair.from_file(file, side)
-        error = unloaded_error(pair, _POSITIONS)
+        coarse = coarse_path(pair)
+        error = unloaded_error(pair, _POSITIONS, coarse)
         angles = error.extreme_angle + np.array([-_PATH_STEP, 0.0, _PATH_STEP]) * pair.gear_pitch
         path = contact_path(pair, angles)
-        ratio = contact_ratio(pair).path
+        ratio = contact_ratio(pair, coarse).path
     except ParameterError as reason:
         return str(reason)
     s, t = float(path.gear_s[1]), float(path.gear_t[1])
