@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
-from collections.abc import Generator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -110,15 +110,30 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: (is_not_of_films(str(item.path)), str(item.path)))
 
 
-@pytest.fixture
-def small_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures are drawn whole, with fewer pixels; what lies where is matplotlib's."""
-    from matplotlib.figure import Figure
+@pytest.fixture(scope="session", autouse=True)
+def small_pictures() -> Iterator[None]:
+    """Figures are written without layout and ticks, with few pixels: these are matplotlib's work.
 
-    save = Figure.savefig
+    All else is drawn. Axes with a formatter of numbers that is not matplotlib's choice keep ticks.
+    """
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import FuncFormatter
+
+    save, draw = Figure.savefig, Axis.draw
+
+    def draw_label(axis: Axis, renderer: Any) -> None:
+        if isinstance(axis.get_major_formatter(), FuncFormatter):
+            draw(axis, renderer)
+        elif axis.get_visible():
+            axis.label.draw(renderer)
 
     def save_small(figure: Figure, path: Any, **options: Any) -> None:
         figure.set_layout_engine("none")
-        save(figure, path, **(options | {"dpi": 30}))
+        with pytest.MonkeyPatch.context() as while_saving:
+            while_saving.setattr(Axis, "draw", draw_label)
+            save(figure, path, **(options | {"dpi": 30}))
 
-    monkeypatch.setattr(Figure, "savefig", save_small)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "savefig", save_small)
+        yield

@@ -69,7 +69,6 @@ def asked(monkeypatch):
     return calls
 
 
-@pytest.mark.usefixtures("small_pictures")
 def test_quick_run_goes_on_after_a_stop_and_writes_table_dataset_and_figures(coarse, monkeypatch):
     options = ("--quick", "--positions", 4, "--jobs", 1, "--out", coarse)
     real, loaded = mesh_cycle.position_record, []

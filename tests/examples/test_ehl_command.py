@@ -44,7 +44,6 @@ def test_a_point_whose_oil_does_not_know_temperature_is_refused():
 
 
 @pytest.mark.slow  # the same store and march as that of hypoid flanks, in the default run
-@pytest.mark.usefixtures("small_pictures")
 @pytest.mark.parametrize("spacing", ["uniform", "exit"])
 def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(spacing, tmp_path, monkeypatch):
     march = (

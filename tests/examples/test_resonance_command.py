@@ -50,7 +50,6 @@ def test_quick_run_writes_datasets_and_all_figures(tmp_path):
 
 
 @pytest.mark.slow  # the library call without friction is in the default run
-@pytest.mark.usefixtures("small_pictures")
 def test_run_without_friction_leaves_out_the_lubricated_model_and_its_figures(tmp_path):
     options = ("--mesh", "synthetic", "--friction", "off", "--frequencies", 5)
     options += ("--range", "0.7:1.1")  # with the folds of the resonance
@@ -63,7 +62,6 @@ def test_run_without_friction_leaves_out_the_lubricated_model_and_its_figures(tm
     assert figures == set(RESONANCE_CATALOGUE) - lubricated
 
 
-@pytest.mark.usefixtures("small_pictures")
 def test_a_stopped_run_writes_what_was_found_and_says_so(tmp_path, monkeypatch, caplog):
     def stop(*_):
         raise KeyboardInterrupt

@@ -20,8 +20,6 @@ from tests.helpers.bearing_32216 import BEARING, DEG, RPM
 from tests.helpers.each import each
 from tests.helpers.units import without_units
 
-pytestmark = pytest.mark.usefixtures("small_pictures")
-
 FILE = BearingFile.named("wingertszahn_2023")
 SMALL = BearingSettings(
     speeds=(0.0, 500 * RPM, 4000 * RPM),

@@ -31,8 +31,6 @@ from gearlube_core.errors import ParameterError
 from tests.helpers.each import each
 from tests.helpers.units import without_units
 
-pytestmark = pytest.mark.usefixtures("small_pictures")
-
 AXLE = replace(
     mohammadpour_2015_axle(),
     churning="changenet_velex_2007",

@@ -16,8 +16,6 @@ from gearlube.studies.loss_map.exports import lossy_gear_table
 from gearlube.studies.loss_map.regulation import regulation_map
 from gearlube_core.errors import ParameterError
 
-pytestmark = pytest.mark.usefixtures("small_pictures")
-
 # rough flanks with junctions so strong that friction takes what the pinion gives: no torque of the
 # teeth balances. Without load the axle turns
 LOCKING = """

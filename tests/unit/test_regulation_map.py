@@ -18,8 +18,6 @@ from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 from tests.helpers.vecto_rules import VectoMap
 
-pytestmark = pytest.mark.usefixtures("small_pictures")
-
 AXLE = replace(mohammadpour_2015_axle(), pinion_seal_torque=0.15, wheel_seal_torque=0.3)
 RATIO = AXLE.mesh.ratio
 WARM = gl.celsius_to_kelvin(70.0)

@@ -202,7 +202,6 @@ def test_a_loaded_zone_is_where_all_rollers_that_pass_carry(drive) -> None:
     assert others == "2: all around, 3: all around, 4: all around"
 
 
-@pytest.mark.usefixtures("small_pictures")
 def test_teeth_that_are_apart_are_said_and_drawn(drive, tmp_path) -> None:
     some = drive.isel(frame=slice(0, 7)).copy(deep=True)
     some["side"].values[:5] = 0.0
@@ -216,7 +215,6 @@ def test_teeth_that_are_apart_are_said_and_drawn(drive, tmp_path) -> None:
     assert len(save_moving(bare, tmp_path)) == 2
 
 
-@pytest.mark.usefixtures("small_pictures")
 def test_an_animation_is_written_read_exported_and_shown_without_a_tooth(drive, tmp_path) -> None:
     few = drive.isel(frame=slice(0, 3))
     files = save_moving(few, tmp_path)

@@ -21,8 +21,6 @@ from gearlube_core.errors import ParameterError
 from tests.helpers.made_run import made_run
 from tests.helpers.units import without_units
 
-pytestmark = pytest.mark.usefixtures("small_pictures")
-
 RAMP = {"start": 100.0, "end": 300.0, "duration": 3.0}  # 36 to 108 km/h
 QUIET = SoundSettings(metrics=())
 

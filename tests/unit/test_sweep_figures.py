@@ -47,7 +47,7 @@ def test_figure_is_drawn_with_labelled_axes_although_a_point_failed(sweep, entry
 
 
 @pytest.mark.parametrize("entry", CATALOGUE, ids=lambda entry: entry.name)
-def test_figure_of_a_single_point_is_drawn_without_pyplot(sweep, entry, tmp_path, small_pictures):
+def test_figure_of_a_single_point_is_drawn_without_pyplot(sweep, entry, tmp_path):
     sys.modules.pop("matplotlib.pyplot", None)
     entry.draw(sweep.isel(preload=[0], speed=[0])).savefig(tmp_path / "figure.png")
     assert "matplotlib.pyplot" not in sys.modules
@@ -103,7 +103,6 @@ def test_cells_touch_half_way_between_speeds():
     np.testing.assert_allclose(cell_edges(np.array([20.0, 30.0, 50.0])), [15.0, 25.0, 40.0, 60.0])
 
 
-@pytest.mark.usefixtures("small_pictures")  # what is drawn is held above
 def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_path):
     chart = next(entry for entry in CATALOGUE if entry.chart is not None)
     pictures = [entry for entry in CATALOGUE if entry.chart is None][:2]

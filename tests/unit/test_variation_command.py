@@ -9,8 +9,6 @@ from gearlube import command
 from gearlube.variation.store import open_variation
 from gearlube_core.errors import GearLubeError
 
-pytestmark = pytest.mark.usefixtures("small_pictures")
-
 WORDS = (
     "vary", "bearing", "--vary", "load.axial=1000:3000", "shaft.speed=500,2000", "--design",
     "lhs:16", "--limit", "torque=1.5", "--jobs", "1", "--out", "results",

@@ -15,8 +15,6 @@ from gearlube_core.errors import FileError, InterruptedRunError, ParameterError
 from tests.helpers.known_answers import assert_variables
 from tests.helpers.variation_stand_in import AreaStudy
 
-pytestmark = pytest.mark.usefixtures("small_pictures")
-
 WIDTHS = tuple(float(w) for w in range(1, 8))
 GRID = Design(axes=(Axis("shape", ("straight", "bent")), Axis("width_mm", WIDTHS)))
 SAMPLES = Design(
