@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.bearings.bearing_type import N_EXPANSION
+from gearlube_core.bearings.followed_shaft import N_FORCES
 from gearlube_core.dynamics.hypoid_axle import outputs, rhs
 from gearlube_core.dynamics.hypoid_axle.flanks import FlankSum
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
@@ -52,9 +52,8 @@ SPEED_P, SPEED_G = 150.0, 55.0
 
 def axle(consistent, lateral_sign=1.0):
     return SimpleNamespace(
-        I_p=0.006, I_g=0.09, m_p=5.0, m_g=28.0, lateral_sign=lateral_sign, mesh=SimpleNamespace(
-            consistent=consistent, z_p=13.0, frequency_floor=50.0
-        ),
+        ratio=36.0 / 13.0, I_p=0.006, I_g=0.09, m_p=5.0, m_g=28.0, lateral_sign=lateral_sign,
+        mesh=SimpleNamespace(consistent=consistent, z_p=13.0, frequency_floor=50.0),
         bearing_p=SimpleNamespace(cage_ratio=0.43), bearing_g=SimpleNamespace(cage_ratio=0.46),
     )  # fmt: skip
 
@@ -76,22 +75,24 @@ def rates(monkeypatch, s, p, tractions=1.0, bearings=1.0):
         assert (friction.size, channels.size) == (rhs.N_FRICTION, rhs.AT_EXPANSION - rhs.N_FRICTION)
         return FRICTION
 
-    def expand_forces(bearing, motion, f_ref, oil, expansion):
-        assert f_ref == pytest.approx(13.0 * SPEED_P / (2.0 * np.pi), rel=1e-14)
+    def expand_about(bearing, motion, f_ref, oil, expansion):
+        # each by the mesh frequency of its own shaft
+        turning = 13.0 * SPEED_P if bearing is p.bearing_p else 36.0 * SPEED_G
+        assert f_ref == pytest.approx(turning / (2.0 * np.pi), rel=1e-14)
         expansion[:] = bearing.cage_ratio
         expanded.append((bearing, motion))
 
     def expanded_forces(bearing, motion, expansion):
         if bearings != 0.0:
             assert np.all(expansion == bearing.cage_ratio)
-        assert expansion.size == N_EXPANSION
+        assert expansion.size == N_FORCES
         if bearing is p.bearing_p:  # its shaft lies along x, and z comes first
             return (*ON_PINION[::-1], LOST_P)
         return (*ON_GEAR, LOST_G)
 
     for name, stand_in in (
         ("mesh_force", lambda *_: MESH), ("flank_sum", flank_sum),
-        ("expand_forces", expand_forces), ("expanded_forces", expanded_forces),
+        ("expand_about", expand_about), ("expanded_forces", expanded_forces),
     ):  # fmt: skip
         monkeypatch.setattr(rhs, name, stand_in)
     ds = np.full(N_ODE, np.nan)

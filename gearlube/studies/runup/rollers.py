@@ -53,7 +53,6 @@ def roller_variables(settings: RunupSettings, record: RampRecord, time: float) -
     most = max(int(one.n_rollers) for one in bearings)
     load = np.full((count, len(RINGS), most), np.nan)
     place = np.full((count, len(RINGS), most), np.nan)
-    speed_at = CubicSpline(record.time[near], record.channels["pinion.speed"][near])(at)
     for shaft, ((member, axes, speed), bearing) in enumerate(zip(_SHAFTS, bearings, strict=True)):
         motions = [
             CubicSpline(record.time[near], record.channels[f"{member}.displacement.{axis}"][near])
@@ -69,7 +68,7 @@ def roller_variables(settings: RunupSettings, record: RampRecord, time: float) -
             r1, r2, axial = (float(one(at[k])) for one in motions)
             v1, v2, v_axial = (float(one(at[k], 1)) for one in motions)
             motion = ShaftMotion(r1, r2, axial, v1, v2, v_axial, float(cage[k]), float(turning[k]))
-            f_ref = reference_frequency(p.mesh, float(speed_at[k]))
+            f_ref = reference_frequency(p.mesh, float(turning[k]) / ratio)
             for end, side in enumerate((1.0, -1.0)):
                 roller_loads(motion, f_ref, oil.eta0, oil.alpha, bearing, side, rollers)
                 load[k, 2 * shaft + end, :number] = rollers

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import NO_RACEWAYS, RollerFilms
-from gearlube_core.bearings.followed_shaft import DRAG_COST, PALMGREN
+from gearlube_core.bearings.followed_shaft import DRAG_COST, EXPANSION_REACH, PALMGREN, STEP_PARTS
 from gearlube_core.drag import churning_torque, seal_drag
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.hypoid_axle.flanks import (
@@ -30,22 +30,21 @@ from gearlube_core.dynamics.hypoid_axle.rhs import (
     StepInputs,
     axle_drag,
     axle_rhs,
-    expand_bearings,
+    follow_bearings,
     follow_drag,
     follow_flank_of,
+    forget_bearings,
     kept_drag,
     mesh_motion,
+    parts_of_step,
 )
 from gearlube_core.dynamics.hypoid_axle.state import (
-    CAGE_G,
-    CAGE_P,
     DRAG_BOUND,
     FILM_NODES,
     FRICTION_BOUND,
     KEPT_DRAG,
     LOAD_TORQUE,
     MICRO,
-    N_CONTINUOUS,
     N_ENERGIES,
     N_FILMS,
     N_ODE,
@@ -54,10 +53,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     ROLLER_NODES,
     SIDE,
     TIME_IN_STEP,
-    U_G,
-    U_P,
-    V_G,
-    V_P,
     W_G,
     W_P,
     WORK_MARK,
@@ -79,23 +74,15 @@ TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
 MAX_STEPS = 200_000  # in one communication interval, or their cost; half a second of computing
-STEPS_PER_EXPANSION = 12  # integrator steps that share an expansion of the bearing forces, at most
-# um at 1 step per highest period, displacement from where they were expanded that ends it sooner;
-# 0.07 um at 17 steps. It falls with the square of the step, so that what is left out, of second
-# order in it, falls with the fourth power as the error of the integrator does.
-EXPANSION_REACH = 20.0
 # Change of the load level that the mesh data follow at once, over load or torque
 LOAD_REACH = 4e-3
 # Parts of a step in which flanks meet or part: the slope of their force jumps there, and damping
 # builds up over half a micrometre. A step moves them by that much at 0.1 m/s.
-CONTACT_PARTS = 8
+CONTACT_PARTS = STEP_PARTS
 _STILL = 0.1  # of the build-up; smaller moves in a step need no parts
 LOAD_FILTER_TIME = 0.02  # s, load level follows the torque below the driveline's shuffle
 REAL_AXIS_LIMIT = 2.0  # RK4 is stable to 2.78 on the negative real axis
 DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
-
-
-Displacements = tuple[float, float, float, float, float, float]
 
 
 class StepControl(NamedTuple):
@@ -174,42 +161,6 @@ def rk4_step(
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
         abs(inputs.pinion_torque) - s[LOAD_TORQUE]
     )
-
-
-@kernel
-def displacements(s: Array, h: float) -> Displacements:
-    """Return the displacements of pinion and gear [um] by their velocities `h` [s] later."""
-    reach = h * MICRO
-    return (
-        s[U_P] + reach * s[V_P],
-        s[U_P + 1] + reach * s[V_P + 1],
-        s[U_P + 2] + reach * s[V_P + 2],
-        s[U_G] + reach * s[V_G],
-        s[U_G + 1] + reach * s[V_G + 1],
-        s[U_G + 2] + reach * s[V_G + 2],
-    )
-
-
-@kernel
-def largest_change(a: Displacements, b: Displacements) -> float:
-    """Return the largest difference of two sets of displacements."""
-    largest = 0.0
-    for i in range(len(a)):
-        largest = max(largest, abs(a[i] - b[i]))
-    return largest
-
-
-@kernel
-def place_ahead(s: Array, time: float, p: AxleParameters, ahead: Array) -> None:
-    """Write the state `s` with shafts and cages where they are `time` [s] later into `ahead`."""
-    for i in range(N_CONTINUOUS):
-        ahead[i] = s[i]
-    moved = displacements(s, time)
-    for i in range(3):
-        ahead[U_P + i] = moved[i]
-        ahead[U_G + i] = moved[3 + i]
-    ahead[CAGE_P] += time * p.bearing_p.cage_ratio * s[W_P]
-    ahead[CAGE_G] += time * p.bearing_g.cage_ratio * s[W_G]
 
 
 @kernel
@@ -337,9 +288,7 @@ def advance(
     for i in range(n_films):
         scratch[FILMS + i] = s[FILM_NODES + i]
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
-    span = math.ceil(steps / math.ceil(steps / STEPS_PER_EXPANSION))
-    expanded_at = displacements(s, 0.0)
-    age = 0
+    forget_bearings(scratch)
     at_load = s[LOAD_TORQUE]
     rate = mesh_force(mesh_motion(s), mesh.series, mesh.n_orders, p.mesh).x_rate * MICRO
     rollers = RollerFilms(table.roller_model, s[ROLLER_NODES:KEPT_DRAG], 1.0)
@@ -354,22 +303,14 @@ def advance(
         else:  # dear
             cost += DRAG_COST * follow_drag(s, oil, p, rollers, kept)
             drag = kept_drag(s, kept)
-        if k == 0 or age == span or largest_change(displacements(s, h), expanded_at) > reach:
-            # about where the shafts are half of the time later that the expansion will serve
-            speed = largest_change(displacements(s, 1.0), displacements(s, 0.0))
-            later = max(0.5 * h, min(0.5 * h * span, reach / max(speed, reach)))
-            place_ahead(s, later, p, stages)
-            expand_bearings(stages, oil, p, scratch)
-            expanded_at = displacements(stages, 0.0)
-            age = 0
         inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
-        age += 1
-        parts = contact_parts(s[X], h * rate, p.mesh.backlash * MICRO)
+        parts = max(contact_parts(s[X], h * rate, p.mesh.backlash * MICRO), parts_of_step(s, h))
         cost += parts
         if cost > MAX_STEPS:
             return TOO_MANY_STEPS
         for piece in range(parts):
             first = 1.0 if k == 0 and piece == 0 else 0.0
+            follow_bearings(s, h / parts, reach, oil, p, scratch)
             rk4_step(s, h / parts, first, inputs, mesh, oil, p, scratch, stages)
             s[FRICTION_BOUND] += h / parts * scratch[BOUND_POWER]
             if table.levels[0] < 0.0:

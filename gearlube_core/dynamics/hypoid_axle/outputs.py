@@ -78,6 +78,7 @@ from gearlube_core.dynamics.hypoid_axle.rhs import (
     axle_drag,
     axle_raceways,
     axle_rhs,
+    gear_frequency,
     gear_motion,
     kept_drag,
     mesh_motion,
@@ -326,11 +327,11 @@ def write_bearing_group(
     s: Array, stiffness: float, oil: LubricantState, p: AxleParameters, rollers: Array, out: Array
 ) -> None:
     """Write `BEARING_GROUP` at a mesh stiffness [N/m]; `rollers` as in `write_outputs`."""
-    f_ref = reference_frequency(p.mesh, s[W_P])
+    f_p, f_g = reference_frequency(p.mesh, s[W_P]), gear_frequency(p, s[W_G])
     out[FIRST_ROLLER] = write_shaft(
-        pinion_motion(s), f_ref, oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0), rollers, out
+        pinion_motion(s), f_p, oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0), rollers, out
     )
-    write_shaft(gear_motion(s), f_ref, oil, p.bearing_g, GEAR_BEARINGS, (0, 1, 2), rollers, out)
+    write_shaft(gear_motion(s), f_g, oil, p.bearing_g, GEAR_BEARINGS, (0, 1, 2), rollers, out)
     out[STORED_ENERGY] = stored_energy(s, stiffness, oil, p)
 
 

@@ -6,19 +6,23 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
-    N_EXPANSION,
     NO_RACEWAYS,
     RollerFilms,
     ShaftMotion,
     SolvedRaceways,
-    expand_forces,
     expanded_forces,
 )
 from gearlube_core.bearings.followed_shaft import (
+    N_FOLLOWED,
+    N_FORCES,
     ShaftDrag,
     drag_holds,
     drag_near,
     drag_of_shaft,
+    expand_about,
+    follow_forces,
+    forget_forces,
+    moving_parts,
     raceways_of_shaft,
     renew_drag,
 )
@@ -43,7 +47,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     MESH_DAMPING,
     MICRO,
-    N_DRAG,
     N_ROLLERS,
     PHI_G,
     PHI_P,
@@ -69,7 +72,7 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantState
 
 AT_EXPANSION = N_FRICTION + N_CHANNELS
-AT_ROLLERS = AT_EXPANSION + 2 * N_EXPANSION  # `roller_nodes` of outputs
+AT_ROLLERS = AT_EXPANSION + 2 * N_FORCES  # `roller_nodes` of outputs
 SCRATCH = AT_ROLLERS + N_ROLLERS
 
 
@@ -188,10 +191,9 @@ def axle_drag(s: Array, oil: LubricantState, p: AxleParameters, raceways: AxleRa
 @kernel
 def kept_drag(s: Array, kept: Array) -> AxleDrag:
     """Return the drag by what is kept of both shafts, shape (N_DRAG,), see `drag_near`."""
-    half = N_DRAG // 2
     return AxleDrag(
-        drag_near(pinion_motion(s), part(kept, 0, half)),
-        drag_near(gear_motion(s), part(kept, half, half)),
+        drag_near(pinion_motion(s), part(kept, 0, N_FOLLOWED)),
+        drag_near(gear_motion(s), part(kept, N_FOLLOWED, N_FOLLOWED)),
     )
 
 
@@ -201,17 +203,18 @@ def follow_drag(
 ) -> float:
     """Renew what is kept where it no longer holds; return how many evaluations that took.
 
-    Both shafts are evaluated when either has moved. Arguments as in `axle_raceways`, `kept_drag`.
+    Arguments as in `axle_raceways` and `kept_drag`.
     """
-    pinion, gear, half = pinion_motion(s), gear_motion(s), N_DRAG // 2
-    of_pinion, of_gear = part(kept, 0, half), part(kept, half, half)
-    if drag_holds(pinion, oil.temperature, of_pinion) and drag_holds(
-        gear, oil.temperature, of_gear
-    ):
-        return 0.0
-    films_p, films_g = _films_of(films, 0), _films_of(films, 1)
-    taken = renew_drag(p.bearing_p, pinion, p.preload_p, p.drag, oil, films_p, of_pinion)
-    return taken + renew_drag(p.bearing_g, gear, p.preload_g, p.drag, oil, films_g, of_gear)
+    pinion, gear, taken = pinion_motion(s), gear_motion(s), 0.0
+    own = part(kept, 0, N_FOLLOWED)
+    if not drag_holds(pinion, oil.temperature, own):
+        of_pinion = _films_of(films, 0)
+        taken += renew_drag(p.bearing_p, pinion, p.preload_p, p.drag, oil, of_pinion, own)
+    own = part(kept, N_FOLLOWED, N_FOLLOWED)
+    if not drag_holds(gear, oil.temperature, own):
+        of_gear = _films_of(films, 1)
+        taken += renew_drag(p.bearing_g, gear, p.preload_g, p.drag, oil, of_gear, own)
+    return taken
 
 
 @kernel
@@ -223,13 +226,43 @@ def follow_flank_of(s: Array, table: MeshLevels, p: MeshForceConstants, mesh: Me
 
 
 @kernel
+def gear_frequency(p: AxleParameters, gear_speed: float) -> float:
+    """Return the mesh frequency by the gear's speed [Hz], see `reference_frequency`."""
+    return reference_frequency(p.mesh, p.ratio * gear_speed)
+
+
+@kernel
 def expand_bearings(s: Array, oil: LubricantState, p: AxleParameters, scratch: Array) -> None:
     """Expand the bearing forces of both shafts about the state `s`; others as in `axle_rhs`."""
-    f_ref = reference_frequency(p.mesh, s[W_P])
-    of_pinion = part(scratch, AT_EXPANSION, N_EXPANSION)
-    expand_forces(p.bearing_p, pinion_motion(s), f_ref, oil, of_pinion)
-    of_gear = part(scratch, AT_EXPANSION + N_EXPANSION, N_EXPANSION)
-    expand_forces(p.bearing_g, gear_motion(s), f_ref, oil, of_gear)
+    f_p, f_g = reference_frequency(p.mesh, s[W_P]), gear_frequency(p, s[W_G])
+    expand_about(p.bearing_p, pinion_motion(s), f_p, oil, part(scratch, AT_EXPANSION, N_FORCES))
+    of_gear = part(scratch, AT_EXPANSION + N_FORCES, N_FORCES)
+    expand_about(p.bearing_g, gear_motion(s), f_g, oil, of_gear)
+
+
+@kernel
+def forget_bearings(scratch: Array) -> None:
+    """Have the next step expand the forces of both shafts."""
+    forget_forces(part(scratch, AT_EXPANSION, N_FORCES))
+    forget_forces(part(scratch, AT_EXPANSION + N_FORCES, N_FORCES))
+
+
+@kernel
+def follow_bearings(
+    s: Array, h: float, reach: float, oil: LubricantState, p: AxleParameters, scratch: Array
+) -> None:
+    """Make the expansions fit for a step of `h` [s], see `follow_forces`; others as `axle_rhs`."""
+    f_p, f_g = reference_frequency(p.mesh, s[W_P]), gear_frequency(p, s[W_G])
+    of_pinion = part(scratch, AT_EXPANSION, N_FORCES)
+    follow_forces(p.bearing_p, pinion_motion(s), f_p, oil, h, reach, of_pinion)
+    of_gear = part(scratch, AT_EXPANSION + N_FORCES, N_FORCES)
+    follow_forces(p.bearing_g, gear_motion(s), f_g, oil, h, reach, of_gear)
+
+
+@kernel
+def parts_of_step(s: Array, h: float) -> int:
+    """Return into how many parts the bearings divide a step of `h` [s], see `moving_parts`."""
+    return max(moving_parts(pinion_motion(s), h), moving_parts(gear_motion(s), h))
 
 
 @kernel
@@ -294,8 +327,8 @@ def axle_rhs(
     w_g = s[W_G]
     if bearings != 0.0:
         expand_bearings(s, oil, p, scratch)
-    expansion_p = part(scratch, AT_EXPANSION, N_EXPANSION)
-    expansion_g = part(scratch, AT_EXPANSION + N_EXPANSION, N_EXPANSION)
+    expansion_p = part(scratch, AT_EXPANSION, N_FORCES)
+    expansion_g = part(scratch, AT_EXPANSION + N_FORCES, N_FORCES)
     pinion = pinion_motion(s)
     gear = gear_motion(s)
     p_z, p_y, p_x, lost_p = expanded_forces(p.bearing_p, pinion, expansion_p)

@@ -77,7 +77,7 @@ class Kernels(Protocol):
         """Make forces that are linear about a state exact about this one."""
 
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
-        """Renew what is kept over one integrator step of `h` [s]; return its cost in steps."""
+        """Renew what is kept over a step of `h` [s], or a part of one; return its cost in steps."""
 
     def after_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         """Change what a step of `h` [s] has left, such as filtered loads; return any number."""

@@ -198,12 +198,12 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         for _ in range(steps):
             rest = h
             while rest > 0.0:
-                cost += each_step(s, oil, numbers, memory, plan, rest)
+                piece = min(rest, time_to_jump(s, oil, numbers, memory, plan, h))
+                cost += each_step(s, oil, numbers, memory, plan, piece)
                 if cost > MAX_STEPS:
                     return TOO_MANY_STEPS
                 for i in range(n, n_kept):
                     work[i] = s[i]
-                piece = min(rest, time_to_jump(s, oil, numbers, memory, plan, h))
                 rk4_step(s, piece, oil, numbers, memory, plan, work)
                 rest -= piece
             after_step(s, oil, numbers, memory, plan, h)

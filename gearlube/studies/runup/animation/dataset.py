@@ -28,7 +28,7 @@ from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_QUANTITIES
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
-from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, PHI_P, SIDE, W_P
+from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, PHI_P, SIDE
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.kernels import load_bracket, pair_node
 from gearlube_core.mesh_table.table import PAIRS, TOOTH_UNITS, MeshTable
@@ -101,9 +101,9 @@ def roller_variables(frames: Frames, oil_temperature: float) -> Variables:
     law = film_law(frames)
     solved = frames.axle.parameters.roller_model() if law == SOLVED else None
     for k, s in enumerate(frames.states):
-        f_ref = reference_frequency(p.mesh, float(s[W_P]))
         for shaft, motion in enumerate((pinion_motion(s), gear_motion(s))):
-            bearing = bearings[shaft]
+            bearing, ratio = bearings[shaft], p.ratio if shaft else 1.0
+            f_ref = reference_frequency(p.mesh, ratio * motion.speed)
             number = int(bearing.n_rollers)
             places = motion.cage_angle + _TURN * np.arange(number) / number
             for end, side in enumerate((1.0, -1.0)):

@@ -16,19 +16,24 @@ from gearlube_core.bearings.bearing_type import (
     RollerFilms,
     ShaftBearings,
     ShaftMotion,
-    expand_forces,
     expanded_forces,
     shaft_energy,
 )
 from gearlube_core.bearings.followed_shaft import (
     BEARING_LAWS,
     DRAG_COST,
+    EXPANSION_REACH,
     N_FOLLOWED,
+    N_FORCES,
     PALMGREN,
     TORQUE_LOSSES,
     drag_holds,
     drag_near,
     drag_of_shaft,
+    expand_about,
+    follow_forces,
+    forget_forces,
+    moving_parts,
     renew_drag,
 )
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
@@ -36,7 +41,6 @@ from gearlube_core.bearings.parameters import cage_torque
 from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option
-from gearlube_core.dynamics.hypoid_axle.integrate import EXPANSION_REACH, STEPS_PER_EXPANSION
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
@@ -48,10 +52,8 @@ from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
 _FILM = 8  # place of the size of the film model, behind the axes
-# places in the memory behind the expansion: steps since then, 0 for none; displacements of then
-# [m]; drag of the present step [N.m]; the film model
-_AGE, _THEN, _DRAG = N_EXPANSION, N_EXPANSION + 1, N_EXPANSION + 4
-_MEMORY = N_EXPANSION + 5
+# places in the memory behind the forces: drag of the present step [N.m], the film model
+_DRAG, _MEMORY = N_FORCES, N_FORCES + 1
 
 
 class _OpposedBearings(NamedTuple):
@@ -69,37 +71,19 @@ class _OpposedBearings(NamedTuple):
 
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-        memory[_AGE] = 0.0
+        forget_forces(part(memory, 0, N_FORCES))
 
     @kernel
     def expand(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-        _expand(self, _motion(at, s), memory, oil)
+        m = _motion(at, s)
+        expand_about(self.bearings, m, _frequency(self, m), oil, part(memory, 0, N_FORCES))
 
     @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         m = _motion(at, s)
-        moved = abs(m.r1 + h * m.v1 - memory[_THEN])
-        moved = max(moved, abs(m.r2 + h * m.v2 - memory[_THEN + 1]))
-        moved = max(moved, abs(m.axial + h * m.v_axial - memory[_THEN + 2]))
-        age = memory[_AGE]
-        if age == 0.0 or age >= STEPS_PER_EXPANSION or moved > self.reach:
-            # about where the shaft is half of the time later that the expansion will serve
-            speed = max(abs(m.v1), max(abs(m.v2), abs(m.v_axial)))
-            most = 0.5 * h * STEPS_PER_EXPANSION
-            later = max(0.5 * h, min(most, self.reach / max(speed, self.reach)))
-            ahead = ShaftMotion(
-                m.r1 + later * m.v1,
-                m.r2 + later * m.v2,
-                m.axial + later * m.v_axial,
-                m.v1,
-                m.v2,
-                m.v_axial,
-                m.cage_angle + later * self.bearings.cage_ratio * m.speed,
-                m.speed,
-            )
-            _expand(self, ahead, memory, oil)
-            age = 0.0
-        memory[_AGE] = age + 1.0
+        follow_forces(
+            self.bearings, m, _frequency(self, m), oil, h, self.reach, part(memory, 0, N_FORCES)
+        )
         kept, cost = part(s, at[4], N_FOLLOWED), 0.0
         if self.law > PALMGREN and not drag_holds(m, oil.temperature, kept):
             films = _films(at, memory, s)
@@ -124,6 +108,12 @@ class _OpposedBearings(NamedTuple):
         ds[cage] = self.bearings.cage_ratio * m.speed
         ds[damping] += lost
         ds[drag] += memory[_DRAG] * m.speed
+
+    @kernel
+    def time_to_jump(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
+    ) -> float:
+        return h / moving_parts(_motion(at, s), h)
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
@@ -162,11 +152,9 @@ def _motion(at: Any, s: Array) -> ShaftMotion:
     )  # fmt: skip
 
 
-@kernel
-def _expand(self: _OpposedBearings, m: ShaftMotion, memory: Array, oil: LubricantState) -> None:
-    frequency = max(self.orders * abs(m.speed) / (2.0 * math.pi), self.least_frequency)
-    expand_forces(self.bearings, m, frequency, oil, part(memory, 0, N_EXPANSION))
-    memory[_THEN], memory[_THEN + 1], memory[_THEN + 2] = m.r1, m.r2, m.axial
+@inside
+def _frequency(self: _OpposedBearings, m: ShaftMotion) -> float:
+    return max(self.orders * abs(m.speed) / (2.0 * math.pi), self.least_frequency)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -241,7 +229,7 @@ class OpposedBearings(Element):
 
     def numbers(self) -> _OpposedBearings:
         """Return the constants of the kernels."""
-        reach = 1e-6 * EXPANSION_REACH / self.steps_per_highest_period**2
+        reach = EXPANSION_REACH / self.steps_per_highest_period**2
         return _OpposedBearings(
             self.bearing.parameters(),
             self.bearing.preload_force(),
