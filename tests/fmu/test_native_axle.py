@@ -14,6 +14,7 @@ from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.hypoid_axle import DEFINITION, definition_with_axle, definition_with_table, start_axle
 from fmu_src.native.axle_data import N_SIZES, DataSizes, data_ends
+from fmu_src.native.build import ENTRY
 from fmu_src.native.hypoid_axle import MODAL_WITHOUT_LOSS, PRINTED_FILM, REFUSALS, native_model
 from fmu_src.native.model import OK, Operation
 from fmu_src.native.parameter_map import KernelClasses, place_of_each
@@ -90,7 +91,7 @@ def test_the_entry_needs_nothing_but_libm(native):
     wanted = undefined_in_object(native.code)
     assert wanted <= LIBM | FREESTANDING
     assert native.declared >= wanted - FREESTANDING - LIBM
-    assert "entry_under_test" in {symbol.name for symbol in symbols(native.code)}
+    assert ENTRY in {symbol.name for symbol in symbols(native.code)}
 
 
 @pytest.mark.parametrize("count", [100, pytest.param(1000, marks=pytest.mark.slow)])

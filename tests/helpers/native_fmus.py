@@ -5,11 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
+import pytest
+
+from fmu_src.native import build
 from fmu_src.native.build import NativeOptions, build_native
 from fmu_src.native.models import native_model
-from fmu_src.native.platforms import platform_of_this_machine
+from fmu_src.native.platforms import PLATFORMS, platform_of_this_machine
+from fmu_src.object_code import LINUX
 from tests.helpers.fmu_cases import Case
+from tests.helpers.object_code import object_code_once
 from tests.helpers.session_folder import alone, shared_folder
+
+_TARGETS = {one.name: one.target for one in PLATFORMS}
 
 
 class NativeFmus(NamedTuple):
@@ -24,8 +31,11 @@ def native_fmus(case: Case, platform: str = "") -> NativeFmus:
     platform = platform or platform_of_this_machine()
     folder = shared_folder(f"native_fmus_{platform}")
     fmus = NativeFmus(*(folder / f"{case.name}{ending}.fmu" for ending in ("", "_FMI3")))
-    with alone(folder / f"{case.name}.lock"):
+    with alone(folder / f"{case.name}.lock"), pytest.MonkeyPatch.context() as patch:
         if not fmus.fmi3.is_file():
-            options = NativeOptions(platforms=[platform])
-            build_native(native_model(case.definition), folder, options)
+            model, options = native_model(case.definition), NativeOptions(platforms=[platform])
+            if _TARGETS[platform] == LINUX:  # tests of the entry take the same code
+                patch.setattr(build, "intermediate_code", lambda *_: "made once")
+                patch.setattr(build, "object_code", lambda *_: object_code_once(model))
+            build_native(model, folder, options)
     return fmus

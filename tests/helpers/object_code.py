@@ -13,12 +13,10 @@ import llvmlite.binding as llvm
 import numpy as np
 from elftools.elf.elffile import ELFFile
 
-from fmu_src.native.build import library_kind
+from fmu_src.native.build import ENTRY, library_kind
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel, Operation
 from fmu_src.object_code import LINUX, intermediate_code, object_code
 from tests.helpers.session_folder import alone, shared_folder
-
-_NAME = "entry_under_test"
 
 LIBM = {"exp", "expm1", "log", "pow", "sin", "cos", "tan", "sqrt", "asinh", "tanh", "erfc", "ceil"}
 LIBM |= {"floor", "hypot", "log1p", "acos", "cosh", "sinh", "fmod", "exp2", "sincos"}
@@ -68,14 +66,14 @@ class NativeRun:
         return {name: written[name] for name in self.model.motion}
 
 
-def _object_code(model: NativeModel) -> tuple[bytes, set[str]]:
+def object_code_once(model: NativeModel) -> tuple[bytes, set[str]]:
     """Return an entry as object code with its undefined symbols, made once a run for each kind."""
     if not model.kind:
-        return object_code(intermediate_code(model.entry, ENTRY_SIGNATURE, _NAME), LINUX)  # type: ignore[arg-type]
+        return object_code(intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY), LINUX)  # type: ignore[arg-type]
     path = shared_folder("entries") / library_kind(model)
     with alone(path.with_suffix(".lock")):
         if not path.is_file():
-            made = object_code(intermediate_code(model.entry, ENTRY_SIGNATURE, _NAME), LINUX)  # type: ignore[arg-type]
+            made = object_code(intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY), LINUX)  # type: ignore[arg-type]
             path.write_bytes(pickle.dumps(made))
     return pickle.loads(path.read_bytes())  # type: ignore[no-any-return]
 
@@ -85,14 +83,14 @@ class LoadedModel:
 
     def __init__(self, model: NativeModel) -> None:
         self.model = model
-        self.code, self.declared = _object_code(model)
+        self.code, self.declared = object_code_once(model)
         target = llvm.Target.from_default_triple().create_target_machine()
         self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target)
         self._engine.add_object_file(llvm.ObjectFileRef.from_data(self.code))
         self._engine.finalize_object()
         pointers = [ctypes.c_void_p] * 6
         prototype = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_double, *pointers)
-        self._entry = prototype(self._engine.get_function_address(_NAME))
+        self._entry = prototype(self._engine.get_function_address(ENTRY))
 
     def takes(self, data: np.ndarray, work_size: int) -> bool:
         """Whether the entry takes constants and a work array of these lengths."""
