@@ -263,7 +263,7 @@ def advance(
     -----
     The load level of the mesh table follows the pinion torque with LOAD_FILTER_TIME, and the mesh
     data follow it within LOAD_REACH. The side, drive or coast flanks, is chosen after every
-    integrator step, see `follow_flank`. All this happens at times that integrator steps decide.
+    step or part of one, see `follow_flank`. All this happens at times that integrator steps decide.
     So a communication step matters only as it is a whole number of integrator steps.
     """
     at_scratch = N_STATE + 2 * N_ODE
@@ -294,29 +294,34 @@ def advance(
     rollers = RollerFilms(table.roller_model, s[ROLLER_NODES:KEPT_DRAG], 1.0)
     kept = s[KEPT_DRAG:N_STATE]
     cost = 0.0
-    for k in range(steps):
-        if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + max(at_load, abs(torques[0]))):
-            at_load = s[LOAD_TORQUE]
-            blend_mesh(at_load, s[SIDE], table, mesh)
-        if p.drag <= PALMGREN:
-            drag = axle_drag(s, oil, p, AxleRaceways(NO_RACEWAYS, NO_RACEWAYS))
-        else:  # dear
-            cost += DRAG_COST * follow_drag(s, oil, p, rollers, kept)
-            drag = kept_drag(s, kept)
-        inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
-        parts = max(contact_parts(s[X], h * rate, p.mesh.backlash * MICRO), parts_of_step(s, h))
-        cost += parts
-        if cost > MAX_STEPS:
-            return TOO_MANY_STEPS
-        for piece in range(parts):
-            first = 1.0 if k == 0 and piece == 0 else 0.0
-            follow_bearings(s, h / parts, reach, oil, p, scratch)
-            rk4_step(s, h / parts, first, inputs, mesh, oil, p, scratch, stages)
-            s[FRICTION_BOUND] += h / parts * scratch[BOUND_POWER]
+    first = 1.0
+    for _ in range(steps):
+        rest = h
+        while rest > 0.0:
+            # flanks or shafts that leap take a part of the step, whatever its other parts were
+            parts = max(contact_parts(s[X], h * rate, p.mesh.backlash * MICRO), parts_of_step(s, h))
+            piece = min(rest, h / parts)
+            if abs(s[LOAD_TORQUE] - at_load) > LOAD_REACH * (1.0 + max(at_load, abs(torques[0]))):
+                at_load = s[LOAD_TORQUE]
+                blend_mesh(at_load, s[SIDE], table, mesh)
+            follow_bearings(s, piece, reach, oil, p, scratch)
+            if p.drag <= PALMGREN:
+                drag = axle_drag(s, oil, p, AxleRaceways(NO_RACEWAYS, NO_RACEWAYS))
+            else:  # dear
+                cost += DRAG_COST * follow_drag(s, oil, p, rollers, kept)
+                drag = kept_drag(s, kept)
+            inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
+            cost += 1.0
+            if cost > MAX_STEPS:
+                return TOO_MANY_STEPS
+            rk4_step(s, piece, first, inputs, mesh, oil, p, scratch, stages)
+            first = 0.0
+            s[FRICTION_BOUND] += piece * scratch[BOUND_POWER]
+            s[DRAG_BOUND] += piece * (drag.pinion.bound + drag.gear.bound)
             if table.levels[0] < 0.0:
                 follow_flank_of(s, table, p.mesh, mesh)
-        rate = stages[N_STATE + X]
-        s[DRAG_BOUND] += h * (drag.pinion.bound + drag.gear.bound)
+            rate = stages[N_STATE + X]
+            rest -= piece
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
     for i in range(n_films):

@@ -46,6 +46,7 @@ class AllElements(NamedTuple):
     begin: Callable[..., None]
     expand: Callable[..., None]
     each_step: Callable[..., float]  # sum
+    after_part: Callable[..., None]
     after_step: Callable[..., None]
     step_rate: Callable[..., float]  # greatest
     finish: Callable[..., None]
@@ -66,6 +67,7 @@ _LINES = {
     "begin": ("", "{call}", "None"),
     "expand": ("", "{call}", "None"),
     "each_step": (", h", "total += {call}", "total"),
+    "after_part": (", h", "{call}", "None"),
     "after_step": (", h", "{call}", "None"),
     "step_rate": ("", "total = max(total, {call})", "total"),
     "finish": ("", "{call}", "None"),

@@ -79,6 +79,9 @@ class Kernels(Protocol):
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         """Renew what is kept over a step of `h` [s], or a part of one; return its cost in steps."""
 
+    def after_part(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        """Do as `after_step` after a part of a step of `h` [s], or a step without parts."""
+
     def after_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         """Change what a step of `h` [s] has left, such as filtered loads; return any number."""
 

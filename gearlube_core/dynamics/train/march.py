@@ -75,7 +75,8 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     `work` has `work_size` numbers.
     """
     sizes_of, begin, expand = of_all.sizes_of, of_all.begin, of_all.expand
-    each_step, after_step, finish = of_all.each_step, of_all.after_step, of_all.finish
+    each_step, finish = of_all.each_step, of_all.finish
+    after_part, after_step = of_all.after_part, of_all.after_step
     add_forces, event, stored_energy = of_all.add_forces, of_all.event, of_all.stored_energy
     step_rate, time_to_jump = of_all.step_rate, of_all.time_to_jump
 
@@ -205,6 +206,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
                 for i in range(n, n_kept):
                     work[i] = s[i]
                 rk4_step(s, piece, oil, numbers, memory, plan, work)
+                after_part(s, oil, numbers, memory, plan, piece)
                 rest -= piece
             after_step(s, oil, numbers, memory, plan, h)
             if is_wild(s, plan):

@@ -183,8 +183,8 @@ class HypoidMeshKernels(NamedTuple):
         ds[at[_DAMPING]] += mesh.damping_power
 
     @kernel
-    def after_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
-        """See `Kernels.after_step`."""
+    def after_part(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
+        """See `Kernels.after_part`."""
         memory[_ANEW] = 0.0
         load = at[_KEPT] + _LOAD
         if h != memory[_STEP]:
