@@ -121,7 +121,7 @@ def followed(x_um, side, backlash):
     s[X], s[SIDE] = x_um, side
     blend_mesh(s[LOAD_TORQUE], side, table, at_load)
     before = mesh_series(at_load.series, mesh.orders, 13.0, s[PHI_P]).k_m
-    follow_flank_of(s, table, axle.kernel_parameters.mesh, at_load)
+    follow_flank_of(s, s[LOAD_TORQUE], table, axle.kernel_parameters.mesh, at_load)
     return s[X], s[SIDE], before, mesh_series(at_load.series, mesh.orders, 13.0, s[PHI_P]).k_m
 
 

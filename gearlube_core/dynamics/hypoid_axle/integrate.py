@@ -319,7 +319,7 @@ def advance(
             s[FRICTION_BOUND] += piece * scratch[BOUND_POWER]
             s[DRAG_BOUND] += piece * (drag.pinion.bound + drag.gear.bound)
             if table.levels[0] < 0.0:
-                follow_flank_of(s, table, p.mesh, mesh)
+                follow_flank_of(s, at_load, table, p.mesh, mesh)
             rate = stages[N_STATE + X]
             rest -= piece
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:

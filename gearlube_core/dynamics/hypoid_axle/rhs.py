@@ -44,7 +44,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_G,
     CAGE_P,
     CHURNING,
-    LOAD_TORQUE,
     MESH_DAMPING,
     MICRO,
     N_ROLLERS,
@@ -218,9 +217,11 @@ def follow_drag(
 
 
 @kernel
-def follow_flank_of(s: Array, table: MeshLevels, p: MeshForceConstants, mesh: MeshAtLoad) -> None:
+def follow_flank_of(
+    s: Array, load_torque: float, table: MeshLevels, p: MeshForceConstants, mesh: MeshAtLoad
+) -> None:
     """Do what `follow_flank` does in the state `s` of an axle, (N_STATE,), at X and SIDE."""
-    x, side = follow_flank(mesh_motion(s), s[LOAD_TORQUE], s[SIDE], table, p, mesh)
+    x, side = follow_flank(mesh_motion(s), load_torque, s[SIDE], table, p, mesh)
     if side != s[SIDE]:
         s[X], s[SIDE] = x * MICRO, side
 

@@ -49,6 +49,7 @@ class AllElements(NamedTuple):
     after_part: Callable[..., None]
     after_step: Callable[..., None]
     step_rate: Callable[..., float]  # greatest
+    stiffening: Callable[..., float]  # greatest
     finish: Callable[..., None]
     time_to_jump: Callable[..., float]  # least
     stored_energy: Callable[..., float]  # sum
@@ -70,6 +71,7 @@ _LINES = {
     "after_part": (", h", "{call}", "None"),
     "after_step": (", h", "{call}", "None"),
     "step_rate": ("", "total = max(total, {call})", "total"),
+    "stiffening": ("", "total = max(total, {call})", "total"),
     "finish": ("", "{call}", "None"),
     "time_to_jump": (", h", "total = min(total, {call})", "total"),
     "stored_energy": ("", "total += {call}", "total"),

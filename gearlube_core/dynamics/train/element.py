@@ -94,6 +94,9 @@ class Kernels(Protocol):
     def step_rate(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
         """Return the least number of integrator steps a second that the element asks for now."""
 
+    def stiffening(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        """Return by what factor natural frequencies may have risen since the start."""
+
     def time_to_jump(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float
     ) -> float:

@@ -78,7 +78,8 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     each_step, finish = of_all.each_step, of_all.finish
     after_part, after_step = of_all.after_part, of_all.after_step
     add_forces, event, stored_energy = of_all.add_forces, of_all.event, of_all.stored_energy
-    step_rate, time_to_jump = of_all.step_rate, of_all.time_to_jump
+    step_rate, stiffening = of_all.step_rate, of_all.stiffening
+    time_to_jump = of_all.time_to_jump
 
     @inside
     def forces(
@@ -182,7 +183,8 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         least_rate: float,
         work: Array,
     ) -> int:
-        wanted = duration * max(least_rate, step_rate(s, oil, numbers, memory, plan))
+        highest = least_rate * max(1.0, stiffening(s, oil, numbers, memory, plan))
+        wanted = duration * max(highest, step_rate(s, oil, numbers, memory, plan))
         if not wanted < MAX_STEPS:
             return TOO_MANY_STEPS
         steps = max(1, math.ceil(wanted))

@@ -115,7 +115,7 @@ class HypoidMesh(Element):
         return (*self.parameters.ranges, FILM_SHARE)
 
     def kept_size(self) -> int:
-        """Return the places of load level, side and films."""
+        """Return the places of load level, side, stiffness at the start and films."""
         return OWN_FILMS + (N_FILMS if self.parameters.film == "solved" else 0)
 
 

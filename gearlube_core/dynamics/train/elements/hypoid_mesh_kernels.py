@@ -60,8 +60,9 @@ _BOUNDS = len(FLANK_OUTPUTS)
 FLANKS_ROOM = _BOUNDS + len(FLANK_BOUNDS)  # behind the film model
 _LEAST = 1e-9  # m, deflection
 _ALL_TOUCH = 1e-6  # m, deflection that no difference of a linearisation ends
-# what is kept: load that selects the level [N.m], side, films at the nodes with a film model
-_LOAD, _SIDE, OWN_FILMS = range(3)
+# what is kept: load that selects the level [N.m], side, mean stiffness at the start [N/m], films at
+# the nodes with a film model
+_LOAD, _SIDE, _STIFFNESS, OWN_FILMS = range(4)
 # places in the memory: load and side of the data in use, torque on the pinion [N.m], rate of the
 # transmission error [m/s] in the last stage, 1 while tractions are to be found again, length of
 # the last step [s], how much of a difference the load level follows in it, the table
@@ -101,6 +102,7 @@ class HypoidMeshKernels(NamedTuple):
     def full_contact(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         """See `Kernels.full_contact`."""
         on_coast, x = s[at[_KEPT] + _SIDE] < 0.0, s[at[_X]]
+        s[at[_KEPT] + _STIFFNESS] = _now(at, memory).series[K_M]
         if on_coast:
             s[at[_X]] = min(x, -self.mesh.backlash - _ALL_TOUCH)
         else:
@@ -239,6 +241,12 @@ class HypoidMeshKernels(NamedTuple):
             c = self.mesh.hysteretic_loss * mean_stiffness / reference_frequency(self.mesh, w)
         frequency = self.mesh.z_p * abs(w) / (2.0 * math.pi)
         return max(frequency * self.steps_per_period, c * self.compliance / REAL_AXIS_LIMIT)
+
+    @kernel
+    def stiffening(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        """See `Kernels.stiffening`; modes rise at most with the root of the mean stiffness."""
+        before = s[at[_KEPT] + _STIFFNESS]
+        return math.sqrt(_now(at, memory).series[K_M] / before) if before > 0.0 else 1.0
 
     @kernel
     def write(
