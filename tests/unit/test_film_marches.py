@@ -140,10 +140,10 @@ def test_one_job_runs_in_this_process(monkeypatch, jobs: int, tasks: int):
     assert 1 <= process_pool.processors() <= (os.cpu_count() or 1)
 
 
-def test_coarse_path_has_a_scan_s_positions_in_every_pitch(monkeypatch):
+def testcoarse_path_has_a_scan_s_positions_in_every_pitch(monkeypatch):
     monkeypatch.setattr(unloaded_error, "contact_path", lambda pair, angles: angles)
     pair = SimpleNamespace(gear_pitch=0.17)
-    angles = unloaded_error._coarse_path(pair)
+    angles = unloaded_error.coarse_path(pair)
     assert np.diff(angles) == pytest.approx(unloaded_error._step(pair), rel=1e-9)
     assert angles[[0, -1]] == pytest.approx([-2.5 * 0.17, 2.5 * 0.17])
     assert unloaded_error._step(pair) == pytest.approx(0.17 / 32)
