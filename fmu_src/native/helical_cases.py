@@ -23,6 +23,7 @@ from fmu_src.native.model import all_finite, is_whole
 from fmu_src.object_code import array_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
+from gearlube_core.dynamics.helical_pair.march.flanks import LINES_MAX
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.given_pair import GivenOil, GivenPair
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
@@ -32,7 +33,6 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 )
 from gearlube_core.dynamics.helical_pair.march.model import torque_limits
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.model import LINE, shipped_model

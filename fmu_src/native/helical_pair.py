@@ -39,6 +39,7 @@ from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     highest_frequency,
     rest,
 )
+from gearlube_core.dynamics.helical_pair.march.flanks import LINES_MAX, MarchConstants
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import DENSITY_WITH_MESH_WORDS
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
     BEARING_FIELDS,
@@ -76,13 +77,7 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
     HELD,
     LINE_WORK,
 )
-from gearlube_core.dynamics.helical_pair.march.state import (
-    LINES_MAX,
-    N_CONTINUOUS,
-    N_STATE,
-    TIME_IN_STEP,
-    MarchConstants,
-)
+from gearlube_core.dynamics.helical_pair.march.state import N_CONTINUOUS, N_STATE, TIME_IN_STEP
 from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.film_model.net import N_ARRAY

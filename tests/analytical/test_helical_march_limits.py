@@ -14,10 +14,12 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
 )
+from gearlube_core.dynamics.helical_pair.march.flanks import FlankConstants, coast_view, drive_view
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
+from gearlube_core.dynamics.helical_pair.march.pair_forces import flank_wrench, turned_wrench
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.helical_pair.march.rates import flank_wrench, march_rates, turned_wrench
+from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
     MESH_DAMPING,
     N_ODE,
@@ -29,9 +31,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     U_G,
     U_P,
     W_P,
-    FlankConstants,
-    coast_view,
-    drive_view,
     pair_motion,
 )
 from tests.helpers.each import each

@@ -10,21 +10,18 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.march import kept_films, line_points
+from gearlube_core.dynamics.helical_pair.march.flanks import (
+    POINTS_PER_LINE,
+    FlankView,
+    coast_view,
+    drive_view,
+)
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.state import (
-    MU,
-    POINTS_PER_LINE,
-    REFRESHED,
-    W_P,
-    FlankView,
-    coast_view,
-    drive_view,
-    pair_motion,
-)
+from gearlube_core.dynamics.helical_pair.march.state import MU, REFRESHED, W_P, pair_motion
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.friction.solved_line import line_film, line_inlet, solved_line_friction
 from gearlube_core.helical_geometry.contact_line import line_kinematics

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from gearlube_core.dynamics.helical_pair.march import state as at
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
-from gearlube_core.dynamics.helical_pair.march.integrate import time_to_jump
+from gearlube_core.dynamics.helical_pair.march.jumps import time_to_jump
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gearlube_core.dynamics.helical_pair.march import state as module
+from gearlube_core.dynamics.helical_pair.march import flanks as module
+from gearlube_core.dynamics.helical_pair.march.flanks import FlankConstants, FlankView
 from gearlube_core.dynamics.helical_pair.march.state import (
     N_STATE,
     PHI_P,
@@ -17,8 +18,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     TH_P,
     U_G,
     U_P,
-    FlankConstants,
-    FlankView,
+    pair_motion,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from tests.helpers.each import each
@@ -67,7 +67,7 @@ def compression(s: np.ndarray, x: float, z: float) -> float:
 
 def test_drive_flanks_come_together_as_rigid_bodies_do():
     s = motion()
-    view = module.drive_view(module.pair_motion(s), CONSTANTS)
+    view = module.drive_view(pair_motion(s), CONSTANTS)
     for x, z in ((0.0, 0.0), (0.01, -0.008), (0.02, 0.012)):
         along = x * PLANE.sin_b + z * PLANE.cos_b
         assert view.a + along * view.tilt == pytest.approx(compression(s, x, z), rel=1e-12)
@@ -84,8 +84,8 @@ def test_coast_flanks_are_the_drive_flanks_of_the_turned_motion_less_the_backlas
         turned[u : u + 3] = half.apply(s[u : u + 3])
     for th in (TH_P, TH_G):
         turned[th : th + 2] = half.apply([s[th], s[th + 1], 0.0])[:2]
-    drive = module.drive_view(module.pair_motion(turned), CONSTANTS)
-    coast = module.coast_view(module.pair_motion(s), CONSTANTS)
+    drive = module.drive_view(pair_motion(turned), CONSTANTS)
+    coast = module.coast_view(pair_motion(s), CONSTANTS)
     assert coast.a == pytest.approx(drive.a - 8e-5, rel=1e-12)
     assert coast.tilt == pytest.approx(drive.tilt, rel=1e-12)
     assert coast.phase == pytest.approx(3.7 - PLANE.r_bp * 12.3 / PLANE.pitch)
@@ -111,7 +111,7 @@ def test_coast_flanks_that_are_not_near_cannot_touch():
     for _ in range(300):
         s = motion()
         s[PSI] = RNG.uniform(-2e-4, 2e-4)
-        moved = module.pair_motion(s)
+        moved = pair_motion(s)
         if module.coast_near(moved, offset, CONSTANTS):
             near += 1
         else:
@@ -126,10 +126,10 @@ def test_coast_flanks_that_are_not_near_cannot_touch():
 def test_a_displacement_alone_brings_the_coast_flanks_near_before_they_touch(at: int, sign: float):
     s = np.zeros(N_STATE)
     s[at] = sign * 1.01 * CONSTANTS.backlash  # no direction counts less than its size
-    assert module.coast_near(module.pair_motion(s), 0.0, CONSTANTS)
+    assert module.coast_near(pair_motion(s), 0.0, CONSTANTS)
     s[at] *= 0.98
-    assert not module.coast_near(module.pair_motion(s), 0.0, CONSTANTS)
-    assert module.coast_near(module.pair_motion(s), -0.02 * CONSTANTS.backlash, CONSTANTS)
+    assert not module.coast_near(pair_motion(s), 0.0, CONSTANTS)
+    assert module.coast_near(pair_motion(s), -0.02 * CONSTANTS.backlash, CONSTANTS)
 
 
 @pytest.mark.parametrize("at", [TH_P, TH_P + 1, TH_G, TH_G + 1])
@@ -137,18 +137,18 @@ def test_tilts_reach_as_far_as_the_gears_are_large(at: int):
     s = np.zeros(N_STATE)
     # least distance on any flank: the lever of the pinion's base radius
     s[at] = -1.01 * CONSTANTS.backlash / (PLANE.r_bp + PLANE.r_bg)
-    assert module.coast_near(module.pair_motion(s), 0.0, CONSTANTS)
+    assert module.coast_near(pair_motion(s), 0.0, CONSTANTS)
     s[at] = 1e-3 * CONSTANTS.backlash / PLANE.x_g
-    assert not module.coast_near(module.pair_motion(s), 0.0, CONSTANTS)
+    assert not module.coast_near(pair_motion(s), 0.0, CONSTANTS)
 
 
 def test_rotation_backward_brings_the_coast_flanks_near():
     s = np.zeros(N_STATE)
     s[PSI] = -1.01 * CONSTANTS.backlash / PLANE.cos_b
-    assert module.coast_near(module.pair_motion(s), 0.0, CONSTANTS)
+    assert module.coast_near(pair_motion(s), 0.0, CONSTANTS)
     s[PSI] *= 0.98
-    assert not module.coast_near(module.pair_motion(s), 0.0, CONSTANTS)
-    assert not module.coast_near(module.pair_motion(-1.1 * s), 0.0, CONSTANTS)
+    assert not module.coast_near(pair_motion(s), 0.0, CONSTANTS)
+    assert not module.coast_near(pair_motion(-1.1 * s), 0.0, CONSTANTS)
 
 
 def test_friction_fades_linearly_below_a_hundredth_of_a_radian_per_second():

@@ -8,15 +8,13 @@ import pytest
 
 from gearlube_core.dynamics.helical_pair.march import line_outputs
 from gearlube_core.dynamics.helical_pair.march import line_outputs as module
-from gearlube_core.dynamics.helical_pair.march.state import (
+from gearlube_core.dynamics.helical_pair.march.flanks import (
     FLANK_POINTS,
     LINES_MAX,
-    MU,
-    N_STATE,
     POINTS_PER_LINE,
-    W_P,
     FlankView,
 )
+from gearlube_core.dynamics.helical_pair.march.state import MU, N_STATE, W_P
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import line_groups
 from gearlube_core.friction.flank_laws import FORMULA, SOLVED

@@ -8,13 +8,13 @@ import pytest
 
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.helical_pair.march import line_sums as module
+from gearlube_core.dynamics.helical_pair.march.flanks import POINTS_PER_LINE
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums, pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     mesh_at_torque,
     pack_march_mesh,
     pair_data,
 )
-from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE
 from gearlube_core.kernels.places import place_below
 from gearlube_core.mesh_table import kernels
 from tests.helpers.each import each

@@ -8,13 +8,17 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.march import outputs, rates
+from gearlube_core.dynamics.helical_pair.march import flanks, outputs, pair_forces
+from gearlube_core.dynamics.helical_pair.march.flanks import (
+    FLANK_POINTS,
+    FlankConstants,
+    SupportConstants,
+)
 from gearlube_core.dynamics.helical_pair.march.given_pair import BEARING_FIELDS, N_BEARINGS
-from gearlube_core.dynamics.helical_pair.march.integrate import LOAD_FILTER_TIME
+from gearlube_core.dynamics.helical_pair.march.jumps import LOAD_FILTER_TIME
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums
 from gearlube_core.dynamics.helical_pair.march.outputs import MOTION_OUTPUTS
 from gearlube_core.dynamics.helical_pair.march.state import (
-    FLANK_POINTS,
     LOAD_TORQUE,
     MU,
     N_ENERGIES,
@@ -35,8 +39,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_G,
     W_P,
     WORK_MARK,
-    FlankConstants,
-    SupportConstants,
     pair_motion,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import Wrench
@@ -57,7 +59,7 @@ STATE = RNG.normal(size=N_STATE)
 
 @pytest.fixture(autouse=True)
 def uncompiled(monkeypatch):
-    interpret(monkeypatch, rates, outputs)
+    interpret(monkeypatch, pair_forces, flanks, outputs)
 
 
 def power(w: Wrench, s: np.ndarray) -> float:
@@ -72,11 +74,11 @@ def power(w: Wrench, s: np.ndarray) -> float:
 @pytest.mark.parametrize("direction", [1.0, -0.4])
 def test_heat_of_friction_is_the_power_that_its_forces_take(direction: float):
     sums = LineSums(*np.zeros(11))._replace(F=31.0, Fx=0.4, Fz=-0.2)
-    wrench = rates.flank_wrench(sums, direction, PLANE)
-    found = rates.friction_heat(sums, direction, pair_motion(STATE), FLANKS)
+    wrench = pair_forces.flank_wrench(sums, direction, PLANE)
+    found = pair_forces.friction_heat(sums, direction, pair_motion(STATE), FLANKS)
     assert found == pytest.approx(-power(wrench, STATE), rel=1e-12)
-    turned = rates.turned_wrench(wrench, FLANKS)
-    found = rates.turned_friction_heat(sums, direction, pair_motion(STATE), FLANKS)
+    turned = pair_forces.turned_wrench(wrench, FLANKS)
+    found = pair_forces.turned_friction_heat(sums, direction, pair_motion(STATE), FLANKS)
     assert found == pytest.approx(-power(turned, STATE), rel=1e-12)
 
 
@@ -84,7 +86,7 @@ def test_forces_of_the_loads_do_the_work_of_their_compression():
     # normal loads at (x, z): what they do is the load times the rate of closing
     x, z, load = 0.013, -0.004, 250.0
     sums = LineSums(*np.zeros(11))._replace(N=load, Nx=load * x, Nz=load * z)
-    wrench = rates.flank_wrench(sums, 1.0, PLANE)
+    wrench = pair_forces.flank_wrench(sums, 1.0, PLANE)
     s = STATE
     normal = np.array([PLANE.cos_b, 0.0, -PLANE.sin_b])
     pinion = s[V_P : V_P + 3] + np.cross([s[OM_P], s[OM_P + 1], -s[W_P]], [x, PLANE.r_bp, z])
@@ -201,8 +203,8 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
     assert told["mesh.stiffness"] == pytest.approx(math.cos(0.35) ** 2 * touching)
     direction = outputs.friction_direction(s[W_P])
     sums = [line_sums(0, 0, 0, 0, 0, at) for at in loads]
-    drive = rates.flank_wrench(sums[0], direction, PLANE)
-    back = rates.turned_wrench(rates.flank_wrench(sums[1], -direction, PLANE), FLANKS)
+    drive = pair_forces.flank_wrench(sums[0], direction, PLANE)
+    back = pair_forces.turned_wrench(pair_forces.flank_wrench(sums[1], -direction, PLANE), FLANKS)
     for k, axis in enumerate("xyz"):
         assert told[f"mesh.force.{axis}"] == pytest.approx(drive[k] + back[k])
     # lines and ranges are those of the flank that carries more

@@ -4,9 +4,10 @@ import numpy as np
 
 from fmu_src.native import helical_pair as native
 from gearlube_core.dynamics.helical_pair.march.equilibrium import EQUILIBRIUM_WORK
+from gearlube_core.dynamics.helical_pair.march.flanks import LINES_MAX
 from gearlube_core.dynamics.helical_pair.march.integrate import WORK_SIZE
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pack_march_mesh
-from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, N_STATE
+from gearlube_core.dynamics.helical_pair.march.state import N_STATE
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
 

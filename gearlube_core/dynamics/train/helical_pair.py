@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from gearlube_core.dynamics.helical_pair.march.flanks import SupportConstants
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.helical_pair.march.state import SupportConstants
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport

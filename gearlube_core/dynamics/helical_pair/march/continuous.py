@@ -10,7 +10,14 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.integrate import LOAD_FILTER_TIME
+from gearlube_core.dynamics.helical_pair.march.flanks import (
+    N_FRICTION,
+    MarchConstants,
+    coast_deepest,
+    deepest,
+    drive_view,
+)
+from gearlube_core.dynamics.helical_pair.march.jumps import LOAD_FILTER_TIME
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
@@ -20,13 +27,8 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 )
 from gearlube_core.dynamics.helical_pair.march.state import (
     LOAD_TORQUE,
-    N_FRICTION,
     N_ODE,
     REFRESHED,
-    MarchConstants,
-    coast_deepest,
-    deepest,
-    drive_view,
     pair_motion,
 )
 from gearlube_core.kernels.array_part import part

@@ -6,19 +6,25 @@ import math
 from typing import TypeAlias
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.march.flanks import (
+    FLANK_POINTS,
+    N_FRICTION,
+    MarchConstants,
+    MotionConstants,
+)
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     MeshFields,
+    largest_offset,
     laws_of_oil,
+    mean_density,
     mesh_at_torque,
 )
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
-    FLANK_POINTS,
     LOAD_TORQUE,
     MU,
-    N_FRICTION,
     N_LATERAL,
     N_ODE,
     N_STATE,
@@ -28,8 +34,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     V_P,
     W_G,
     W_P,
-    MarchConstants,
-    MotionConstants,
     pair_motion,
 )
 from gearlube_core.kernels.array_part import part
@@ -206,28 +210,6 @@ def rest(
         s[MU + i] = p.mu
     s[REFRESHED] = -1.0
     return settle(s, pinion_torque, pinion_speed, oil_temperature, mesh, data, work)
-
-
-@kernel
-def mean_density(mesh: MeshFields) -> float:
-    """Return the mean stiffness density of all levels [N/m2]."""
-    densities = mesh[1]
-    total = 0.0
-    for i in range(densities.shape[0]):
-        for j in range(densities.shape[1]):
-            total += densities[i, j]
-    return total / (densities.shape[0] * densities.shape[1])
-
-
-@kernel
-def largest_offset(mesh: MeshFields) -> float:
-    """Return the largest offset of all levels [m]."""
-    offsets = mesh[2]
-    largest = offsets[0, 0]
-    for i in range(offsets.shape[0]):
-        for j in range(offsets.shape[1]):
-            largest = max(largest, offsets[i, j])
-    return largest
 
 
 @kernel

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.dynamics.helical_pair.march.state import (
+from gearlube_core.dynamics.helical_pair.march.flanks import (
     FlankConstants,
     MarchConstants,
     MotionConstants,

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.state import FLANK_POINTS, POINTS_PER_LINE
+from gearlube_core.dynamics.helical_pair.march.flanks import FLANK_POINTS, POINTS_PER_LINE
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.places import place_below
 

@@ -7,14 +7,14 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import LARGEST_OVER_MEAN
-from gearlube_core.dynamics.helical_pair.march.line_points import line_point
-from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
-from gearlube_core.dynamics.helical_pair.march.state import (
+from gearlube_core.dynamics.helical_pair.march.flanks import (
     LINES_MAX,
     POINTS_PER_LINE,
     FlankView,
     MarchConstants,
 )
+from gearlube_core.dynamics.helical_pair.march.line_points import line_point
+from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import line_moes_groups
 from gearlube_core.friction.evans_johnson_1986 import traction_map_number

@@ -8,6 +8,19 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.march.flanks import (
+    FLANK_POINTS,
+    POINTS_PER_LINE,
+    FlankConstants,
+    FlankView,
+    MarchConstants,
+    MotionConstants,
+    PairMotion,
+    coast_near,
+    coast_view,
+    drive_view,
+    touches,
+)
 from gearlube_core.dynamics.helical_pair.march.kept_films import (
     LEAST_SPEED,
     N_FILMS,
@@ -31,19 +44,6 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     STATIONS_AT,
     density_at,
-)
-from gearlube_core.dynamics.helical_pair.march.state import (
-    FLANK_POINTS,
-    POINTS_PER_LINE,
-    FlankConstants,
-    FlankView,
-    MarchConstants,
-    MotionConstants,
-    PairMotion,
-    coast_near,
-    coast_view,
-    drive_view,
-    touches,
 )
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.film_model import net

@@ -8,6 +8,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
+from gearlube_core.dynamics.helical_pair.march.flanks import POINTS_PER_LINE, MotionConstants
 from gearlube_core.dynamics.helical_pair.march.line_moments import (
     LINEAR,
     built_up_stations,
@@ -24,7 +25,6 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     STATIONS_AT,
     density_at,
 )
-from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE, MotionConstants
 from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel

@@ -18,8 +18,8 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.march.flanks import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.kept_films import N_KEPT_FILMS
-from gearlube_core.dynamics.helical_pair.march.state import MarchConstants
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.kernels.jit import kernel
@@ -141,3 +141,25 @@ def place_mesh(station: Array, mesh: MeshFields, data: Array) -> None:
     for i in range(station.size):
         data[STATIONS_AT + i] = station[i]
     mesh_at_torque(mesh[0][0], mesh, data)
+
+
+@kernel
+def mean_density(mesh: MeshFields) -> float:
+    """Return the mean stiffness density of all levels [N/m2]."""
+    densities = mesh[1]
+    total = 0.0
+    for i in range(densities.shape[0]):
+        for j in range(densities.shape[1]):
+            total += densities[i, j]
+    return total / (densities.shape[0] * densities.shape[1])
+
+
+@kernel
+def largest_offset(mesh: MeshFields) -> float:
+    """Return the largest offset of all levels [m]."""
+    offsets = mesh[2]
+    largest = offsets[0, 0]
+    for i in range(offsets.shape[0]):
+        for j in range(offsets.shape[1]):
+            largest = max(largest, offsets[i, j])
+    return largest

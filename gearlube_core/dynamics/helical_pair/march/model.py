@@ -15,6 +15,7 @@ from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     rest,
     stiffness_over_mass,
 )
+from gearlube_core.dynamics.helical_pair.march.flanks import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     MAX_STEPS,
     NOT_FINITE,
@@ -32,12 +33,7 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES, write_outputs
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
-from gearlube_core.dynamics.helical_pair.march.state import (
-    LOAD_TORQUE,
-    N_ODE,
-    N_STATE,
-    MarchConstants,
-)
+from gearlube_core.dynamics.helical_pair.march.state import LOAD_TORQUE, N_ODE, N_STATE
 from gearlube_core.dynamics.ranges import TOO_FAR
 from gearlube_core.dynamics.stepped_model import (
     TOO_FAR_WORDS,

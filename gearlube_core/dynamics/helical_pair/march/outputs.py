@@ -12,6 +12,14 @@ from gearlube_core.dynamics.helical_pair.march.continuous import (
     write_event_indicators,
     write_rates,
 )
+from gearlube_core.dynamics.helical_pair.march.flanks import (
+    FLANK_POINTS,
+    MarchConstants,
+    SupportConstants,
+    coast_view,
+    drive_view,
+    friction_direction,
+)
 from gearlube_core.dynamics.helical_pair.march.given_pair import BEARING_FIELDS, N_BEARINGS
 from gearlube_core.dynamics.helical_pair.march.line_outputs import (
     LINE_BOUNDS,
@@ -24,9 +32,9 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     laws_of_oil,
     mesh_at_torque,
 )
-from gearlube_core.dynamics.helical_pair.march.rates import flank_wrench, march_rates, turned_wrench
+from gearlube_core.dynamics.helical_pair.march.pair_forces import flank_wrench, turned_wrench
+from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
-    FLANK_POINTS,
     LOAD_TORQUE,
     MU,
     N_ENERGIES,
@@ -44,11 +52,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_G,
     W_P,
     WORK_MARK,
-    MarchConstants,
-    SupportConstants,
-    coast_view,
-    drive_view,
-    friction_direction,
     pair_motion,
 )
 from gearlube_core.dynamics.mean_power import mean_power

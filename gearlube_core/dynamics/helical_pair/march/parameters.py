@@ -11,6 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
+from gearlube_core.dynamics.helical_pair.march.flanks import LINES_MAX, MarchConstants, MarchScalars
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
     BEARING_FIELDS,
     N_BEARINGS,
@@ -22,11 +23,6 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import (
     write_constants,
 )
 from gearlube_core.dynamics.helical_pair.march.mesh_data import all_stations
-from gearlube_core.dynamics.helical_pair.march.state import (
-    LINES_MAX,
-    MarchConstants,
-    MarchScalars,
-)
 from gearlube_core.dynamics.helical_pair.parameters import (
     FRICTION,
     check_line_mesh,

@@ -9,15 +9,13 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.march.flanks import N_FRICTION
 from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_RECORDS
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     pack_march_mesh,
     pair_data,
 )
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.helical_pair.march.state import (
-    N_FRICTION,
-)
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.element import (
     Axes,

@@ -6,8 +6,17 @@ import math
 from typing import Any, NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.equilibrium import largest_offset, mean_density
-from gearlube_core.dynamics.helical_pair.march.integrate import (
+from gearlube_core.dynamics.helical_pair.march.flanks import (
+    FLANK_POINTS,
+    N_FRICTION,
+    MarchConstants,
+    PairMotion,
+    coast_deepest,
+    coast_view,
+    deepest,
+    drive_view,
+)
+from gearlube_core.dynamics.helical_pair.march.jumps import (
     LOAD_FILTER_TIME,
     LOAD_REACH,
     REFRESH_COST,
@@ -24,19 +33,11 @@ from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     LEAST_OFFSET,
     LEVEL,
+    largest_offset,
+    mean_density,
     mesh_at_torque,
 )
-from gearlube_core.dynamics.helical_pair.march.rates import pair_forces
-from gearlube_core.dynamics.helical_pair.march.state import (
-    FLANK_POINTS,
-    N_FRICTION,
-    MarchConstants,
-    PairMotion,
-    coast_deepest,
-    coast_view,
-    deepest,
-    drive_view,
-)
+from gearlube_core.dynamics.helical_pair.march.pair_forces import pair_forces
 from gearlube_core.dynamics.train.element import (
     RATE,
     Axes,
