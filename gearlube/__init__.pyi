@@ -48,6 +48,8 @@ from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfSh
 from gearlube_core.dynamics.train.elements.drag import Seal as Seal
 from gearlube_core.dynamics.train.elements.drag import Churning as Churning
 from gearlube_core.dynamics.train.helical_pair import helical_pair as helical_pair_train
+from gearlube_core.dynamics.train.hypoid_axle import axle_train as axle_train
+from gearlube_core.dynamics.train.hypoid_axle import axle_values as axle_values
 from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle as hypoid_axle_train
 from drivetrain.train.train_file import TrainFile as TrainFile
 from gearlube.studies.drivetrain.run import run_drivetrain as run_drivetrain

@@ -20,20 +20,33 @@ from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
+from gearlube_core.number import Output
 from gearlube_core.oil.formula_laws import mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
-FLANK_QUANTITIES = (
-    "load",
-    "film_thickness",
-    "film_ratio",
-    "friction_coefficient",
-    "temperature",
+_QUANTITIES = (
+    Output("load", "N", "normal load", 1e3, "kN"),
+    Output("film_thickness", "m", "central film", 1e-6, "um"),
+    Output("film_ratio", "1", "film over roughness"),
+    Output("friction_coefficient", "1", "friction coefficient", 0.05),
+    Output("temperature", "K", "film temperature", 300.0, "degC"),
 )
+FLANK_QUANTITIES = tuple(one.name for one in _QUANTITIES)
 # of each flank by a film model, in a group of their own
-BOUND_QUANTITIES = ("film_bound", "friction_bound")
+_OF_BOUNDS = (
+    Output("film_bound", "1", "bound of the film thickness, relative", 0.05),
+    Output("friction_bound", "1", "bound of the friction, relative", 0.05),
+)
+BOUND_QUANTITIES = tuple(one.name for one in _OF_BOUNDS)
 FLANK_BOUNDS = tuple(f"flank[{i}].{q}" for i in range(1, PAIRS + 1) for q in BOUND_QUANTITIES)
 FLANK_OUTPUTS = tuple(f"flank[{i}].{q}" for i in range(1, PAIRS + 1) for q in FLANK_QUANTITIES)
+# both, with units and words
+FLANK_RECORDS = tuple(
+    one._replace(name=f"flank[{i}].{one.name}", text=f"{one.text}, flank {i}")
+    for quantities in (_QUANTITIES, _OF_BOUNDS)
+    for i in range(1, PAIRS + 1)
+    for one in quantities
+)
 
 # places within the outputs of one flank
 LOAD = FLANK_QUANTITIES.index("load")

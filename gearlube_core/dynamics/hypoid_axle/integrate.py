@@ -144,20 +144,24 @@ def rk4_step(
     slope = part(stages, N_STATE, N_ODE)
     total = part(stages, N_STATE + N_ODE, N_ODE)
     axle_rhs(s, inputs, mesh, oil, p, BETWEEN_NODES * first, 0.0, scratch, slope)
+    bound = scratch[BOUND_POWER]
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
     axle_rhs(trial, inputs, mesh, oil, p, BETWEEN_NODES, 0.0, scratch, slope)
+    bound += 2.0 * scratch[BOUND_POWER]
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
     axle_rhs(trial, inputs, mesh, oil, p, 0.0, 0.0, scratch, slope)
+    bound += 2.0 * scratch[BOUND_POWER]
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
     axle_rhs(trial, inputs, mesh, oil, p, BETWEEN_NODES, 0.0, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
+    s[FRICTION_BOUND] += h / 6.0 * (bound + scratch[BOUND_POWER])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
         abs(inputs.pinion_torque) - s[LOAD_TORQUE]
     )
@@ -316,7 +320,6 @@ def advance(
                 return TOO_MANY_STEPS
             rk4_step(s, piece, first, inputs, mesh, oil, p, scratch, stages)
             first = 0.0
-            s[FRICTION_BOUND] += piece * scratch[BOUND_POWER]
             s[DRAG_BOUND] += piece * (drag.pinion.bound + drag.gear.bound)
             if table.levels[0] < 0.0:
                 follow_flank_of(s, at_load, table, p.mesh, mesh)

@@ -78,6 +78,8 @@ from gearlube_core.dynamics.hypoid_axle.rhs import (
     axle_drag,
     axle_raceways,
     axle_rhs,
+    drag_after_step,
+    drag_is_kept,
     gear_frequency,
     gear_motion,
     kept_drag,
@@ -261,12 +263,17 @@ def _write_rates(
     oil = lubricant_state(p.oil, oil_temperature, table.laws)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     scratch = work[N_ODE:at_series]
-    if s[TIME_IN_STEP] > 0.0 and p.drag > PALMGREN:  # as the step has taken it
-        drag = kept_drag(s, s[KEPT_DRAG:N_STATE])
+    kept = s[KEPT_DRAG:N_STATE]
+    after_step = s[TIME_IN_STEP] > 0.0 and p.drag > PALMGREN
+    if after_step and drag_is_kept(s, oil.temperature, kept):
+        drag = kept_drag(s, kept)
     else:
         if alone:
             raceways = raceways_of(s, oil, p, data.roller_model, scratch)
-        drag = axle_drag(s, oil, p, raceways)
+        if after_step:  # as the next step takes it
+            drag = drag_after_step(s, oil, p, kept, raceways)
+        else:
+            drag = axle_drag(s, oil, p, raceways)
     inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
     if data.film_model.size > 0:
         for i in range(N_FILMS):

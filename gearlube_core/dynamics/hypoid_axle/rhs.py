@@ -197,6 +197,30 @@ def kept_drag(s: Array, kept: Array) -> AxleDrag:
 
 
 @kernel
+def drag_after_step(
+    s: Array, oil: LubricantState, p: AxleParameters, kept: Array, raceways: AxleRaceways
+) -> AxleDrag:
+    """Return the drag with which the next step begins: by what is kept, where that holds.
+
+    Arguments as in `axle_drag` and `kept_drag`.
+    """
+    near, exact = kept_drag(s, kept), axle_drag(s, oil, p, raceways)
+    of_pinion, of_gear = part(kept, 0, N_FOLLOWED), part(kept, N_FOLLOWED, N_FOLLOWED)
+    return AxleDrag(
+        near.pinion if drag_holds(pinion_motion(s), oil.temperature, of_pinion) else exact.pinion,
+        near.gear if drag_holds(gear_motion(s), oil.temperature, of_gear) else exact.gear,
+    )
+
+
+@kernel
+def drag_is_kept(s: Array, temperature: float, kept: Array) -> bool:
+    """Return whether what is kept of both shafts holds."""
+    of_pinion, of_gear = part(kept, 0, N_FOLLOWED), part(kept, N_FOLLOWED, N_FOLLOWED)
+    holds = drag_holds(pinion_motion(s), temperature, of_pinion)
+    return holds and drag_holds(gear_motion(s), temperature, of_gear)
+
+
+@kernel
 def follow_drag(
     s: Array, oil: LubricantState, p: AxleParameters, films: RollerFilms, kept: Array
 ) -> float:

@@ -45,6 +45,7 @@ class Assembly(NamedTuple):
     names: tuple[str, ...]  # of the integrated states
     works: dict[str, int]  # places of the energies put in
     losses: dict[str, int]  # of those lost
+    bounds: dict[str, int]  # of bounds of those lost
     outputs: tuple[Output, ...]
     kept: dict[str, int]  # first place of what each element keeps
     continuous: tuple[Continuous, ...]
@@ -68,7 +69,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
     _check_names(bodies, elements)
     names = [f"{body.name}.{one}" for body in bodies for one in _MOTIONS]
     of_body = {body.name: BODY_STATES * i for i, body in enumerate(bodies)}
-    own, works, losses, kept = {}, {}, {}, {}
+    own, works, kept = {}, {}, {}
     for one in elements:
         own[one.name] = [*range(len(names), len(names) + len(one.states))]
         names += [f"{one.name}.{state.name}" for state in one.states]
@@ -79,9 +80,12 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         for label in (f"{one.name}.{work}" for work in one.works):
             works[label] = len(names)
             names.append(f"energy.{label}")
-    for label in dict.fromkeys(loss for one in elements for loss in one.losses):
-        losses[label] = len(names)
-        names.append(f"energy.{label}")
+    losses, bounds = dict[str, int](), dict[str, int]()
+    lost = [loss for one in elements for loss in one.losses]
+    for places, labels in ((losses, lost), (bounds, [b for one in elements for b in one.bounds])):
+        for label in dict.fromkeys(labels):
+            places[label] = len(names)
+            names.append(f"energy.{label}")
     size = len(names)
     for one in elements:
         kept[one.name] = size
@@ -97,6 +101,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
             *own[one.name],
             *(works[f"{one.name}.{work}"] for work in one.works),
             *(losses[loss] for loss in one.losses),
+            *(bounds[bound] for bound in one.bounds),
             *((kept[one.name],) if one.kept_size() else ()),
             *(0 if other is None else kept[other] for other in beside),
             *one.sizes(),
@@ -113,7 +118,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         at_memory += room.size
     laws = (*oil.own_laws(), FORMULA_LAWS)[0]
     own_states = sum(len(one.states) for one in elements)
-    energies = len(works) + len(losses)
+    energies = len(works) + len(losses) + len(bounds)
     sizes = Sizes(
         elements=len(elements),
         bodies=len(bodies),
@@ -124,10 +129,11 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         kept=size,
         outputs=at_output,
         works=len(works),
+        losses=len(losses),
         energies=energies,
         exchanged=at_exchanged,
     )
-    outputs = train_outputs(bodies, elements, works, losses)
+    outputs = train_outputs(bodies, elements, works, losses, bounds)
     return Assembly(
         tuple(listed),
         laws,
@@ -138,6 +144,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         tuple(names),
         works,
         losses,
+        bounds,
         outputs,
         kept,
         continuous_states(bodies, elements, names, kept, outputs),

@@ -23,6 +23,7 @@ COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 N_COORDINATES = 6
 RATE = 6  # from a coordinate of a body to its rate
 BODY_STATES = 12
+AFTER_STEP = 5  # a stage, see `Kernels.add_forces`
 RZ, W = 5, 11  # angle [rad] and speed [rad/s] about the shaft's axis z
 
 
@@ -54,7 +55,8 @@ class Kernels(Protocol):
         s, ds : ndarray
             State of the train, and its rates.
         stage : int
-            1 to 4 within an integrator step, 0 for a state by itself, where all is exact.
+            1 to 4 within an integrator step, 0 for a state by itself, where all is exact,
+            AFTER_STEP for one that a step has left, as the next one begins.
         """
 
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.train.drivers import AllElements
-from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, N_COORDINATES
+from gearlube_core.dynamics.train.element import AFTER_STEP, BODY_STATES, COORDINATES, N_COORDINATES
 from gearlube_core.dynamics.train.outputs import MOVING, TURNING, named_of
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.kernels.array_part import part
@@ -125,7 +125,8 @@ def now_kernel(elements: AllElements, rates: Callable[..., None]) -> Callable[..
         for i in range(n, sizes.kept):
             begun[i] = s[i]
         expand(begun, oil, numbers, memory, plan)
-        rates(begun, oil, numbers, memory, plan, 0, slope)
+        stage = AFTER_STEP if s[n_state - 1] > 0.0 else 0
+        rates(begun, oil, numbers, memory, plan, stage, slope)
         exchange(s, oil, numbers, memory, plan, part(work, n, exchanged))
 
     return now

@@ -22,7 +22,7 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import LubricantState
 
-_IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
+IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 _MEAN = "mean over the last step"
 # of a body: about its axis, and along and about the coordinates that it does not hold
 TURNING = (
@@ -41,14 +41,15 @@ def train_outputs(
     elements: Sequence[Element],
     works: Iterable[str],
     losses: Iterable[str],
+    bounds: Iterable[str],
 ) -> tuple[Output, ...]:
     """Return all outputs of a train, in the order of the kernel.
 
     Parameters
     ----------
     bodies, elements
-    works, losses : iterable of str
-        Labels of the energies put in and lost.
+    works, losses, bounds : iterable of str
+        Labels of the energies put in and lost, and of bounds of those.
 
     Raises
     ------
@@ -65,6 +66,11 @@ def train_outputs(
         Output(f"{label}.power_loss", "W", f"power lost in {word}, {_MEAN}", 10.0)
         for label, word in words.items()
     ]
+    words_of_bounds = {label: label.replace("_", " ") for label in bounds}
+    made += [
+        Output(f"{label}.power", "W", f"{word} by solved films, {_MEAN}", 1.0)
+        for label, word in words_of_bounds.items()
+    ]
     ports = {label: label.removesuffix(".work") for label in works}
     made += [
         Output(f"{port}.power", "W", f"power put in by {port}, {_MEAN}", 1e3)
@@ -75,6 +81,10 @@ def train_outputs(
     )
     made += [Output(f"energy.{one}", "J", f"work put in by {ports[one]}", 100.0) for one in ports]
     made += [Output(f"energy.{one}", "J", f"energy lost in {words[one]}", 100.0) for one in words]
+    made += [
+        Output(f"energy.{label}", "J", f"{word} by solved films", 1.0)
+        for label, word in words_of_bounds.items()
+    ]
     made.append(Output("energy.stored", "J", "kinetic and elastic energy", 100.0))
     names = [one.name for one in made]
     for name in names:
@@ -143,14 +153,14 @@ def outputs_kernel(elements: AllElements, now: Callable[..., None]) -> Callable[
         for i in range(works, energies):
             power = mean_power(s, slope, first + i, n_kept + i, duration)
             work[k] = power
-            lost += power
+            lost += power if i < works + sizes.losses else 0.0
             k += 1
         for i in range(works):
             power = mean_power(s, slope, first + i, n_kept + i, duration)
             work[k] = power
             put_in += max(power, 0.0)
             k += 1
-        idle = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
+        idle = IDLE_WORK * (1.0 / duration) if duration > 0.0 else IDLE_WORK
         work[k] = 1.0 - lost / put_in if put_in > idle else 0.0
         k += 1
         for i in range(energies):

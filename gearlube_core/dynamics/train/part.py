@@ -98,6 +98,7 @@ class Element(ABC):
     angles: ClassVar[tuple[str, ...]] = ()  # own integrated states that turn on
     works: ClassVar[tuple[str, ...]] = ()  # energies put into the train
     losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
+    bounds: ClassVar[tuple[str, ...]] = ()  # bounds of losses by solved films, likewise
     outputs: ClassVar[tuple[Output, ...]] = ()  # named without the element
     levels: ClassVar[
         tuple[str, ...]

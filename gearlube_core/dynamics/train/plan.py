@@ -35,6 +35,7 @@ class Sizes(NamedTuple):
     kept: int  # end of what elements keep, then a mark of each energy and the length of the step
     outputs: int  # of elements
     works: int  # of the energies, which are the last integrated states, first those put in
+    losses: int  # of them, behind those put in; then bounds of losses
     energies: int
     exchanged: int  # rates of levels and event indicators of the elements
 
@@ -55,7 +56,7 @@ def pack_plan(sizes: Sizes, rows: Sequence[Sequence[int]]) -> Offsets:
 def sizes_of(plan: Offsets) -> Sizes:
     """Return the sizes of the train of a plan."""
     n = places(plan, 0, FIRST_ROW)
-    return Sizes(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10])
+    return Sizes(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11])
 
 
 def places(plan: Offsets, first: int, count: int) -> Any:

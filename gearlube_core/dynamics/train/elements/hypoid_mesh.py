@@ -9,14 +9,15 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_RECORDS
 from gearlube_core.dynamics.hypoid_axle.flanks import N_FRICTION
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import N_FILMS
+from gearlube_core.dynamics.hypoid_axle.tooth_pair import EXACT
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.element import Listed
 from gearlube_core.dynamics.train.elements.hypoid_mesh_kernels import (
-    FLANKS_ROOM,
     OWN_FILMS,
     HypoidMeshKernels,
 )
@@ -57,14 +58,19 @@ class HypoidMesh(Element):
     parameters: HypoidAxleParameters
     torque_of: str | None = None
     kind: ClassVar = "hypoid_mesh"
-    interpreted: ClassVar = (Listed(HypoidMeshKernels, (MixedFlankFriction,), 14),)
+    interpreted: ClassVar = (Listed(HypoidMeshKernels, (MixedFlankFriction,), 15),)
     on: ClassVar = ("pinion", "gear")
     beside: ClassVar = ("torque_of",)
     states: ClassVar = (
         Output("transmission_error", "m", "dynamic transmission error", 1e-5, "um"),
     )
     losses: ClassVar = ("friction_viscous", "friction_boundary", "friction_rolling", "mesh_damping")
-    outputs: ClassVar = (*MESH_OUTPUTS, Output("force", "N", "normal mesh force", 1e3))
+    bounds: ClassVar = ("friction_bound",)
+    outputs: ClassVar = (
+        *MESH_OUTPUTS,
+        Output("force", "N", "normal mesh force", 1e3),
+        *FLANK_RECORDS,
+    )
     levels: ClassVar = ("load_torque",)
     events: ClassVar = (
         Output("event.drive_flank", "1", "deflection of the drive flanks over 1 um"),
@@ -106,9 +112,8 @@ class HypoidMesh(Element):
         packed = _packed(self.parameters)
         table = packed.levels, packed.series.ravel(), packed.windows.ravel()
         now = packed.series_size + packed.window_size + N_FRICTION + N_CHANNELS
-        head = np.array([np.nan, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0])
-        room = np.zeros(FLANKS_ROOM)
-        return np.concatenate([head, *table, np.zeros(now), self.parameters.film_model(), room])
+        head = np.array([np.nan, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, EXACT])
+        return np.concatenate([head, *table, np.zeros(now), self.parameters.film_model()])
 
     def ranges(self) -> tuple[Range, ...]:
         """Return the ranges of mesh table, oil and formulas, and that of solved films."""

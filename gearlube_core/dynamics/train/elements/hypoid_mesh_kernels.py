@@ -9,7 +9,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import backlash_deflection
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
     FILM_THICKNESS,
-    FLANK_BOUNDS,
     FLANK_OUTPUTS,
     LOAD,
     N_FLANK_QUANTITIES,
@@ -39,7 +38,7 @@ from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_FILMS
 from gearlube_core.dynamics.hypoid_axle.tooth_pair import BETWEEN_NODES, EXACT
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import RangeLimits
-from gearlube_core.dynamics.train.element import RATE, RZ, W
+from gearlube_core.dynamics.train.element import AFTER_STEP, RATE, RZ, W
 from gearlube_core.dynamics.train.elements.mesh_outputs import (
     OWN,
     MeshValues,
@@ -54,10 +53,9 @@ from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant import LubricantState
 
 # places of `at` behind both bodies
-_X, _VISCOUS, _BOUNDARY, _ROLLING, _DAMPING, _KEPT, _PORT = range(2, 9)
-_LEVELS, _ORDERS, _NODES, _SERIES, _FILM = range(9, 14)
-_BOUNDS = len(FLANK_OUTPUTS)
-FLANKS_ROOM = _BOUNDS + len(FLANK_BOUNDS)  # behind the film model
+_X, _VISCOUS, _BOUNDARY, _ROLLING, _DAMPING, _BOUND, _KEPT, _PORT = range(2, 10)
+_LEVELS, _ORDERS, _NODES, _SERIES, _FILM = range(10, 15)
+_BOUNDS = len(FLANK_OUTPUTS)  # place of the bounds behind the outputs of the flanks
 _LEAST = 1e-9  # m, deflection
 _ALL_TOUCH = 1e-6  # m, deflection that no difference of a linearisation ends
 # what is kept: load that selects the level [N.m], side, mean stiffness at the start [N/m], films at
@@ -65,8 +63,9 @@ _ALL_TOUCH = 1e-6  # m, deflection that no difference of a linearisation ends
 _LOAD, _SIDE, _STIFFNESS, OWN_FILMS = range(4)
 # places in the memory: load and side of the data in use, torque on the pinion [N.m], rate of the
 # transmission error [m/s] in the last stage, 1 while tractions are to be found again, length of
-# the last step [s], how much of a difference the load level follows in it, the table
-_AT_LOAD, _AT_SIDE, _TORQUE, _RATE, _ANEW, _STEP, _FOLLOWS, _TABLE = range(8)
+# the last step [s], how much of a difference the load level follows in it, how films are asked for
+# outputs, the table
+_AT_LOAD, _AT_SIDE, _TORQUE, _RATE, _ANEW, _STEP, _FOLLOWS, _ASKED, _TABLE = range(9)
 
 
 class HypoidMeshKernels(NamedTuple):
@@ -145,8 +144,9 @@ class HypoidMeshKernels(NamedTuple):
         mesh = mesh_force(m, now.series, now.n_orders, self.mesh)
         # tractions of the first middle and the last stage serve those behind them
         asked = 0.0
-        if stage == 0:
-            asked = EXACT
+        if stage == 0 or stage == AFTER_STEP:
+            asked = EXACT if stage == 0 else BETWEEN_NODES
+            memory[_ASKED] = asked
         elif stage == 2 or stage == 4 or (stage == 1 and memory[_ANEW] != 0.0):
             asked = BETWEEN_NODES
         channels = part(memory, _friction_at(at) + N_FRICTION, N_CHANNELS)
@@ -183,6 +183,7 @@ class HypoidMeshKernels(NamedTuple):
         ds[at[_BOUNDARY]] += friction.boundary_power
         ds[at[_ROLLING]] += friction.rolling_power
         ds[at[_DAMPING]] += mesh.damping_power
+        ds[at[_BOUND]] += _friction(at, memory)[BOUND_POWER]
 
     @kernel
     def after_part(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
@@ -257,7 +258,7 @@ class HypoidMeshKernels(NamedTuple):
         mesh = mesh_force(m, now.series, now.n_orders, self.mesh)
         at_film = _friction_at(at) + N_FRICTION + N_CHANNELS
         channels, friction = part(memory, at_film - N_CHANNELS, N_CHANNELS), _friction(at, memory)
-        flanks = part(memory, at_film + at[_FILM], FLANKS_ROOM)
+        flanks = first + OWN + 1
         found = write_flanks(
             m,
             mesh.force,
@@ -267,12 +268,12 @@ class HypoidMeshKernels(NamedTuple):
             oil,
             self,  # type: ignore[arg-type]  # it has the fields of the axle that are read
             now.film_model,
-            BETWEEN_NODES,
+            memory[_ASKED],
             part(friction, FILMS, N_FILMS),
-            0,
-            _BOUNDS,
-            channels,
             flanks,
+            flanks + _BOUNDS,
+            channels,
+            out,
         )
         lost = flank_sum(
             m,
@@ -281,15 +282,16 @@ class HypoidMeshKernels(NamedTuple):
             now.n_nodes,
             oil,
             self,  # type: ignore[arg-type]
-            BETWEEN_NODES,
+            memory[_ASKED],
             friction,
             channels,
             now.film_model,
         )
         thinnest = math.inf
         for pair in range(PAIRS):
-            if flanks[pair * N_FLANK_QUANTITIES + LOAD] > 0.0:
-                thinnest = min(thinnest, flanks[pair * N_FLANK_QUANTITIES + FILM_THICKNESS])
+            here = flanks + pair * N_FLANK_QUANTITIES
+            if out[here + LOAD] > 0.0:
+                thinnest = min(thinnest, out[here + FILM_THICKNESS])
         values = MeshValues(
             x,
             mesh.stiffness,

@@ -16,6 +16,8 @@ from gearlube_core.bearings.bearing_type import (
     RollerFilms,
     ShaftBearings,
     ShaftMotion,
+    SolvedRaceways,
+    bearing_loads,
     expanded_forces,
     shaft_energy,
 )
@@ -27,6 +29,7 @@ from gearlube_core.bearings.followed_shaft import (
     N_FORCES,
     PALMGREN,
     TORQUE_LOSSES,
+    ShaftDrag,
     drag_holds,
     drag_near,
     drag_of_shaft,
@@ -34,10 +37,11 @@ from gearlube_core.bearings.followed_shaft import (
     follow_forces,
     forget_forces,
     moving_parts,
+    raceways_of_shaft,
     renew_drag,
 )
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
-from gearlube_core.bearings.parameters import cage_torque
+from gearlube_core.bearings.parameters import ROLLERS_MAX, cage_torque
 from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option
@@ -51,9 +55,24 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
-_FILM = 8  # place of the size of the film model, behind the axes
-# places in the memory behind the forces: drag of the present step [N.m], the film model
-_DRAG, _MEMORY = N_FORCES, N_FORCES + 1
+# places of `at` behind body, cage, both losses and the bound: what is kept, three axes, size of the
+# film model
+_KEPT, _AXES, _FILM = 5, 6, 9
+# places in the memory behind the forces: drag of the present step [N.m], its bound [W], work space
+# of single rollers, of their nodes, the film model
+_DRAG, _DOUBT, _ROLLERS = N_FORCES, N_FORCES + 1, N_FORCES + 2
+_NODES = _ROLLERS + ROLLERS_MAX
+_MEMORY = _NODES + N_ROLLER_NODES
+_OWN = 4  # outputs of both bearings together
+_SOLVED = _OWN + 3  # likewise of the rollers
+_FORCES = tuple(Output(f"force.{c}", "N", f"force along {c} on the body", 1e3) for c in "xyz")
+_OF_ONE = (
+    *_FORCES,
+    Output("roller_load_max", "N", "largest load of a roller", 1e3),
+    Output("roller_load_min", "N", "least load of a roller", 1e3),
+    Output("film_thickness", "m", "thinnest film of a roller, with solved films", 1e-6, "um"),
+    Output("film_bound", "1", "bound of that film, relative", 0.05),
+)
 
 
 class _OpposedBearings(NamedTuple):
@@ -67,7 +86,7 @@ class _OpposedBearings(NamedTuple):
     @kernel
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         for i in range(N_FOLLOWED + (N_ROLLER_NODES if at[_FILM] > 0 else 0)):
-            s[at[4] + i] = 0.0
+            s[at[_KEPT] + i] = 0.0
 
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -84,13 +103,14 @@ class _OpposedBearings(NamedTuple):
         follow_forces(
             self.bearings, m, _frequency(self, m), oil, h, self.reach, part(memory, 0, N_FORCES)
         )
-        kept, cost = part(s, at[4], N_FOLLOWED), 0.0
+        kept, cost = part(s, at[_KEPT], N_FOLLOWED), 0.0
         if self.law > PALMGREN and not drag_holds(m, oil.temperature, kept):
             films = _films(at, memory, s)
             cost = DRAG_COST * renew_drag(
                 self.bearings, m, self.preload, self.law, oil, films, kept
             )
-        memory[_DRAG] = _drag(self, m, oil, kept)
+        drag = _drag(self, m, oil, kept)
+        memory[_DRAG], memory[_DOUBT] = drag.torque, drag.bound
         return cost
 
     @kernel
@@ -101,13 +121,14 @@ class _OpposedBearings(NamedTuple):
         m = _motion(at, s)
         f_1, f_2, f_a, lost = expanded_forces(self.bearings, m, part(memory, 0, N_EXPANSION))
         v = body + RATE
-        ds[v + at[5]] += f_1
-        ds[v + at[6]] += f_2
-        ds[v + at[7]] += f_a
+        ds[v + at[_AXES]] += f_1
+        ds[v + at[_AXES + 1]] += f_2
+        ds[v + at[_AXES + 2]] += f_a
         ds[v + RZ] += self.bearings.cage_ratio * cage_torque(m.r1, m.r2, f_1, f_2) - memory[_DRAG]
         ds[cage] = self.bearings.cage_ratio * m.speed
         ds[damping] += lost
         ds[drag] += memory[_DRAG] * m.speed
+        ds[at[4]] += memory[_DOUBT]
 
     @kernel
     def time_to_jump(
@@ -125,28 +146,61 @@ class _OpposedBearings(NamedTuple):
     ) -> None:
         m = _motion(at, s)
         f_1, f_2, f_a, _ = expanded_forces(self.bearings, m, part(memory, 0, N_EXPANSION))
-        out[first + at[5]], out[first + at[6]], out[first + at[7]] = f_1, f_2, f_a
-        out[first + 3] = _drag(self, m, oil, part(s, at[4], N_FOLLOWED))
+        out[first + at[_AXES]], out[first + at[_AXES + 1]], out[first + at[_AXES + 2]] = (
+            f_1,
+            f_2,
+            f_a,
+        )
+        out[first + 3] = _drag(self, m, oil, part(s, at[_KEPT], N_FOLLOWED)).torque
+        found = _raceways(self, m, at, memory, s, oil)
+        out[first + _OWN] = found.load
+        out[first + _OWN + 1] = found.load_outside / found.load if found.load > 0.0 else 0.0
+        rollers = part(memory, _ROLLERS, ROLLERS_MAX)
+        for k in range(2):
+            here = first + _SOLVED + k * len(_OF_ONE)
+            one = bearing_loads(self.bearings, m, _frequency(self, m), oil, 1.0 - 2.0 * k, rollers)
+            out[here + at[_AXES]], out[here + at[_AXES + 1]] = one[0], one[1]
+            out[here + at[_AXES + 2]] = one[2]
+            out[here + 3], out[here + 4] = one[4], one[5]
+            out[here + 5] = found.first_film if k == 0 else found.second_film
+            out[here + 6] = found.first_bound if k == 0 else found.second_bound
+            if k == 0:
+                out[first + _OWN + 2] = one[3]
 
 
 @inside
 def _films(at: Any, memory: Array, s: Array) -> RollerFilms:
     """Return the film model and its nodes; both empty where the law has none."""
     nodes = N_ROLLER_NODES if at[_FILM] > 0 else 0
-    return RollerFilms(part(memory, _MEMORY, at[_FILM]), part(s, at[4] + N_FOLLOWED, nodes), 1.0)
+    return RollerFilms(
+        part(memory, _MEMORY, at[_FILM]), part(s, at[_KEPT] + N_FOLLOWED, nodes), 1.0
+    )
 
 
 @kernel
-def _drag(self: _OpposedBearings, m: ShaftMotion, oil: LubricantState, kept: Array) -> float:
+def _raceways(
+    self: _OpposedBearings, m: ShaftMotion, at: Any, memory: Array, s: Array, oil: LubricantState
+) -> SolvedRaceways:
+    # what is kept of the films stays as it is
+    kept = _films(at, memory, s)
+    nodes = part(memory, _NODES, kept.nodes.size)
+    for i in range(nodes.size):
+        nodes[i] = kept.nodes[i]
+    films = RollerFilms(kept.model, nodes, 1.0)
+    return raceways_of_shaft(self.bearings, m, self.law, oil, films)
+
+
+@kernel
+def _drag(self: _OpposedBearings, m: ShaftMotion, oil: LubricantState, kept: Array) -> ShaftDrag:
     if self.law > PALMGREN:
-        return drag_near(m, kept).torque
-    return drag_of_shaft(self.bearings, m, self.preload, self.law, oil, NO_RACEWAYS).torque
+        return drag_near(m, kept)
+    return drag_of_shaft(self.bearings, m, self.preload, self.law, oil, NO_RACEWAYS)
 
 
 @kernel
 def _motion(at: Any, s: Array) -> ShaftMotion:
     u, v = at[0], at[0] + RATE
-    r1, r2, axial = at[5], at[6], at[7]
+    r1, r2, axial = at[_AXES], at[_AXES + 1], at[_AXES + 2]
     return ShaftMotion(
         s[u + r1], s[u + r2], s[u + axial], s[v + r1], s[v + r2], s[v + axial], s[at[1]], s[u + W]
     )  # fmt: skip
@@ -206,13 +260,22 @@ class OpposedBearings(Element):
     steps_per_highest_period: int = 16
     axes: tuple[int, int, int] = (0, 1, 2)
     kind: ClassVar = "opposed_bearings"
-    interpreted: ClassVar = (Listed(_OpposedBearings, (TaperedRollerParameters,), 9),)
+    interpreted: ClassVar = (Listed(_OpposedBearings, (TaperedRollerParameters,), 10),)
     on: ClassVar = ("body",)
     angles: ClassVar = ("cage",)
     losses: ClassVar = ("bearing_damping", "bearing_torque")
+    bounds: ClassVar = ("bearing_bound",)
     outputs: ClassVar = (
-        *(Output(f"force.{c}", "N", f"force along {c} on the body", 1e3) for c in "xyz"),
+        *_FORCES,
         Output("torque", "N.m", "drag"),
+        Output("rollers.load", "N", "load of all rollers, with solved films", 1e3),
+        Output("rollers.share_outside", "1", "share of it outside the film model"),
+        Output("rollers.first_load", "N", "load of roller 1 of the first bearing", 1e3),
+        *(
+            one._replace(name=f"{which}.{one.name}", text=f"{one.text}, {which} bearing")
+            for which in ("first", "second")
+            for one in _OF_ONE
+        ),
     )
 
     def __post_init__(self) -> None:
