@@ -63,7 +63,9 @@ def finished(tmp_path_factory):
     folder = tmp_path_factory.mktemp("finished")
     fmu = stand_in.write_fmu(folder / "axle.fmu")
     out = folder / "out"
-    return out, fmu, *sweep(fmu, out, stand_in.small_point, command_line="gearlube sweep")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("gearlube.studies.sweep.run.ProcessPool", _NoProcess)
+        return out, fmu, *sweep(fmu, out, stand_in.small_point, command_line="gearlube sweep")
 
 
 @pytest.fixture
