@@ -34,6 +34,13 @@ class Model(Protocol):
         """Continue from a state that `get_state` returned."""
 
 
+# name of a flange -> its words; its variables: torque, speed and angle at a mechanical connection
+FLANGES: Mapping[str, tuple[str, str, str, str]] = {
+    "pinion": ("Pinion shaft", "pinion.torque", "pinion.speed", "pinion.angle"),
+    "wheel": ("Shaft of the gear to the wheels", "wheel.torque", "wheel.speed", "wheel.angle"),
+}
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Definition:
     """An FMU as data.
@@ -60,6 +67,8 @@ class Definition:
         Files inside the FMU for its model, by name.
     sources : tuple of str
         Files of code that the model needs and that the slave's module does not import.
+    flanges : mapping
+        As FLANGES; terminals of FMI 3.
     """
 
     name: str
@@ -73,6 +82,7 @@ class Definition:
     shipped_data: tuple[str, ...]
     resources: Mapping[str, bytes] = field(default_factory=dict)
     sources: tuple[str, ...] = ()
+    flanges: Mapping[str, tuple[str, str, str, str]] = field(default_factory=lambda: FLANGES)
 
     @cached_property
     def references(self) -> dict[str, int]:

@@ -23,6 +23,7 @@ from fmu_src.variable import (
 from gearlube_core.arrays import Array
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics.ranges import MAX_SPEED, RANGE_EXCEEDED, Range
+from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.model import MOST_TORQUE, Train
 from gearlube_core.errors import ParameterError
 
@@ -182,6 +183,16 @@ def definition_with_train(path: str | Path) -> tuple[Definition, TrainCase]:
         slave="train",
         shipped_data=(),
         resources={FILE_IN_FMU: content},
+        flanges={
+            one.name: (
+                f"Port {one.name}",
+                f"{one.name}.torque",
+                f"{one.body}.speed",
+                f"{one.body}.angle",
+            )
+            for one in case.train.elements
+            if isinstance(one, Port)
+        },
         sources=tuple({inspect.getfile(type(one)): None for one in case.train.elements}),
     )
     return definition, case

@@ -20,11 +20,6 @@ from fmu_src.native.sources import ArrayVariable, array_variables
 from fmu_src.variable import Variable
 
 _TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
-# flange -> its variables and what they are at a mechanical connection
-_FLANGES = {
-    "pinion": ("Pinion shaft", "pinion.torque", "pinion.speed", "pinion.angle"),
-    "wheel": ("Shaft of the gear to the wheels", "wheel.torque", "wheel.speed", "wheel.angle"),
-}
 _MEMBERS = ("torque", "speed", "angle")
 ICON = "terminalsAndIcons/icon.png"
 _ICON_SIZE = 100.0  # of the drawing in its own units
@@ -162,7 +157,7 @@ def model_description_3(
 
 
 def terminals(definition: Definition) -> bytes:
-    """Return terminalsAndIcons.xml: the two flanges, and the icon."""
+    """Return terminalsAndIcons.xml: the flanges, and the icon."""
     root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
     box = {"x1": "0", "y1": "0", "x2": str(_ICON_SIZE), "y2": str(_ICON_SIZE)}
     graphics = ElementTree.SubElement(root, "GraphicalRepresentation")
@@ -170,7 +165,7 @@ def terminals(definition: Definition) -> bytes:
     ElementTree.SubElement(graphics, "CoordinateSystem", box | scale)
     ElementTree.SubElement(graphics, "Icon", box)
     parent = ElementTree.SubElement(root, "Terminals")
-    for name, (words, *variables) in _FLANGES.items():
+    for name, (words, *variables) in definition.flanges.items():
         terminal = ElementTree.SubElement(
             parent,
             "Terminal",

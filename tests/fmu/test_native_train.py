@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import tomllib
+import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import fmpy
 import numpy as np
@@ -127,6 +129,15 @@ def test_a_solver_of_its_own_finds_the_motion_of_the_steps(fmus: list[Path]) -> 
     stepped = found.pop((0, "CoSimulation"))
     for values in found.values():
         np.testing.assert_allclose(values, stepped, rtol=1e-5)
+
+
+def test_each_port_is_a_flange_of_fmi_3(fmus: list[Path]) -> None:
+    with zipfile.ZipFile(fmus[1]) as archive:
+        root = ElementTree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+    found = {one.get("name"): [v.get("variableName") for v in one] for one in root.iter("Terminal")}
+    assert found == {"drive": ["drive.torque", "engine.speed", "engine.angle"]}
+    known = {v.name for v in fmpy.read_model_description(str(fmus[1])).modelVariables}
+    assert {name for names in found.values() for name in names} <= known
 
 
 def test_the_continuous_states_are_those_that_nothing_holds(fmus: list[Path]) -> None:
