@@ -32,7 +32,7 @@ from fmu_src.native.platforms import (
     shared_library,
     universal_library,
 )
-from fmu_src.native.sources import c_sources, model_sizes
+from fmu_src.native.sources import c_sources, library_name, model_sizes
 from fmu_src.object_code import cpu_of_kernels, intermediate_code, object_code
 from gearlube_core.checks import check_option
 from gearlube_core.kernels.source_code import code_of
@@ -197,7 +197,7 @@ def _built(
     if not platforms:
         return
     check_linker()
-    name = model.definition.name
+    name = library_name(model)
     sources = c_sources(model, library_kind(model)) | fmi_headers()
     report(f"{name}: compiling the kernels")
     code = model.entry and intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)

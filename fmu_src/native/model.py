@@ -89,6 +89,9 @@ class NativeModel:
         All that the entry is compiled for, in words. Then it must not depend on `data`, `work_size`
         or any words of the model, and it must know the operation CHECK: the library is kept for all
         models of the kind. Without it a library fits this model alone.
+    any_sizes : bool
+        Whether the library is one for models of other variables too: the entry of such a kind knows
+        no size, and CHECK gets all of `gl_sizes` behind both lengths.
     state_size : int
         Everything that the future depends on: states, inputs of the last step, step control.
     control_at : int
@@ -133,6 +136,7 @@ class NativeModel:
     groups: Mapping[Operation, frozenset[str]] = field(default_factory=dict)
     exchange: Exchange | None = None
     kind: str = ""
+    any_sizes: bool = False
 
 
 @kernel

@@ -10,13 +10,13 @@ from uuid import UUID
 import numpy as np
 
 from fmu_src.native.model import NativeModel, Operation
-from fmu_src.native.sources import array_variables
+from fmu_src.native.sources import array_variables, sizes_of
 from fmu_src.variable import Variable
 
 MODEL_FILE = "model.bin"
-MARK, KIND_SIZE, GUID_SIZE = b"gearmod1", 40, 40
+MARK, KIND_SIZE, GUID_SIZE = b"gearmod2", 40, 40
 COUNTS_AT = len(MARK) + KIND_SIZE + GUID_SIZE
-N_COUNTS = 6  # data, work, text, members, refusals, literals
+N_COUNTS = 19  # data, work, text, members, refusals, literals, `sizes_of`
 CHECKSUM_AT = COUNTS_AT + 4 * N_COUNTS
 HEAD_SIZE = CHECKSUM_AT + 4
 # as the enumerations of `model.h` count
@@ -118,7 +118,7 @@ def model_body(model: NativeModel) -> tuple[bytes, list[int]]:
     )
     n_literals = sum(len(variable.literals) for variable in variables)
     of_model = [len(model.data), model.work_size, len(words.text)]
-    counts = [*of_model, len(in_order), len(model.refusals), n_literals]
+    counts = [*of_model, len(in_order), len(model.refusals), n_literals, *sizes_of(model).values()]
     return body, counts
 
 

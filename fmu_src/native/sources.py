@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 from zlib import crc32
 
 import numpy as np
@@ -19,6 +20,20 @@ _INDEX = re.compile(r"\[(\d+)\]")
 PLUMBING = Path(__file__).with_name("plumbing")
 _ANY = -1  # length that the file of the model gives
 _A_LINE = 24
+
+
+class Most(NamedTuple):
+    """Sizes that a library for models of any sizes has room for; instances have room for all."""
+
+    variables: int
+    parameters: int
+    inputs: int
+    outputs: int
+    state: int
+    ranges: int
+
+
+MOST = Most(variables=4096, parameters=64, inputs=64, outputs=4096, state=8192, ranges=31)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,24 +99,16 @@ def model_sizes(model: NativeModel, kind: str) -> str:
     kind : str
         Token that the file of the model must have.
     """
-    definition = model.definition
-    variables = definition.variables
+    variables = model.definition.variables
     any_length = bool(model.kind)
+    own = sizes_of(model)
+    most = MOST._asdict() if model.any_sizes else own
     sizes = {
-        "VARIABLES": len(variables),
-        "PARAMETERS": sum(v.is_model_parameter for v in variables),
-        "INPUTS": sum(v.causality == "input" for v in variables),
-        "OUTPUTS": len(definition.output_names),
-        "STATE": model.state_size,
-        "CONTROL_AT": model.control_at,
-        "LIMITS_AT": model.limits_at,
-        "RANGES_AT": model.ranges_at,
-        "RANGES": len(model.ranges),
+        **{f"MOST_{name.upper()}": most[name] for name in MOST._fields},
+        "SIZES": f"{{ {', '.join(map(str, own.values()))} }}",
+        "ANY_SIZES": int(model.any_sizes),
+        "EXCHANGE": int(model.exchange is not None),
         "LAZY": int(bool(model.motion)),
-        "CONTINUOUS": len(model.exchange.states) if model.exchange else 0,
-        "INDICATORS": len(model.exchange.indicators) if model.exchange else 0,
-        "INPUTS_AT": model.exchange.inputs_at if model.exchange else 0,
-        "EXCEEDED": definition.references.get(RANGE_EXCEEDED, 0),
         "DATA": _ANY if any_length else len(model.data),
         "WORK": _ANY if any_length else model.work_size,
         "DATA_SUM": f"{_data_sum(model)}u",
@@ -109,13 +116,16 @@ def model_sizes(model: NativeModel, kind: str) -> str:
     options = [len(variable.literals) for variable in variables if variable.is_model_parameter]
     if any_length:
         options = [_ANY if count else 0 for count in options]
+    if model.any_sizes:
+        options = [0] * MOST.parameters
+        del sizes["SIZES"]
     lines = [f"#define GL_{name} {size}" for name, size in sizes.items()]
     return "\n".join(
         [
             "/* Generated from the list of FMI variables. */",
             "#ifndef GEARLUBE_MODEL_SIZES_H",
             "#define GEARLUBE_MODEL_SIZES_H",
-            f'#define GL_MODEL_NAME "{definition.name}"',
+            f'#define GL_MODEL_NAME "{library_name(model)}"',
             f'#define GL_KIND "{kind}" /* of which the file of the model must be */',
             *lines,
             "/* How many options each parameter of the model has. */",
@@ -124,6 +134,38 @@ def model_sizes(model: NativeModel, kind: str) -> str:
             "#endif\n",
         ]
     )
+
+
+def sizes_of(model: NativeModel) -> dict[str, int]:
+    """Return the sizes of a model, as `gl_sizes` of `model.h` has them."""
+    definition, exchange = model.definition, model.exchange
+    variables = definition.variables
+    return {
+        "variables": len(variables),
+        "parameters": sum(v.is_model_parameter for v in variables),
+        "inputs": sum(v.causality == "input" for v in variables),
+        "outputs": len(definition.output_names),
+        "state": model.state_size,
+        "control_at": model.control_at,
+        "limits_at": model.limits_at,
+        "ranges_at": model.ranges_at,
+        "ranges": len(model.ranges),
+        "continuous": len(exchange.states) if exchange else 0,
+        "indicators": len(exchange.indicators) if exchange else 0,
+        "inputs_at": exchange.inputs_at if exchange else 0,
+        "exceeded": definition.references.get(RANGE_EXCEEDED, 0),
+    }
+
+
+def fits_any_sizes(model: NativeModel) -> bool:
+    """Whether a library for models of any sizes has room for this one."""
+    sizes = sizes_of(model)
+    return all(sizes[name] <= most for name, most in MOST._asdict().items())
+
+
+def library_name(model: NativeModel) -> str:
+    """Return the name of a library in messages."""
+    return "Train" if model.any_sizes else model.definition.name
 
 
 def _data_sum(model: NativeModel) -> int:

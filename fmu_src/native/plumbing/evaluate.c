@@ -10,10 +10,10 @@ static const double LONGEST_UNWATCHED = 0.01;
 /* Inputs have narrower limits than the table of variables says: mesh data and oil decide. */
 int gl_say_input_beyond(gl_instance *instance, gl_status status, const char *before)
 {
-    for (int i = 0; i < GL_INPUTS; i++) {
+    for (int i = 0; i < instance->model->n.inputs; i++) {
         int reference = instance->model->inputs[i];
         const gl_variable *variable = &instance->model->variables[reference];
-        const double *limits = instance->work + GL_LIMITS_AT + 2 * i;
+        const double *limits = instance->work + instance->model->n.limits_at + 2 * i;
         double value = instance->now.values[reference];
         if (!(limits[0] <= value && value <= limits[1])) {
             gl_say(instance, status, "%s%s must be within %g to %g %s, got %g. %s", before,
@@ -28,7 +28,7 @@ int gl_say_input_beyond(gl_instance *instance, gl_status status, const char *bef
 
 void gl_take_outputs(gl_instance *instance, int computed)
 {
-    for (int i = 0; i < GL_OUTPUTS; i++) {
+    for (int i = 0; i < instance->model->n.outputs; i++) {
         int reference = instance->model->outputs[i];
         if (instance->model->variables[reference].needs & computed) {
             instance->now.values[reference] = instance->outputs[i];
@@ -46,16 +46,16 @@ void gl_watch_ranges(gl_instance *instance)
 {
     instance->points++;
     instance->watched = instance->now.time;
-    if (GL_RANGES == 0) {
+    if (instance->model->n.ranges == 0) {
         return;
     }
-    unsigned outside = (unsigned)gl_whole(instance->now.values[GL_EXCEEDED], 0, INT32_MAX);
-    for (int i = 0; outside && i < GL_RANGES; i++) {
+    unsigned outside = (unsigned)gl_whole(instance->now.values[instance->model->n.exceeded], 0, INT32_MAX);
+    for (int i = 0; outside && i < instance->model->n.ranges; i++) {
         if (!(outside >> i & 1u) || instance->outside[i]++) {
             continue;
         }
         const gl_range *range = &instance->model->ranges[i];
-        const double *limits = instance->work + GL_RANGES_AT + 2 * i;
+        const double *limits = instance->work + instance->model->n.ranges_at + 2 * i;
         gl_say(instance, GL_WARNING,
                "%s: %s should be within %g to %g%s%s, got %.4g. %s First at t = %g s; said once "
                "a run.",
@@ -73,7 +73,8 @@ gl_status gl_take_inputs(gl_instance *instance)
     if (gl_say_refused(instance, GL_DISCARD, "") || gl_say_input_beyond(instance, GL_DISCARD, "")) {
         return GL_DISCARD;
     }
-    gl_gather_inputs(instance->model, instance->now.values, instance->now.state + GL_INPUTS_AT);
+    gl_gather_inputs(instance->model, instance->now.values,
+                     instance->now.state + instance->model->n.inputs_at);
     return GL_OK;
 }
 
@@ -89,7 +90,7 @@ static const struct { int group, operation; } alone[] = {{GL_OF_MOTION, GL_MOTIO
    all outputs computes. */
 static int64_t compute(gl_instance *instance, int missing, int *computed)
 {
-    double inputs[GL_INPUTS] = {0.0}; /* those in the state count */
+    double inputs[GL_MOST_INPUTS] = {0.0}; /* those in the state count */
     int64_t operation = GL_WRITE_OUTPUTS;
     int dear = GL_OF_FLANKS | GL_OF_BEARINGS | GL_OF_RATES;
     int apart = instance->now.exchange ? missing == GL_OF_RATES
@@ -126,7 +127,7 @@ gl_status gl_refresh(gl_instance *instance, int needed)
                gl_refusal_text(instance->model, refusal));
         return bad;
     }
-    for (int i = 0; i < GL_OUTPUTS; i++) {
+    for (int i = 0; i < instance->model->n.outputs; i++) {
         const gl_variable *variable = &instance->model->variables[instance->model->outputs[i]];
         if (variable->needs & computed && !isfinite(instance->outputs[i])) {
             gl_say(instance, bad, "%s is not finite.", variable->name);
@@ -134,7 +135,7 @@ gl_status gl_refresh(gl_instance *instance, int needed)
         }
     }
     gl_take_outputs(instance, computed);
-    if (computed & ~known & instance->model->variables[GL_EXCEEDED].needs &&
+    if (computed & ~known & instance->model->variables[instance->model->n.exceeded].needs &&
         !instance->now.exchange) {
         gl_watch_ranges(instance);
     }

@@ -29,15 +29,15 @@ gl_status gl_enter_continuous_time(gl_instance *instance)
 /* Lets a copy of the state take what an event changes. */
 static gl_status event(gl_instance *instance, double *state)
 {
-    double inputs[GL_INPUTS] = {0.0}; /* those in the state count */
+    double inputs[GL_MOST_INPUTS] = {0.0}; /* those in the state count */
     gl_status status = gl_take_inputs(instance);
     if (status != GL_OK) {
         return status;
     }
-    memcpy(state, instance->now.state, sizeof instance->now.state);
+    memcpy(state, instance->now.state, gl_state_bytes(instance->model));
     int64_t refusal = gearlube_entry(GL_EVENT, 0.0, instance->model->data, instance->parameters,
                                      inputs, state, instance->work, instance->outputs);
-    if (refusal != 0 || !gl_all_finite(state, GL_STATE)) {
+    if (refusal != 0 || !gl_all_finite(state, instance->model->n.state)) {
         gl_say(instance, GL_DISCARD, "The event cannot be computed: %s.",
                refusal ? gl_refusal_text(instance->model, refusal) : "a state is not finite");
         return GL_DISCARD;
@@ -47,7 +47,7 @@ static gl_status event(gl_instance *instance, double *state)
 
 gl_status gl_update_discrete(gl_instance *instance, int *states_changed)
 {
-    double state[GL_STATE];
+    double state[GL_MOST_STATE];
     gl_status status = gl_expect(instance, GL_EVENTS);
     if (status == GL_OK) {
         status = event(instance, state);
@@ -56,12 +56,12 @@ gl_status gl_update_discrete(gl_instance *instance, int *states_changed)
         return status;
     }
     *states_changed = 0;
-    for (int i = 0; i < GL_CONTINUOUS; i++) {
+    for (int i = 0; i < instance->model->n.continuous; i++) {
         int place = instance->model->states[i].place;
         *states_changed |= memcmp(&state[place], &instance->now.state[place], sizeof *state) != 0;
     }
-    if (memcmp(state, instance->now.state, sizeof state)) {
-        memcpy(instance->now.state, state, sizeof state);
+    if (memcmp(state, instance->now.state, gl_state_bytes(instance->model))) {
+        memcpy(instance->now.state, state, gl_state_bytes(instance->model));
         instance->fresh = 0;
     }
     return GL_OK;
@@ -69,7 +69,7 @@ gl_status gl_update_discrete(gl_instance *instance, int *states_changed)
 
 gl_status gl_complete_step(gl_instance *instance, int *due)
 {
-    double state[GL_STATE];
+    double state[GL_MOST_STATE];
     gl_status status = gl_expect(instance, GL_CONTINUOUS_TIME);
     if (status == GL_OK) {
         status = event(instance, state);
@@ -77,7 +77,7 @@ gl_status gl_complete_step(gl_instance *instance, int *due)
     if (status != GL_OK) {
         return status;
     }
-    *due = memcmp(state, instance->now.state, sizeof state) != 0;
+    *due = memcmp(state, instance->now.state, gl_state_bytes(instance->model)) != 0;
     if (gl_is_unwatched(instance) && gl_refresh(instance, GL_ALL) == GL_OK) {
         gl_watch_ranges(instance);
     }
@@ -129,17 +129,17 @@ gl_status gl_set_states(gl_instance *instance, const double *values, size_t coun
 {
     gl_status status = gl_expect(instance, GL_CONTINUOUS_TIME);
     if (status == GL_OK) {
-        status = check_array(instance, values, count, GL_CONTINUOUS);
+        status = check_array(instance, values, count, (size_t)instance->model->n.continuous);
     }
     if (status != GL_OK) {
         return status;
     }
-    for (int i = 0; i < GL_CONTINUOUS; i++) { /* all or none */
+    for (int i = 0; i < instance->model->n.continuous; i++) { /* all or none */
         if (gl_check_state(instance, i, values[i]) != GL_OK) {
             return GL_DISCARD;
         }
     }
-    for (int i = 0; i < GL_CONTINUOUS; i++) {
+    for (int i = 0; i < instance->model->n.continuous; i++) {
         gl_put_state(instance, i, values[i]);
     }
     return GL_OK;
@@ -160,8 +160,8 @@ static gl_status check_get(gl_instance *instance, const double *values, size_t c
 gl_status gl_get_states(gl_instance *instance, double *values, size_t count)
 {
     int needed = instance->now.phase < GL_STEPPING ? GL_ALL : GL_NOTHING;
-    gl_status status = check_get(instance, values, count, GL_CONTINUOUS, needed);
-    for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
+    gl_status status = check_get(instance, values, count, (size_t)instance->model->n.continuous, needed);
+    for (int i = 0; status == GL_OK && i < instance->model->n.continuous; i++) {
         const gl_continuous_state *state = &instance->model->states[i];
         values[i] = instance->now.state[state->place] * state->unit;
     }
@@ -170,8 +170,8 @@ gl_status gl_get_states(gl_instance *instance, double *values, size_t count)
 
 gl_status gl_get_nominals(gl_instance *instance, double *values, size_t count)
 {
-    gl_status status = check_get(instance, values, count, GL_CONTINUOUS, GL_NOTHING);
-    for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
+    gl_status status = check_get(instance, values, count, (size_t)instance->model->n.continuous, GL_NOTHING);
+    for (int i = 0; status == GL_OK && i < instance->model->n.continuous; i++) {
         values[i] = instance->model->variables[instance->model->states[i].reference].nominal;
     }
     return status;
@@ -179,8 +179,8 @@ gl_status gl_get_nominals(gl_instance *instance, double *values, size_t count)
 
 gl_status gl_get_rates(gl_instance *instance, double *values, size_t count)
 {
-    gl_status status = check_get(instance, values, count, GL_CONTINUOUS, GL_OF_RATES);
-    for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
+    gl_status status = check_get(instance, values, count, (size_t)instance->model->n.continuous, GL_OF_RATES);
+    for (int i = 0; status == GL_OK && i < instance->model->n.continuous; i++) {
         values[i] = instance->now.values[instance->model->states[i].rate];
     }
     return status;
@@ -188,8 +188,8 @@ gl_status gl_get_rates(gl_instance *instance, double *values, size_t count)
 
 gl_status gl_get_indicators(gl_instance *instance, double *values, size_t count)
 {
-    gl_status status = check_get(instance, values, count, GL_INDICATORS, GL_OF_RATES);
-    for (int i = 0; status == GL_OK && i < GL_INDICATORS; i++) {
+    gl_status status = check_get(instance, values, count, (size_t)instance->model->n.indicators, GL_OF_RATES);
+    for (int i = 0; status == GL_OK && i < instance->model->n.indicators; i++) {
         values[i] = instance->now.values[instance->model->indicators[i]];
     }
     return status;
@@ -197,7 +197,7 @@ gl_status gl_get_indicators(gl_instance *instance, double *values, size_t count)
 
 int gl_state_number(const gl_model *model, unsigned reference)
 {
-    for (int i = 0; i < GL_CONTINUOUS; i++) {
+    for (int i = 0; i < model->n.continuous; i++) {
         if (model->states[i].reference == (int)reference) {
             return i;
         }
@@ -214,7 +214,7 @@ static int place_of(const gl_model *model, unsigned reference, double *unit)
         return model->states[number].place;
     }
     const gl_variable *variable = &model->variables[reference];
-    return variable->causality == GL_INPUT ? GL_INPUTS_AT + variable->place : -1;
+    return variable->causality == GL_INPUT ? model->n.inputs_at + variable->place : -1;
 }
 
 static gl_status check_direction(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
@@ -229,14 +229,16 @@ static gl_status check_direction(gl_instance *instance, const unsigned *unknowns
         status = gl_refuse(instance, "References or values are missing: a null pointer.");
     }
     for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
-        if (unknowns[i] >= GL_VARIABLES || variables[unknowns[i]].causality != GL_OUTPUT ||
+        if (unknowns[i] >= (unsigned)instance->model->n.variables ||
+            variables[unknowns[i]].causality != GL_OUTPUT ||
             variables[unknowns[i]].kind != GL_REAL) {
             status = gl_refuse(instance, "An unknown must be a Real that the FMU computes, got the "
                                          "value reference %u.", unknowns[i]);
         }
     }
     for (size_t i = 0; status == GL_OK && i < n_knowns; i++) {
-        if (knowns[i] >= GL_VARIABLES || place_of(instance->model, knowns[i], &unit) < 0) {
+        if (knowns[i] >= (unsigned)instance->model->n.variables ||
+            place_of(instance->model, knowns[i], &unit) < 0) {
             status = gl_refuse(instance, "A known must be a continuous state or an input, got the "
                                          "value reference %u.", knowns[i]);
         } else if (!isfinite(seed[i])) {
@@ -251,8 +253,8 @@ static gl_status outputs_beside(gl_instance *instance, int operation, const unsi
                                 size_t n_knowns, const double *seed, double whole, double share,
                                 double *outputs)
 {
-    double state[GL_STATE], inputs[GL_INPUTS] = {0.0}, unit;
-    memcpy(state, instance->now.state, sizeof state);
+    double state[GL_MOST_STATE], inputs[GL_MOST_INPUTS] = {0.0}, unit;
+    memcpy(state, instance->now.state, gl_state_bytes(instance->model));
     for (size_t i = 0; i < n_knowns; i++) {
         int place = place_of(instance->model, knowns[i], &unit);
         state[place] += share * (seed[i] / whole) / unit;
@@ -270,7 +272,7 @@ gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size
                            const unsigned *knowns, size_t n_knowns, const double *seed,
                            double *derivatives)
 {
-    double above[GL_OUTPUTS], below[GL_OUTPUTS], largest = 0.0;
+    double above[GL_MOST_OUTPUTS], below[GL_MOST_OUTPUTS], largest = 0.0;
     const gl_variable *variables = instance->model->variables;
     int needs = GL_OF_RATES;
     gl_status status = check_direction(instance, unknowns, n_unknowns, knowns, n_knowns, seed,

@@ -62,7 +62,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         gl_say_no_instance(name, "The host must give a logger.");
         return NULL;
     }
-    if (type != fmi2CoSimulation && GL_CONTINUOUS == 0) {
+    if (type != fmi2CoSimulation && !GL_EXCHANGE) {
         strcpy(why, "This FMU is for co-simulation only.");
     } else {
         model = gl_load(resources, guid, "GUID", why);

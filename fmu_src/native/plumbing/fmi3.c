@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { TIME = GL_VARIABLES }; /* reference of the independent variable */
-
 static const char *const type_names[] = {"Float64", "Int32", "Boolean"}; /* by gl_kind */
 static const fmi3Status statuses[] = {fmi3OK, fmi3Warning, fmi3Discard, fmi3Error};
 
@@ -78,7 +76,7 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi
                                           fmi3InstanceEnvironment host, fmi3LogMessageCallback log)
 {
     (void)visible;
-    if (GL_CONTINUOUS == 0) {
+    if (!GL_EXCHANGE) {
         return no_instance(name, host, log, "This FMU is for co-simulation only.");
     }
     return make(name, token, resources, logging, host, log, 1);
@@ -148,15 +146,22 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Bo
     return answer(status);
 }
 
-static int is_time(fmi3ValueReference reference, gl_kind kind, int setting)
+/* The independent variable comes behind all others. */
+static fmi3ValueReference reference_of_time(const gl_instance *instance)
 {
-    return reference == TIME && kind == GL_REAL && !setting;
+    return (fmi3ValueReference)instance->model->n.variables;
+}
+
+static int is_time(const gl_instance *instance, fmi3ValueReference reference, gl_kind kind,
+                   int setting)
+{
+    return reference == reference_of_time(instance) && kind == GL_REAL && !setting;
 }
 
 /* The variable of a reference; NULL if there is none. */
 static const gl_array *array_of(const gl_instance *instance, fmi3ValueReference reference)
 {
-    const gl_array *array = reference < GL_VARIABLES ? &instance->model->arrays[reference] : NULL;
+    const gl_array *array = reference < reference_of_time(instance) ? &instance->model->arrays[reference] : NULL;
     return array && array->count ? array : NULL;
 }
 
@@ -166,7 +171,7 @@ static gl_status check_types(gl_instance *instance, gl_kind kind, int enumeratio
 {
     size_t expected = 0;
     for (size_t i = 0; i < n; i++) {
-        if (is_time(refs[i], kind, setting)) {
+        if (is_time(instance, refs[i], kind, setting)) {
             expected++;
             continue;
         }
@@ -201,7 +206,7 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
     gl_status status = check_types(instance, kind, enumeration, setting, refs, n, n_values);
     const double *reals = kind == GL_REAL ? values : NULL;
     for (size_t i = 0; status == GL_OK && i < n; i++) {
-        if (!is_time(refs[i], kind, setting)) {
+        if (!is_time(instance, refs[i], kind, setting)) {
             const gl_array *array = &instance->model->arrays[refs[i]];
             const void *own = reals ? reals : values;
             status = (setting ? gl_check_set : gl_check_read)(
@@ -235,7 +240,7 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
                 double value = instance->now.values[array->members[j]];                           \
                 values[k++] = read;                                                               \
             }                                                                                     \
-            if (refs[i] == TIME) {                                                                \
+            if (refs[i] == reference_of_time(instance)) {                                                                \
                 double value = instance->now.time;                                                \
                 values[k++] = read;                                                               \
             }                                                                                     \

@@ -93,7 +93,8 @@ fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 z[], size_t n)
     return answer(GL_CALL(c, gl_get_indicators(c, z, n)));
 }
 
-static fmi3Status tell_number(gl_instance *instance, size_t *place, size_t number)
+/* How many event indicators there are, or how many continuous states. */
+static fmi3Status tell_number(gl_instance *instance, size_t *place, int of_indicators)
 {
     if (!gl_is_instance(instance)) {
         return fmi3Error;
@@ -101,18 +102,19 @@ static fmi3Status tell_number(gl_instance *instance, size_t *place, size_t numbe
     if (!place) {
         return no_pointer(instance);
     }
-    *place = number;
+    const gl_sizes *sizes = &instance->model->n;
+    *place = (size_t)(of_indicators ? sizes->indicators : sizes->continuous);
     return fmi3OK;
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *n)
 {
-    return tell_number(c, n, GL_INDICATORS);
+    return tell_number(c, n, 1);
 }
 
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n)
 {
-    return tell_number(c, n, GL_CONTINUOUS);
+    return tell_number(c, n, 0);
 }
 
 /* Writes the elements of all arrays one after the other; returns 0 if they are not `count`. */
@@ -120,12 +122,12 @@ static int elements(const gl_model *model, const fmi3ValueReference refs[], size
 {
     size_t k = 0;
     for (size_t i = 0; i < n; i++) {
-        const gl_array *array = refs[i] < GL_VARIABLES ? &model->arrays[refs[i]] : NULL;
+        const gl_array *array = refs[i] < (unsigned)model->n.variables ? &model->arrays[refs[i]] : NULL;
         if (!array || array->count == 0) {
             return 0;
         }
         for (int j = 0; j < array->count; j++) {
-            if (k == GL_VARIABLES) {
+            if (k == (size_t)model->n.variables) {
                 return 0;
             }
             found[k++] = array->members[j];
@@ -139,7 +141,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
                                         size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
                                         fmi3Float64 sensitivity[], size_t n_sensitivity)
 {
-    unsigned of_unknowns[GL_VARIABLES], of_knowns[GL_VARIABLES];
+    unsigned of_unknowns[GL_MOST_VARIABLES], of_knowns[GL_MOST_VARIABLES];
     if (!gl_is_instance(c)) {
         return fmi3Error;
     }

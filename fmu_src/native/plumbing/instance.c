@@ -24,7 +24,7 @@ static void set_to_start(gl_instance *instance)
     instance->refusals = 0;
     instance->step_refused = 0;
     instance->stale = 1;
-    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+    for (int i = 0; i < instance->model->n.variables; i++) {
         instance->now.values[i] = instance->model->variables[i].start;
     }
 }
@@ -132,6 +132,11 @@ int gl_all_finite(const double *values, int count)
     return 1;
 }
 
+size_t gl_state_bytes(const gl_model *model)
+{
+    return sizeof(double) * (size_t)model->n.state;
+}
+
 /* Why an operation of the model gives no result; NULL where it does. Without `outputs` it gives
    none. */
 static const char *why_not(const gl_model *model, int64_t status, const double *outputs,
@@ -140,10 +145,10 @@ static const char *why_not(const gl_model *model, int64_t status, const double *
     if (status != 0) {
         return gl_refusal_text(model, status);
     }
-    if (outputs && !gl_all_finite(outputs, GL_OUTPUTS)) {
+    if (outputs && !gl_all_finite(outputs, model->n.outputs)) {
         return "an output is not finite";
     }
-    return gl_all_finite(state, GL_STATE) ? NULL : "a state is not finite";
+    return gl_all_finite(state, model->n.state) ? NULL : "a state is not finite";
 }
 
 gl_status gl_start(gl_instance *instance)
@@ -151,8 +156,8 @@ gl_status gl_start(gl_instance *instance)
     if (gl_say_refused(instance, GL_ERROR, "")) {
         return GL_ERROR;
     }
-    double inputs[GL_INPUTS], state[GL_STATE];
-    memset(state, 0, sizeof state);
+    double inputs[GL_MOST_INPUTS], state[GL_MOST_STATE];
+    memset(state, 0, gl_state_bytes(instance->model));
     gl_gather_parameters(instance->model, instance->now.values, instance->parameters);
     gl_gather_inputs(instance->model, instance->now.values, inputs);
     int64_t status = gearlube_entry(GL_RESUME, 0.0, instance->model->data, instance->parameters,
@@ -168,7 +173,7 @@ gl_status gl_start(gl_instance *instance)
     if (why) {
         return gl_refuse(instance, "The start was refused: %s.", why);
     }
-    memcpy(instance->now.state, state, sizeof state);
+    memcpy(instance->now.state, state, gl_state_bytes(instance->model));
     gl_take_outputs(instance, GL_ALL);
     instance->stale = 0;
     return GL_OK;
@@ -186,7 +191,7 @@ gl_status gl_exit_initialisation(gl_instance *instance)
     instance->now.phase = instance->now.exchange ? GL_EVENTS : GL_STEPPING;
     gl_watch_ranges(instance);
     gl_say(instance, GL_OK, "initialised at t = %g s", instance->now.time);
-    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+    for (int i = 0; i < instance->model->n.variables; i++) {
         const gl_variable *variable = &instance->model->variables[i];
         if (variable->causality == GL_PARAMETER && variable->place >= 0) {
             double value = instance->parameters[variable->place]; /* also if by number */
@@ -211,7 +216,7 @@ gl_status gl_terminate(gl_instance *instance)
         gl_watch_ranges(instance);
     }
     instance->now.phase = GL_TERMINATED;
-    for (int i = 0; i < GL_RANGES; i++) {
+    for (int i = 0; i < instance->model->n.ranges; i++) {
         if (instance->outside[i]) {
             gl_say(instance, GL_OK, "%s was outside its range at %llu of %llu communication points.",
                    instance->model->ranges[i].output, (unsigned long long)instance->outside[i],
@@ -267,15 +272,15 @@ static gl_status step_to(gl_instance *instance, double time, double step)
     if (checked != GL_OK) {
         return checked;
     }
-    double inputs[GL_INPUTS], before[GL_STATE];
+    double inputs[GL_MOST_INPUTS], before[GL_MOST_STATE];
     gl_gather_inputs(instance->model, instance->now.values, inputs);
-    memcpy(before, instance->now.state, sizeof before);
+    memcpy(before, instance->now.state, gl_state_bytes(instance->model));
     int64_t status = gearlube_entry(GL_STEP, step, instance->model->data, instance->parameters,
                                     inputs, instance->now.state, instance->work, instance->outputs);
     const char *why = why_not(instance->model, status, GL_LAZY ? NULL : instance->outputs,
                               instance->now.state);
     if (why) {
-        memcpy(instance->now.state, before, sizeof before);
+        memcpy(instance->now.state, before, gl_state_bytes(instance->model));
         gl_say(instance, GL_DISCARD, "step of %g s at t = %g s refused: %s.", step, time, why);
         return GL_DISCARD;
     }

@@ -38,8 +38,8 @@ typedef struct {
     gl_phase phase;
     int exchange;                /* 1: model exchange, 0: co-simulation */
     double time;                 /* last communication point, or what the host has set [s] */
-    double values[GL_VARIABLES]; /* of every variable, in its FMI unit */
-    double state[GL_STATE];      /* of the model */
+    double values[GL_MOST_VARIABLES]; /* of every variable, in its FMI unit */
+    double state[GL_MOST_STATE];      /* of the model */
 } gl_snapshot;
 
 /* Settings of floating point, in the registers of the processor. */
@@ -63,10 +63,10 @@ struct gl_instance {
     int fresh;      /* what is computed of the present state, as bits */
     double watched; /* time at which the ranges were looked at last [s] */
     int refusals;                        /* values outside their range: how many, */
-    unsigned char refused[GL_VARIABLES]; /* and which */
-    double parameters[GL_PARAMETERS];    /* what `work` was made of */
-    double outputs[GL_OUTPUTS];
-    uint64_t points, outside[GL_RANGES + 1]; /* communication points, and those outside a range */
+    unsigned char refused[GL_MOST_VARIABLES]; /* and which */
+    double parameters[GL_MOST_PARAMETERS];    /* what `work` was made of */
+    double outputs[GL_MOST_OUTPUTS];
+    uint64_t points, outside[GL_MOST_RANGES + 1]; /* communication points, and those outside a range */
     unsigned logs;                           /* categories that the host wants, as bits */
     gl_listener listener;
     void *host;       /* what the listener needs of the host */

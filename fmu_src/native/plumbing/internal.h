@@ -26,6 +26,9 @@ void gl_gather_inputs(const gl_model *model, const double *values, double *input
 
 int gl_all_finite(const double *values, int count);
 
+/* Size of a state of the model. */
+size_t gl_state_bytes(const gl_model *model);
+
 /* CRC-32, begun with `seed`. */
 uint32_t gl_checksum(uint32_t seed, const unsigned char *bytes, size_t size);
 

@@ -64,18 +64,28 @@ typedef struct {
 
 enum { GL_GUID_SIZE = 40 };
 
+/* Sizes of a model. Those that arrays of instances are made for are at most GL_MOST_ of their name. */
+typedef struct {
+    int variables, parameters, inputs, outputs;
+    int state, control_at; /* from this place on all values of a state are above 0 */
+    int limits_at, ranges_at, ranges; /* places in `work`, and how many ranges */
+    int continuous, indicators, inputs_at; /* place in the state */
+    int exceeded; /* reference of range.exceeded */
+} gl_sizes;
+
 /* A model as its file describes it, in one piece of memory. */
 typedef struct {
     char guid[GL_GUID_SIZE];
+    gl_sizes n;
     int work, n_data, n_refusals;
-    const gl_variable *variables; /* GL_VARIABLES of them */
+    const gl_variable *variables; /* n.variables of them */
     const gl_array *arrays;       /* as many */
     const int *inputs;            /* reference of each input of the model */
     const int *outputs;           /* reference of each output of the model */
-    const gl_continuous_state *states; /* GL_CONTINUOUS of them */
-    const int *indicators;             /* references of the GL_INDICATORS event indicators */
+    const gl_continuous_state *states; /* n.continuous of them */
+    const int *indicators;             /* references of the n.indicators event indicators */
     const gl_refusal *refusals;
-    const gl_range *ranges; /* GL_RANGES of them */
+    const gl_range *ranges; /* n.ranges of them */
     const double *data;     /* what only a table or a gear decides */
 } gl_model;
 
@@ -92,7 +102,7 @@ enum {
     GL_BEARINGS,
     GL_RACEWAYS,
     GL_CHECK /* only of an entry that takes data of any length: `parameters` are the lengths of data
-                and work, `inputs` how many options each parameter has */
+                and work and then gl_sizes, `inputs` how many options each parameter has */
 };
 
 /* The physics: compiled from the same kernels as the Python models. Returns 0 or the status of a

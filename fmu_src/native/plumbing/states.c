@@ -12,10 +12,21 @@ enum {
     MARK_SIZE = 8,
     OWNER_SIZE = GL_GUID_SIZE,
     HEADER_SIZE = MARK_SIZE + OWNER_SIZE + 4 + 4,
-    OF_EXCHANGE = 256, /* added to the phase in model exchange */
-    NUMBERS_SIZE = 8 * (1 + GL_VARIABLES + GL_STATE)
+    OF_EXCHANGE = 256 /* added to the phase in model exchange */
 };
 static const char MARK[MARK_SIZE + 1] = "gearlub2";
+
+static size_t values_bytes(const gl_model *model)
+{
+    return sizeof(double) * (size_t)model->n.variables;
+}
+
+/* Of time, values and state. */
+static size_t numbers_bytes(const gl_model *model)
+{
+    return sizeof(double) + values_bytes(model) + gl_state_bytes(model);
+}
+
 static const char FREED[] = "The state is none of this FMU, or has been freed. Save one again.";
 
 /* States that hosts hold. A host gets a number that is never given again, not an address: a freed
@@ -155,11 +166,11 @@ static gl_status keep(gl_instance *instance, const gl_snapshot *snapshot, void *
 static gl_status keep_of_exchange(gl_instance *instance, void **place)
 {
     gl_snapshot snapshot = instance->now;
-    for (int i = 0; i < GL_OUTPUTS; i++) {
+    for (int i = 0; i < instance->model->n.outputs; i++) {
         snapshot.values[instance->model->outputs[i]] = 0.0;
     }
-    for (int i = 0; i < GL_INPUTS; i++) {
-        snapshot.state[GL_INPUTS_AT + i] = 0.0;
+    for (int i = 0; i < instance->model->n.inputs; i++) {
+        snapshot.state[instance->model->n.inputs_at + i] = 0.0;
     }
     return keep(instance, &snapshot, place);
 }
@@ -203,7 +214,7 @@ gl_status gl_state_size(gl_instance *instance, const void *state, size_t *size)
         status = GL_ERROR;
     }
     if (status == GL_OK) {
-        *size = HEADER_SIZE + NUMBERS_SIZE;
+        *size = HEADER_SIZE + numbers_bytes(instance->model);
     }
     return status;
 }
@@ -215,9 +226,10 @@ gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *
     if (!snapshot) {
         return GL_ERROR;
     }
-    if (size < HEADER_SIZE + NUMBERS_SIZE) {
-        return gl_refuse(instance, "A state needs %d bytes, got room for %lu.",
-                         HEADER_SIZE + NUMBERS_SIZE, (unsigned long)size);
+    size_t of_values = values_bytes(instance->model), of_numbers = numbers_bytes(instance->model);
+    if (size < HEADER_SIZE + of_numbers) {
+        return gl_refuse(instance, "A state needs %lu bytes, got room for %lu.",
+                         (unsigned long)(HEADER_SIZE + of_numbers), (unsigned long)size);
     }
     unsigned char *numbers = bytes + HEADER_SIZE;
     uint32_t phase = (uint32_t)snapshot->phase + (snapshot->exchange ? OF_EXCHANGE : 0);
@@ -226,9 +238,9 @@ gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *
     memcpy(bytes + MARK_SIZE, instance->model->guid, OWNER_SIZE);
     memcpy(bytes + MARK_SIZE + OWNER_SIZE, &phase, 4);
     memcpy(numbers, &snapshot->time, 8);
-    memcpy(numbers + 8, snapshot->values, sizeof snapshot->values);
-    memcpy(numbers + 8 + sizeof snapshot->values, snapshot->state, sizeof snapshot->state);
-    uint32_t sum = gl_checksum(phase, numbers, NUMBERS_SIZE);
+    memcpy(numbers + 8, snapshot->values, of_values);
+    memcpy(numbers + 8 + of_values, snapshot->state, gl_state_bytes(instance->model));
+    uint32_t sum = gl_checksum(phase, numbers, of_numbers);
     memcpy(bytes + HEADER_SIZE - 4, &sum, 4);
     return GL_OK;
 }
@@ -240,7 +252,7 @@ static int is_sound(const gl_model *model, const gl_snapshot *snapshot)
                                            : snapshot->phase == GL_EVENTS ||
                                                  snapshot->phase == GL_CONTINUOUS_TIME;
     int sound = isfinite(snapshot->time) && !of_other_kind;
-    for (int i = 0; i < GL_VARIABLES; i++) {
+    for (int i = 0; i < model->n.variables; i++) {
         const gl_variable *variable = &model->variables[i];
         double value = snapshot->values[i];
         int may_be_refused = variable->causality == GL_INPUT ||
@@ -250,8 +262,8 @@ static int is_sound(const gl_model *model, const gl_snapshot *snapshot)
                 (variable->kind == GL_REAL || value == floor(value));
     }
     if (started) {
-        sound = sound && gl_all_finite(snapshot->state, GL_STATE);
-        for (int i = GL_CONTROL_AT; i < GL_STATE; i++) {
+        sound = sound && gl_all_finite(snapshot->state, model->n.state);
+        for (int i = model->n.control_at; i < model->n.state; i++) {
             sound = sound && snapshot->state[i] > 0.0;
         }
     }
@@ -271,15 +283,16 @@ static gl_status from_bytes(gl_instance *instance, const unsigned char *bytes, s
     memcpy(&phase, bytes + MARK_SIZE + OWNER_SIZE, 4);
     memcpy(&sum, bytes + HEADER_SIZE - 4, 4);
     const unsigned char *numbers = bytes + HEADER_SIZE;
+    size_t of_values = values_bytes(instance->model), of_numbers = numbers_bytes(instance->model);
     snapshot->exchange = (phase & OF_EXCHANGE) != 0;
     snapshot->phase = (gl_phase)(phase & ~(uint32_t)OF_EXCHANGE);
-    if (size != HEADER_SIZE + NUMBERS_SIZE || (phase & ~(uint32_t)OF_EXCHANGE) > GL_TERMINATED ||
-        gl_checksum(phase, numbers, NUMBERS_SIZE) != sum) {
+    if (size != HEADER_SIZE + of_numbers || (phase & ~(uint32_t)OF_EXCHANGE) > GL_TERMINATED ||
+        gl_checksum(phase, numbers, of_numbers) != sum) {
         return gl_refuse(instance, "The FMU state is damaged: length or checksum do not agree.");
     }
     memcpy(&snapshot->time, numbers, 8);
-    memcpy(snapshot->values, numbers + 8, sizeof snapshot->values);
-    memcpy(snapshot->state, numbers + 8 + sizeof snapshot->values, sizeof snapshot->state);
+    memcpy(snapshot->values, numbers + 8, of_values);
+    memcpy(snapshot->state, numbers + 8 + of_values, gl_state_bytes(instance->model));
     if (!is_sound(instance->model, snapshot)) {
         return gl_refuse(instance, "The FMU state holds numbers that no run of it leaves.");
     }
@@ -308,10 +321,10 @@ gl_status gl_restore(gl_instance *instance, const void *state)
                          instance->now.exchange ? "model exchange" : "co-simulation");
     }
     if (snapshot->phase >= GL_STEPPING) {
-        double parameters[GL_PARAMETERS], inputs[GL_INPUTS], of_model[GL_STATE];
+        double parameters[GL_MOST_PARAMETERS], inputs[GL_MOST_INPUTS], of_model[GL_MOST_STATE];
         gl_gather_parameters(instance->model, snapshot->values, parameters);
         gl_gather_inputs(instance->model, snapshot->values, inputs);
-        memcpy(of_model, snapshot->state, sizeof of_model);
+        memcpy(of_model, snapshot->state, gl_state_bytes(instance->model));
         int64_t status = gearlube_entry(GL_RESUME, 0.0, instance->model->data, parameters, inputs,
                                         of_model, instance->work, instance->outputs);
         if (status != 0) {

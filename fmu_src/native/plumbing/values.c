@@ -29,7 +29,7 @@ static int is_legal(const gl_variable *variable, double value)
 
 int gl_say_refused(gl_instance *instance, gl_status status, const char *before)
 {
-    for (unsigned i = 0; instance->refusals && i < GL_VARIABLES; i++) {
+    for (int i = 0; instance->refusals && i < instance->model->n.variables; i++) {
         if (instance->refused[i]) {
             char limits[GL_LONGEST_LIMITS];
             const gl_variable *variable = &instance->model->variables[i];
@@ -50,9 +50,9 @@ static void note(gl_instance *instance, unsigned reference, int refused)
 
 void gl_find_refused(gl_instance *instance)
 {
-    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+    for (int i = 0; i < instance->model->n.variables; i++) {
         const gl_variable *variable = &instance->model->variables[i];
-        note(instance, i,
+        note(instance, (unsigned)i,
              variable->causality != GL_OUTPUT && !is_legal(variable, instance->now.values[i]));
     }
 }
@@ -60,12 +60,12 @@ void gl_find_refused(gl_instance *instance)
 void gl_gather_parameters(const gl_model *model, const double *values, double *parameters)
 {
     const gl_variable *variables = model->variables;
-    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+    for (int i = 0; i < model->n.variables; i++) {
         if (variables[i].causality == GL_PARAMETER && variables[i].place >= 0) {
             parameters[variables[i].place] = values[i];
         }
     }
-    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+    for (int i = 0; i < model->n.variables; i++) {
         if (variables[i].option >= 0 && values[i] != 0.0) {
             parameters[variables[variables[i].option].place] = values[i];
         }
@@ -74,7 +74,7 @@ void gl_gather_parameters(const gl_model *model, const double *values, double *p
 
 void gl_gather_inputs(const gl_model *model, const double *values, double *inputs)
 {
-    for (int i = 0; i < GL_INPUTS; i++) {
+    for (int i = 0; i < model->n.inputs; i++) {
         inputs[i] = values[model->inputs[i]];
     }
 }
@@ -94,9 +94,9 @@ static gl_status check(gl_instance *instance, gl_kind kind, size_t count, const 
         return gl_refuse(instance, "References or values are missing: a null pointer.");
     }
     for (size_t i = 0; i < count; i++) {
-        if (refs[i] >= GL_VARIABLES) {
+        if (refs[i] >= (unsigned)instance->model->n.variables) {
             return gl_refuse(instance, "The value reference must be within 0 to %d, got %u.",
-                             GL_VARIABLES - 1, refs[i]);
+                             instance->model->n.variables - 1, refs[i]);
         }
         const gl_variable *variable = &instance->model->variables[refs[i]];
         if (variable->kind != kind) {
