@@ -12,7 +12,6 @@ from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
-from fmu_src.native.model import all_finite, is_whole
 from fmu_src.native.parameter_map import AxleSettings, KernelClasses, ParameterMap
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
@@ -28,6 +27,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
 from gearlube_core.film_model.net import UNITS, WIDTH
 from gearlube_core.friction.thermal_eyring_data import PRESSURES
+from gearlube_core.kernels.checked_numbers import all_finite, is_whole
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import N_SERIES, SHAFT_HEAD

@@ -19,7 +19,6 @@ import numpy as np
 from fmu_src.definition import Definition
 from fmu_src.helical_pair import EmbeddedPair, chosen_pair, embedded_pair, line_model_of
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
-from fmu_src.native.model import all_finite, is_whole
 from fmu_src.object_code import array_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
@@ -37,6 +36,7 @@ from gearlube_core.dynamics.ranges import Range
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.model import LINE, shipped_model
 from gearlube_core.film_model.net import N_ARRAY, UNITS, WIDTH
+from gearlube_core.kernels.checked_numbers import all_finite, is_whole
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import Lubricant

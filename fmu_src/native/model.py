@@ -11,7 +11,6 @@ from numba import types
 from fmu_src.definition import Definition
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.ranges import Range
-from gearlube_core.kernels.jit import kernel
 
 _POINTER = types.CPointer(types.float64)
 # operation, step, data, parameters, inputs, state, work, outputs
@@ -137,18 +136,3 @@ class NativeModel:
     exchange: Exchange | None = None
     kind: str = ""
     any_sizes: bool = False
-
-
-@kernel
-def is_whole(value: float, low: float, high: float) -> bool:
-    """Whether a number among the constants is a whole one within limits."""
-    return low <= value <= high and value == float(int(value))
-
-
-@kernel
-def all_finite(values: Array, start: int, end: int) -> bool:
-    """Whether the constants from one place up to another can be computed with."""
-    finite = True
-    for i in range(start, end):
-        finite = finite and abs(values[i]) < 1e300
-    return finite

@@ -19,8 +19,10 @@ def main() -> None:
     from fmu_src.native.build import libraries, prebuilt_folder
     from fmu_src.native.kept import PREBUILT, keep_library
     from fmu_src.native.models import native_model
+    from fmu_src.native.train import train_model
 
     models = [native_model(axle_definition(None, None)), native_model(definition_with(None, None))]
+    models.append(train_model("e_axle"))  # whose library is that of all trains
     made = {prebuilt_folder(one): libraries(one, report=_say) for one in models}
     shutil.rmtree(PREBUILT, ignore_errors=True)
     for folder, built in made.items():

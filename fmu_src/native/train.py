@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+import hashlib
+import inspect
 from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from fmu_src.native.model import OK, Exchange, NativeModel, Operation
+from fmu_src.native.sources import fits_any_sizes
+from fmu_src.native.train_data import N_HEAD, N_LENGTHS, TrainPlaces, places_in, train_check
 from fmu_src.object_code import array_at, pointer_at, whole_at
 from fmu_src.train import definition_with_train, train_ranges
-from gearlube_core.dynamics.train.choice import generated_kernel
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.train.choice import (
+    generated_kernel,
+    interpreted_kernel,
+    kernel_of,
+)
 from gearlube_core.dynamics.train.element import BODY_STATES, RZ, W
 from gearlube_core.dynamics.train.march import (
     ADVANCE,
@@ -23,7 +34,11 @@ from gearlube_core.dynamics.train.march import (
 )
 from gearlube_core.dynamics.train.model import MOST_TORQUE, REFUSALS, Train
 from gearlube_core.dynamics.train.outputs import outputs_at
+from gearlube_core.dynamics.train.part import shipped_kinds
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.source_code import code_of
+from gearlube_core.kernels.source_files import source_files
 
 _NO_START = {
     LOOSE: "the start speeds leave bodies free. Give more in the train file, or connect the bodies",
@@ -33,43 +48,11 @@ _NO_START = {
     NO_MODES: "natural frequencies at rest are not finite. Check masses and stiffness",
 }
 _START, _STEP, _OUTPUTS, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
+_CHECK = int(Operation.CHECK)
 
 
-class _Places(NamedTuple):
-    """Where the parts of `data`, `state` and `work` begin, and sizes; whole numbers."""
-
-    numbers: int  # in data, of which it is the first
-    memory: int
-    plan: int  # whole numbers, bit by bit
-    ports: int  # places of the ports in the state
-    bodies: int  # number of the body of each speed; the first bears what the torques leave
-    motion: int  # pairs of places, in the outputs and in the state
-    exchanged: int  # likewise, in the outputs and in what EXCHANGE writes
-    limits: int  # of the inputs, then of the ranges
-    ranges: int  # places of the ranges in the outputs
-    data_end: int
-    # sizes
-    states: int
-    n_ports: int
-    n_speeds: int
-    n_motion: int
-    n_exchanged: int
-    n_bodies: int
-    n_ranges: int
-    inputs: int  # in state, behind that of the train; then the rate of the integrator's steps
-    state_end: int
-    own_memory: int  # in work, behind the limits
-    trial: int
-    scratch: int
-    work_end: int
-    outputs: int
-    train_outputs: int  # the first of them, from a place in what WRITE writes
-    written: int
-    per_period: int
-
-
-def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
-    """Return the entry of a train whose kernel is `operate`."""
+def _entry(operate: Callable[..., float], check: Callable[..., int]) -> Callable[..., int]:
+    """Return the entry of trains whose kernel is `operate`; all sizes stand in the data."""
 
     def entry(
         operation: int,
@@ -81,8 +64,11 @@ def _entry(operate: Callable[..., float], at: _Places) -> Callable[..., int]:
         work: Any,
         outputs: Any,
     ) -> int:
+        if operation == _CHECK:
+            return int(check(data, array_at(parameters, N_LENGTHS)))
+        at = places_in(whole_at(data, N_HEAD))
         fixed = array_at(data, at.data_end)
-        numbers = array_at(data, at.memory)
+        numbers = array_at(pointer_at(data, at.numbers), at.memory - at.numbers)
         plan = whole_at(pointer_at(data, at.plan), at.ports - at.plan)
         room = array_at(work, at.work_end)
         memory = array_at(pointer_at(work, at.own_memory), at.trial - at.own_memory)
@@ -210,14 +196,14 @@ def train_model(path: str | Path) -> NativeModel:
         np.array([*limits, oil.temperature_low, oil.temperature_high, *of_ranges]),
         np.array([definition.output_names.index(one.output) for one in ranges], float),
     ]
-    starts = np.cumsum([0, *(part.size for part in parts)]).tolist()
+    starts = np.cumsum([N_HEAD, *(part.size for part in parts)]).tolist()
     n_inputs, states = len(case.torques) + 1, made.sizes.states
     own_memory = 2 * (n_inputs + len(ranges))
     trial = own_memory + made.memory.size
     scratch = trial + states
     room = work_size(made.sizes)
-    at = _Places(
-        **dict(zip(_Places._fields, starts, strict=False)),
+    at = TrainPlaces(
+        **dict(zip(TrainPlaces._fields, starts, strict=False)),
         states=states,
         n_ports=len(case.torques),
         n_speeds=len(case.speeds),
@@ -236,10 +222,10 @@ def train_model(path: str | Path) -> NativeModel:
         written=outputs_at(made.sizes),
         per_period=train.steps_per_highest_period,
     )
-    return NativeModel(
+    model = NativeModel(
         definition=definition,
-        entry=_entry(generated_kernel(made), at),
-        data=np.concatenate(parts),
+        entry=None,
+        data=np.concatenate([np.array(at, dtype=np.int64).view(float), *parts]),
         state_size=at.state_end,
         control_at=at.state_end - 1,
         work_size=at.work_end,
@@ -257,3 +243,28 @@ def train_model(path: str | Path) -> NativeModel:
             of_states=frozenset(motion),
         ),
     )
+    if kernel_of(made, "automatic") is interpreted_kernel() and fits_any_sizes(model):
+        return replace(model, entry=_shared_entry(), kind=_kind(), any_sizes=True)
+    return replace(model, entry=_entry(generated_kernel(made), _no_check))
+
+
+@cache
+def _shared_entry() -> Callable[..., int]:
+    """Return the entry of all trains of the package's elements."""
+    return _entry(interpreted_kernel(), train_check())
+
+
+@kernel
+def _no_check(data: Any, lengths: Array) -> int:
+    return 1
+
+
+@cache
+def _kind() -> str:
+    """Return what the shared library is compiled for: the elements with all that they import."""
+    kinds = shipped_kinds()
+    files = {inspect.getfile(one) for kind in kinds for one in (kind.numbers, *kind.variants)}
+    imported = {path for file in files for path in source_files(file)}
+    codes = sorted(code_of(Path(path).read_text("utf-8")) for path in imported)
+    digest = hashlib.sha256("\0".join(codes).encode()).hexdigest()
+    return f"{[str(kind) for kind in kinds]} {digest}"

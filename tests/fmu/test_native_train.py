@@ -17,12 +17,21 @@ from fmpy.fmi2 import FMU2Slave
 from drivetrain.train.train_file import TrainFile
 from fmu_src.build import build_models
 from fmu_src.check import problems
-from fmu_src.native.build import NativeOptions
+from fmu_src.native.build import NativeOptions, library_kind
 from fmu_src.native.model_file import HEAD_SIZE, MODEL_FILE, with_checksum
 from fmu_src.native.platforms import platform_of_this_machine
+from fmu_src.native.train import train_model
 from fmu_src.train import definition_with_train
 from gearlube_core.errors import ParameterError
-from tests.helpers.small_trains import BRAKE, DAMPING, FIRST, SECOND, STIFFNESS, WITH_BRAKE
+from tests.helpers.small_trains import (
+    BRAKE,
+    DAMPING,
+    FIRST,
+    ROTORS,
+    SECOND,
+    STIFFNESS,
+    WITH_BRAKE,
+)
 
 
 def built(text: str, folder: Path) -> list[Path]:
@@ -206,6 +215,38 @@ def test_what_cannot_be_combined_is_said(tmp_path: Path) -> None:
         build_models(tmp_path, train="e_axle")
     with pytest.raises(ParameterError, match="--train cannot be combined with --model"):
         build_models(tmp_path, "driveline", train="e_axle", native=NativeOptions())
+
+
+def test_trains_of_the_packages_elements_share_one_library(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text(WITH_BRAKE)
+    kinds = {library_kind(train_model(name)) for name in TrainFile.shipped()}
+    assert len(kinds) == 1
+    assert library_kind(train_model(own)) not in kinds
+    assert not train_model(own).kind  # nothing is kept of it
+
+
+@pytest.mark.slow
+def test_a_second_train_is_built_of_the_library_of_the_first(tmp_path: Path) -> None:
+    (tmp_path / "rotors.toml").write_text(ROTORS)
+    said: list[str] = []
+    native = NativeOptions(
+        platforms=[platform_of_this_machine()], report=said.append, reference=False
+    )
+    build_models(tmp_path, train="e_axle", native=native)
+    said.clear()
+    (fmu, other) = build_models(tmp_path, train=tmp_path / "rotors.toml", native=native)
+    assert not [line for line in said if "compiling" in line or "linking" in line]
+    assert [problems(path) for path in (fmu, other)] == [[], []]
+    found = fmpy.simulate_fmu(
+        str(fmu), stop_time=0.02, output_interval=1e-3, output=["engine.speed", "load.speed"],
+        start_values={"engine.speed_start": 100.0},
+        input=np.array([(0.0, 40.0)], dtype=[("time", float), ("drive.torque", float)]),
+    )  # fmt: skip
+    momentum = FIRST * found["engine.speed"] + SECOND * found["load.speed"]
+    mean = 100.0 + 40.0 * found["time"] / (FIRST + SECOND)
+    # the torque changes the momentum alone, to the rounding of 20 steps
+    assert momentum / (FIRST + SECOND) == pytest.approx(mean, rel=1e-9)
 
 
 @pytest.mark.slow

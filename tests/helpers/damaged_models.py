@@ -19,7 +19,8 @@ from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
-from fmu_src.native.build import native_guid
+from drivetrain.train.train_file import TrainFile
+from fmu_src.native.build import library_kind, native_guid
 from fmu_src.native.model import NativeModel
 from fmu_src.native.model_file import (
     COUNTS_AT,
@@ -34,6 +35,10 @@ from tests.helpers.native_library import OK, NativeInstance, NativeLibrary
 ROOT = Path(__file__).parents[2]
 _GUID_AT = COUNTS_AT - GUID_SIZE
 _NUMBERS = (float("nan"), float("inf"), -1.0, 0.0, 0.5, 1.0, 2.0, 41.0, 1e6, 2.0**31, 1e300, -1e300)
+_WAYS = (
+    "cut", "longer", "bits", "token", "counts", "number", "whole", "integer", "swap", "zeros",
+    "moved",
+)  # fmt: skip
 _WHOLE = (-1, 0, 1, 2, 3, 255, 2**15, 2**16, 2**31 - 1, -(2**31), 2**28)
 
 
@@ -43,9 +48,7 @@ def damaged(content: bytes, rng: random.Random) -> tuple[str, bytes]:
     words = (len(data) - HEAD_SIZE) // 4
     counts = struct.unpack_from(f"<{N_COUNTS}i", data, COUNTS_AT)
     rows = HEAD_SIZE + 8 * counts[0]
-    what = rng.choice(
-        ("cut", "longer", "bits", "token", "counts", "number", "integer", "swap", "zeros", "moved")
-    )
+    what = rng.choice(_WAYS)
     if what == "cut":
         del data[rng.randrange(len(data)) :]
     elif what == "longer":
@@ -61,6 +64,13 @@ def damaged(content: bytes, rng: random.Random) -> tuple[str, bytes]:
         near = rng.choice((64, 4096, counts[0] + 1))
         place = HEAD_SIZE + 8 * rng.randrange(min(near, counts[0] + 1))
         struct.pack_into("<d", data, place, rng.choice(_NUMBERS))
+    elif what == "whole":  # sizes and places of trains, and what they are places of
+        heads = min(16, counts[0])
+        behind = struct.unpack_from(f"<{heads}q", data, HEAD_SIZE)
+        first = rng.choice([0, *(one for one in behind if 0 <= one < counts[0])])
+        place = min(first + rng.randrange(160), counts[0])
+        number = rng.choice((*_WHOLE, rng.randrange(200), rng.randrange(200)))
+        struct.pack_into("<q", data, HEAD_SIZE + 8 * place, number)
     elif what == "integer":
         place = rows + 4 * rng.randrange((len(data) - rows) // 4)
         struct.pack_into("<i", data, place, rng.choice((*_WHOLE, rng.randrange(2000))))
@@ -122,11 +132,13 @@ def _answer(library: NativeLibrary, content: bytes, uri: bytes, what: str) -> st
 
 def _models() -> dict[str, NativeModel]:
     from fmu_src.native.models import native_model
+    from fmu_src.native.train import train_model
     from tests.helpers.fmu_cases import CASES
     from tests.helpers.small_native_builds import MODEL
 
-    models = {case.name: native_model(case.definition) for case in CASES}
-    return {MODEL.definition.name: MODEL, **models}
+    models = [MODEL, *(native_model(case.definition) for case in CASES)]
+    models += [train_model(name) for name in TrainFile.shipped()]
+    return {model.definition.name: model for model in models}
 
 
 def main() -> None:
@@ -146,14 +158,21 @@ def main() -> None:
         for (what, answer), times in sorted(found.items()):
             sys.stdout.write(f"{model.definition.name}: {what}: {answer}: {times}\n")
         return
+    from tests.helpers.small_native_builds import unpacked
     from tests.helpers.watching_library import watching_environment, watching_library
 
-    models = {name: one for name, one in _models().items() if name in (given.model or _models())}
-    failed = False
+    known = _models()
+    models = {name: one for name, one in known.items() if name in (given.model or known)}
+    failed, built = False, dict[str, bytes]()  # by kind: trains share theirs
     for name, model in models.items():
         with tempfile.TemporaryDirectory() as text:
             folder = Path(text)
-            path = watching_library(model, folder)
+            kind = library_kind(model)
+            if kind in built:
+                path = unpacked(model, folder, built[kind])
+            else:
+                path = watching_library(model, folder)
+                built[kind] = path.read_bytes()
             (folder / "model").write_bytes(
                 pickle.dumps((replace(model, entry=None), str(native_guid(model))))
             )

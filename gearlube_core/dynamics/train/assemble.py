@@ -110,8 +110,8 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         memory.append(room)
         listed.append(Listed(type(constants), one.variants(), len(at)))
         number = kinds.index(listed[-1]) if listed[-1] in kinds else UNKNOWN
-        row = number, at_number, at_memory, room.size, at_output, at_exchanged, len(at)
-        rows.append((*row, *at))
+        first = number, at_number, at_memory, room.size, at_output, at_exchanged
+        rows.append((*first, one.kept_size(), len(at), *at))
         at_output += len(one.outputs)
         at_exchanged += len(one.levels) + len(one.events)
         at_number += numbers[-1].size

@@ -20,6 +20,7 @@ from gearlube_core.dynamics.train.plan import (
     FIRST_ROW,
     KIND,
     MEMORY,
+    N_KEPT,
     N_MEMORY,
     N_PLACES,
     NUMBER,
@@ -57,6 +58,7 @@ class AllElements(NamedTuple):
     event: Callable[..., None]
     write: Callable[..., None]
     exchange: Callable[..., None]
+    check: Callable[..., float]  # least; of `interpreted` alone is it called
     sizes_of: Callable[[Offsets], Sizes]
 
 
@@ -79,8 +81,11 @@ _LINES = {
     "event": ("", "{call}", "None"),
     "write": (", out", "{call}", "None"),
     "exchange": (", out", "{call}", "None"),
+    "check": ("", "total = min(total, {call})", "total"),
 }
-_FIRST_OUT = {"write": OUTPUT, "exchange": EXCHANGED}  # of a row: what these take last
+# of a row: what these take last
+_LAST = {"write": OUTPUT, "exchange": EXCHANGED, "check": N_KEPT}
+_BEGIN = {"time_to_jump": "math.inf", "check": "1.0"}
 
 
 class _Source:
@@ -110,18 +115,17 @@ class _Source:
 
     def begin(self, name: str) -> None:
         """Begin the kernel of a name."""
-        start = "math.inf" if name == "time_to_jump" else "0.0"
         self.lines += [
             "    @inside" if name == "add_forces" else "    @kernel",
             f"    def all_{name}({_GIVEN}{_LINES[name][0]}):",
-            f"        total = {start}",
+            f"        total = {_BEGIN.get(name, '0.0')}",
         ]
 
     def call(self, name: str, i: int, one: Listed, given: str, first: str) -> str:
         """Return the line that calls the kernel of a name of an element."""
         self.given[f"{name}{i}"] = getattr(one.numbers, name)
         more, line, _ = _LINES[name]
-        place = f", {first}" if name in _FIRST_OUT else ""
+        place = f", {first}" if name in _LAST else ""
         return line.format(call=f"{name}{i}({given}, s, oil{more}{place})")
 
     def end(self, name: str) -> None:
@@ -151,7 +155,7 @@ def generated(elements: Sequence[Listed], plan: Sequence[int]) -> AllElements:
         at += len(row)
         source.given |= {f"k{i}": row[NUMBER], f"m{i}": row[MEMORY], f"z{i}": row[N_MEMORY]}
         source.given |= {f"at{i}": tuple(row[AT:])}
-        source.given |= {f"{name}_at{i}": row[place] for name, place in _FIRST_OUT.items()}
+        source.given |= {f"{name}_at{i}": row[place] for name, place in _LAST.items()}
         constants = source.constants(i, one).format(f"k{i}")
         calls.append(f"{constants}, at{i}, part(memory, m{i}, z{i})")
         first.append(f"{{}}_at{i}")
@@ -193,7 +197,7 @@ def interpreted(kinds: Sequence[Listed]) -> AllElements:
         ]
         having = [i for i, one in enumerate(kinds) if hasattr(one.numbers, name)]
         for i in having:
-            first = f"row[{_FIRST_OUT.get(name, 0)}]"
+            first = f"row[{_LAST.get(name, 0)}]"
             line = source.call(name, i, kinds[i], calls[i], first)
             test = "if" if i == having[0] else "elif"
             source.lines += [f"            {test} kind == q{i}:", f"                {line}"]

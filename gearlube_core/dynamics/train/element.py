@@ -126,6 +126,13 @@ class Kernels(Protocol):
         They go from place `first` on. Rates of this state have been computed before.
         """
 
+    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+        """Return 1 if these sizes, constants, memory and numbers kept fit each other, else 0.
+
+        They come from a file. All that other kernels count with or index by has to be looked at.
+        An element of the package needs it if it has sizes or memory, or keeps numbers.
+        """
+
     def event(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         """Change what an event changes, as between two steps: own states, what is kept."""
 

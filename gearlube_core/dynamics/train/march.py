@@ -37,10 +37,11 @@ MAX_STEPS = 150_000  # in one communication interval, or their cost
 DIVERGED = 0.1  # m, displacement of a body: supports long broken
 
 
+@kernel
 def work_size(sizes: Sizes) -> int:
     """Return the length of `work` for all operations."""
     advance = sizes.states + 2 * sizes.integrated
-    return max(advance, write_work_size(sizes), rest_work_size(sizes))
+    return max(advance, max(write_work_size(sizes), rest_work_size(sizes)))
 
 
 def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:

@@ -35,6 +35,8 @@ MOVING = {
     **{f"r{c}": Output(f"tilt.{c}", "rad", f"tilt about {c}", 1e-5) for c in "xy"},
 }
 
+_OF_BODY = len(TURNING) + len(MOVING)
+
 
 def train_outputs(
     bodies: Sequence[Body],
@@ -107,9 +109,10 @@ def outputs_at(sizes: Sizes) -> int:
     return sizes.integrated + sizes.exchanged
 
 
+@kernel
 def write_work_size(sizes: Sizes) -> int:
     """Return the length of `work` for the kernel of `outputs_kernel`."""
-    of_bodies = (len(TURNING) + len(MOVING)) * sizes.bodies
+    of_bodies = _OF_BODY * sizes.bodies
     outputs = of_bodies + sizes.outputs + 2 * sizes.energies + 2
     return outputs_at(sizes) + max(outputs, sizes.states)
 

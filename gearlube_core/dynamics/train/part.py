@@ -137,11 +137,17 @@ class Element(ABC):
 
 
 @cache
-def shipped_kinds() -> tuple[Listed, ...]:
-    """Return what the elements of the package are compiled for, one for each class of their parts.
+def shipped_elements() -> tuple[tuple[type[Element], Listed], ...]:
+    """Return the elements of the package, and what they are compiled for.
 
-    A list of these alone needs no compiled code of its own, see `drivers.interpreted`.
+    There is one for each class of their parts. A list of these alone needs no compiled code of its
+    own, see `drivers.interpreted`.
     """
     # by name: the order of registration is that of imports
     ours = [one for _, one in sorted(ELEMENTS.known().items()) if ELEMENTS.is_ours(one)]
-    return tuple(kind for one in ours for kind in one.interpreted)
+    return tuple((one, kind) for one in ours for kind in one.interpreted)
+
+
+def shipped_kinds() -> tuple[Listed, ...]:
+    """Return what the elements of the package are compiled for, see `shipped_elements`."""
+    return tuple(kind for _, kind in shipped_elements())

@@ -42,8 +42,8 @@ class Sizes(NamedTuple):
 
 FIRST_ROW = len(Sizes._fields)
 # of a row: kind of the element, first constant, first place in the memory and how many, first
-# output, first of what EXCHANGE writes, how many places; then the places
-KIND, NUMBER, MEMORY, N_MEMORY, OUTPUT, EXCHANGED, N_PLACES, AT = range(8)
+# output, first of what EXCHANGE writes, how many numbers are kept, how many places; then the places
+KIND, NUMBER, MEMORY, N_MEMORY, OUTPUT, EXCHANGED, N_KEPT, N_PLACES, AT = range(9)
 UNKNOWN = MOST - 1  # kind of an element that `interpreted` does not know
 
 

@@ -105,9 +105,10 @@ def room_of(sizes: Sizes) -> Room:
     )
 
 
+@kernel
 def rest_work_size(sizes: Sizes) -> int:
     """Return the length of `work` for the kernels of `rest_kernels`."""
-    return int(room_of(sizes).end)
+    return room_of(sizes).end
 
 
 @kernel

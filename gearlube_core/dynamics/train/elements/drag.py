@@ -54,6 +54,10 @@ class _Seal(NamedTuple):
     ) -> None:
         out[first] = memory[0]
 
+    @kernel
+    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+        return 1.0 if memory.size == 1 else 0.0
+
 
 class _Churning(NamedTuple):
     gear: ChurningConstants
@@ -75,6 +79,10 @@ class _Churning(NamedTuple):
         self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
     ) -> None:
         out[first] = memory[0]
+
+    @kernel
+    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+        return 1.0 if memory.size == 1 else 0.0
 
 
 class _Brake(Element):

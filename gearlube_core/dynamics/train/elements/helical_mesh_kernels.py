@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.flanks import (
     FLANK_POINTS,
+    LINES_MAX,
     N_FRICTION,
     MarchConstants,
     PairMotion,
@@ -31,8 +32,11 @@ from gearlube_core.dynamics.helical_pair.march.line_outputs import (
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    FILM_AT,
     LEAST_OFFSET,
     LEVEL,
+    STATIONS_AT,
+    data_size,
     largest_offset,
     mean_density,
     mesh_at_torque,
@@ -48,14 +52,17 @@ from gearlube_core.dynamics.train.element import (
     unseen,
     unseen_turn,
 )
+from gearlube_core.dynamics.train.elements.checks import MOST, fits_model
 from gearlube_core.dynamics.train.elements.mesh_outputs import (
     OWN,
     MeshValues,
     write_mesh,
 )
+from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.array_rows import rows
+from gearlube_core.kernels.checked_numbers import all_finite, is_whole
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -267,6 +274,29 @@ class HelicalMeshKernels(NamedTuple):
         out[own + 1], out[own + 2], out[own + 3] = unseen(self.axes, w.F_x, w.F_y, w.F_z)
         out[own + 4] = m.ry_p - m.ry_g
         out[own + 5] = found.loss_bound
+
+    @kernel
+    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+        """See `Kernels.check`."""
+        levels, size, data_at = at[_LEVELS], at[_SIZE], at[_DATA]
+        most = int(MOST)
+        if not (1 <= levels <= most and 2 <= size <= most and kept == 1 + N_FRICTION):
+            return 0.0
+        end = data_at + at[_DATA_SIZE]
+        if not (data_at == TABLE + levels + 2 * levels * size and end == memory.size):
+            return 0.0
+        if at[_DATA_SIZE] < STATIONS_AT or not all_finite(memory, TABLE, data_at):
+            return 0.0
+        p: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
+        flanks, stations = p.motion.flanks, p.motion.flanks.stations
+        fits = is_whole(flanks.lines, 1.0, float(LINES_MAX)) and is_whole(stations, 2.0, MOST)
+        fits = fits and is_whole(flanks.phases, 1.0, MOST)
+        fits = fits and flanks.lines * flanks.phases * stations == float(size)
+        fits = fits and at[_DATA_SIZE] == data_size(int(stations), size)
+        if fits and p.film == SOLVED:
+            fits = fits_model(part(memory, data_at + FILM_AT, N_ARRAY))
+        films = data_at + FILM_AT  # limits of ranges before may be infinite
+        return 1.0 if fits and all_finite(memory, films, data_at + LEAST_OFFSET) else 0.0
 
 
 @inside

@@ -39,12 +39,10 @@ from gearlube_core.dynamics.hypoid_axle.tooth_pair import BETWEEN_NODES, EXACT
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.dynamics.train.element import AFTER_STEP, RATE, RZ, W
-from gearlube_core.dynamics.train.elements.mesh_outputs import (
-    OWN,
-    MeshValues,
-    write_mesh,
-)
-from gearlube_core.friction.flank_law import FlankLaw
+from gearlube_core.dynamics.train.elements.checks import fits_sizes, fits_table
+from gearlube_core.dynamics.train.elements.mesh_outputs import OWN, MeshValues, write_mesh
+from gearlube_core.friction.flank_film import N_FLANK_MODEL
+from gearlube_core.friction.flank_law import FlankLaw, takes_film_model
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -308,6 +306,17 @@ class HypoidMeshKernels(NamedTuple):
         torque = -torque if s[at[_KEPT] + _SIDE] < 0.0 else torque
         write_mesh(values, torque, found, self.ranges, first, out)
         out[first + OWN] = mesh.force
+
+    @kernel
+    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+        """See `Kernels.check`."""
+        sizes = at[_LEVELS], at[_ORDERS], at[_NODES], at[_SERIES]
+        film, end = at[_FILM], _friction_at(at)
+        at_film, solved = end + N_FRICTION + N_CHANNELS, takes_film_model(self.flank_law)
+        fits = fits_sizes(sizes) and memory.size == at_film + film
+        fits = fits and film == (N_FLANK_MODEL if solved else 0)
+        fits = fits and kept == OWN_FILMS + (N_FILMS if film > 0 else 0)
+        return 1.0 if fits and fits_table(memory, _TABLE, end, at_film, sizes) else 0.0
 
 
 @kernel

@@ -46,6 +46,7 @@ from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
+from gearlube_core.dynamics.train.elements.checks import fits_model, fits_rollers
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
@@ -166,6 +167,15 @@ class _OpposedBearings(NamedTuple):
             out[here + 6] = found.first_bound if k == 0 else found.second_bound
             if k == 0:
                 out[first + _OWN + 2] = one[3]
+
+    @kernel
+    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+        r1, r2, axial, film = at[_AXES], at[_AXES + 1], at[_AXES + 2], at[_FILM]
+        fits = max(r1, max(r2, axial)) <= 2 and r1 != r2 and r2 != axial and axial != r1
+        fits = fits and fits_rollers(self.bearings, self.law, film)
+        fits = fits and kept == N_FOLLOWED + (N_ROLLER_NODES if film > 0 else 0)
+        fits = fits and memory.size == _MEMORY + film and fits_model(part(memory, _MEMORY, film))
+        return 1.0 if fits else 0.0
 
 
 @inside

@@ -10,6 +10,7 @@ from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.inlining import inside
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
@@ -25,6 +26,10 @@ class _Port(NamedTuple):
         torque = self.sign * s[given]
         ds[body + RATE + RZ] += torque
         ds[work] += torque * s[body + W]
+
+    @kernel
+    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+        return 1.0 if kept == 1 else 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

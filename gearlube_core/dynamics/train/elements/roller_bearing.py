@@ -35,6 +35,7 @@ from gearlube_core.bearings.shaft_expansion import bearing_energy
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters, rib_drag
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import RATE, Listed, W, add_wrench
+from gearlube_core.dynamics.train.elements.checks import fits_model, fits_rollers
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
@@ -146,6 +147,13 @@ class _RollerBearing(NamedTuple):
         out[first + 3] = 0.0
         if self.law > 0.0:
             out[first + 3] = drag_near(m, part(s, at[_KEPT], N_FOLLOWED)).torque
+
+    @kernel
+    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+        film = at[_FILM]
+        fits = fits_rollers(self.bearings, self.law, film)
+        fits = fits and kept == N_FOLLOWED + _nodes(at) and memory.size == _MODEL + film
+        return 1.0 if fits and fits_model(part(memory, _MODEL, film)) else 0.0
 
 
 @inside
