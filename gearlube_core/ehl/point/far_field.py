@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -90,6 +91,7 @@ def _gauss(count: int) -> tuple[Array, Array]:
     return 0.5 + 0.5 * nodes, 0.5 * weights
 
 
+@lru_cache(maxsize=64)  # every grid and step of a problem asks for the same
 def angular_flow(R_x: float, R_y: float, velocity: tuple[float, float]) -> tuple[Array, Array]:
     """Return angles and G = p h^2/(12 eta0 r) far away.
 
@@ -105,7 +107,7 @@ def angular_flow(R_x: float, R_y: float, velocity: tuple[float, float]) -> tuple
 
     Returns
     -------
-    tuple of ndarray, shape (240,)
+    tuple of ndarray, shape (240,), read-only
         theta [rad] from -pi on, G [m/s].
     """
     theta = np.linspace(-math.pi, math.pi, _ANGLES, endpoint=False)
@@ -129,7 +131,10 @@ def angular_flow(R_x: float, R_y: float, velocity: tuple[float, float]) -> tuple
         if (wanted == pressed).all():
             break
         pressed = wanted
-    return theta, np.maximum(g, 0.0) * curvature(theta) ** 2
+    flow = np.maximum(g, 0.0) * curvature(theta) ** 2
+    theta.setflags(write=False)
+    flow.setflags(write=False)
+    return theta, flow
 
 
 class FarField:
@@ -175,16 +180,17 @@ class FarField:
         self._radii = R_x, R_y
         self._alpha = pressure_viscosity(lubricant)
         self._pull = load / (math.pi * contact_modulus)
-        self._theta, flow = angular_flow(R_x, R_y, entrainment)
+        along, across = map(float, entrainment)
+        self._theta, flow = angular_flow(R_x, R_y, (along, across))
         self._flow = 12.0 * lubricant.eta0 * flow
         (x0, x1), (y0, y1) = x_limits, y_limits
         corners = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])
-        along, shares = _gauss(_ALONG)
+        sides, shares = _gauss(_ALONG)
         out, out_shares = _gauss(_OUTWARD)
         places, areas = [], []
         for start, end in pairwise(corners):
             side = end - start
-            points = start + along[:, None] * side
+            points = start + sides[:, None] * side
             spread = abs(points[:, 0] * side[1] - points[:, 1] * side[0]) * shares
             places.append((points[:, None, :] / out[None, :, None]).reshape(-1, 2))
             areas.append((spread[:, None] * (out_shares / out**3)[None, :]).ravel())
