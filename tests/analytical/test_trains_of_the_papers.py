@@ -1,4 +1,4 @@
-"""The gears of the papers as trains, against their own models."""
+"""The helical pair of the paper as a train, against its own model."""
 
 from __future__ import annotations
 
@@ -15,18 +15,12 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import BEARING_FIELDS,
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle import continuous as axle_exchange
-from gearlube_core.dynamics.hypoid_axle import state as axle_state
-from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.helical_pair import helical_pair
-from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.plan import AT, FIRST_ROW, N_PLACES, NUMBER
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.kernels.flat_tuples import flatten
-from gearlube_core.mesh_table.table import PAIRS
 
 PAIR = helical_march_parameters(HelicalGearFile.named("he_2007"))
 RATIO, KELVIN = PAIR.pair.ratio, 333.15
@@ -194,111 +188,3 @@ def test_an_integrator_of_ones_own_renews_friction_at_events():
         train.derivative(np.full(moved.size, 1.0))
     with pytest.raises(ParameterError, match=r"must have the shape \(31,\), got \(2,\)"):
         train.derivative(np.zeros(2))
-
-
-def of_axle(train: Train, s: np.ndarray) -> np.ndarray:
-    """Return the train's state of a state of `HypoidAxle`, whose lengths are in micrometres."""
-    made = train.get_state()[:-2]
-    members = (
-        (axle_state.U_P, axle_state.V_P, axle_state.PHI_P, axle_state.W_P),
-        (axle_state.U_G, axle_state.V_G, axle_state.PHI_G, axle_state.W_G),
-    )
-    for i, (u, v, phi, w) in enumerate(members):
-        made[12 * i : 12 * i + 3] = 1e-6 * s[u : u + 3]
-        made[12 * i + 6 : 12 * i + 9] = s[v : v + 3]
-        made[12 * i + 5], made[12 * i + 11] = s[phi], s[w]
-    made[24] = 1e-6 * s[axle_state.X]
-    made[25:27] = s[axle_state.CAGE_P], s[axle_state.CAGE_G]
-    kept = len(train.state_names)
-    made[kept : kept + 2] = 50.0, 178.0
-    made[kept + 2 : kept + 4] = s[axle_state.LOAD_TORQUE], s[axle_state.SIDE]
-    return made
-
-
-@pytest.mark.slow
-def test_the_axle_of_a_list_is_the_axle():
-    given = replace(mohammadpour_2015_axle(), pinion_seal_torque=0.15, wheel_seal_torque=0.3)
-    axle, train = HypoidAxle(given), Train(*hypoid_axle(given), given.oil)
-    kelvin, load = 363.15, {"input": 50.0, "output": 178.0}
-    axle.initialise(pinion_speed=300.0, pinion_torque=50.0, wheel_torque=178.0,
-                    oil_temperature=kelvin)  # fmt: skip
-    train.initialise({"gear": 300.0 / given.mesh.ratio}, load, kelvin)
-    # rates in states about it, teeth parted in some: round-off of micrometres and of sums
-    rng, n = np.random.default_rng(5), axle_state.N_ODE
-    for k in range(60):
-        axle.step(1e-4, *load.values(), kelvin)
-        s = np.array(axle.state_view)
-        train.set_state(np.array([*of_axle(train, s), *train.get_state()[-2:]]))
-        indicators = [axle.output(name) for name in axle_exchange.EVENT_INDICATORS]
-        assert train.indicators(train.continuous) == pytest.approx(indicators, rel=1e-9), k
-        s[:n] *= 1.0 + 0.1 * rng.normal(size=n)
-        s[axle_state.X] = rng.uniform(-120.0, -20.0) if k % 6 == 0 else s[axle_state.X]
-        wanted = of_axle(train, np.concatenate([axle.derivative(s[:n]), s[n:]]))
-        control = train.get_state()[-2:]
-        train.set_state(np.array([*of_axle(train, s), *control]))
-        found = train.rates()
-        for name in ("pinion", "gear"):
-            for one in ("x.rate", "y.rate", "z.rate", "rz.rate"):
-                place = train.state_names.index(f"{name}.{one}")
-                size = max(abs(wanted[place]), 1.0)
-                assert abs(found[place] - wanted[place]) < 1e-9 * size, (k, name, one)
-        place = train.state_names.index("mesh.transmission_error")
-        assert found[place] == pytest.approx(wanted[place], rel=1e-9, abs=1e-12)
-
-
-@pytest.mark.slow
-def test_the_axle_of_a_list_moves_as_the_axle_and_loses_what_it_is_given():
-    given = replace(mohammadpour_2015_axle(), pinion_seal_torque=0.15, churning="boness_1989")
-    axle = HypoidAxle(given)
-    train = Train(*hypoid_axle(given), given.oil, steps_per_highest_period=17)
-    kelvin, wheel = 363.15, 50.0 * given.mesh.ratio
-    axle.initialise(pinion_speed=300.0, pinion_torque=50.0, wheel_torque=wheel,
-                    oil_temperature=kelvin)  # fmt: skip
-    train.initialise({"gear": 84.0}, {"input": 50.0, "output": wheel}, kelvin)
-    rate = 17.0 * axle.step_control.highest_frequency
-    state = of_axle(train, axle.state_view)
-    state[len(train.state_names) + 4] = axle.step_control.reference_stiffness
-    train.set_state(np.array([*state, kelvin, rate]))
-    start, errors = train.energy, []
-    for k in range(200):
-        torque = 50.0 * (1.0 + 0.5 * math.sin(0.1 * k))
-        axle.step(1e-4, torque, wheel, kelvin)
-        train.step(1e-4, {"input": torque, "output": wheel}, kelvin)
-        found = train.outputs()
-        errors.append((axle.output("mesh.dte"), found["mesh.dte"]))
-        if k % 20 == 0:
-            thinnest = min(
-                film for i in range(1, PAIRS + 1)
-                if (film := axle.output(f"flank[{i}].film_thickness")) > 0.0
-            )  # fmt: skip
-            wanted = {
-                "mesh.film_thickness_min": thinnest,
-                "mesh.separated": 0.0,
-                "mesh.coast_contact": 0.0,
-                **{f"mesh.{name}": axle.output(name) for name in RANGE_OUTPUTS},
-                **{f"mesh.{one}": axle.output(f"mesh.{one}")
-                   for one in ("force", "stiffness", "frequency", "load_torque")},
-                "friction_boundary.power_loss": axle.output("friction.power_loss_boundary"),
-                "energy.seals": axle.output("energy.seals"),
-                "energy.stored": axle.output("energy.stored"),
-                "efficiency": axle.output("axle.efficiency"),
-            }  # fmt: skip
-            for name, value in wanted.items():
-                assert found[name] == pytest.approx(value, rel=1e-9), name
-    alone, listed = np.array(errors).T
-    # the same steps by the same kernels: round-off of micrometres and sums, 4e-14 was found
-    assert np.max(abs(listed - alone)) < 1e-11 * np.ptp(alone)
-    missing = train.work - sum(train.lost.values()) - (train.energy - start)
-    assert abs(missing) < 1e-5 * 50.0 * 300.0 * 0.02
-    # torques change sign: teeth part, meet on the coast flanks and bounce, shafts leap
-    # and grow, so that the stiffer mesh asks for more steps
-    errors = []
-    for h, share, times in ((1e-4, -0.7, 100), (1e-3, 4.0, 10)):
-        for _ in range(times):
-            axle.step(h, 50.0 * share, wheel * share, kelvin)
-            train.step(h, {"input": 50.0 * share, "output": wheel * share}, kelvin)
-            errors.append((axle.output("mesh.dte"), train.outputs()["mesh.dte"]))
-    alone, listed = np.array(errors).T
-    assert np.min(alone) < -1e-4
-    # bouncing teeth enlarge what the same kernels leave some hundred times; 2e-15 was found
-    assert np.max(abs(listed - alone)) < 1e-11 * np.ptp(alone)
