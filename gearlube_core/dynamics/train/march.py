@@ -106,8 +106,10 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         stage: int,
         ds: Array,
     ) -> None:
-        forces(s, oil, numbers, memory, plan, stage, ds)
         sizes = sizes_of(plan)
+        for i in range(sizes.integrated):  # as in `forces`, which would count all arrays once more
+            ds[i] = 0.0
+        add_forces(s, oil, numbers, memory, plan, stage, ds)
         for body in range(sizes.bodies):
             at = BODY_STATES * body
             mobility = sizes.first_mobility + N_COORDINATES * body
