@@ -85,6 +85,13 @@ def test_two_of_them_drag_as_the_opposed_pair_by_every_law() -> None:
         # the shafts move apart by round-off alone
         two = alone["first.torque"] + alone["second.torque"]
         assert two == pytest.approx(torque["pair.torque"], rel=1e-7), law
+        for which in ("first", "second"):
+            for one in ("roller_load_max", "roller_load_min", "film_thickness", "film_bound"):
+                of_pair = torque[f"pair.{which}.{one}"]
+                assert alone[f"{which}.{one}"] == pytest.approx(of_pair, rel=1e-7), (law, one)
+        bound = alone["bearing_bound.power"]
+        assert bound == pytest.approx(torque["bearing_bound.power"], rel=1e-7), law
+        assert (bound > 0.0) == (alone["first.film_thickness"] > 0.0) == (law == "solved_films")
         found[law] = two
     assert len(set(found.values())) == len(found)
 

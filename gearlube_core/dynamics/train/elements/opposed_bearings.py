@@ -66,9 +66,9 @@ _NODES = _ROLLERS + ROLLERS_MAX
 _MEMORY = _NODES + N_ROLLER_NODES
 _OWN = 4  # outputs of both bearings together
 _SOLVED = _OWN + 3  # likewise of the rollers
-_FORCES = tuple(Output(f"force.{c}", "N", f"force along {c} on the body", 1e3) for c in "xyz")
-_OF_ONE = (
-    *_FORCES,
+FORCES = tuple(Output(f"force.{c}", "N", f"force along {c} on the body", 1e3) for c in "xyz")
+OF_ONE = (  # outputs of a single bearing
+    *FORCES,
     Output("roller_load_max", "N", "largest load of a roller", 1e3),
     Output("roller_load_min", "N", "least load of a roller", 1e3),
     Output("film_thickness", "m", "thinnest film of a roller, with solved films", 1e-6, "um"),
@@ -158,7 +158,7 @@ class _OpposedBearings(NamedTuple):
         out[first + _OWN + 1] = found.load_outside / found.load if found.load > 0.0 else 0.0
         rollers = part(memory, _ROLLERS, ROLLERS_MAX)
         for k in range(2):
-            here = first + _SOLVED + k * len(_OF_ONE)
+            here = first + _SOLVED + k * len(OF_ONE)
             one = bearing_loads(self.bearings, m, _frequency(self, m), oil, 1.0 - 2.0 * k, rollers)
             out[here + at[_AXES]], out[here + at[_AXES + 1]] = one[0], one[1]
             out[here + at[_AXES + 2]] = one[2]
@@ -276,7 +276,7 @@ class OpposedBearings(Element):
     losses: ClassVar = ("bearing_damping", "bearing_torque")
     bounds: ClassVar = ("bearing_bound",)
     outputs: ClassVar = (
-        *_FORCES,
+        *FORCES,
         Output("torque", "N.m", "drag"),
         Output("rollers.load", "N", "load of all rollers, with solved films", 1e3),
         Output("rollers.share_outside", "1", "share of it outside the film model"),
@@ -284,7 +284,7 @@ class OpposedBearings(Element):
         *(
             one._replace(name=f"{which}.{one.name}", text=f"{one.text}, {which} bearing")
             for which in ("first", "second")
-            for one in _OF_ONE
+            for one in OF_ONE
         ),
     )
 

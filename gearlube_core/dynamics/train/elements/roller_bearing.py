@@ -15,6 +15,7 @@ from gearlube_core.bearings.bearing_type import (
     RollerFilms,
     ShaftMotion,
     SolvedRaceways,
+    bearing_loads,
     shaft_drag,
 )
 from gearlube_core.bearings.followed_shaft import (
@@ -24,10 +25,11 @@ from gearlube_core.bearings.followed_shaft import (
     TORQUE_LOSSES,
     drag_holds,
     drag_near,
+    raceways_of_shaft,
     renew_drag,
 )
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
-from gearlube_core.bearings.parameters import cage_torque
+from gearlube_core.bearings.parameters import ROLLERS_MAX, cage_torque
 from gearlube_core.bearings.raceway_drag import raceway_drag
 from gearlube_core.bearings.roller_loads import bearing_forces
 from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES, solved_raceway_drag
@@ -36,6 +38,7 @@ from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameter
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import RATE, Listed, W, add_wrench
 from gearlube_core.dynamics.train.elements.checks import fits_model, fits_rollers
+from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES, OF_ONE
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
@@ -45,8 +48,13 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
-_KEPT, _FILM = 4, 5  # places of `at` behind body and energies: what is kept, size of the film model
-_DRAG, _MODEL = 0, 1  # places in the memory: drag of the present step [N.m], the film model
+_KEPT, _FILM = 5, 6  # places of `at` behind body and energies: what is kept, size of the film model
+# places in the memory: drag of the present step [N.m], its bound [W], work space of rollers and of
+# their nodes, the film model
+_DRAG, _DOUBT, _ROLLERS = range(3)
+_WORK_NODES = _ROLLERS + ROLLERS_MAX
+_MODEL = _WORK_NODES + N_ROLLER_NODES
+_OWN = 4  # outputs before those of `OF_ONE` that are no forces
 _LOADED = {"palmgren": "palmgren_loaded"}  # it has no preload of its own
 _LAWS = tuple(one for one in TORQUE_LOSSES if one not in _LOADED.values())
 
@@ -97,7 +105,7 @@ class _RollerBearing(NamedTuple):
 
     @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
-        memory[_DRAG] = 0.0
+        memory[_DRAG] = memory[_DOUBT] = 0.0
         if self.law == 0.0:
             return 0.0
         m, kept, cost = _motion(self, at, s), part(s, at[_KEPT], N_FOLLOWED), 0.0
@@ -106,7 +114,8 @@ class _RollerBearing(NamedTuple):
             films = RollerFilms(part(memory, _MODEL, at[_FILM]), nodes, 1.0)
             rollers: Any = _Rollers(self.side, self.bearings)
             cost = 0.5 * DRAG_COST * renew_drag(rollers, m, 0.0, self.law, oil, films, kept)
-        memory[_DRAG] = drag_near(m, kept).torque
+        drag = drag_near(m, kept)
+        memory[_DRAG], memory[_DOUBT] = drag.torque, drag.bound
         return cost
 
     @kernel
@@ -121,6 +130,7 @@ class _RollerBearing(NamedTuple):
         ds[cage] = self.bearings.cage_ratio * m.speed
         ds[damping] += lost
         ds[drag] += memory[_DRAG] * m.speed
+        ds[at[4]] += memory[_DOUBT]
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
@@ -147,6 +157,26 @@ class _RollerBearing(NamedTuple):
         out[first + 3] = 0.0
         if self.law > 0.0:
             out[first + 3] = drag_near(m, part(s, at[_KEPT], N_FOLLOWED)).torque
+        loads = bearing_loads(
+            self.bearings,  # type: ignore[arg-type]
+            m,
+            _frequency(self, m),
+            oil,
+            self.side,
+            part(memory, _ROLLERS, ROLLERS_MAX),
+        )
+        nodes = part(memory, _WORK_NODES, _nodes(at))  # what is kept of them stays as it is
+        for i in range(nodes.size):
+            nodes[i] = s[at[_KEPT] + N_FOLLOWED + i]
+        films = RollerFilms(part(memory, _MODEL, at[_FILM]), nodes, 1.0)
+        rollers: Any = _Rollers(self.side, self.bearings)
+        found = raceways_of_shaft(rollers, m, self.law, oil, films)
+        here = first + _OWN
+        out[here], out[here + 1] = loads[4], loads[5]
+        # zeros on the side of the other bearing
+        out[here + 2] = found.first_film + found.second_film
+        out[here + 3] = found.first_bound + found.second_bound
+        out[here + 4] = found.load_outside / found.load if found.load > 0.0 else 0.0
 
     @kernel
     def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
@@ -177,12 +207,16 @@ def _motion(self: _RollerBearing, at: Any, s: Array) -> ShaftMotion:
     )
 
 
+@inside
+def _frequency(self: _RollerBearing, m: ShaftMotion) -> float:
+    return max(self.orders * abs(m.speed) / (2.0 * math.pi), self.least_frequency)
+
+
 @kernel
 def _forces(
     self: _RollerBearing, m: ShaftMotion, oil: LubricantState
 ) -> tuple[float, float, float, float]:
-    frequency = max(self.orders * abs(m.speed) / (2.0 * math.pi), self.least_frequency)
-    return bearing_forces(m, frequency, oil.eta0, oil.alpha, self.bearings, self.side)
+    return bearing_forces(m, _frequency(self, m), oil.eta0, oil.alpha, self.bearings, self.side)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -246,13 +280,16 @@ class RollerBearing(Element):
         float, Number("Hz", 1.0, 1e4, text="Lower clamp of the frequency of these cycles")
     ] = 50.0
     kind: ClassVar = "roller_bearing"
-    interpreted: ClassVar = (Listed(_RollerBearing, (), 6),)
+    interpreted: ClassVar = (Listed(_RollerBearing, (), 7),)
     on: ClassVar = ("body",)
     angles: ClassVar = ("cage",)
     losses: ClassVar = ("bearing_damping", "bearing_torque")
+    bounds: ClassVar = ("bearing_bound",)
     outputs: ClassVar = (
-        *(Output(f"force.{c}", "N", f"force along {c} on the body", 1e3) for c in "xyz"),
+        *FORCES,
         Output("torque", "N.m", "drag"),
+        *OF_ONE[len(FORCES) :],
+        Output("rollers.share_outside", "1", "share of the load outside the film model"),
     )
 
     def __post_init__(self) -> None:
@@ -286,8 +323,8 @@ class RollerBearing(Element):
         return (self._film_model().size,)
 
     def memory(self) -> Array:
-        """Return room for the drag of the present step, then the film model."""
-        return np.concatenate([np.zeros(1), self._film_model()])
+        """Return room for the drag of the present step and its rollers, then the film model."""
+        return np.concatenate([np.zeros(_MODEL), self._film_model()])
 
     def kept_size(self) -> int:
         """Return the places of what is kept of the drag and of the films of rollers."""
