@@ -145,7 +145,11 @@ def _start(case: TrainCase, speeds: Mapping[str, Value], inputs: Sequence[float]
     *torques, temperature = inputs
     given, of = dict(zip(case.torques, torques, strict=True)), case.train
     train = Train(  # one of its own, as several models may run side by side
-        of.bodies, of.elements, of.oil, steps_per_highest_period=of.steps_per_highest_period
+        of.bodies,
+        of.elements,
+        of.oil,
+        steps_per_highest_period=of.steps_per_highest_period,
+        driver=of.driver,
     )
     train.initialise({n: float(v) for n, v in speeds.items()}, given, temperature)
     return TrainModel(train, tuple(case.torques))

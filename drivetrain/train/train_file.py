@@ -12,6 +12,7 @@ from pydantic import Field
 from drivetrain.train.part_section import OF_THE_TRAIN, files_in, read_part
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.dynamics.train.choice import Driver
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.model import MOST_TORQUE, Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
@@ -101,6 +102,11 @@ class TrainFile(InputFile):
     source: Text | None = Field(default=None, description="Where the numbers come from")
     steps_per_highest_period: Annotated[int, Field(ge=6, le=4096)] = Field(
         default=16, description="Integrator steps per period of the highest mode"
+    )
+    driver: Driver = Field(
+        default="automatic",
+        description="interpreted: code for all lists, which compiles nothing; generated: code of "
+        "this list, 10 to 20 % faster; automatic: interpreted where all elements are shipped ones",
     )
     oil: OilSection
     start: StartSection
@@ -208,6 +214,7 @@ class TrainFile(InputFile):
             elements,
             oil,
             steps_per_highest_period=self.steps_per_highest_period,
+            driver=self.driver,
         )
         return TrainCase(
             name=self.name,

@@ -243,7 +243,7 @@ def train_model(path: str | Path) -> NativeModel:
             of_states=frozenset(motion),
         ),
     )
-    if kernel_of(made, "automatic") is interpreted_kernel() and fits_any_sizes(model):
+    if kernel_of(made, train.driver) is interpreted_kernel() and fits_any_sizes(model):
         return replace(model, entry=_shared_entry(), kind=_kind(), any_sizes=True)
     return replace(model, entry=_entry(generated_kernel(made), _no_check))
 

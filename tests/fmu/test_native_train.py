@@ -224,6 +224,8 @@ def test_trains_of_the_packages_elements_share_one_library(tmp_path: Path) -> No
     assert len(kinds) == 1
     assert library_kind(train_model(own)) not in kinds
     assert not train_model(own).kind  # nothing is kept of it
+    own.write_text(f'driver = "generated"\n{ROTORS}')
+    assert not train_model(own).kind
 
 
 @pytest.mark.slow

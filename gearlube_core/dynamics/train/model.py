@@ -95,6 +95,7 @@ class Train:
     ) -> None:
         check_within("steps_per_highest_period", steps_per_highest_period, 6, 4096)
         self.bodies, self.elements, self.oil = tuple(bodies), tuple(elements), oil
+        self.driver = driver
         self._made = assemble(bodies, elements, oil)
         self._operate = kernel_of(self._made, driver, [one.name for one in elements])
         sizes = self._made.sizes
