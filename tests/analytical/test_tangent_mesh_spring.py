@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.packed_mesh import pack_mesh
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS, ROLL, pack_mesh
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_P, E
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from tests.helpers.each import each
@@ -62,3 +62,12 @@ def test_loaded_flanks_are_stiffer_than_their_secant():
     # a Hertz point alone would give 3/2, a line 1 and more; pairs that join add to it
     ratio = TABLE.series["k_t"][:, 0, 0] / TABLE.series["k_m"][:, 0, 0]
     assert np.all((ratio > 1.4) & (ratio < 1.7))
+
+
+def test_the_line_that_rolls_has_the_entrainment_along_the_minor_axis():
+    """The entrainment stands at psi from that axis: its part there is that of a turned vector."""
+    packed = pack_mesh(TABLE, 115.4e9, "consistent", "tangent")
+    rolls = packed.windows.reshape(TABLE.torque.size, -1, N_CHANNELS)[:, :-1, ROLL]
+    arm, psi = TABLE.windows["entrainment_arm"], TABLE.windows["psi"]
+    assert np.ptp(np.cos(psi)) > 0.01
+    assert rolls == pytest.approx((arm * np.exp(1j * psi)).real, rel=1e-12)
