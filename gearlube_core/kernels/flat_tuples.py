@@ -6,7 +6,7 @@ as one float64 array: handing over a NamedTuple costs a Python attribute look-up
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from typing import Any, get_type_hints
 
@@ -39,14 +39,12 @@ def count_floats(tuple_class: type, *variants: type) -> int:
 
 
 @cache
-def _hints(tuple_class: type) -> tuple[type, ...]:
-    """Return the annotations of the fields; Python evaluates them anew at each call."""
-    return tuple(get_type_hints(tuple_class).values())
+def _parts(tuple_class: type, variants: tuple[type, ...] = ()) -> list[type]:
+    """Return float or the NamedTuple class of every field.
 
-
-def _parts(tuple_class: type, variants: Sequence[type] = ()) -> list[type]:
-    """Return float or the NamedTuple class of every field."""
-    hints = _hints(tuple_class)
+    Kept, because Python evaluates the annotations anew at each call.
+    """
+    hints = get_type_hints(tuple_class).values()
     interfaces = dict.fromkeys(h for h in hints if h is not float and not issubclass(h, tuple))
     chosen = dict(zip(interfaces, variants, strict=True))
     return [chosen.get(hint, hint) for hint in hints]
@@ -66,7 +64,7 @@ def tuple_from_array(array: Array, tuple_class: Any, *variants: Any) -> Any:
     """
     floats = iter(array.tolist())
 
-    def build(kind: type, chosen: Sequence[type]) -> Any:
+    def build(kind: type, chosen: tuple[type, ...]) -> Any:
         return kind(
             *(next(floats) if part is float else build(part, ()) for part in _parts(kind, chosen))
         )
@@ -74,7 +72,7 @@ def tuple_from_array(array: Array, tuple_class: Any, *variants: Any) -> Any:
     return build(tuple_class, variants)
 
 
-def _tuple_type(tuple_class: type, variants: Sequence[type] = ()) -> Type:
+def _tuple_type(tuple_class: type, variants: tuple[type, ...] = ()) -> Type:
     parts = [
         types.float64 if part is float else _tuple_type(part)
         for part in _parts(tuple_class, variants)
@@ -84,7 +82,7 @@ def _tuple_type(tuple_class: type, variants: Sequence[type] = ()) -> Type:
 
 def _load_tuple(typingctx: Any, array: Any, tuple_class: Any, variants: Any) -> Any:
     """Return the code that loads a tuple; see `tuple_from_array`."""
-    chosen = [variant.instance_class for variant in variants]
+    chosen = tuple(variant.instance_class for variant in variants)
     result = _tuple_type(tuple_class.instance_class, chosen)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
