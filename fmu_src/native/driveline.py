@@ -38,6 +38,8 @@ NAME = "Driveline"
 START_SPEED = kmh_to_ms(80.0)  # m/s
 _ENTRY = Path(__file__).with_name("driveline_entry.c")
 _N, _N_INPUTS = len(MEMORY), 5
+_STATE_SIZE = _N + _N_INPUTS + 3  # gear, pinion speed at the start, engine torque
+_LIMITS_AT, _RANGES_AT = 0, 2 * _N_INPUTS
 _SPEEDS = 33  # of each gear, between which starts are interpolated
 _ROW = 2 * len(STATES) + 4  # state, what torque orders add, torques, pinion speed
 _SLOWEST, _FASTEST = 0.5, 120.0  # m/s
@@ -167,11 +169,11 @@ def driveline_model(car: DrivelineParameters | None = None) -> NativeModel:
         ),
         c_code=_c_code(car, [v.range for v in variables if v.causality == "input"]),
         data=data,
-        state_size=_N + _N_INPUTS + 3,
+        state_size=_STATE_SIZE,
         control_at=_N + _N_INPUTS,
-        work_size=2 * _N_INPUTS + 2,
-        limits_at=0,
-        ranges_at=2 * _N_INPUTS,
+        work_size=_RANGES_AT + 2,
+        limits_at=_LIMITS_AT,
+        ranges_at=_RANGES_AT,
         ranges=(
             Range("engine.speed", "the engine speed", float(data[0]), float(data[1]), "rad/s",
                   "The gear is that of the start and does not change."),
@@ -200,6 +202,10 @@ def _c_code(car: DrivelineParameters, limits: Sequence[tuple[float, float]]) -> 
         files[f"gear_{gear}.c"] = text.replace("driveline_interval", f"gear_{gear}")
     places = {
         "MEMORY": _N,
+        "INPUTS": _N_INPUTS,
+        "STATE_SIZE": _STATE_SIZE,
+        "LIMITS_AT": _LIMITS_AT,
+        "RANGES_AT": _RANGES_AT,
         "STATES": len(STATES),
         "STARTED": SLOT["started"],
         "PINION_TORQUE": SLOT["pinion_torque"],

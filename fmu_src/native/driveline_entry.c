@@ -5,7 +5,7 @@
            SPEEDS rows of ROW numbers between the first and the last of these: state at constant
            speed (STATES), what the engine's torque orders add to it (STATES), torques of engine,
            pinion and wheel [N.m], speed of the pinion [rad/s]
-   state:  memory of the driveline (MEMORY), inputs of the last step (GL_INPUTS), gear, speed of the
+   state:  memory of the driveline (MEMORY), inputs of the last step (INPUTS), gear, speed of the
            pinion at the start, engine torque at constant speed
    inputs: pinion angle, pinion speed, wheel angle, wheel speed, requested speed
    parameters: scale of the torque orders, start speed, gear or 0 */
@@ -18,7 +18,7 @@
 #include "model.h"
 
 enum { NOT_FINITE = 2, NO_GEAR = 3 };
-enum { GEAR_AT = MEMORY + GL_INPUTS, PINION_AT, ENGINE_AT };
+enum { GEAR_AT = MEMORY + INPUTS, PINION_AT, ENGINE_AT };
 /* s; nothing moves in it, and the means over a shorter step are lost to underflow */
 static const double SHORTEST_STEP = 1e-290;
 
@@ -28,17 +28,17 @@ enum { LIMITS = 3, GEAR_SIZE = LIMITS + SPEEDS * ROW, GEARS_AT = 2 };
 
 static void fill_work(const double *data, double *work)
 {
-    for (int i = 0; i < GL_INPUTS; i++) {
-        work[GL_LIMITS_AT + 2 * i] = LOWEST[i];
-        work[GL_LIMITS_AT + 2 * i + 1] = HIGHEST[i];
+    for (int i = 0; i < INPUTS; i++) {
+        work[LIMITS_AT + 2 * i] = LOWEST[i];
+        work[LIMITS_AT + 2 * i + 1] = HIGHEST[i];
     }
-    memcpy(work + GL_RANGES_AT, data, 2 * sizeof *data);
+    memcpy(work + RANGES_AT, data, 2 * sizeof *data);
 }
 
 static void write_outputs(const double *state, const double *work, double *outputs)
 {
     const double speed = state[CRANK_SPEED];
-    const double *range = work + GL_RANGES_AT;
+    const double *range = work + RANGES_AT;
     outputs[0] = state[PINION_TORQUE];
     outputs[1] = state[WHEEL_TORQUE];
     outputs[2] = state[VEHICLE_SPEED];
@@ -102,7 +102,7 @@ static int64_t start(const double *data, const double *parameters, const double 
     for (int i = 0; i < STATES; i++) {
         state[i] = row[i] + ripple * row[STATES + i];
     }
-    memcpy(state + MEMORY, inputs, GL_INPUTS * sizeof *inputs);
+    memcpy(state + MEMORY, inputs, INPUTS * sizeof *inputs);
     state[GEAR_AT] = gear;
     state[ENGINE_AT] = row[2 * STATES];
     state[PINION_TORQUE] = row[2 * STATES + 1]; /* memory without effect before the first step */
@@ -144,7 +144,7 @@ static int64_t advance(double h, const double *parameters, const double *inputs,
         return NOT_FINITE;
     }
     memcpy(state, next, sizeof next);
-    memcpy(state + MEMORY, inputs, GL_INPUTS * sizeof *inputs);
+    memcpy(state + MEMORY, inputs, INPUTS * sizeof *inputs);
     return 0;
 }
 
@@ -153,7 +153,7 @@ static int64_t advance_in_parts(double h, const double *parameters, const double
                                 double *state)
 {
     const int parts = (int)fmax(ceil(h / LONGEST_PART), 1.0);
-    double next[GL_STATE], pinion = 0.0, wheel = 0.0;
+    double next[STATE_SIZE], pinion = 0.0, wheel = 0.0;
     memcpy(next, state, sizeof next);
     for (int part = 0; part < parts; part++) {
         const int64_t status = advance(h / parts, parameters, inputs, next);

@@ -191,6 +191,14 @@ def axle_values(train: Train) -> dict[str, float]:
     ----------
     train : Train
         As `axle_train` returns it.
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+    >>> train = axle_train(mohammadpour_2015_axle())
+    >>> train.initialise({"pinion": 209.4}, {"input": 50.0, "output": 140.0}, 333.15)
+    >>> round(1e-3 * axle_values(train)["mesh.force"], 1)  # kN
+    2.4
     """
     shown, now = train.outputs(), train.continuous
     index = {name: i for i, name in enumerate(train.continuous_names)}
