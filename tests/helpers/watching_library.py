@@ -64,7 +64,8 @@ def watching_environment() -> dict[str, str]:
         [str(COMPILER), "-print-file-name=libasan.so"], check=True, capture_output=True, text=True
     )
     return os.environ | {
-        "LD_PRELOAD": found.stdout.strip(),
+        # and what throws the exceptions of C++ code, such as matplotlib's
+        "LD_PRELOAD": f"{found.stdout.strip()} libstdc++.so.6",
         "ASAN_OPTIONS": "detect_leaks=0",  # Python's own
         "PYTHONMALLOC": "malloc",  # so that places given by the tests are watched too
     }
