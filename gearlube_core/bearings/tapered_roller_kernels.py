@@ -213,18 +213,13 @@ def rib_drag(
     Parameters
     ----------
     motion
-        Of the shaft; its velocities play no part.
+        Of the shaft; its velocities play no part. At rest all torques are zero.
     oil
         At the inlet.
     p
         Either bearing; with a rib height or a contact angle of 0 there is no rib.
     side
         0: both bearings; +1 or -1: the one of that side alone.
-
-    Returns
-    -------
-    RibDrag
-        Zero at rest.
 
     Notes
     -----

@@ -42,7 +42,7 @@ def count_floats(tuple_class: type, *variants: type) -> int:
 def _parts(tuple_class: type, variants: tuple[type, ...] = ()) -> list[type]:
     """Return float or the NamedTuple class of every field.
 
-    Kept, because Python evaluates the annotations anew at each call.
+    Kept, because Python evaluates annotations again at each call.
     """
     hints = get_type_hints(tuple_class).values()
     interfaces = dict.fromkeys(h for h in hints if h is not float and not issubclass(h, tuple))

@@ -166,7 +166,7 @@ def test_a_step_is_divided_where_a_shaft_leaps_and_forces_are_expanded_where_it_
         motion = still._replace(r2=still.r2 + 1e-9 * k, v2=1e-4)
         follow_forces(p, motion, 500.0, oil, h, reach, kept)
         places.append(kept[N_EXPANSION + 2])
-    # anew after twelve steps, about the middle of these
+    # again after twelve steps, about the middle of these
     changes = [k for k in range(1, 30) if places[k] != places[k - 1]]
     assert changes == [12, 24]
     for k in (0, 12, 24):

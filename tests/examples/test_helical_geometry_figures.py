@@ -84,6 +84,7 @@ def test_pair_without_modifications_leaves_their_figures_out(tmp_path):
         "lines_relieved", "crown_forms", "relief_gaps", "equal_relief"
     }  # fmt: skip
     assert {file.stem for file in files} == wanted
+    # an empty page has 0.6 kB
     assert all(file.stat().st_size > 3000 for file in files)
     assert "No tip relief" in dataset.attrs["left_out"]
     assert "No crown" in dataset.attrs["left_out"]
