@@ -26,16 +26,9 @@ from scipy.integrate import solve_ivp
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, AxleRaceways, axle_rhs
-from gearlube_core.dynamics.hypoid_axle.state import (
-    LOAD_TORQUE,
-    N_ODE,
-    N_STATE,
-    PHI_P,
-    SIDE,
-    X,
-)
+from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, PHI_P, SIDE, X
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
 from gearlube_core.oil.lubricant import lubricant_state
 
 _LOGGER = logging.getLogger("bench_axle")

@@ -14,7 +14,7 @@ from drivetrain.sump_heat import SumpHeat
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.units import celsius_to_kelvin

@@ -14,7 +14,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     HypoidAxleParameters,
 )
 from gearlube_core.errors import ParameterError

@@ -23,7 +23,7 @@ from fmu_src.variables import FRICTION_VARIANTS, HYPOID_AXLE, SHARED_PRELOAD
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics import hypoid_axle
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import file_of_model, model_in
 from gearlube_core.film_model.model import FLANK, ROLLER, read_model_content

@@ -40,7 +40,7 @@ from gearlube_core.bearings.tapered_roller_bearing import PRELOAD, Approach, Tap
 from gearlube_core.drag import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
 from gearlube_core.dynamics.hypoid_axle.output_names import OWN_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     Equations,
     HypoidAxleParameters,
     MeshDamping,

@@ -5,7 +5,7 @@ __version__: str
 
 # -- Hypoid axle
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle as HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     HypoidAxleParameters as HypoidAxleParameters,
 )
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
@@ -48,9 +48,9 @@ from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfSh
 from gearlube_core.dynamics.train.elements.drag import Seal as Seal
 from gearlube_core.dynamics.train.elements.drag import Churning as Churning
 from gearlube_core.dynamics.train.helical_pair import helical_pair as helical_pair_train
-from gearlube_core.dynamics.train.hypoid_axle import axle_train as axle_train
-from gearlube_core.dynamics.train.hypoid_axle import axle_values as axle_values
-from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle as hypoid_axle_train
+from gearlube_core.dynamics.hypoid_axle.as_train import axle_train as axle_train
+from gearlube_core.dynamics.hypoid_axle.as_train import axle_values as axle_values
+from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle as hypoid_axle_train
 from drivetrain.train.train_file import TrainFile as TrainFile
 from gearlube.studies.drivetrain.run import run_drivetrain as run_drivetrain
 

@@ -20,7 +20,7 @@ from drivetrain.axle_file.read_axle import read_axle
 from gearlube.plotting.style import BLUE, GREEN, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.units import celsius_to_kelvin, kmh_to_ms

@@ -32,7 +32,7 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     HypoidAxleParameters,
 )
 from gearlube_core.errors import ParameterError

@@ -15,7 +15,7 @@ from drivetrain.axle_file.section import ModelSection
 from gearlube_core.bearings.followed_shaft import TORQUE_LOSSES
 from gearlube_core.bearings.tapered_roller_bearing import Approach
 from gearlube_core.contact.solid import Solid
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     Equations,
     Film,
     HypoidAxleParameters,

@@ -22,7 +22,7 @@ from gearlube_core.bearings.tapered_roller_bearing import (
     Film,
     TaperedRollerBearing,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
 from gearlube_core.input_file.field_units import field_value, unit_of

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from drivetrain.axle_file.section import ModelSection
 from gearlube_core.drag import SHAFT_DIAMETER, ChurningLaw, SealMaterial, seal_torque
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.input_file.field_units import field_value, unit_of

@@ -24,7 +24,7 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
     Friction,
     HelicalMarchParameters,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.chosen_model import chosen_model

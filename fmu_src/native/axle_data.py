@@ -19,7 +19,7 @@ from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.integrate import work_size
 from gearlube_core.dynamics.hypoid_axle.model import START_WORK
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     HypoidAxleParameters,
     MeshStiffness,
     Radii,

@@ -49,17 +49,17 @@ from gearlube_core.dynamics.hypoid_axle.continuous import (
 )
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import NO_MODES, NO_MODES_WORDS
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
-from gearlube_core.dynamics.hypoid_axle.mesh_force import equivalent_mass, modal_damping
 from gearlube_core.dynamics.hypoid_axle.model import STEP_REFUSALS
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE, OK
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE, TIME_IN_STEP
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import equivalent_mass, modal_damping
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     NO_MODAL_LOSS,
     PRINTED_WITH_SOLVED_FILM,
     MeshStiffness,
 )
-from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE, OK
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE, TIME_IN_STEP
 from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model

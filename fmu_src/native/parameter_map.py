@@ -18,9 +18,9 @@ from fmu_src.definition import Value
 from fmu_src.variable import Variable
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings, write_derived
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     HypoidAxleParameters,
     MeshStiffness,
     Radii,

@@ -9,7 +9,7 @@ from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import NOTE, WARNING, Finding
 from gearlube_core.arrays import Array
 from gearlube_core.drag import fast_regime
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 
 REGIME = ("1", "churning by its slow formula at 0, by its fast one at 1")  # unit, words
 _LAW = "changenet_velex_2007"  # the one with two formulas

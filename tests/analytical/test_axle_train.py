@@ -11,10 +11,10 @@ import pytest
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.as_train import axle_train, axle_values
 from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, X
-from gearlube_core.dynamics.train.hypoid_axle import axle_train, axle_values
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel

@@ -7,7 +7,7 @@ import pytest
 
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, OUTPUT_NAMES, mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
 from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, pack_mesh
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.oil.lubricant import lubricant_state

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle, flanks, rhs, state, tooth_pair
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle, rhs
+from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_STATE, PHI_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_mesh import flanks, node_films, tooth_pair
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
     blend_mesh,
 )
-from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_STATE, PHI_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with
@@ -99,10 +100,10 @@ def test_nodes_that_share_a_place_do_not_serve_one_another(axle):
     axle.losses(0.3, tooth_pair.BETWEEN_NODES)
     films = axle.kept[flanks.FILMS :]
     node = int(0.3 * axle.nodes)
-    other = node + state.NODES_KEPT
-    assert state.place_of_node(other) == state.place_of_node(node)
-    assert state.still_holds(films, node, FORCE, SPEED, OIL)
-    assert not state.still_holds(films, other, FORCE, SPEED, OIL)
+    other = node + node_films.NODES_KEPT
+    assert node_films.place_of_node(other) == node_films.place_of_node(node)
+    assert node_films.still_holds(films, node, FORCE, SPEED, OIL)
+    assert not node_films.still_holds(films, other, FORCE, SPEED, OIL)
 
 
 @pytest.mark.parametrize("now", [{"force": 1.025 * FORCE}, {"speed": 0.975 * SPEED}])
@@ -122,7 +123,7 @@ def test_what_is_kept_follows_force_and_speed(axle, now):
 
 def power_law(force, speed):
     # slopes over relative changes are the exponents times the value
-    return state.NodeFlank(
+    return node_films.NodeFlank(
         -15.0 - 0.07 * np.log(force) + 0.7 * np.log(speed),
         -3.0 + 0.3 * np.log(force) - 0.2 * np.log(speed),
         1e-3 * force**0.3 * speed**-0.2,
@@ -134,22 +135,22 @@ def power_law(force, speed):
 
 def kept_after(*states):
     """Films of node 3 under forces and speeds that follow one another."""
-    films = np.zeros(state.N_FILMS)
-    more = 1.0 + state.NUDGE
+    films = np.zeros(node_films.N_FILMS)
+    more = 1.0 + node_films.NUDGE
     for k, (F, w) in enumerate(states):
         if k == 0:
             nudged = power_law(more * F, w), power_law(F, more * w)
-            state.keep_flank(films, 3, F, w, OIL, power_law(F, w), *nudged)
+            node_films.keep_flank(films, 3, F, w, OIL, power_law(F, w), *nudged)
         else:
-            assert state.tells_slopes(films, 3, F, w, OIL)
-            state.follow_flank(films, 3, F, w, power_law(F, w))
+            assert node_films.tells_slopes(films, 3, F, w, OIL)
+            node_films.follow_flank(films, 3, F, w, power_law(F, w))
     return films
 
 
 @each("then", [(2000.0, 150.0), (2500.0, 130.0), (1800.0, 160.0)])
 def test_renewed_slopes_give_back_the_values_before(then):
     films = kept_after(then, (FORCE, SPEED))
-    before = state.flank_between(films, 3, 3, 0.0, *then)
+    before = node_films.flank_between(films, 3, 3, 0.0, *then)
     assert before[:4] == pytest.approx(power_law(*then)[:4], rel=1e-13)
 
 
@@ -157,7 +158,7 @@ def test_renewed_slopes_stay_across_the_change():
     films = kept_after((FORCE, SPEED), (1.1 * FORCE, SPEED))
     # only the force has changed: the slope over speed is the first one, a secant over NUDGE of
     # the values at the first force
-    faster = state.flank_between(films, 3, 3, 0.0, 1.1 * FORCE, 1.02 * SPEED)
+    faster = node_films.flank_between(films, 3, 3, 0.0, 1.1 * FORCE, 1.02 * SPEED)
     now = power_law(1.1 * FORCE, SPEED)
     first, nudged = power_law(FORCE, SPEED), power_law(FORCE, 1.02 * SPEED)
     for k in range(4):
@@ -190,4 +191,4 @@ def test_values_follow_a_force_that_goes_on_changing(axle):
 def test_slopes_are_taken_from_nothing_after_large_changes(now, tells):
     films = kept_after((FORCE, SPEED))
     force, speed = (given * now.get(n, 1.0) for n, given in (("force", FORCE), ("speed", SPEED)))
-    assert state.tells_slopes(films, 3, force, speed, OIL + now.get("oil", 0.0)) == tells
+    assert node_films.tells_slopes(films, 3, force, speed, OIL + now.get("oil", 0.0)) == tells

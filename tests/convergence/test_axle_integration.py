@@ -17,9 +17,9 @@ from gearlube_core.bearings.followed_shaft import (
     moving_parts,
 )
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.integrate import CONTACT_PARTS, contact_parts
 from gearlube_core.dynamics.hypoid_axle.rhs import AxleRaceways, axle_drag, kept_drag
 from gearlube_core.dynamics.hypoid_axle.state import KEPT_DRAG, N_ODE, N_STATE, X
+from gearlube_core.dynamics.hypoid_mesh.step_parts import CONTACT_PARTS, contact_parts
 from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import (
     OIL,

@@ -20,11 +20,11 @@ from fmu_src.native.model import OK, Operation
 from fmu_src.native.parameter_map import KernelClasses, place_of_each
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle.integrate import MAX_STEPS, TOO_MANY_STEPS
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.dynamics.hypoid_axle.output_names import PINION_ACCELERATION, RATES
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, W_P
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.net import N_ARRAY, UNITS

@@ -6,11 +6,6 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshAtLoad,
-    MeshLevels,
-    blend_mesh,
-)
 from gearlube_core.dynamics.hypoid_axle.rhs import follow_flank_of
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
@@ -21,6 +16,11 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     U_P,
     UM,
     X,
+)
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
+    MeshAtLoad,
+    MeshLevels,
+    blend_mesh,
 )
 from gearlube_core.mesh_table.kernels import mesh_series
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table

@@ -7,9 +7,6 @@ import pytest
 
 from gearlube_core.bearings.followed_shaft import N_FORCES
 from gearlube_core.dynamics.hypoid_axle import outputs, rhs
-from gearlube_core.dynamics.hypoid_axle.flanks import FlankSum
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForce
 from gearlube_core.dynamics.hypoid_axle.state import (
     BEARING_DAMPING,
     BEARING_TORQUE,
@@ -37,6 +34,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WHEEL_WORK,
     X,
 )
+from gearlube_core.dynamics.hypoid_mesh.flanks import FlankSum
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForce
 from gearlube_core.mesh_table.kernels import N_SERIES
 from tests.helpers.source_of import interpret, source_of
 

@@ -5,9 +5,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import flank_outputs, flanks, rhs, tooth_pair
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
-from gearlube_core.dynamics.hypoid_axle.state import N_FILMS, N_STATE
+from gearlube_core.dynamics.hypoid_axle import rhs
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.hypoid_mesh import flank_outputs, flanks, tooth_pair
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
+from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_contact_groups

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from gearlube_core.dynamics.hypoid_axle import force_derivatives as module
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshLevels
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE, U_G, U_P, V_G, V_P, W_G, W_P, X
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshLevels
 from gearlube_core.mesh_table.kernels import N_SERIES, N_X, R_P
 from tests.helpers.each import each
 from tests.helpers.source_of import interpret, source_of

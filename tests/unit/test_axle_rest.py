@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.hypoid_axle import start as module
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshLevels
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     N_STATE,
@@ -18,6 +17,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     X,
 )
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshLevels
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_P
 from tests.helpers.source_of import interpret, source_of
 

@@ -8,11 +8,11 @@ import pytest
 from scipy.optimize import root
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, linearise
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs
 from gearlube_core.dynamics.hypoid_axle.start import RestProblem, mean_series, rest_forces
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, U_G, U_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import without_losses
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.mesh_table.kernels import N_SERIES, N_X, R_P
 from gearlube_core.oil.lubricant import lubricant_state

@@ -9,7 +9,7 @@ from numba import njit
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import (
     count_floats,

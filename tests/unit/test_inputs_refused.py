@@ -13,7 +13,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.line_integrals import friction_along_lines
 from gearlube_core.friction.line_points import line_points, table_line_load, uniform_line_load

@@ -12,7 +12,7 @@ import pytest
 from drivetrain.train.part_section import section_of
 from drivetrain.train.train_file import TrainFile
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
-from gearlube_core.dynamics.train.hypoid_axle import hypoid_axle
+from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle
 from gearlube_core.dynamics.train.part import ELEMENTS
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile

@@ -21,7 +21,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_table import drawn_axes
 from gearlube_core.hypoid_contact.pair import FlankPair

@@ -16,7 +16,6 @@ from gearlube.studies.drive_cycle.loss_field import (
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings, LossGrid
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.uncertain import (
     UPPER_END,
     Uncertain,
@@ -25,6 +24,7 @@ from gearlube_core.dynamics.hypoid_axle.uncertain import (
     log_slope,
     uncertain_of,
 )
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.progress import Progress, no_progress
 
 _BOUNDS = 2.5, 97.5  # percent

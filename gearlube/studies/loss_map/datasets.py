@@ -15,7 +15,7 @@ from gearlube.studies.loss_map.sampling import Spread
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, AxleLosses
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.ranges import left_ranges
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius
 

@@ -10,8 +10,8 @@ import xarray as xr
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.uncertain import UPPER_END, changed_axle
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.progress import Progress, no_progress
 

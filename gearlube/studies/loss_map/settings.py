@@ -10,8 +10,8 @@ import numpy as np
 from drivetrain.steady_temperature import Cooling
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.uncertain import MOST_DRAWS, Uncertain, uncertain_of
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin
 

@@ -39,8 +39,8 @@ from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     OUTPUT_NAMES,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.uncertain import drawn_losses
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.spectra import angle_window
 from gearlube_core.units import kmh_to_ms

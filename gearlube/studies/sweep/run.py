@@ -38,7 +38,7 @@ from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSet
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core import __version__
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.progress import Progress, no_progress

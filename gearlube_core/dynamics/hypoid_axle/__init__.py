@@ -9,7 +9,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     OUTPUT_INDEX,
     OUTPUT_NAMES,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import (
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
     HypoidAxleParameters,
 )
 

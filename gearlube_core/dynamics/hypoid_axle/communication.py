@@ -14,7 +14,6 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings
 from gearlube_core.dynamics.hypoid_axle.continuous import change_side
-from gearlube_core.dynamics.hypoid_axle.flanks import FILMS
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import (
     force_derivatives,
     write_step_control,
@@ -27,15 +26,6 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
     StepControl,
     advance,
 )
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshFields,
-    blend_mesh,
-    mesh_levels,
-    place_at_load,
-    series_size,
-)
-from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     BEARING_SHARE_OUTSIDE,
     FIRST_BEARING_FILM,
@@ -59,7 +49,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     FRICTION_BOUND,
     LOAD_TORQUE,
     N_ENERGIES,
-    N_FILMS,
     N_ODE,
     N_STATE,
     PHI_G,
@@ -72,6 +61,17 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WORK_MARK,
     X,
 )
+from gearlube_core.dynamics.hypoid_mesh.flanks import FILMS
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
+    MeshFields,
+    blend_mesh,
+    mesh_levels,
+    place_at_load,
+    series_size,
+)
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import mesh_force
+from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
 from gearlube_core.dynamics.mean_power import LEAST_WINDOW, keep_means
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.friction.flank_law import FlankLaw

@@ -7,20 +7,9 @@ the only other thing that the future depends on, and changes at events alone.
 from __future__ import annotations
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.integrate import LOAD_FILTER_TIME
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshAtLoad,
-    MeshLevels,
-    blend_mesh,
-    gap_rotation,
-    place_at_load,
-    series_size,
-)
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
 from gearlube_core.dynamics.hypoid_axle.rhs import follow_flank_of, mesh_motion
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
-    MICRO,
     N_CONTINUOUS,
     N_ODE,
     PHI_P,
@@ -30,6 +19,16 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     UM,
     X,
 )
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
+    MeshAtLoad,
+    MeshLevels,
+    blend_mesh,
+    gap_rotation,
+    place_at_load,
+    series_size,
+)
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForceConstants
+from gearlube_core.dynamics.hypoid_mesh.step_parts import LOAD_FILTER_TIME, MICRO
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import mesh_series
 

@@ -6,22 +6,12 @@ import math
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.start import OK, mean_series
-from gearlube_core.dynamics.hypoid_axle.state import (
-    MICRO,
-    N_ODE,
-    N_STATE,
-    U_G,
-    U_P,
-    V_G,
-    V_P,
-    W_G,
-    W_P,
-    X,
-)
+from gearlube_core.dynamics.hypoid_axle.state import N_ODE, N_STATE, U_G, U_P, V_G, V_P, W_G, W_P, X
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels
+from gearlube_core.dynamics.hypoid_mesh.step_parts import MICRO
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.spectral_radius import spectral_radius
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, N_X, R_G, R_P

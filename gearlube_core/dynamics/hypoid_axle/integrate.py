@@ -7,22 +7,8 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import NO_RACEWAYS, RollerFilms
-from gearlube_core.bearings.followed_shaft import DRAG_COST, EXPANSION_REACH, PALMGREN, STEP_PARTS
+from gearlube_core.bearings.followed_shaft import DRAG_COST, EXPANSION_REACH, PALMGREN
 from gearlube_core.drag import churning_torque, seal_drag
-from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
-from gearlube_core.dynamics.hypoid_axle.flanks import (
-    BOUND_POWER,
-    FILMS,
-)
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshAtLoad,
-    MeshLevels,
-    blend_mesh,
-    place_at_load,
-    series_size,
-)
-from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force, reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import (
     SCRATCH,
     AxleDrag,
@@ -44,9 +30,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     FRICTION_BOUND,
     KEPT_DRAG,
     LOAD_TORQUE,
-    MICRO,
     N_ENERGIES,
-    N_FILMS,
     N_ODE,
     N_STATE,
     PINION_WORK,
@@ -58,7 +42,28 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WORK_MARK,
     X,
 )
-from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
+from gearlube_core.dynamics.hypoid_mesh.flanks import (
+    BOUND_POWER,
+    FILMS,
+)
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
+    MeshAtLoad,
+    MeshLevels,
+    blend_mesh,
+    place_at_load,
+    series_size,
+)
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import mesh_force, reference_frequency
+from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
+from gearlube_core.dynamics.hypoid_mesh.step_parts import (
+    LOAD_FILTER_TIME,
+    LOAD_REACH,
+    MICRO,
+    REAL_AXIS_LIMIT,
+    contact_parts,
+)
+from gearlube_core.dynamics.hypoid_mesh.tooth_pair import (
     BETWEEN_NODES,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
@@ -74,14 +79,6 @@ TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
 MAX_STEPS = 200_000  # in one communication interval, or their cost; half a second of computing
-# Change of the load level that the mesh data follow at once, over load or torque
-LOAD_REACH = 4e-3
-# Parts of a step in which flanks meet or part: the slope of their force jumps there, and damping
-# builds up over half a micrometre. A step moves them by that much at 0.1 m/s.
-CONTACT_PARTS = STEP_PARTS
-_STILL = 0.1  # of the build-up; smaller moves in a step need no parts
-LOAD_FILTER_TIME = 0.02  # s, load level follows the torque below the driveline's shuffle
-REAL_AXIS_LIMIT = 2.0  # RK4 is stable to 2.78 on the negative real axis
 DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
 
 
@@ -165,26 +162,6 @@ def rk4_step(
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
         abs(inputs.pinion_torque) - s[LOAD_TORQUE]
     )
-
-
-@kernel
-def contact_parts(x: float, change: float, backlash: float) -> int:
-    """Return into how many parts a step is divided: CONTACT_PARTS where flanks meet or part.
-
-    Parameters
-    ----------
-    x, change
-        Transmission error, and how far it moves in the step [um].
-    backlash
-        [um]
-    """
-    build_up = DAMPING_BUILD_UP * MICRO
-    if abs(change) < _STILL * build_up:
-        return 1
-    low, high = min(x, x + 1.5 * change), max(x, x + 1.5 * change)
-    drive = high > 0.0 and low < build_up
-    coast = low < -backlash and high > -backlash - build_up
-    return CONTACT_PARTS if drive or coast else 1
 
 
 def work_size(series: int, n_nodes: int) -> int:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import DERIVATIVES_WORK, N_COORDINATES
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL, MeshFields
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import NO_FILM_MODEL, MeshFields
 from gearlube_core.dynamics.packed_mesh import PackedMesh
 from gearlube_core.kernels.flat_tuples import flatten
 

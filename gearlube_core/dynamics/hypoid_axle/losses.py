@@ -15,7 +15,6 @@ from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.integrate import work_size
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
     N_EXTREMES,
     N_LOSSES,
@@ -27,9 +26,10 @@ from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     N_OUTPUTS,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import without_losses
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.packed_mesh import pack_mesh
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.flat_tuples import flatten

@@ -15,22 +15,7 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import RollerFilms, ShaftBearings
 from gearlube_core.bearings.followed_shaft import PALMGREN
-from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
-    FILM_RATIO,
-    LOAD,
-    N_FLANK_QUANTITIES,
-    TEMPERATURE,
-)
 from gearlube_core.dynamics.hypoid_axle.integrate import OK, step_inputs
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshAtLoad,
-    MeshFields,
-    MeshLevels,
-    blend_mesh,
-    mesh_levels,
-    place_at_load,
-)
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     BEARING_SHARE_OUTSIDE,
     DRAG_LOSS_BOUND,
@@ -46,7 +31,6 @@ from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rac
 from gearlube_core.dynamics.hypoid_axle.start import N_FREE, REST_WORK, rest_under
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
-    MICRO,
     N_ENERGIES,
     N_ODE,
     PHI_P,
@@ -61,6 +45,22 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     X,
 )
+from gearlube_core.dynamics.hypoid_mesh.flank_outputs import (
+    FILM_RATIO,
+    LOAD,
+    N_FLANK_QUANTITIES,
+    TEMPERATURE,
+)
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
+    MeshAtLoad,
+    MeshFields,
+    MeshLevels,
+    blend_mesh,
+    mesh_levels,
+    place_at_load,
+)
+from gearlube_core.dynamics.hypoid_mesh.step_parts import MICRO
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array

@@ -19,23 +19,23 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
     step_inputs,
     work_size,
 )
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import (
+from gearlube_core.dynamics.hypoid_axle.output_names import (
+    OUTPUT_NAMES,
+)
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_raceways, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM_CURE, OK, REST_WORK
+from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, SIDE
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import (
     AxleParameters,
     without_losses,
 )
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
     MeshFields,
     MeshLevels,
     blend_mesh,
     place_at_load,
 )
-from gearlube_core.dynamics.hypoid_axle.output_names import (
-    OUTPUT_NAMES,
-)
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
-from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_raceways, axle_rhs
-from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM_CURE, OK, REST_WORK
-from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, SIDE
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.dynamics.ranges import TOO_FAR
 from gearlube_core.dynamics.stepped_model import (

@@ -9,7 +9,6 @@ from gearlube_core.bearings.bearing_type import (
     bearing_loads,
 )
 from gearlube_core.dynamics.hypoid_axle.continuous import EVENT_INDICATORS, RATE_NAMES, STATE_NAMES
-from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.rhs import AxleRaceways
 from gearlube_core.dynamics.hypoid_axle.state import (
     BEARING_DAMPING,
@@ -28,6 +27,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WHEEL_WORK,
     WORK_MARK,
 )
+from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
 from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS
 from gearlube_core.kernels.jit import kernel

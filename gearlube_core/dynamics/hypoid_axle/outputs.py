@@ -11,29 +11,7 @@ from gearlube_core.dynamics.hypoid_axle.continuous import (
     write_event_indicators,
     write_rates,
 )
-from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
-    write_flanks,
-)
-from gearlube_core.dynamics.hypoid_axle.flanks import (
-    BOUND_POWER,
-    FILMS,
-    N_FRICTION,
-)
 from gearlube_core.dynamics.hypoid_axle.integrate import inputs_with_drag
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
-    MeshAtLoad,
-    MeshLevels,
-    blend_mesh,
-    place_at_load,
-    series_size,
-)
-from gearlube_core.dynamics.hypoid_axle.mesh_force import (
-    MeshForce,
-    backlash_deflection,
-    mesh_force,
-    reference_frequency,
-)
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     BEARING_SHARE_OUTSIDE,
     DTE,
@@ -93,7 +71,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     KEPT_DRAG,
     LOAD_TORQUE,
     N_ENERGIES,
-    N_FILMS,
     N_ODE,
     N_ROLLERS,
     N_STATE,
@@ -112,7 +89,30 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     X,
 )
-from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
+from gearlube_core.dynamics.hypoid_mesh.flank_outputs import (
+    write_flanks,
+)
+from gearlube_core.dynamics.hypoid_mesh.flanks import (
+    BOUND_POWER,
+    FILMS,
+    N_FRICTION,
+)
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
+    MeshAtLoad,
+    MeshLevels,
+    blend_mesh,
+    place_at_load,
+    series_size,
+)
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import (
+    MeshForce,
+    backlash_deflection,
+    mesh_force,
+    reference_frequency,
+)
+from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
+from gearlube_core.dynamics.hypoid_mesh.tooth_pair import (
     BETWEEN_NODES,
     EXACT,
 )

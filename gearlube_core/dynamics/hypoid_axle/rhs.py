@@ -28,15 +28,6 @@ from gearlube_core.bearings.followed_shaft import (
 )
 from gearlube_core.bearings.parameters import cage_torque
 from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
-from gearlube_core.dynamics.hypoid_axle.flanks import N_FRICTION, flank_sum
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, follow_flank
-from gearlube_core.dynamics.hypoid_axle.mesh_force import (
-    MeshForceConstants,
-    MeshMotion,
-    mesh_force,
-    reference_frequency,
-)
 from gearlube_core.dynamics.hypoid_axle.state import (
     BEARING_DAMPING,
     BEARING_TORQUE,
@@ -45,7 +36,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_P,
     CHURNING,
     MESH_DAMPING,
-    MICRO,
     N_ROLLERS,
     PHI_G,
     PHI_P,
@@ -64,6 +54,16 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WHEEL_WORK,
     X,
 )
+from gearlube_core.dynamics.hypoid_mesh.flanks import N_FRICTION, flank_sum
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels, follow_flank
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import (
+    MeshForceConstants,
+    MeshMotion,
+    mesh_force,
+    reference_frequency,
+)
+from gearlube_core.dynamics.hypoid_mesh.step_parts import MICRO
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.inlining import inside

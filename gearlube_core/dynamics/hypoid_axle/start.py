@@ -6,12 +6,9 @@ import math
 from typing import Any, NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, series_size
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
-    MICRO,
     N_ODE,
     N_STATE,
     SIDE,
@@ -23,6 +20,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     X,
 )
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels, series_size
+from gearlube_core.dynamics.hypoid_mesh.step_parts import MICRO
 from gearlube_core.kernels.damped_newton import damped_newton, newton_work_size
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_P, load_bracket

@@ -16,7 +16,7 @@ from gearlube_core.bearings.losses.laws import DEFAULT_LAW, RACE_LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.bearings.losses.rib import RIB_FRICTION_FACTOR, RIB_ROUGHNESS_FACTOR
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.number import numbers_of

@@ -25,10 +25,10 @@ from gearlube_core.bearings.roller_nodes import races_of, roller_film
 from gearlube_core.checks import check_within
 from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_QUANTITIES
-from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
 from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, PHI_P, SIDE
+from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_QUANTITIES
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import reference_frequency
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.kernels import load_bracket, pair_node
 from gearlube_core.mesh_table.table import PAIRS, TOOTH_UNITS, MeshTable

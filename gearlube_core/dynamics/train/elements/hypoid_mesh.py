@@ -9,11 +9,11 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_RECORDS
-from gearlube_core.dynamics.hypoid_axle.flanks import N_FRICTION
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
-from gearlube_core.dynamics.hypoid_axle.state import N_FILMS
-from gearlube_core.dynamics.hypoid_axle.tooth_pair import EXACT
+from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_RECORDS
+from gearlube_core.dynamics.hypoid_mesh.flanks import N_FRICTION
+from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.tooth_pair import EXACT
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.element import Listed

@@ -7,35 +7,36 @@ from typing import Any, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import backlash_deflection
-from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
+from gearlube_core.dynamics.hypoid_mesh.flank_outputs import (
     FILM_THICKNESS,
     FLANK_OUTPUTS,
     LOAD,
     N_FLANK_QUANTITIES,
     write_flanks,
 )
-from gearlube_core.dynamics.hypoid_axle.flanks import BOUND_POWER, FILMS, N_FRICTION, flank_sum
-from gearlube_core.dynamics.hypoid_axle.integrate import (
-    LOAD_FILTER_TIME,
-    LOAD_REACH,
-    REAL_AXIS_LIMIT,
-    contact_parts,
-)
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+from gearlube_core.dynamics.hypoid_mesh.flanks import BOUND_POWER, FILMS, N_FRICTION, flank_sum
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
     blend_mesh,
     follow_flank,
     gap_rotation,
 )
-from gearlube_core.dynamics.hypoid_axle.mesh_force import (
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import (
     MeshForceConstants,
     MeshMotion,
     mesh_force,
     reference_frequency,
 )
-from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_FILMS
-from gearlube_core.dynamics.hypoid_axle.tooth_pair import BETWEEN_NODES, EXACT
+from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
+from gearlube_core.dynamics.hypoid_mesh.step_parts import (
+    LOAD_FILTER_TIME,
+    LOAD_REACH,
+    MICRO,
+    REAL_AXIS_LIMIT,
+    contact_parts,
+)
+from gearlube_core.dynamics.hypoid_mesh.tooth_pair import BETWEEN_NODES, EXACT
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.dynamics.train.element import AFTER_STEP, RATE, RZ, W

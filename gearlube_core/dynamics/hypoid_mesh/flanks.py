@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
-from gearlube_core.dynamics.hypoid_axle.state import N_FILMS
-from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
+from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
+from gearlube_core.dynamics.hypoid_mesh.tooth_pair import (
     flank_coefficients,
     sliding_speed,
 )

@@ -31,9 +31,9 @@ from gearlube_core.drag import (
     RingDiameter,
     RingWidth,
 )
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL
-from gearlube_core.dynamics.hypoid_axle.mesh_force import (
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, AxleScalars
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import NO_FILM_MODEL
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import (
     MeshForceConstants,
     equivalent_mass,
     modal_damping,

@@ -8,7 +8,7 @@ from typing import Annotated, NamedTuple
 from gearlube_core.bearings.bearing_type import ShaftBearings, without_loss
 from gearlube_core.drag import ChurningConstants, SealTorque
 from gearlube_core.dynamics.flank_force import BACKLASH
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.number import Number

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
-from gearlube_core.dynamics.hypoid_axle.state import (
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
+from gearlube_core.dynamics.hypoid_mesh.node_films import (
     NUDGE,
     NodeFlank,
     film_of,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshMotion
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForceConstants, MeshMotion
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import (

@@ -8,8 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from gearlube_core.dynamics.hypoid_axle.continuous import EVENT_INDICATORS, RATE_NAMES, STATE_NAMES
-from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.model import MARCH_WITH_WARM_FLANKS
 from gearlube_core.dynamics.hypoid_axle.output_names import (
     BEARING_QUANTITIES,
@@ -17,7 +15,9 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     N_BEARINGS,
     OUTPUT_NAMES,
 )
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import reference_frequency
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.hypoid_mesh import HypoidMesh

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshMotion
-from gearlube_core.dynamics.hypoid_axle.tooth_pair import (
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
+from gearlube_core.dynamics.hypoid_mesh.tooth_pair import (
     flank_film,
     pair_friction,
     sliding_speed,
