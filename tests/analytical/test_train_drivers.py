@@ -6,14 +6,18 @@ import numpy as np
 import pytest
 
 from drivetrain.train.train_file import TrainFile
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.train.choice import generated_kernel, interpreted_kernel, kernel_of
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
+from gearlube_core.dynamics.train.helical_pair import helical_pair
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
 from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helpers.small_trains import OIL, two_rotors
 
 KELVIN = 333.15
@@ -84,6 +88,19 @@ def test_every_element_of_the_package_is_known_to_the_interpreter():
     shipped = [one for one in ELEMENTS.known().values() if ELEMENTS.is_ours(one)]
     assert all(one.interpreted for one in shipped)
     assert len(shipped) > 5
+
+
+def test_lists_that_differ_in_the_size_of_tables_alone_share_generated_code():
+    """The pair of He et al. with one density, and with its line mesh of 32 phases."""
+    gears, mesh = HelicalGearFile.named("he_2007"), named_line_mesh("he_2007")
+    pairs = [helical_march_parameters(gears, line_mesh=one) for one in (None, mesh)]
+    trains = [Train(*helical_pair(one), one.oil) for one in pairs]
+    first, second = (train.assembly for train in trains)
+    assert first.memory.size < second.memory.size
+    assert generated_kernel(first) is generated_kernel(second)
+    load = {"input": 226.0, "output": 280.0}
+    for train in trains:
+        assert_equal_bits(train, {"wheel": 84.4}, load)
 
 
 def test_an_element_from_outside_has_code_of_its_list():

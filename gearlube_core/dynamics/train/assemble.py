@@ -23,7 +23,15 @@ from gearlube_core.dynamics.train.exchange import (
 )
 from gearlube_core.dynamics.train.outputs import train_outputs
 from gearlube_core.dynamics.train.part import Body, Element, shipped_kinds
-from gearlube_core.dynamics.train.plan import UNKNOWN, Sizes, pack_plan
+from gearlube_core.dynamics.train.plan import (
+    AT,
+    MEMORY,
+    N_MEMORY,
+    OF_TABLES,
+    UNKNOWN,
+    Sizes,
+    pack_plan,
+)
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.number import Output
@@ -40,6 +48,7 @@ class Assembly(NamedTuple):
     laws: OilLaws  # of an oil with laws of its own
     sizes: Sizes
     plan: Offsets
+    shape: tuple[int, ...]  # the plan, OF_TABLES where the size of a table decides
     numbers: Array
     memory: Array
     names: tuple[str, ...]  # of the integrated states
@@ -91,7 +100,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         kept[one.name] = size
         size += one.kept_size()
     numbers, memory = [flatten(oil.parameters())], []
-    kinds, listed, rows = shipped_kinds(), list[Listed](), []
+    kinds, listed, rows, shapes = shipped_kinds(), list[Listed](), [], []
     at_number, at_memory, at_output, at_exchanged = numbers[0].size, 0, 0, 0
     for one in elements:
         constants, room = one.numbers(), one.memory()
@@ -112,6 +121,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         number = kinds.index(listed[-1]) if listed[-1] in kinds else UNKNOWN
         first = number, at_number, at_memory, room.size, at_output, at_exchanged
         rows.append((*first, one.kept_size(), len(at), *at))
+        shapes.append(_shape(rows[-1], len(one.sizes())))
         at_output += len(one.outputs)
         at_exchanged += len(one.levels) + len(one.events)
         at_number += numbers[-1].size
@@ -139,6 +149,7 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         laws,
         sizes,
         pack_plan(sizes, rows),
+        tuple(pack_plan(sizes, shapes).tolist()),
         np.concatenate([*numbers, *(body.mobility for body in bodies)]),
         np.concatenate([*memory, np.zeros(1)]),
         tuple(names),
@@ -150,6 +161,13 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         continuous_states(bodies, elements, names, kept, outputs),
         event_indicators(elements, len(names)),
     )
+
+
+def _shape(row: Sequence[int], sizes: int) -> list[int]:
+    """Return a row of the plan without what the size of a table decides."""
+    by_table = [OF_TABLES if row[N_MEMORY] else 0] * 2
+    head = [*row[:MEMORY], *by_table, *row[N_MEMORY + 1 : AT]]
+    return [*head, *row[AT : len(row) - sizes], *sizes * [OF_TABLES]]
 
 
 def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:

@@ -20,14 +20,17 @@ Driver = Literal["automatic", "generated", "interpreted"]
 
 @cache
 def _generated(
-    listed: tuple[Listed, ...], plan: tuple[int, ...], laws: OilLaws
+    listed: tuple[Listed, ...], shape: tuple[int, ...], laws: OilLaws
 ) -> Callable[..., float]:
-    return train_kernel(generated(listed, plan), laws)
+    return train_kernel(generated(listed, shape), laws)
 
 
 def generated_kernel(made: Assembly) -> Callable[..., float]:
-    """Return the function of `train_kernel` that is compiled for the list of an assembly."""
-    return _generated(made.listed, tuple(made.plan.tolist()), made.laws)
+    """Return the function of `train_kernel` that is compiled for the list of an assembly.
+
+    Lists of the same elements, with tables of any size, share one.
+    """
+    return _generated(made.listed, made.shape, made.laws)
 
 
 @cache

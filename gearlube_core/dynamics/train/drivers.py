@@ -1,9 +1,9 @@
 """Kernels of all elements of a list, out of the kernels of each, by two drivers.
 
 `generated` calls the kernels of the elements one after the other; classes and places are constants
-of the compiled code, which serves one list. `interpreted` goes through the rows of the plan and
-branches by the kind of each element; its compiled code serves every list of these kinds. Both sum
-in the order of the list, so their bits are equal.
+of the compiled code, which serves one list with tables of any size. `interpreted` goes through the
+rows of the plan and branches by the kind of each element; its compiled code serves every list of
+these kinds. Both sum in the order of the list, so their bits are equal.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from gearlube_core.dynamics.train.plan import (
     N_MEMORY,
     N_PLACES,
     NUMBER,
+    OF_TABLES,
     OUTPUT,
     Sizes,
     places,
@@ -147,17 +148,26 @@ class _Source:
 
 
 def generated(elements: Sequence[Listed], plan: Sequence[int]) -> AllElements:
-    """Return the kernels of a list, whose classes and plan are constants of the compiled code."""
+    """Return the kernels of a list, whose classes and plan are constants of the compiled code.
+
+    A number of the plan that is OF_TABLES is read when the code runs.
+    """
     source, calls, first = _Source(), [], []
     at = FIRST_ROW
     for i, one in enumerate(elements):
         row = plan[at : at + AT + one.places]
-        at += len(row)
-        source.given |= {f"k{i}": row[NUMBER], f"m{i}": row[MEMORY], f"z{i}": row[N_MEMORY]}
-        source.given |= {f"at{i}": tuple(row[AT:])}
+        known = tuple(number for number in row[AT:] if number != OF_TABLES)
+        n_sizes = len(row) - AT - len(known)
+        source.given |= {f"k{i}": row[NUMBER], f"at{i}": known}
+        source.given |= {f"m{i}": at + MEMORY, f"t{i}": at + len(row) - n_sizes, f"n{i}": n_sizes}
         source.given |= {f"{name}_at{i}": row[place] for name, place in _LAST.items()}
+        at += len(row)
         constants = source.constants(i, one).format(f"k{i}")
-        calls.append(f"{constants}, at{i}, part(memory, m{i}, z{i})")
+        own = f"at{i} + places(plan, t{i}, n{i})" if n_sizes else f"at{i}"
+        memory = "part(memory, 0, 0)"
+        if row[N_MEMORY] == OF_TABLES:
+            memory = f"part(memory, *places(plan, m{i}, 2))"
+        calls.append(f"{constants}, {own}, {memory}")
         first.append(f"{{}}_at{i}")
     for name in _LINES:
         source.begin(name)

@@ -44,6 +44,7 @@ FIRST_ROW = len(Sizes._fields)
 # of a row: kind of the element, first constant, first place in the memory and how many, first
 # output, first of what EXCHANGE writes, how many numbers are kept, how many places; then the places
 KIND, NUMBER, MEMORY, N_MEMORY, OUTPUT, EXCHANGED, N_KEPT, N_PLACES, AT = range(9)
+OF_TABLES = -1  # in the shape of a plan: a number that the size of a table decides
 UNKNOWN = MOST - 1  # kind of an element that `interpreted` does not know
 
 
