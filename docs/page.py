@@ -13,7 +13,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from gearlube_core.storage.atomic_file import write_text
 
@@ -22,6 +22,7 @@ IMAGES = DOCS / "images"
 ROOT = DOCS.parent
 HOLDS, PARTLY, FAILS = "holds", "holds in part", "does not hold"
 _OF_SEVERAL = {HOLDS: "hold", PARTLY: "hold in part", FAILS: "do not hold"}
+Judge = TypeVar("Judge", bound=Callable[[Any], Any])
 _STATEMENTS = "# | What"  # head of a table of statements
 _NUMBER = r"((?:.|\n(?!\n))+?)"  # within a paragraph
 
@@ -34,8 +35,17 @@ class Verdict(NamedTuple):
     reason: str | None = None
 
 
-# statements by the name that they have on the page, each with what judges it
-Claims = Mapping[str, Callable[[Any], Verdict]]
+class Claims(dict[str, Callable[[Any], Any]]):
+    """Statements by the name that they have on the page; `@CLAIMS("7")` adds what judges one."""
+
+    def __call__(self, name: str) -> Callable[[Judge], Judge]:
+        """Return what adds a function under a name."""
+
+        def add(judge: Judge) -> Judge:
+            self[name] = judge
+            return judge
+
+        return add
 
 
 def judge(ok: bool, partly: bool = False) -> str:
@@ -108,10 +118,15 @@ class Page:
         self.cells(_STATEMENTS, [found[name] for name in names], after, first=4)
 
     def judged(self, claims: Claims, evidence: Any, after: str) -> None:
-        """Judge statements; put what was found and, in the line after `after`, how many hold."""
-        found = {name: claims[name](evidence) for name in self._names(after)}
-        self.claims({k: (v.value, f"**{v.verdict}**", v.reason) for k, v in found.items()}, after)
-        self.paragraph(after, f"{tally(one.verdict for one in found.values())}.")
+        """Judge statements; put in what was found and how many hold."""
+        self.verdicts({name: claims[name](evidence) for name in self._names(after)}, after)
+
+    def verdicts(self, found: Mapping[str, Verdict | None], after: str) -> None:
+        """Put in verdicts; if all are known, in the line after `after`, how many hold."""
+        rows = {k: v and (v.value, f"**{v.verdict}**", v.reason) for k, v in found.items()}
+        self.claims({name: row or () for name, row in rows.items()}, after)
+        if all(found.values()):
+            self.paragraph(after, f"{tally(one.verdict for one in found.values() if one)}.")
 
     def paragraph(self, after: str, text: str) -> None:
         """Put a paragraph or a list in the place of the one that follows the words `after`."""

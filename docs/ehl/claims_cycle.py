@@ -11,11 +11,12 @@ from docs.ehl.measures import highest_near, jumps, largest_change, off_range, pe
 from docs.ehl.minimum_film import extrapolated, thinnest_printed
 from docs.ehl.runs import COUNT_RANGE, COUNTS, CROWNS, POSITIONS, default_cycle
 from docs.ehl.store import Store
-from docs.page import Verdict, judge_parts
+from docs.page import Claims, Verdict, judge_parts
 from gearlube_core.arrays import Array
 
 _PRESSURE, _FILM = 0.05, 0.15
 _SIDE = 200  # steps at both ends of the cycle
+CYCLES = Claims()
 
 
 def drawn_cycle(store: Store, design: str) -> March:
@@ -40,8 +41,8 @@ def crowned(store: Store, start: float) -> March:
     return drawn_crowned(store, start).whole()
 
 
+@CYCLES("J1")
 def _load(store: Store) -> Verdict:
-    """J1."""
     marches = {d: cycle(store, d) for d in "ab"}
     most = [float(np.abs(m["load_error"]).max()) for m in marches.values()]
     steps = [len(m.step) - m.failures for m in marches.values()]
@@ -51,8 +52,8 @@ def _load(store: Store) -> Verdict:
     )
 
 
+@CYCLES("J2")
 def _step_counts(store: Store) -> Verdict:
-    """J2."""
     first, last = COUNT_RANGE
     at = np.linspace(0.5 * (first + last), last - 2, 40)
     curves: dict[int, dict[str, Array]] = {}
@@ -96,18 +97,18 @@ def _ranges(store: Store, design: str, pressures: tuple[float, float], films: tu
     )
 
 
+@CYCLES("J3")
 def _range_a(store: Store) -> Verdict:
-    """J3."""
     return _ranges(store, "a", (1.02, 1.25), (0.16, 0.22))
 
 
+@CYCLES("J4")
 def _range_b(store: Store) -> Verdict:
-    """J4."""
     return _ranges(store, "b", (0.82, 1.12), (0.16, 0.25))
 
 
+@CYCLES("J5")
 def _best_crown(store: Store) -> Verdict:
-    """J5."""
     marches = {f: crowned(store, f) for f in CROWNS}
     tops = {f: GPA * float(m["max_pressure"].max()) for f, m in marches.items()}
     films = {f: UM * float(m["min_film"].min()) for f, m in marches.items()}
@@ -125,8 +126,8 @@ def _best_crown(store: Store) -> Verdict:
     )
 
 
+@CYCLES("J6")
 def _crown_films(store: Store) -> Verdict:
-    """J6."""
     plain, sharp, even = (crowned(store, f) for f in (0.0, 0.45, 0.25))
     films = [UM * m.at("min_film", 300) for m in (plain, sharp)]
     tops = [GPA * m.at("max_pressure", 300) for m in (sharp, even)]
@@ -141,8 +142,8 @@ def _crown_films(store: Store) -> Verdict:
     )  # fmt: skip
 
 
+@CYCLES("J7")
 def _crown_order(store: Store) -> Verdict:
-    """J7."""
     sides = []
     for start in CROWNS:
         march = crowned(store, start)
@@ -159,8 +160,8 @@ def _crown_order(store: Store) -> Verdict:
     )
 
 
+@CYCLES("J8")
 def _places(store: Store) -> Verdict:
-    """J8."""
     printed = {"a": [(210, 360), (204, 370)], "b": [(180, 370)]}
     words, good = [], []
     for design, ranges in printed.items():
@@ -176,8 +177,8 @@ def _places(store: Store) -> Verdict:
     )
 
 
+@CYCLES("J9")
 def _highest(store: Store) -> Verdict:
-    """J9."""
     found = []
     for design in "ab":
         march = cycle(store, design)
@@ -187,16 +188,3 @@ def _highest(store: Store) -> Verdict:
         f"A {found[0]:.0f}, {found[1]:.0f}; B {found[2]:.0f}, {found[3]:.0f}",
         judge_parts(max(off) <= 50.0),
     )
-
-
-CYCLES = {
-    "J1": _load,
-    "J2": _step_counts,
-    "J3": _range_a,
-    "J4": _range_b,
-    "J5": _best_crown,
-    "J6": _crown_films,
-    "J7": _crown_order,
-    "J8": _places,
-    "J9": _highest,
-}

@@ -9,12 +9,13 @@ from docs.ehl.claims import GPA, MM, UM, listed, span
 from docs.ehl.measures import exponent, peaks
 from docs.ehl.runs import FACET_MARCH, FACET_STEPS, FACETS
 from docs.ehl.store import Steady, Store
-from docs.page import Verdict, judge_parts
+from docs.page import Claims, Verdict, judge_parts
 from gearlube_core.arrays import Array
 
 _PRESSURE, _FILM = 0.1, 0.2
 _MARCHED = (40, 100)
 _SPIKE = 0.2  # of the largest pressure
+FACETED_FLANKS = Claims()
 
 
 def faceted(store: Store, facets: int, step: int = 300) -> Steady:
@@ -45,8 +46,8 @@ def _values(p: Array, h: Array, count: int, failed: int) -> str:
     return f"{words}; {failed} of {count} films not converged"
 
 
+@FACETED_FLANKS("F1")
 def _twenty(store: Store) -> Verdict:
-    """F1."""
     p, h, count, failed = _found(store, 20)
     return Verdict(
         _values(p, h, count, failed),
@@ -54,8 +55,8 @@ def _twenty(store: Store) -> Verdict:
     )
 
 
+@FACETED_FLANKS("F2")
 def _thirty(store: Store) -> Verdict:
-    """F2."""
     p, h, count, failed = _found(store, 30)
     drop = 1.0 - p.max() / _found(store, 20)[0].max()
     return Verdict(
@@ -67,8 +68,8 @@ def _thirty(store: Store) -> Verdict:
     )  # fmt: skip
 
 
+@FACETED_FLANKS("F3")
 def _forty(store: Store) -> Verdict:
-    """F3."""
     p, h, count, failed = _found(store, 40)
     return Verdict(
         _values(p, h, count, failed),
@@ -79,8 +80,8 @@ def _forty(store: Store) -> Verdict:
     )  # fmt: skip
 
 
+@FACETED_FLANKS("F4")
 def _hundred(store: Store) -> Verdict:
-    """F4."""
     p, h, count, failed = _found(store, 100)
     smooth = max(GPA * faceted(store, 0, n).max_pressure for n in (300, *FACET_STEPS))
     rise = p.max() / smooth - 1.0
@@ -93,8 +94,8 @@ def _hundred(store: Store) -> Verdict:
     )  # fmt: skip
 
 
+@FACETED_FLANKS("F5")
 def _monotone(store: Store) -> Verdict:
-    """F5."""
     films = [faceted(store, n) for n in (*FACETS, 0)]
     p = [GPA * f.max_pressure for f in films]
     h = [UM * f.min_film for f in films]
@@ -105,8 +106,8 @@ def _monotone(store: Store) -> Verdict:
     )
 
 
+@FACETED_FLANKS("F6")
 def _spikes(store: Store) -> Verdict:
-    """F6."""
     found = peaks(faceted(store, 20).along, _SPIKE)
     return Verdict(
         f"{found}",
@@ -114,8 +115,8 @@ def _spikes(store: Store) -> Verdict:
     )
 
 
+@FACETED_FLANKS("F7")
 def _grids(store: Store) -> Verdict:
-    """F7."""
     off = {}
     for n in (20, 100):
         coarse, fine = store.steady(facet_case(n, LINE), 300), faceted(store, n)
@@ -143,8 +144,8 @@ def facet_gaps(counts: tuple[int, ...] = FACETS) -> list[float]:
     ]
 
 
+@FACETED_FLANKS("F8")
 def _geometry(_: Store) -> Verdict:
-    """F8."""
     gaps = facet_gaps()
     slope = exponent(FACETS, gaps)
     pair = FilmCase().film().modified.pair
@@ -154,15 +155,3 @@ def _geometry(_: Store) -> Verdict:
         f"{slope:.2f}",
         judge_parts(abs(length - 1.0) < 0.1, abs(slope + 2.0) < 0.1),
     )
-
-
-FACETED_FLANKS = {
-    "F1": _twenty,
-    "F2": _thirty,
-    "F3": _forty,
-    "F4": _hundred,
-    "F5": _monotone,
-    "F6": _spikes,
-    "F7": _grids,
-    "F8": _geometry,
-}

@@ -10,7 +10,7 @@ from docs.ehl.measures import exponent
 from docs.ehl.runs import APPROACH, POSITIONS, SPEEDS
 from docs.ehl.sections import line_contact, section
 from docs.ehl.store import SETTINGS, MissingFilmError, Store
-from docs.page import Verdict, judge_parts
+from docs.page import Claims, Verdict, judge_parts
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.problem import PointContactProblem
@@ -29,10 +29,11 @@ _METHODS = ("differences", "elements")  # of the whole line at rest
 _GRIDS = (CYCLE, FACETED)
 _STEP = 300
 _LOAD = 14.4e3  # N: sec. 4.1
+MOTIONS = Claims()
 
 
+@MOTIONS("J14")
 def _motion(store: Store) -> Verdict:
-    """J14."""
     apart = [(n, y, section(store, "a", n, y / MM)) for n, ys in _APART.items() for y in ys]
     alike = [(n, y, section(store, "a", n, y / MM)) for n, ys in _ALIKE.items() for y in ys]
     words = ", ".join(f"{n}/{y:g}: {s.film_ratio:.2f}" for n, y, s in apart)
@@ -49,8 +50,8 @@ def _motion(store: Store) -> Verdict:
     )
 
 
+@MOTIONS("J15")
 def _lines(store: Store) -> Verdict:
-    """J15."""
     case = FilmCase(design="b", nodes=FACETED)
     rest = store.steady(case, 300)
     off = []
@@ -70,8 +71,8 @@ def _lines(store: Store) -> Verdict:
     )
 
 
+@MOTIONS("J16")
 def _speeds(store: Store) -> Verdict:
-    """J16."""
     slopes, tops = [], []
     for n in POSITIONS:
         films = [store.steady(FilmCase(speed=s, nodes=FACETED), n) for s in SPEEDS]
@@ -129,8 +130,8 @@ def discretised(store: Store, nodes: tuple[int, int]) -> dict[str, tuple[Array, 
         return {m: (data[f"{m}_pressure"], data[f"{m}_film"]) for m in _METHODS}
 
 
+@MOTIONS("J17")
 def _elements(store: Store) -> Verdict:
-    """J17."""
     worst = []
     for design in "ab":
         for y in (-0.010, 0.0, 0.010):
@@ -159,8 +160,8 @@ def _elements(store: Store) -> Verdict:
     )
 
 
+@MOTIONS("J18")
 def _length(store: Store) -> Verdict:
-    """J18."""
     pair = jamali_2015("a").pair
     case = FilmCase()
     film = case.film()
@@ -184,12 +185,3 @@ def _length(store: Store) -> Verdict:
         "This is the dry contact at 14.4 kN without relief, with a crown on both teeth and "
         f"{LINE[1]} rows of nodes.",
     )
-
-
-MOTIONS = {
-    "J14": _motion,
-    "J15": _lines,
-    "J16": _speeds,
-    "J17": _elements,
-    "J18": _length,
-}

@@ -9,10 +9,11 @@ from docs.ehl.measures import first_above
 from docs.ehl.runs import APPROACH, MARCHED_PARABOLAS, PARABOLAS, POWERS, power_case
 from docs.ehl.store import Steady, Store
 from docs.ehl.touching import touched
-from docs.page import Verdict, judge_parts
+from docs.page import Claims, Verdict, judge_parts
 
 _CONTOUR = 1e8  # Pa
 _MERE_NUMBER = 0.02  # um; half of the composite roughness of a fine gear, no film to speak of
+RELIEFS = Claims()
 
 
 def parabola(store: Store, k: float) -> Steady:
@@ -34,8 +35,8 @@ def state(march: March) -> str:
     return f"{UM * march.at('min_film', 500):.3f}" + solids + (failed if march.failures else "")
 
 
+@RELIEFS("J10")
 def _parabola_pressures(store: Store) -> Verdict:
-    """J10."""
     tops = {k: GPA * parabola(store, k).max_pressure for k in PARABOLAS}
     finer = [
         GPA * store.steady(parabola_case("a", k, WIDE_FINE), 500).max_pressure for k in (0.1, 0.0)
@@ -54,8 +55,8 @@ def _parabola_pressures(store: Store) -> Verdict:
     )
 
 
+@RELIEFS("J11")
 def _parabola_films(store: Store) -> Verdict:
-    """J11."""
     marches = {k: parabola_march(store, k) for k in (1.0, *MARCHED_PARABOLAS)}
     ratio = marches[1.0].at("min_film", 500) / marches[0.1].at("min_film", 500)
     at_rest = {k: UM * parabola(store, k).min_film for k in (1.0, 0.1, 0.02, 0.0)}
@@ -75,8 +76,8 @@ def contour_start(film: Steady) -> float:
     return MM * first_above(film.y, film.along, _CONTOUR)
 
 
+@RELIEFS("J12")
 def _powers_b(store: Store) -> Verdict:
-    """J12."""
     films = {b: store.steady(power_case("b", b), 75) for b in POWERS}
     marches = {b: store.march(power_case("b", b), 75 - APPROACH, 75) for b in POWERS}
     tops = {b: GPA * f.max_pressure for b, f in films.items()}
@@ -96,8 +97,8 @@ def _powers_b(store: Store) -> Verdict:
     )
 
 
+@RELIEFS("J13")
 def _powers_a(store: Store) -> Verdict:
-    """J13."""
     tops = [
         max(GPA * store.steady(power_case("a", b), n).max_pressure for n in (75, 500))
         for b in POWERS
@@ -108,11 +109,3 @@ def _powers_a(store: Store) -> Verdict:
         f"{listed(tops)} GPa; lower by {listed(ratios)}; from 2 on {100.0 * gain:.0f} %",
         judge_parts(min(ratios) >= 3.0, 0.0 < gain < 0.15),
     )
-
-
-RELIEFS = {
-    "J10": _parabola_pressures,
-    "J11": _parabola_films,
-    "J12": _powers_b,
-    "J13": _powers_a,
-}

@@ -27,9 +27,9 @@ from docs.ehl.pages import dry_rows, grid_rows, put_counts
 from docs.ehl.runs import all_runs, do_runs
 from docs.ehl.store import MissingFilmError, Store
 from docs.ehl.touching import put_touching
-from docs.page import IMAGES, Claims, Page, begin, tally
+from docs.page import IMAGES, Claims, Page, begin
 
-SMOOTH: Claims = {**CYCLES, **RELIEFS, **MOTIONS}
+SMOOTH = Claims(CYCLES | RELIEFS | MOTIONS)
 # words of the page before the counts of statements
 SMOOTH_CLAIMS = "*order* only which value is larger, *shape* only how a curve rises and falls."
 FACET_CLAIMS = "with twice the nodes of the smooth cases."
@@ -49,17 +49,6 @@ PICTURES: dict[str, Callable[[Store], Any]] = {
 logger = logging.getLogger("docs.ehl")
 
 
-def put_claims(page: Page, store: Store, claims: Claims, after: str) -> None:
-    """Put in what was found for statements; those whose films are missing stay."""
-    found = verdicts(claims, store)
-    cells = dict.fromkeys(claims, ()) | {
-        name: (one.value, f"**{one.verdict}**", one.reason) for name, one in found.items()
-    }
-    page.claims(cells, after)
-    if len(found) == len(claims):
-        page.paragraph(after, f"{tally(one.verdict for one in found.values())}.")
-
-
 def draw(store: Store) -> None:
     """Draw the pictures; those whose films are missing stay."""
     for name, picture in PICTURES.items():
@@ -76,8 +65,8 @@ def main() -> None:
         do_runs(store, all_runs())
     logger.info("page and pictures")
     page = Page("ehl")
-    put_claims(page, store, SMOOTH, SMOOTH_CLAIMS)
-    put_claims(page, store, FACETED_FLANKS, FACET_CLAIMS)
+    for claims, after in ((SMOOTH, SMOOTH_CLAIMS), (FACETED_FLANKS, FACET_CLAIMS)):
+        page.verdicts(dict.fromkeys(claims) | verdicts(claims, store), after)
     page.cells("At rest | dry, GPa", dry_rows(store), first=1)
     page.cells("GPa, um", grid_rows(store), first=1)
     put_minimum_film(page, store)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from docs.helical.cases import HE, LOW, Evidence, line_lengths, steady, steady_with_helix
 from docs.helical.closed_forms import zone_differences
 from docs.helical.structure import reaction, sliding_reversal, symmetry
-from docs.page import Verdict, judge
+from docs.page import Claims, Verdict, judge
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.linear.linear_system import event_phases
 from tests.helpers.he_2007 import he_2007_pair
@@ -20,6 +20,7 @@ _JUST = 1e-9  # mesh periods beside an event
 INCH = 0.0254  # m
 ORDER = ("A", "P", "C", "Q", "D", "E", "H", "G", "R")
 _HELIX = (5.0, 10.0, 15.0, 21.5, 25.0, 30.0)  # deg
+MESH = Claims()
 
 
 def drawn_landmarks() -> dict[str, float]:
@@ -60,8 +61,8 @@ def landmarks() -> dict[str, float]:
     }  # fmt: skip
 
 
-def contact_ratio(_: Evidence) -> Verdict:
-    """H1."""
+@MESH("H1")
+def _contact_ratio(_: Evidence) -> Verdict:
     touching = line_lengths((np.arange(2000) + 0.5) / 2000) > 0.0
     pairs = {int(n) for n in touching.sum(axis=1)}
     ratio = HE.total_contact_ratio
@@ -73,8 +74,8 @@ def contact_ratio(_: Evidence) -> Verdict:
     )
 
 
-def landmark_places(_: Evidence) -> Verdict:
-    """H2."""
+@MESH("H2")
+def _landmark_places(_: Evidence) -> Verdict:
     drawn, ours = drawn_landmarks(), landmarks()
     worst = max(abs(ours[letter] / drawn[letter] - 1.0) for letter in ORDER)
     ordered = sorted(drawn, key=drawn.__getitem__) == list(ORDER)
@@ -87,8 +88,8 @@ def landmark_places(_: Evidence) -> Verdict:
     )
 
 
-def length_trapezoid(_: Evidence) -> Verdict:
-    """H3."""
+@MESH("H3")
+def _length_trapezoid(_: Evidence) -> Verdict:
     events = np.append(event_phases(HE.plane, he_2007_pair(0.0).mesh_arrays()), 1.0)
     events = np.unique(np.append(0.0, events))
     low, high, middle = (
@@ -109,8 +110,8 @@ def length_trapezoid(_: Evidence) -> Verdict:
     )
 
 
-def trapezoidal_stiffness(evidence: Evidence) -> Verdict:
-    """H4."""
+@MESH("H4")
+def _trapezoidal_stiffness(evidence: Evidence) -> Verdict:
     data = evidence.contact
     length = data["contact_length"].sum("line").values
     total = float(np.corrcoef(length, data["K"].values)[0, 1])
@@ -130,8 +131,8 @@ def trapezoidal_stiffness(evidence: Evidence) -> Verdict:
     )
 
 
-def closed_forms(_: Evidence) -> Verdict:
-    """H5."""
+@MESH("H5")
+def _closed_forms(_: Evidence) -> Verdict:
     found = zone_differences()
     worst, printed = found[:, :3].max(), found[:, 3]
     return Verdict(
@@ -142,8 +143,8 @@ def closed_forms(_: Evidence) -> Verdict:
     )
 
 
-def no_friction(_: Evidence) -> Verdict:
-    """H6."""
+@MESH("H6")
+def _no_friction(_: Evidence) -> Verdict:
     asymmetry, least_eigenvalue, ranks, off_line = symmetry()
     moved = max(float(np.abs(steady(0.0).signal(n)).max()) for n in ("u_yp", "u_yg"))
     return Verdict(
@@ -159,8 +160,8 @@ def no_friction(_: Evidence) -> Verdict:
     )
 
 
-def action_reaction(_: Evidence) -> Verdict:
-    """H7."""
+@MESH("H7")
+def _action_reaction(_: Evidence) -> Verdict:
     force, moment, _ = reaction()
     return Verdict(
         f"forces {force:.0e}, moments about any point {moment:.0e}",
@@ -168,8 +169,8 @@ def action_reaction(_: Evidence) -> Verdict:
     )
 
 
-def reversal(_: Evidence) -> Verdict:
-    """H8."""
+@MESH("H8")
+def _reversal(_: Evidence) -> Verdict:
     ratio, there = sliding_reversal()
     return Verdict(
         f"v_s at the pitch line {ratio:.0e} of that at A",
@@ -177,8 +178,8 @@ def reversal(_: Evidence) -> Verdict:
     )
 
 
-def axial_share(_: Evidence) -> Verdict:
-    """H19."""
+@MESH("H19")
+def _axial_share(_: Evidence) -> Verdict:
     axial = reaction()[2]
     swings = [
         float(np.ptp(steady_with_helix(LOW, math.radians(angle)).mesh_force[:, 2]))
@@ -193,16 +194,3 @@ def axial_share(_: Evidence) -> Verdict:
         + " deg, mu = 0.01",
         judge(identity and bool(np.all(np.diff(swings) > 0.0)), identity),
     )
-
-
-MESH = {
-    "H1": contact_ratio,
-    "H2": landmark_places,
-    "H3": length_trapezoid,
-    "H4": trapezoidal_stiffness,
-    "H5": closed_forms,
-    "H6": no_friction,
-    "H7": action_reaction,
-    "H8": reversal,
-    "H19": axial_share,
-}

@@ -18,7 +18,7 @@ from docs.helical.cases import (
     steady_with_helix,
 )
 from docs.helical.structure import six_against_twelve
-from docs.page import Verdict, judge
+from docs.page import Claims, Verdict, judge
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
     natural_frequencies,
@@ -30,10 +30,11 @@ CALIBRATED = "calibrated"
 _UNCHANGED = (4, 5, *range(7, ORDERS + 1))
 _SECOND_ORDER = (4, 8, 12)  # in mu: no first-order term off the line of action
 _LINEAR_FROM = np.array([0.1, 0.15, 0.2, 0.25, 0.3])
+MOTION = Claims()
 
 
-def off_line(_: Evidence) -> Verdict:
-    """H9."""
+@MOTION("H9")
+def _off_line(_: Evidence) -> Verdict:
     kept = [n for n in range(1, ORDERS + 1) if n not in _SECOND_ORDER]
     ratios = np.concatenate([at_orders(growth(name), *kept) for name in ("u_yp", "u_yg")])
     every = np.concatenate([growth(name) for name in ("u_yp", "u_yg")])
@@ -44,8 +45,8 @@ def off_line(_: Evidence) -> Verdict:
     )
 
 
-def along_line(_: Evidence) -> Verdict:
-    """H10."""
+@MOTION("H10")
+def _along_line(_: Evidence) -> Verdict:
     ratio = growth("u_xp")
     first, rest = at_orders(ratio, 1, 2), at_orders(ratio, *_UNCHANGED)
     return Verdict(
@@ -55,8 +56,8 @@ def along_line(_: Evidence) -> Verdict:
     )
 
 
-def axial(_: Evidence) -> Verdict:
-    """H11."""
+@MOTION("H11")
+def _axial(_: Evidence) -> Verdict:
     ratio, plane = growth("u_zp"), he_2007_pair(HIGH).pair.plane
     resonance, first = at_orders(ratio, 7, 8, 9), at_orders(ratio, 1, 2)
     expected = -steady(HIGH).signal("u_xp") * plane.sin_b / plane.cos_b
@@ -70,8 +71,8 @@ def axial(_: Evidence) -> Verdict:
     )
 
 
-def resonances(_: Evidence) -> Verdict:
-    """H12."""
+@MOTION("H12")
+def _resonances(_: Evidence) -> Verdict:
     orders = natural_frequencies(linear_system(he_2007_pair(0.0))) * steady(0.0).period
     orders = orders / (2.0 * np.pi)
     inside = orders[(orders > 8.0) & (orders < 10.0)]
@@ -83,8 +84,8 @@ def resonances(_: Evidence) -> Verdict:
     )
 
 
-def elastic_bearings(_: Evidence) -> Verdict:
-    """H13."""
+@MOTION("H13")
+def _elastic_bearings(_: Evidence) -> Verdict:
     response = steady(HIGH)
     parameters = response.parameters
     force, motion = harmonics(response.bearing_force), harmonics(response.displacement)
@@ -106,8 +107,8 @@ def elastic_bearings(_: Evidence) -> Verdict:
     )
 
 
-def below_spur(_: Evidence) -> Verdict:
-    """H14."""
+@MOTION("H14")
+def _below_spur(_: Evidence) -> Verdict:
     parts, least = [], np.inf
     for mu in (LOW, HIGH):
         helical = np.ptp(steady(mu).bearing_force, axis=0)
@@ -121,8 +122,8 @@ def below_spur(_: Evidence) -> Verdict:
     )
 
 
-def transmission_error(_: Evidence) -> Verdict:
-    """H15."""
+@MOTION("H15")
+def _transmission_error(_: Evidence) -> Verdict:
     ratio, amplitude = growth("delta_z"), harmonics(steady(HIGH).signal("delta_z"))
     dominant = amplitude[0] / amplitude[1:].max()
     others = np.delete(ratio, 1)
@@ -135,8 +136,8 @@ def transmission_error(_: Evidence) -> Verdict:
     )
 
 
-def composites(_: Evidence) -> Verdict:
-    """H16."""
+@MOTION("H16")
+def _composites(_: Evidence) -> Verdict:
     ratios = {name: growth(name) for name in ("delta_x", "delta_y")}
     second = all(np.argmax(r) == 1 and r[1] > 5.0 for r in ratios.values())
     first = all(np.argsort(r)[-2] == 0 for r in ratios.values())
@@ -148,8 +149,8 @@ def composites(_: Evidence) -> Verdict:
     )
 
 
-def two_orders(_: Evidence) -> Verdict:
-    """H17."""
+@MOTION("H17")
+def _two_orders(_: Evidence) -> Verdict:
     ratios = []
     for mu in (LOW, HIGH):
         size = {n: harmonics(steady(mu).signal(n))[0] for n in ("delta_x", "delta_y", "delta_z")}
@@ -161,8 +162,8 @@ def two_orders(_: Evidence) -> Verdict:
     )
 
 
-def six_dof(_: Evidence) -> Verdict:
-    """H18."""
+@MOTION("H18")
+def _six_dof(_: Evidence) -> Verdict:
     found = {mu: max(six_against_twelve(mu).values()) for mu in (LOW, HIGH)}
     every = max(max(six_against_twelve(mu, ORDERS).values()) for mu in (LOW, HIGH))
     return Verdict(
@@ -174,8 +175,8 @@ def six_dof(_: Evidence) -> Verdict:
     )
 
 
-def crossing(_: Evidence) -> Verdict:
-    """H20."""
+@MOTION("H20")
+def _crossing(_: Evidence) -> Verdict:
     ratio = growth("delta_z", rate=True)
     return Verdict(
         f"n = 2 of its rate grows {ratio[1]:.2f} times, the others at most "
@@ -184,8 +185,8 @@ def crossing(_: Evidence) -> Verdict:
     )
 
 
-def linear_in_mu(_: Evidence) -> Verdict:
-    """H21."""
+@MOTION("H21")
+def _linear_in_mu(_: Evidence) -> Verdict:
     size = np.array([harmonics(steady(float(m)).signal("u_xp"))[0] for m in _LINEAR_FROM])
     line = np.polyval(np.polyfit(_LINEAR_FROM, size, 1), _LINEAR_FROM)
     off = float(np.abs(line / size - 1.0).max())
@@ -193,19 +194,3 @@ def linear_in_mu(_: Evidence) -> Verdict:
         f"off a straight line by {100.0 * off:.2f} %",
         judge(off < 0.02),
     )
-
-
-MOTION = {
-    "H9": off_line,
-    "H10": along_line,
-    "H11": axial,
-    "H12": resonances,
-    "H13": elastic_bearings,
-    "H14": below_spur,
-    "H15": transmission_error,
-    "H16": composites,
-    "H17": two_orders,
-    "H18": six_dof,
-    "H20": crossing,
-    "H21": linear_in_mu,
-}

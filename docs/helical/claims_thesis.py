@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from docs.helical.cases import Evidence
-from docs.page import Verdict, judge
+from docs.page import Claims, Verdict, judge
 from gearlube_core.arrays import Array
 from gearlube_core.helical_geometry.contact_line import line_count, line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -25,6 +25,7 @@ PAIRS = {d: file.helical_pair() for d, file in FILES.items()}
 MODIFIED = {d: jamali_2015(d) for d in DESIGNS}
 _TORQUE, SPEED = 1060.0, 235.62  # N.m, rad/s: Table 4.1
 _PHASES = np.arange(4000) / 4000
+THESIS = Claims()
 
 
 def limits(design: str) -> tuple[float, float]:
@@ -46,8 +47,8 @@ def both(values: list[float], form: str = "{:.2f}") -> str:
     return " / ".join(form.format(v) for v in values)
 
 
-def path_limits(_: Evidence) -> Verdict:
-    """G1."""
+@THESIS("G1")
+def _path_limits(_: Evidence) -> Verdict:
     found = [1e3 * v for d in DESIGNS for v in limits(d)]
     off = np.abs(np.array(found) - [-10.8, 10.8, -11.8, 10.8])
     b = PAIRS["b"]
@@ -61,8 +62,8 @@ def path_limits(_: Evidence) -> Verdict:
     )
 
 
-def path_ratio(_: Evidence) -> Verdict:
-    """G2."""
+@THESIS("G2")
+def _path_ratio(_: Evidence) -> Verdict:
     path = [high - low for low, high in (limits(d) for d in DESIGNS)]
     more = path[1] / path[0] - 1.0
     return Verdict(
@@ -71,8 +72,8 @@ def path_ratio(_: Evidence) -> Verdict:
     )
 
 
-def lines_in_contact(_: Evidence) -> Verdict:
-    """G3."""
+@THESIS("G3")
+def _lines_in_contact(_: Evidence) -> Verdict:
     counts = []
     for d in DESIGNS:
         length = shared_load(positions_at(_PHASES, PAIRS[d]), ModifiedPair(pair=PAIRS[d]), 1.0)
@@ -84,8 +85,8 @@ def lines_in_contact(_: Evidence) -> Verdict:
     )
 
 
-def length_lost(_: Evidence) -> Verdict:
-    """G4."""
+@THESIS("G4")
+def _length_lost(_: Evidence) -> Verdict:
     lost = [100.0 * (1.0 - _lengths(d, True).mean() / _lengths(d, False).mean()) for d in DESIGNS]
     off = np.abs(np.array(lost) - [41.18, 41.6])
     return Verdict(
@@ -94,8 +95,8 @@ def length_lost(_: Evidence) -> Verdict:
     )
 
 
-def length_variation(_: Evidence) -> Verdict:
-    """G5."""
+@THESIS("G5")
+def _length_variation(_: Evidence) -> Verdict:
     found = []
     for d in DESIGNS:
         total = _lengths(d, True)
@@ -108,8 +109,8 @@ def length_variation(_: Evidence) -> Verdict:
     )
 
 
-def largest_load(_: Evidence) -> Verdict:
-    """G6."""
+@THESIS("G6")
+def _largest_load(_: Evidence) -> Verdict:
     loads, inside, normal = [], [], []
     for d in DESIGNS:
         pair = PAIRS[d]
@@ -129,8 +130,8 @@ def largest_load(_: Evidence) -> Verdict:
     )
 
 
-def entrainment(_: Evidence) -> Verdict:
-    """G7."""
+@THESIS("G7")
+def _entrainment(_: Evidence) -> Verdict:
     speeds = {}
     for d in DESIGNS:
         x = np.linspace(PAIRS[d].contact_start, PAIRS[d].contact_end, 201)
@@ -147,8 +148,8 @@ def entrainment(_: Evidence) -> Verdict:
     )
 
 
-def radii(_: Evidence) -> Verdict:
-    """G8."""
+@THESIS("G8")
+def _radii(_: Evidence) -> Verdict:
     R = {}
     for d in DESIGNS:
         x = np.linspace(PAIRS[d].contact_start, PAIRS[d].contact_end, 201)
@@ -161,8 +162,8 @@ def radii(_: Evidence) -> Verdict:
     )
 
 
-def relief_zones(_: Evidence) -> Verdict:
-    """G9."""
+@THESIS("G9")
+def _relief_zones(_: Evidence) -> Verdict:
     found = {}
     for d in DESIGNS:
         m = MODIFIED[d]
@@ -177,8 +178,8 @@ def relief_zones(_: Evidence) -> Verdict:
     )
 
 
-def relief_starts(_: Evidence) -> Verdict:
-    """G10."""
+@THESIS("G10")
+def _relief_starts(_: Evidence) -> Verdict:
     found = []
     for step in (75, 300, 500):
         X = float(jamali_2015_steps("a").line(step))
@@ -192,8 +193,8 @@ def relief_starts(_: Evidence) -> Verdict:
     )
 
 
-def side_faces(_: Evidence) -> Verdict:
-    """G11."""
+@THESIS("G11")
+def _side_faces(_: Evidence) -> Verdict:
     found = {d: jamali_2015_steps(d).side_face_limits for d in DESIGNS}
     printed = {"a": (204, 370), "b": (180, 370)}
     gaps = [
@@ -207,8 +208,8 @@ def side_faces(_: Evidence) -> Verdict:
     )
 
 
-def lay_range(_: Evidence) -> Verdict:
-    """G12."""
+@THESIS("G12")
+def _lay_range(_: Evidence) -> Verdict:
     ends = np.array(limits("a"))
     angles = np.degrees(np.array(lay_angles(ends, PAIRS["a"], 1e-3)))
     off = np.abs(angles - [[4.6, 9.5], [9.5, 4.6]])
@@ -219,8 +220,8 @@ def lay_range(_: Evidence) -> Verdict:
     )
 
 
-def lay_at_pitch_line(_: Evidence) -> Verdict:
-    """G13."""
+@THESIS("G13")
+def _lay_at_pitch_line(_: Evidence) -> Verdict:
     exact = math.degrees(float(lay_angle_limits(0.0, PAIRS["a"]).pinion))
     chords = [math.degrees(float(v)) for v in lay_angles(0.0, PAIRS["a"])]
     return Verdict(
@@ -229,8 +230,8 @@ def lay_at_pitch_line(_: Evidence) -> Verdict:
     )
 
 
-def relief_line(_: Evidence) -> Verdict:
-    """G14."""
+@THESIS("G14")
+def _relief_line(_: Evidence) -> Verdict:
     angles = []
     for d in DESIGNS:
         m, X = MODIFIED[d], float(jamali_2015_steps(d).line(300))
@@ -244,8 +245,8 @@ def relief_line(_: Evidence) -> Verdict:
     )
 
 
-def table_7_1(_: Evidence) -> Verdict:
-    """G15."""
+@THESIS("G15")
+def _table_7_1(_: Evidence) -> Verdict:
     pair = PAIRS["a"]
     tan_t, plane = math.tan(pair.transverse_pressure_angle), pair.plane
     plane = plane._replace(x_g=(plane.r_bp + plane.r_bg) * tan_t, P=plane.r_bp * tan_t)
@@ -265,34 +266,14 @@ def table_7_1(_: Evidence) -> Verdict:
 _EXTRUSIONS = ((149.0, 8.5), (100.0, 5.7), (114.0, 6.5), (131.0, 7.5))  # um over 1 mm, deg
 
 
-def extrusion(_: Evidence) -> Verdict:
-    """G16."""
+@THESIS("G16")
+def _extrusion(_: Evidence) -> Verdict:
     angles = [math.degrees(math.atan(1e-3 * length)) for length, _printed in _EXTRUSIONS]
     off = max(abs(a - printed) for a, (_l, printed) in zip(angles, _EXTRUSIONS, strict=True))
     return Verdict(
         both(angles) + " deg",
         judge(off < 0.05),
     )
-
-
-THESIS = {
-    "G1": path_limits,
-    "G2": path_ratio,
-    "G3": lines_in_contact,
-    "G4": length_lost,
-    "G5": length_variation,
-    "G6": largest_load,
-    "G7": entrainment,
-    "G8": radii,
-    "G9": relief_zones,
-    "G10": relief_starts,
-    "G11": side_faces,
-    "G12": lay_range,
-    "G13": lay_at_pitch_line,
-    "G14": relief_line,
-    "G15": table_7_1,
-    "G16": extrusion,
-}
 
 
 PRINTED = 7.08  # deg, of claim G13

@@ -41,7 +41,7 @@ from docs.helical.separation import (
 )
 from docs.helical.stiffness_density import choice_rows, own_density, table_density
 from docs.helical.structure import SAMPLE, sample_stiffness, six_against_twelve, spur_limit
-from docs.page import IMAGES, Page, begin
+from docs.page import IMAGES, Claims, Page, begin
 from gearlube.studies.helical.figures.catalogue import GEOMETRY_CATALOGUE, HELICAL_CATALOGUE
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import HelicalSettings
@@ -128,7 +128,7 @@ def main(work: Path) -> None:
     at_load = contact.sel(torque=PINION_TORQUE, method="nearest")
     logger.info("claims")
     evidence = Evidence(contact=at_load)
-    page.judged({**MESH, **MOTION}, evidence, HE_CLAIMS)
+    page.judged(Claims(MESH | MOTION), evidence, HE_CLAIMS)
     page.judged(THESIS, evidence, THESIS_CLAIMS)
     page.cells("# | What would have to be other", decisions())
     zones = [[*(f"{one:.0e}" for one in zone[:3]), f"{100.0 * zone[3]:.0f} %"]

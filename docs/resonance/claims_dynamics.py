@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from docs.page import judge
+from docs.page import Claims, judge
 from docs.resonance.cases import E0, Curve, Point, reconstructed, settled
 from docs.resonance.contacts import COLD, Contacts
 from docs.resonance.evidence import Both, Evidence
@@ -13,10 +13,11 @@ from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 UM, NM = 1e6, 1e9
 BAND = (0.6, 1.4)
 _PRINTED_DEFLECTION = 5.2e-6  # m, with the reconstructed stiffness
+DYNAMICS = Claims()
 
 
-def damping_ratio(evidence: Evidence) -> Both:
-    """Claim 1."""
+@DYNAMICS("1")
+def _damping_ratio(evidence: Evidence) -> Both:
     ours, theirs = evidence.shipped.damping_ratio, evidence.reconstructed.damping_ratio
     return Both(
         f"{ours:.4f}",
@@ -29,9 +30,8 @@ def damping_ratio(evidence: Evidence) -> Both:
     )
 
 
-def static_deflection(evidence: Evidence) -> Both:
-    """Claim 2."""
-
+@DYNAMICS("2")
+def _static_deflection(evidence: Evidence) -> Both:
     def off(model: HypoidTorsional) -> float:
         return model.static_deflection / _PRINTED_DEFLECTION - 1.0
 
@@ -44,9 +44,8 @@ def static_deflection(evidence: Evidence) -> Both:
     )
 
 
-def constant_radii(evidence: Evidence) -> Both:
-    """Claim 3."""
-
+@DYNAMICS("3")
+def _constant_radii(evidence: Evidence) -> Both:
     def offs(two: Curve, one: Curve) -> list[float]:
         return [two.up(r).peak_to_peak / one.up(r).peak_to_peak - 1.0 for r in (0.3, 1.0)]
 
@@ -60,9 +59,8 @@ def constant_radii(evidence: Evidence) -> Both:
     )
 
 
-def wide_band(evidence: Evidence) -> Both:
-    """Claim 4."""
-
+@DYNAMICS("4")
+def _wide_band(evidence: Evidence) -> Both:
     def share(two: Curve, one: Curve, direction: str) -> float:
         band = [r for r in two.relative if BAND[0] <= r <= BAND[1]]
         more = [_at(two, r, direction) > _at(one, r, direction) for r in band]
@@ -86,8 +84,8 @@ def wide_band(evidence: Evidence) -> Both:
     )
 
 
-def early_separation(evidence: Evidence) -> Both:
-    """Claim 5."""
+@DYNAMICS("5")
+def _early_separation(evidence: Evidence) -> Both:
     low = {d: c.up(0.65) for d, c in evidence.mismatched.items()}
     high = {d: c.down(0.65) for d, c in evidence.mismatched.items()}
     onset_up = [c.separated("up") for c in evidence.mismatched.values()]
@@ -110,9 +108,8 @@ def early_separation(evidence: Evidence) -> Both:
     )
 
 
-def first_order(evidence: Evidence) -> Both:
-    """Claim 6."""
-
+@DYNAMICS("6")
+def _first_order(evidence: Evidence) -> Both:
     def ratio(two: Curve, one: Curve) -> float:
         return float(one.up(1.0).harmonics[0] / two.up(1.0).harmonics[0])
 
@@ -127,8 +124,8 @@ def first_order(evidence: Evidence) -> Both:
     )
 
 
-def separation_at_resonance(evidence: Evidence) -> Both:
-    """Claim 7."""
+@DYNAMICS("7")
+def _separation_at_resonance(evidence: Evidence) -> Both:
     ours, ours_one = evidence.two.up(1.0), evidence.one.up(1.0)
     weaker = reconstructed(form="one_dof", mesh={"error_harmonics": ((0.5 * E0, 0.0),)})
     half = settled(weaker, 1.0)[1]
@@ -149,8 +146,8 @@ def separation_at_resonance(evidence: Evidence) -> Both:
     )
 
 
-def richer_at_03(evidence: Evidence) -> Both:
-    """Claim 8."""
+@DYNAMICS("8")
+def _richer_at_03(evidence: Evidence) -> Both:
     one, ours_one = evidence.reconstructed_one.up(0.3), evidence.one.up(0.3)
     ours = evidence.two.up(0.3)
     theirs = [c.up(0.3) for c in evidence.mismatched.values()]
@@ -174,9 +171,8 @@ def richer_at_03(evidence: Evidence) -> Both:
     )
 
 
-def superharmonic(evidence: Evidence) -> Both:
-    """Claim 9."""
-
+@DYNAMICS("9")
+def _superharmonic(evidence: Evidence) -> Both:
     def peak(curve: Curve) -> tuple[float, float]:
         grid = [r for r in curve.relative if 0.27 <= r <= 0.4]
         third = np.array([curve.up(r).harmonics[2] for r in grid])
@@ -195,8 +191,8 @@ def superharmonic(evidence: Evidence) -> Both:
     )
 
 
-def small_variation(evidence: Evidence) -> Both:
-    """Claim 10."""
+@DYNAMICS("10")
+def _small_variation(evidence: Evidence) -> Both:
     ratios = [
         evidence.two.up(r).peak_to_peak / evidence.mean.up(r).peak_to_peak
         for r in (0.3, 0.5, 0.65, 1.0)
@@ -213,8 +209,8 @@ def small_variation(evidence: Evidence) -> Both:
     )
 
 
-def oil_on_motion(evidence: Evidence) -> Both:
-    """Claim 11."""
+@DYNAMICS("11")
+def _oil_on_motion(evidence: Evidence) -> Both:
     offs = [
         evidence.contacts[r, COLD].cycle.motion.peak_to_peak / _dry_at(evidence, r) - 1.0
         for r in (0.3, 1.0)
@@ -225,8 +221,8 @@ def oil_on_motion(evidence: Evidence) -> Both:
     )
 
 
-def friction_torque(evidence: Evidence) -> Both:
-    """Claim 12."""
+@DYNAMICS("12")
+def _friction_torque(evidence: Evidence) -> Both:
     found = {
         key: 100.0 * float(np.max(np.abs(c.total("torque_pinion")))) / c.pinion_torque
         for key, c in evidence.contacts.items()
@@ -237,8 +233,8 @@ def friction_torque(evidence: Evidence) -> Both:
     )
 
 
-def friction_sign(evidence: Evidence) -> Both:
-    """Claim 13."""
+@DYNAMICS("13")
+def _friction_sign(evidence: Evidence) -> Both:
     sums = [float(c.total("torque_pinion").max()) for c in evidence.contacts.values()]
     singles = [_largest(c, "torque_pinion") for c in evidence.contacts.values()]
     return Both(
@@ -247,8 +243,8 @@ def friction_sign(evidence: Evidence) -> Both:
     )
 
 
-def double_count(evidence: Evidence) -> Both:
-    """Claim 14."""
+@DYNAMICS("14")
+def _double_count(evidence: Evidence) -> Both:
     mismatch, _, _, radii, in_two, in_one = np.array(evidence.double_counts).T
     one, two = np.abs(in_one / radii - 1.0), np.abs(in_two / radii - 1.0)
     worst, same = float(np.nanmax(one)), float(np.nanmax(two))
@@ -289,21 +285,3 @@ def _percents(offs: list[float]) -> str:
 
 def _shares(points: dict[float, Point]) -> str:
     return " / ".join(_percent(p.separation_share) for p in points.values())
-
-
-DYNAMICS = {
-    "1": damping_ratio,
-    "2": static_deflection,
-    "3": constant_radii,
-    "4": wide_band,
-    "5": early_separation,
-    "6": first_order,
-    "7": separation_at_resonance,
-    "8": richer_at_03,
-    "9": superharmonic,
-    "10": small_variation,
-    "11": oil_on_motion,
-    "12": friction_torque,
-    "13": friction_sign,
-    "14": double_count,
-}

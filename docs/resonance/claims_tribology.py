@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from docs.page import Verdict, judge
+from docs.page import Claims, Verdict, judge
 from docs.resonance.contacts import COLD, HOT, Contacts
 from docs.resonance.evidence import Both, Evidence
 from gearlube.studies.resonance.flank_cycle import SHEAR_RATES, traction_curve
@@ -25,10 +25,11 @@ UM = 1e6
 MID = 0.5
 OPEN = "not reproducible"
 _STEP = 1e-3  # of the logarithm of a load
+TRIBOLOGY = Claims()
 
 
-def cold_film(evidence: Evidence) -> Verdict:
-    """Claim 15."""
+@TRIBOLOGY("15")
+def _cold_film(evidence: Evidence) -> Verdict:
     cold, ours = evidence.contacts[0.3, COLD], evidence.consistent[COLD]
     mid = cold.loaded("film_thickness", MID)
     hardest = cold.at_hardest("film_thickness")
@@ -44,8 +45,8 @@ def cold_film(evidence: Evidence) -> Verdict:
     )
 
 
-def load_course(evidence: Evidence) -> Verdict:
-    """Claim 16."""
+@TRIBOLOGY("16")
+def _load_course(evidence: Evidence) -> Verdict:
     load = evidence.contacts[0.3, COLD].course("load")
     carried = np.flatnonzero(load > 0.0)
     top = (np.argmax(load) - carried[0]) / (carried[-1] - carried[0])
@@ -61,8 +62,8 @@ def load_course(evidence: Evidence) -> Verdict:
     )
 
 
-def viscosity_rise(evidence: Evidence) -> Verdict:
-    """Claim 17."""
+@TRIBOLOGY("17")
+def _viscosity_rise(evidence: Evidence) -> Verdict:
     ratio = _viscosity_ratio(evidence.contacts[0.3, COLD])
     return Verdict(
         f"up to {ratio:.0f}",
@@ -70,8 +71,8 @@ def viscosity_rise(evidence: Evidence) -> Verdict:
     )
 
 
-def cold_rise(evidence: Evidence) -> Verdict:
-    """Claim 18."""
+@TRIBOLOGY("18")
+def _cold_rise(evidence: Evidence) -> Verdict:
     kelvin = evidence.contacts[0.3, COLD].loaded("rise_effective")
     rise, warmest = 100.0 * kelvin / COLD, COLD - 273.15 + kelvin.max()
     high = 100.0 * _top(evidence.high_stress[COLD], "rise_effective") / COLD
@@ -85,8 +86,8 @@ def cold_rise(evidence: Evidence) -> Verdict:
     )
 
 
-def cold_boundary(evidence: Evidence) -> Verdict:
-    """Claim 19."""
+@TRIBOLOGY("19")
+def _cold_boundary(evidence: Evidence) -> Verdict:
     share = _boundary_share(evidence.contacts[0.3, COLD])
     return Verdict(
         f"F_b/F_v up to {share.max():.2f}",
@@ -96,8 +97,8 @@ def cold_boundary(evidence: Evidence) -> Verdict:
     )
 
 
-def newtonian_departure(evidence: Evidence) -> Verdict:
-    """Claim 20."""
+@TRIBOLOGY("20")
+def _newtonian_departure(evidence: Evidence) -> Verdict:
     low = _departure(evidence.contacts[0.3, COLD])
     high = _departure(evidence.high_stress[COLD])
     return Verdict(
@@ -106,8 +107,8 @@ def newtonian_departure(evidence: Evidence) -> Verdict:
     )
 
 
-def regime(evidence: Evidence) -> Verdict:
-    """Claim 21."""
+@TRIBOLOGY("21")
+def _regime(evidence: Evidence) -> Verdict:
     shares, texts = [], []
     for (r, T), c in evidence.contacts.items():
         eyring = c.loaded("state") == EYRING
@@ -125,8 +126,8 @@ def regime(evidence: Evidence) -> Verdict:
     )
 
 
-def unloaded_share(evidence: Evidence) -> Both:
-    """Claim 22."""
+@TRIBOLOGY("22")
+def _unloaded_share(evidence: Evidence) -> Both:
     ours = float(np.mean(evidence.contacts[1.0, COLD].cycle.motion.orbit.force == 0.0))
     theirs = [c.up(1.0).separation_share for c in evidence.mismatched.values()]
     inside = [0.25 <= s <= 0.45 for s in theirs[1:]]
@@ -138,8 +139,8 @@ def unloaded_share(evidence: Evidence) -> Both:
     )
 
 
-def fast_film(evidence: Evidence) -> Verdict:
-    """Claim 23."""
+@TRIBOLOGY("23")
+def _fast_film(evidence: Evidence) -> Verdict:
     fast = evidence.contacts[1.0, COLD]
     film = fast.loaded("film_thickness")
     peaks = _peaks(fast)
@@ -153,8 +154,8 @@ def fast_film(evidence: Evidence) -> Verdict:
     )
 
 
-def entrainment(evidence: Evidence) -> Verdict:
-    """Claim 24."""
+@TRIBOLOGY("24")
+def _entrainment(evidence: Evidence) -> Verdict:
     fast, slow = (evidence.contacts[r, COLD] for r in (1.0, 0.3))
     ratio = _top(fast, "entrainment_speed") / _top(slow, "entrainment_speed")
     return Verdict(
@@ -163,8 +164,8 @@ def entrainment(evidence: Evidence) -> Verdict:
     )
 
 
-def fast_heat(evidence: Evidence) -> Verdict:
-    """Claim 25."""
+@TRIBOLOGY("25")
+def _fast_heat(evidence: Evidence) -> Verdict:
     fast, slow = (evidence.contacts[r, COLD] for r in (1.0, 0.3))
     rise = 100.0 * _top(fast, "rise_effective") / COLD
     centre = 100.0 * _top(fast, "rise_centre") / COLD
@@ -176,8 +177,8 @@ def fast_heat(evidence: Evidence) -> Verdict:
     )
 
 
-def hot_film(evidence: Evidence) -> Verdict:
-    """Claim 26."""
+@TRIBOLOGY("26")
+def _hot_film(evidence: Evidence) -> Verdict:
     hot, cold = (evidence.contacts[0.3, T] for T in (HOT, COLD))
     ratio = _top(hot, "film_thickness") / _top(cold, "film_thickness")
     mid = UM * hot.loaded("film_thickness", MID)
@@ -191,8 +192,8 @@ def hot_film(evidence: Evidence) -> Verdict:
     )
 
 
-def hot_shear(evidence: Evidence) -> Verdict:
-    """Claim 27."""
+@TRIBOLOGY("27")
+def _hot_shear(evidence: Evidence) -> Verdict:
     hot, cold = (_top(evidence.contacts[0.3, T], "shear_rate") for T in (HOT, COLD))
     return Verdict(
         f"{hot / cold:.1f} times",
@@ -202,8 +203,8 @@ def hot_shear(evidence: Evidence) -> Verdict:
     )
 
 
-def hot_boundary(evidence: Evidence) -> Verdict:
-    """Claim 28."""
+@TRIBOLOGY("28")
+def _hot_boundary(evidence: Evidence) -> Verdict:
     low, high = (
         _top(c, "boundary_friction") / _top(c, "viscous_friction")
         for c in (evidence.contacts[0.3, HOT], evidence.high_stress[HOT])
@@ -217,8 +218,8 @@ def hot_boundary(evidence: Evidence) -> Verdict:
     )
 
 
-def hot_temperature(evidence: Evidence) -> Verdict:
-    """Claim 29."""
+@TRIBOLOGY("29")
+def _hot_temperature(evidence: Evidence) -> Verdict:
     hot = evidence.contacts[0.3, HOT]
     centre = HOT - 273.15 + _top(hot, "rise_centre")
     high = HOT - 273.15 + _top(evidence.high_stress[HOT], "rise_centre")
@@ -228,8 +229,8 @@ def hot_temperature(evidence: Evidence) -> Verdict:
     )
 
 
-def hot_viscosity(evidence: Evidence) -> Verdict:
-    """Claim 30."""
+@TRIBOLOGY("30")
+def _hot_viscosity(evidence: Evidence) -> Verdict:
     hot, cold = (_top(evidence.contacts[0.3, T], "effective_viscosity") for T in (HOT, COLD))
     return Verdict(
         f"{hot / cold:.3f}",
@@ -240,9 +241,8 @@ def hot_viscosity(evidence: Evidence) -> Verdict:
     )
 
 
-def hot_friction(evidence: Evidence) -> Verdict:
-    """Claim 31."""
-
+@TRIBOLOGY("31")
+def _hot_friction(evidence: Evidence) -> Verdict:
     def change(hot: Contacts, cold: Contacts) -> float:
         largest = [float(np.max(np.abs(c.total("torque_pinion")))) for c in (hot, cold)]
         return 100.0 * (largest[0] / largest[1] - 1.0)
@@ -325,24 +325,3 @@ def _peaks(contacts: Contacts) -> int:
     film = np.where(load > 0.1 * contacts.static_load, film, 0.0)
     inner = (film[1:-1] > film[:-2]) & (film[1:-1] >= film[2:])
     return int(np.count_nonzero(inner))
-
-
-TRIBOLOGY = {
-    "15": cold_film,
-    "16": load_course,
-    "17": viscosity_rise,
-    "18": cold_rise,
-    "19": cold_boundary,
-    "20": newtonian_departure,
-    "21": regime,
-    "22": unloaded_share,
-    "23": fast_film,
-    "24": entrainment,
-    "25": fast_heat,
-    "26": hot_film,
-    "27": hot_shear,
-    "28": hot_boundary,
-    "29": hot_temperature,
-    "30": hot_viscosity,
-    "31": hot_friction,
-}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from docs.page import FAILS, Verdict, judge
+from docs.page import FAILS, Claims, Verdict, judge
 from docs.tooth_contact.measures import (
     LOAD,
     exponent,
@@ -24,6 +24,7 @@ from gearlube_core.hypoid_contact.mesh_cycle import SIDES
 PINION_INERTIA, GEAR_INERTIA = 1.734e-3, 5.81e-2  # kg m2, Karagiannis 2012, data below fig. 7
 DAMPING, DAMPING_RATIO = 2278.1, 0.03  # N s/m and -, ditto
 _EDGE_SHARE = 0.15  # below it the pair carries at an edge
+CLAIMS = Claims()
 
 
 def implied_stiffness(dataset: xr.Dataset) -> float:
@@ -37,6 +38,7 @@ def _torques(dataset: xr.Dataset) -> list[float]:
     return [float(t) for t in dataset["torque"].values]
 
 
+@CLAIMS("1")
 def most_pairs(dataset: xr.Dataset) -> Verdict:
     """At most three pairs."""
     most = {s: max(pairs(dataset, s, t)[1] for t in _torques(dataset)) for s in SIDES}
@@ -47,6 +49,7 @@ def most_pairs(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("2")
 def radii_vary_little(dataset: xr.Dataset) -> Verdict:
     """Contact radii below 2 %."""
     torques = _torques(dataset)
@@ -68,6 +71,7 @@ def radii_vary_little(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("3")
 def stiffness_level(dataset: xr.Dataset) -> Verdict:
     """Level of k_m at 50 N.m."""
     wanted = implied_stiffness(dataset)
@@ -80,6 +84,7 @@ def stiffness_level(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("4")
 def stiffness_rises(dataset: xr.Dataset) -> Verdict:
     """Trend of k_m with torque."""
     torques = _torques(dataset)
@@ -98,6 +103,7 @@ def stiffness_rises(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("5")
 def error_level(dataset: xr.Dataset) -> Verdict:
     """e0."""
     values = [1e6 * unloaded_mean(dataset, side) for side in SIDES]
@@ -107,6 +113,7 @@ def error_level(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("6")
 def error_order(dataset: xr.Dataset) -> Verdict:
     """Mesh order dominates the unloaded error."""
     spectrum = np.abs(np.fft.rfft(dataset["e"].sel(side="drive").values))[1:]
@@ -118,6 +125,7 @@ def error_order(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("7")
 def radius_course(dataset: xr.Dataset) -> Verdict:
     """R_zx over the cycle."""
     courses = {s: 1e3 * pair_course(dataset, "R_sliding", s) for s in SIDES}
@@ -134,6 +142,7 @@ def radius_course(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("8")
 def entrainment_course(dataset: xr.Dataset) -> Verdict:
     """Entrainment along sliding over the cycle."""
     speed, share = sliding_entrainment(dataset, "drive"), pair_course(dataset, "share", "drive")
@@ -155,6 +164,7 @@ def sliding_entrainment(dataset: xr.Dataset, side: str) -> np.ndarray:
     return np.asarray(0.5 * (pinion + gear / ratio))
 
 
+@CLAIMS("9")
 def share_course(dataset: xr.Dataset) -> Verdict:
     """Load of a pair over its cycle."""
     tops, good = [], True
@@ -169,6 +179,7 @@ def share_course(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("10")
 def ratio_on_average(dataset: xr.Dataset) -> Verdict:
     """R_g / R_p over the period."""
     teeth = dataset.attrs["gear_teeth"] / dataset.attrs["pinion_teeth"]
@@ -181,6 +192,7 @@ def ratio_on_average(dataset: xr.Dataset) -> Verdict:
     )
 
 
+@CLAIMS("11")
 def mid_flank_pressure(dataset: xr.Dataset) -> Verdict:
     """Pressures within the flank."""
     worst, texts = 0.0, []
@@ -201,18 +213,3 @@ def mid_flank_pressure(dataset: xr.Dataset) -> Verdict:
         "; ".join(texts) + f" at 50 N.m; 20 to 200 N.m within {100.0 * worst:.1f} %",
         judge(worst < 0.03),
     )
-
-
-CLAIMS = {
-    "1": most_pairs,
-    "2": radii_vary_little,
-    "3": stiffness_level,
-    "4": stiffness_rises,
-    "5": error_level,
-    "6": error_order,
-    "7": radius_course,
-    "8": entrainment_course,
-    "9": share_course,
-    "10": ratio_on_average,
-    "11": mid_flank_pressure,
-}

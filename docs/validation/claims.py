@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from docs.page import FAILS, HOLDS, PARTLY, Verdict, judge
+from docs.page import FAILS, HOLDS, PARTLY, Claims, Verdict, judge
 from docs.validation.measures import (
     amplitude_at,
     log_slope,
@@ -20,9 +20,11 @@ from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.film.point_film import central_film_thickness
 from tests.helpers.bearing_statics import natural_frequencies, stiffness
 
+CLAIMS = Claims()
 
-def mesh_frequency(sweep: xr.Dataset) -> Verdict:
-    """Claim 32."""
+
+@CLAIMS("32")
+def _mesh_frequency(sweep: xr.Dataset) -> Verdict:
     per_kmh = (sweep["mesh_frequency"] / (3.6 * sweep["vehicle_speed"])).values
     error = np.max(np.abs(per_kmh / 5.0 - 1.0))
     return Verdict(
@@ -32,8 +34,8 @@ def mesh_frequency(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def road_torque(_: xr.Dataset) -> Verdict:
-    """Claim 33."""
+@CLAIMS("33")
+def _road_torque(_: xr.Dataset) -> Verdict:
     load = RoadLoad(
         vehicle=mohammadpour_2015_vehicle(),
         tyre=Tyre.from_size("195/65R16", rolling_radius="fraction"),
@@ -56,9 +58,8 @@ def road_torque(_: xr.Dataset) -> Verdict:
     )
 
 
-def preload_exponent(_: xr.Dataset) -> Verdict:
-    """Claim 34."""
-
+@CLAIMS("34")
+def _preload_exponent(_: xr.Dataset) -> Verdict:
     def frequency(preload: float) -> float:
         bearing = TaperedRollerBearing.mohammadpour_2015(film="off").with_preload(preload)
         matrix = stiffness(bearing.parameters())
@@ -72,8 +73,8 @@ def preload_exponent(_: xr.Dataset) -> Verdict:
     )
 
 
-def resonances_shift(sweep: xr.Dataset) -> Verdict:
-    """Claim 35."""
+@CLAIMS("35")
+def _resonances_shift(sweep: xr.Dataset) -> Verdict:
     modes = sweep["mode_frequency"]
     bearing = [m for m in modes["mode"].values if "axial" in str(m) or "radial" in str(m)]
     low, high = (modes.sel(mode=bearing).isel(preload=i).values for i in (0, -1))
@@ -84,8 +85,8 @@ def resonances_shift(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def crossing(sweep: xr.Dataset) -> Verdict:
-    """Claim 36."""
+@CLAIMS("36")
+def _crossing(sweep: xr.Dataset) -> Verdict:
     modes = sweep["mode_frequency"].isel(preload=0)
     low, high = float(sweep["mesh_frequency"].min()), float(sweep["mesh_frequency"].max())
     crossed = [
@@ -101,8 +102,8 @@ def crossing(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def bearing_lines(sweep: xr.Dataset) -> Verdict:
-    """Claim 37."""
+@CLAIMS("37")
+def _bearing_lines(sweep: xr.Dataset) -> Verdict:
     mesh, other = split_rms(sweep, "dte")
     ratio = other / mesh
     speeds = sweep["speed_kmh"].values
@@ -119,8 +120,8 @@ def bearing_lines(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def dominance(sweep: xr.Dataset) -> Verdict:
-    """Claim 38."""
+@CLAIMS("38")
+def _dominance(sweep: xr.Dataset) -> Verdict:
     mesh, other = split_rms(sweep, "dte")
     ratio = other / mesh
     dominated = ratio[0] > 1.0
@@ -135,8 +136,8 @@ def dominance(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def minimum_moves_away(sweep: xr.Dataset) -> Verdict:
-    """Claim 39."""
+@CLAIMS("39")
+def _minimum_moves_away(sweep: xr.Dataset) -> Verdict:
     up = (sweep["dte_min"].isel(preload=-1) - sweep["dte_min"].isel(preload=0)).values
     pp = (sweep["dte_pp"].isel(preload=-1) / sweep["dte_pp"].isel(preload=0)).values - 1.0
     share = float(np.mean((up > 0.0) & (pp < 0.0)))
@@ -147,8 +148,8 @@ def minimum_moves_away(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def radial_amplitude(sweep: xr.Dataset) -> Verdict:
-    """Claim 40."""
+@CLAIMS("40")
+def _radial_amplitude(sweep: xr.Dataset) -> Verdict:
     change = (sweep["radial_pp"].isel(preload=-1) / sweep["radial_pp"].isel(preload=0)).values - 1
     share = float(np.mean(change < 0.0))
     return Verdict(
@@ -158,8 +159,8 @@ def radial_amplitude(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def cage_lines(sweep: xr.Dataset) -> Verdict:
-    """Claim 41."""
+@CLAIMS("41")
+def _cage_lines(sweep: xr.Dataset) -> Verdict:
     at_cage = amplitude_at(sweep, "roller_load", "pinion_cage_frequency")
     relative = at_cage / sweep["roller_load_mean"].values
     present = bool(np.all(relative[0] > 0.01))
@@ -175,8 +176,8 @@ def cage_lines(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def unloaded_rollers(sweep: xr.Dataset) -> Verdict:
-    """Claim 42."""
+@CLAIMS("42")
+def _unloaded_rollers(sweep: xr.Dataset) -> Verdict:
     loaded = float(sweep["bearing_roller_load_min"].min())
     thresholds = []
     for index in (0, -1):
@@ -198,8 +199,8 @@ def unloaded_rollers(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def efficiency_level(sweep: xr.Dataset) -> Verdict:
-    """Claim 43."""
+@CLAIMS("43")
+def _efficiency_level(sweep: xr.Dataset) -> Verdict:
     values = sweep["efficiency_mesh"].values
     inside = (values >= 0.9905) & (values <= 0.9915)
     from_kmh = sweep["speed_kmh"].values[np.all(inside, axis=0)]
@@ -219,8 +220,8 @@ def efficiency_level(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def efficiency_flat(sweep: xr.Dataset) -> Verdict:
-    """Claim 44."""
+@CLAIMS("44")
+def _efficiency_flat(sweep: xr.Dataset) -> Verdict:
     spread = sweep["efficiency_mesh"].max("speed") - sweep["efficiency_mesh"].min("speed")
     worst = float(spread.max())
     return Verdict(
@@ -228,8 +229,8 @@ def efficiency_flat(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def efficiency_and_preload(sweep: xr.Dataset) -> Verdict:
-    """Claim 45."""
+@CLAIMS("45")
+def _efficiency_and_preload(sweep: xr.Dataset) -> Verdict:
     mesh = sweep["efficiency_mesh"].isel(preload=-1) - sweep["efficiency_mesh"].isel(preload=0)
     axle = sweep["efficiency_axle"].isel(preload=-1) - sweep["efficiency_axle"].isel(preload=0)
     falls = bool(np.all(mesh.values < 0.0))
@@ -247,8 +248,8 @@ def efficiency_and_preload(sweep: xr.Dataset) -> Verdict:
     )
 
 
-def film_exponent(_: xr.Dataset) -> Verdict:
-    """Claim 46."""
+@CLAIMS("46")
+def _film_exponent(_: xr.Dataset) -> Verdict:
     slope = log_slope(
         lambda load: central_film_thickness(0.02, 0.99, 0.0171, 2.383e-8, 3.0, load, 230.8e9), 1e3
     )
@@ -259,8 +260,8 @@ def film_exponent(_: xr.Dataset) -> Verdict:
     )
 
 
-def impact_classes(sweep: xr.Dataset) -> Verdict:
-    """Claim 47."""
+@CLAIMS("47")
+def _impact_classes(sweep: xr.Dataset) -> Verdict:
     b2 = 150e-6
     right = (
         separation_class(1e-6, 9e-6, b2) == NONE
@@ -275,23 +276,3 @@ def impact_classes(sweep: xr.Dataset) -> Verdict:
         judge(right),
         "The classes are those of section 2.1.1.",
     )
-
-
-CLAIMS = {
-    "32": mesh_frequency,
-    "33": road_torque,
-    "34": preload_exponent,
-    "35": resonances_shift,
-    "36": crossing,
-    "37": bearing_lines,
-    "38": dominance,
-    "39": minimum_moves_away,
-    "40": radial_amplitude,
-    "41": cage_lines,
-    "42": unloaded_rollers,
-    "43": efficiency_level,
-    "44": efficiency_flat,
-    "45": efficiency_and_preload,
-    "46": film_exponent,
-    "47": impact_classes,
-}
