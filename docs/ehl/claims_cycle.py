@@ -5,9 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from docs.ehl.cases import CYCLE, FilmCase
-from docs.ehl.claims import GPA, MM, UM, listed, span
+from docs.ehl.claims import (
+    GPA,
+    MM,
+    UM,
+    highest_near,
+    jumps,
+    largest_change,
+    listed,
+    off_range,
+    peaks,
+    span,
+)
 from docs.ehl.lines import March
-from docs.ehl.measures import highest_near, jumps, largest_change, off_range, peaks
 from docs.ehl.minimum_film import extrapolated, thinnest_printed
 from docs.ehl.runs import COUNT_RANGE, COUNTS, CROWNS, POSITIONS, default_cycle
 from docs.ehl.store import Store

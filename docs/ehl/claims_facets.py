@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from docs.ehl.cases import LINE, FilmCase, facet_case
-from docs.ehl.claims import GPA, MM, UM, listed, span
-from docs.ehl.measures import exponent, peaks
+from docs.ehl.claims import GPA, MM, UM, exponent, listed, peaks, span
 from docs.ehl.runs import FACET_MARCH, FACET_STEPS, FACETS
 from docs.ehl.store import Steady, Store
 from docs.page import Claims, Verdict, judge_parts

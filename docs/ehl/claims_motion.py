@@ -2,24 +2,95 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from docs.ehl.cases import CYCLE, FACETED, LINE, FilmCase
-from docs.ehl.claims import MM, listed
-from docs.ehl.measures import exponent
+from docs.ehl.claims import MM, exponent, listed
+from docs.ehl.claims_cycle import cycle
 from docs.ehl.runs import APPROACH, POSITIONS, SPEEDS
-from docs.ehl.sections import line_contact, section
-from docs.ehl.store import SETTINGS, MissingFilmError, Store
+from docs.ehl.store import SETTINGS, Store
 from docs.page import Claims, Verdict, judge_parts
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.solution import LineSolution
+from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
-from gearlube_core.storage.atomic_file import write_arrays
 from tests.helpers.jamali_2015 import jamali_2015
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """Film of one section in motion and at rest."""
+
+    y: float  # [m]
+    x: Array  # [m]
+    pressure: Array  # transient [Pa]
+    film: Array  # [m]
+    rest_pressure: Array
+    rest_film: Array
+
+    @property
+    def film_ratio(self) -> float:
+        """Return the smallest film in motion over that at rest."""
+        return float(self.film.min() / self.rest_film.min())
+
+    @property
+    def pressure_off(self) -> float:
+        """Return the difference of the largest pressures over that at rest."""
+        return abs(float(self.pressure.max() / self.rest_pressure.max()) - 1.0)
+
+
+def section(store: Store, design: str, step: int, y: float) -> Section:
+    """Return the section at y [m], between rows, of a design at one of the detailed steps."""
+    pressure, film = cycle(store, design).fields(step)
+    rest = store.steady(FilmCase(design=design, nodes=CYCLE), step)
+    j = int(np.clip(np.searchsorted(rest.y, y), 1, rest.y.size - 1))
+    share = float((y - rest.y[j - 1]) / (rest.y[j] - rest.y[j - 1]))
+
+    def at(values: Array) -> Array:
+        return np.asarray((1.0 - share) * values[:, j - 1] + share * values[:, j])
+
+    return Section(
+        y=y,
+        x=rest.x,
+        pressure=at(pressure),
+        film=at(film),
+        rest_pressure=at(rest.pressure),
+        rest_film=at(rest.film),
+    )
+
+
+def line_contact(
+    store: Store, case: FilmCase, step: float, y: float, **how: object
+) -> LineSolution:
+    """Return the line contact with gap, speeds and load per length of a section at rest."""
+    rest = store.steady(case, step)
+    j = rest.column(y)
+    place = rest.y[j : j + 1]
+    film = case.film()
+    X = film.line(case.number(step) * film.time_step)
+    u_1, u_2 = film.surface_speeds(place, X)
+    plane = film.modified.pair.plane
+    s = X - 0.5 * plane.W * plane.sin_b / plane.cos_b + float(place[0]) * plane.sin_b
+    problem = LineProblem(
+        lubricant=film.lubricant,
+        radius=s * (plane.x_g - s) / (plane.x_g * plane.cos_b),
+        line_load=float(rest.pressure[:, j].sum()) * (rest.x[1] - rest.x[0]),
+        reduced_modulus=2.0 * film.contact_modulus,
+        speed_1=float(u_1[0]),
+        speed_2=float(u_2[0]),
+        gap=lambda x: film.gap(x, place, X)[:, 0],
+        domain=(float(rest.x[0]), float(rest.x[-1])),
+    )
+    return solve_line(problem, LineSettings(**how))  # type: ignore[arg-type]
+
 
 # y of the thesis' sections [mm] at steps 75, 300, 500
 _APART = {75: (2.0, 5.0), 300: (19.0, 19.8), 500: (-2.0, -5.0)}
@@ -114,10 +185,8 @@ def _problem(nodes: tuple[int, int]) -> PointContactProblem:
 
 def discretised(store: Store, nodes: tuple[int, int]) -> dict[str, tuple[Array, Array]]:
     """Return pressure [Pa] and film [m] by either method, shape (x, y)."""
-    path = store.folder / f"methods_{nodes[0]}x{nodes[1]}.npz"
-    if not path.exists():
-        if not store.compute:
-            raise MissingFilmError(path.stem)
+
+    def both() -> dict[str, Array]:
         arrays: dict[str, Array] = {}
         for method in _METHODS:
             settings = PointSolverSettings(
@@ -125,9 +194,10 @@ def discretised(store: Store, nodes: tuple[int, int]) -> dict[str, tuple[Array, 
             )
             found = solve_point_contact(_problem(nodes), settings)
             arrays |= {f"{method}_pressure": found.pressure, f"{method}_film": found.film}
-        write_arrays(path, arrays, compress=True)
-    with np.load(path) as data:
-        return {m: (data[f"{m}_pressure"], data[f"{m}_film"]) for m in _METHODS}
+        return arrays
+
+    data = store.kept(f"methods_{nodes[0]}x{nodes[1]}", both)
+    return {m: (data[f"{m}_pressure"], data[f"{m}_film"]) for m in _METHODS}
 
 
 @MOTIONS("J17")

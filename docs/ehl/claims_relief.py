@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from docs.ehl.cases import WIDE_FINE, parabola_case
-from docs.ehl.claims import GPA, MM, UM, listed
+from docs.ehl.claims import GPA, MM, UM, first_above, listed
 from docs.ehl.lines import March
-from docs.ehl.measures import first_above
+from docs.ehl.pages import touched
 from docs.ehl.runs import APPROACH, MARCHED_PARABOLAS, PARABOLAS, POWERS, power_case
 from docs.ehl.store import Steady, Store
-from docs.ehl.touching import touched
 from docs.page import Claims, Verdict, judge_parts
 
 _CONTOUR = 1e8  # Pa

@@ -1,19 +1,21 @@
-"""Curves over the meshing cycle and over parameters, for docs/ehl.md."""
+"""Curves over the meshing cycle and over parameters, also of faceted flanks, for docs/ehl.md."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from docs.ehl.cases import CYCLE, FACETED, FilmCase, parabola_case
-from docs.ehl.claims import GPA, UM
+from docs.ehl.cases import CYCLE, FACETED, FilmCase, facet_case, parabola_case
+from docs.ehl.claims import GPA, MM, UM
 from docs.ehl.claims_cycle import drawn_crowned, drawn_cycle
-from docs.ehl.dry_cycle import dry_cycle
 from docs.ehl.lines import March
 from docs.ehl.runs import (
     APPROACH,
     CROWNS,
+    FACET_MARCH,
+    FACET_STEPS,
     MARCHED_PARABOLAS,
     PARABOLAS,
     POSITIONS,
@@ -27,11 +29,100 @@ from gearlube.plotting.style import (
     BLUE,
     GREY,
     MARKERS,
+    ORANGE,
+    PURPLE,
     SERIES,
+    SKY,
     VERMILLION,
     house_style,
     new_figure,
 )
+from gearlube_core.arrays import Array
+from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
+
+
+def facets(store: Store) -> Any:
+    """Return pressure and film over the number of facets, and sections: figs 6.7 and 6.14."""
+    with house_style():
+        figure = new_figure(9.6, 7.0)
+        axes = figure.subplots(2, 2)
+        for row, step in enumerate(sorted((300, *FACET_STEPS))):
+            films = [store.steady(facet_case(n), step) for n in (20, 30, 40, 100)]
+            films += [store.steady(FilmCase(nodes=FACETED), step)]
+            places = range(5)
+            axes[0, 0].plot(
+                places, [GPA * f.max_pressure for f in films], "o-", color=SERIES[row],
+                label=f"step {step}, at rest", lw=1.0,
+            )  # fmt: skip
+            axes[0, 1].plot(
+                places, [UM * f.min_film for f in films], "o-", color=SERIES[row], lw=1.0
+            )
+        for place, n in ((2, 40), (3, 100)):
+            march = store.march(facet_case(n), *FACET_MARCH, FACET_MARCH[1:])
+            for ax, name, unit in ((axes[0, 0], "max_pressure", GPA), (axes[0, 1], "min_film", UM)):
+                values = unit * march[name]
+                label = "steps 281 to 300, in motion" if n == 40 else None
+                ends = (values.min(), values.max())
+                ax.vlines(place + 0.12, *ends, color=GREY, lw=5, label=label)
+        for ax in axes[0]:
+            ax.set_xticks(range(5), ["20", "30", "40", "100", "smooth"])
+            ax.set(xlabel="number of facets $n_f$", ylim=(0.0, None))
+        axes[0, 0].set_ylabel("largest pressure [GPa]")
+        axes[0, 1].set_ylabel("smallest film [µm]")
+        axes[0, 0].legend()
+        # other colours than those of the steps above
+        for n, colour in zip((20, 40, 100, 0), (PURPLE, ORANGE, SKY, "black"), strict=True):
+            film = store.steady(facet_case(n), 300)
+            j, label = film.column(0.0), f"$n_f$ = {n}" if n else "smooth"
+            x = MM * film.x
+            axes[1, 0].plot(x, GPA * film.pressure[:, j], color=colour, lw=1.3, label=label)
+            axes[1, 1].plot(x, UM * film.film[:, j], color=colour, lw=1.3)
+        for ax in axes[1]:
+            ax.set(xlabel="across the line, x [mm], y = 0", xlim=(-0.45, 0.4))
+        axes[1, 0].set_ylabel("pressure [GPa]")
+        axes[1, 0].legend()
+        axes[1, 1].set(ylabel="film [µm]", ylim=(0.0, 1.0))
+        figure.suptitle(
+            "Design A with faceted flanks: each edge makes a spike of pressure; below: step 300",
+            fontsize=11,
+        )
+    return figure
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DryCycle:
+    """Dry pressures over the steps of the thesis."""
+
+    step: Array
+    y: Array  # [m]
+    pressure: Array  # largest of every section [Pa], (steps, y)
+
+    @property
+    def max_pressure(self) -> Array:
+        """Return the largest pressure of each step [Pa]."""
+        return np.asarray(self.pressure.max(axis=1))
+
+
+def dry_cycle(store: Store, case: FilmCase, every: int = 25) -> DryCycle:
+    """Return the dry contact of a case at every so many steps, kept by the store."""
+
+    def pressed() -> dict[str, Array]:
+        steps = np.arange(0, 576, every)
+        film = case.film()
+        moving = film.moving_film()
+        x, y = moving.x, moving.y
+        rows = []
+        for step in steps:
+            X = film.line(case.number(float(step)) * film.time_step)
+            dry = dry_contact_of_gap(
+                film.gap(x, y, X), x[1] - x[0], y[1] - y[0], film.contact_modulus, film.load(X),
+                tolerance=1e-4,
+            )  # fmt: skip
+            rows.append(dry.pressure.max(axis=0))
+        return {"step": steps, "y": y, "pressure": np.array(rows)}
+
+    return DryCycle(**store.kept(f"dry_{case.name}_every{every}", pressed))
+
 
 COLOURS = dict(zip("ab", (BLUE, VERMILLION), strict=True))
 
@@ -59,7 +150,7 @@ def designs(store: Store) -> Any:
             colour = COLOURS[d]
             label = f"{d.upper()}, in motion"
             _curves(top, bottom, drawn_cycle(store, d), label, color=colour)
-            dry = dry_cycle(store.folder, FilmCase(design=d, nodes=CYCLE))
+            dry = dry_cycle(store, FilmCase(design=d, nodes=CYCLE))
             top.plot(
                 dry.step, GPA * dry.max_pressure, ".", color=colour, ms=5,
                 label=f"{d.upper()}, dry",
@@ -106,7 +197,7 @@ def linear_relief(store: Store) -> Any:
         figure = new_figure(8.2, 3.6)
         ax = figure.subplots()
         for d in "ab":
-            dry = dry_cycle(store.folder, parabola_case(d, 0.0))
+            dry = dry_cycle(store, parabola_case(d, 0.0))
             ax.plot(
                 dry.step, GPA * dry.max_pressure, ".-", color=COLOURS[d], lw=1.0,
                 label=f"design {d.upper()}, dry",
@@ -206,7 +297,7 @@ def powers(store: Store) -> Any:
             for row, beta in enumerate(POWERS[1:]):
                 case, colour = power_case(d, beta, nodes=CYCLE), SERIES[row]
                 films = [store.steady(case, n) for n in POWER_STEPS]
-                dry = dry_cycle(store.folder, case, every=5)
+                dry = dry_cycle(store, case, every=5)
                 top.plot(dry.step, GPA * dry.max_pressure, color=colour, lw=1.0)
                 mark = MARKERS[row]
                 top.plot(

@@ -10,9 +10,9 @@ from matplotlib.colors import BoundaryNorm
 from docs.ehl.cases import CYCLE, FACETED, FilmCase, relief_starts
 from docs.ehl.claims import GPA, MM, UM
 from docs.ehl.claims_cycle import cycle
-from docs.ehl.dry_cycle import dry_cycle
+from docs.ehl.claims_motion import line_contact, section
+from docs.ehl.figures_cycle import dry_cycle
 from docs.ehl.runs import POSITIONS, POWERS, power_case
-from docs.ehl.sections import line_contact, section
 from docs.ehl.store import Store
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
@@ -142,7 +142,7 @@ def power_lines(store: Store) -> Any:
         for d, row in zip("ab", axes, strict=True):
             for ax, beta in zip(row, POWERS, strict=True):
                 case = power_case(d, beta, nodes=CYCLE)
-                dry = dry_cycle(store.folder, case, every=5)
+                dry = dry_cycle(store, case, every=5)
                 places = (dry.step, MM * dry.y)
                 drawn = _filled(ax, places, GPA * dry.pressure.T, levels, "magma_r", "max")
                 ax.set_title(f"design {d.upper()}, β = {beta:g}", fontsize=9)

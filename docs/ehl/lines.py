@@ -104,12 +104,9 @@ class March:
     complete: bool  # False: given up after steps that failed
 
     @classmethod
-    def read(cls, path: Path) -> March:
-        """Return the march in a file."""
-        with np.load(path) as data:
-            values: dict[str, Any] = {name: data[name] for name in cls.__dataclass_fields__}
-        values["complete"] = bool(values["complete"])
-        return cls(**values)
+    def of(cls, kept: dict[str, Any]) -> March:
+        """Return the march of kept arrays."""
+        return cls(**(kept | {"complete": bool(kept["complete"])}))
 
     def __getitem__(self, column: str) -> Array:
         """Return a column by its name."""

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from docs.ehl import figures_cycle, figures_facets, figures_fields
+from docs.ehl import figures_cycle, figures_fields
 from docs.ehl.claims import verdicts
 from docs.ehl.claims_cycle import CYCLES
 from docs.ehl.claims_facets import FACETED_FLANKS
@@ -23,10 +23,9 @@ from docs.ehl.film_map_page import put_film_map
 from docs.ehl.lines import GivenUpError
 from docs.ehl.micro_cavity_page import put_micro_cavity
 from docs.ehl.minimum_film import put_minimum_film
-from docs.ehl.pages import dry_rows, grid_rows, put_counts
+from docs.ehl.pages import dry_rows, grid_rows, put_counts, put_touching
 from docs.ehl.runs import all_runs, do_runs
 from docs.ehl.store import MissingFilmError, Store
-from docs.ehl.touching import put_touching
 from docs.page import IMAGES, Claims, Page, begin
 
 SMOOTH = Claims(CYCLES | RELIEFS | MOTIONS)
@@ -44,7 +43,7 @@ PICTURES: dict[str, Callable[[Store], Any]] = {
     "powers": figures_cycle.powers,
     "power_contours": figures_fields.power_contours,
     "power_lines": figures_fields.power_lines,
-    "facets": figures_facets.facets,
+    "facets": figures_cycle.facets,
 }
 logger = logging.getLogger("docs.ehl")
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from docs.ehl.store import MissingFilmError, Store
+from docs.ehl.store import Store
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.transient.level import FilmConditions
@@ -22,7 +22,6 @@ from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.oil.film_oil_data import film_oil
-from gearlube_core.storage.atomic_file import write_arrays
 
 logger = logging.getLogger("docs.ehl")
 
@@ -153,17 +152,12 @@ def march(
 
 def kept_passage(store: Store, case: CavityCase, nodes: tuple[int, int]) -> Passage:
     """Return a passage from the folder, marched if it is not there and the store computes."""
-    path = store.folder / f"cavity_{case.name}_{nodes[0]}x{nodes[1]}.npz"
-    if not path.exists():
-        if not store.compute:
-            raise MissingFilmError(path.stem)
-        logger.info("cavity, %s", case.name)
+
+    def marched() -> dict[str, Any]:
         found = march(case, nodes)
-        write_arrays(
-            path, {name: getattr(found, name) for name in Passage.__slots__}, compress=True
-        )
-    with np.load(path) as data:
-        values: dict[str, Any] = {name: data[name] for name in data.files}
+        return {name: getattr(found, name) for name in Passage.__slots__}
+
+    values = store.kept(f"cavity_{case.name}_{nodes[0]}x{nodes[1]}", marched)
     values["failures"], values["seconds"] = int(values["failures"]), float(values["seconds"])
     return Passage(**values)
 

@@ -12,7 +12,6 @@ from docs.page import Page
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import march_helical_cycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.storage.atomic_file import write_arrays
 from tests.helpers.jamali_2015 import jamali_2015, jamali_2015_film
 
 FIRST, LAST = 470, 490  # steps of design A; the contact is crossed in 17
@@ -58,10 +57,8 @@ class Thinnest:
 
 def thinnest(store: Store, variant: Variant) -> Thinnest:
     """Return the smallest films of a variant, marched if they are not in the folder."""
-    path = store.folder / f"{variant.name}.npz"
-    if not path.exists():
-        if not store.compute:
-            raise MissingFilmError(variant.name)
+
+    def marched() -> dict[str, Array]:
         cycle = march_helical_cycle(
             jamali_2015_film("a", nodes=variant.nodes, solids=None),
             first=FIRST,
@@ -72,9 +69,10 @@ def thinnest(store: Store, variant: Variant) -> Thinnest:
         )
         film, x, y = (cycle[name] for name in ("minimum_film", "minimum_film_x", "minimum_film_y"))
         values = (film[0], film[-1], x[-1], y[-1], cycle.failures)
-        write_arrays(path, dict(zip(_COLUMNS, map(np.asarray, values), strict=True)), compress=True)
-    with np.load(path) as data:
-        steady, moving, x, y, failures = (float(data[name]) for name in _COLUMNS)
+        return dict(zip(_COLUMNS, map(np.asarray, values), strict=True))
+
+    data = store.kept(variant.name, marched)
+    steady, moving, x, y, failures = (float(data[name]) for name in _COLUMNS)
     return Thinnest(steady, moving, x, y, int(failures))
 
 
@@ -150,10 +148,8 @@ SHORT = {n: PrintedRun("a", 470, 490, 0.0, n) for n in _SUBSTEPS}
 
 def printed_films(store: Store, run: PrintedRun) -> dict[str, Array]:
     """Return steps and their smallest films [m], marched if they are not in the folder."""
-    path = store.folder / f"{run.name}.npz"
-    if not path.exists():
-        if not store.compute:
-            raise MissingFilmError(run.name)
+
+    def marched() -> dict[str, Array]:
         width = jamali_2015(run.design).pair.face_width
         cycle = march_helical_cycle(
             jamali_2015_film(
@@ -166,9 +162,9 @@ def printed_films(store: Store, run: PrintedRun) -> dict[str, Array]:
             throw=False,
         )
         values = (cycle["step"], cycle["minimum_film"], np.asarray(cycle.failures))
-        write_arrays(path, dict(zip(_PRINTED, values, strict=True)), compress=True)
-    with np.load(path) as data:
-        return {name: data[name] for name in _PRINTED}
+        return dict(zip(_PRINTED, values, strict=True))
+
+    return store.kept(run.name, marched)
 
 
 def thinnest_printed(store: Store, design: str) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -100,21 +101,21 @@ class Store:
         self.folder, self.compute = folder, compute
         folder.mkdir(parents=True, exist_ok=True)
 
-    def _lacks(self, path: Path) -> bool:
-        if path.exists():
-            return False
-        if not self.compute:
-            raise MissingFilmError(path.stem)
-        return True
+    def kept(self, name: str, compute: Callable[[], Mapping[str, Any]]) -> dict[str, Any]:
+        """Return the arrays of a name, computed if they are not in the folder."""
+        path = self.folder / f"{name}.npz"
+        if not path.exists():
+            if not self.compute:
+                raise MissingFilmError(name)
+            logger.info("computing %s", name)
+            write_arrays(path, compute(), compress=True)
+        with np.load(path) as data:
+            return {key: data[key] for key in data.files}
 
     def steady(self, case: FilmCase, step: float) -> Steady:
         """Return the steady film of a case at one of the thesis' steps."""
-        path = self.folder / f"steady_{case.name}_at{step:g}.npz"
-        if self._lacks(path):
-            logger.info("steady film %s, step %g", case.name, step)
-            write_arrays(path, _solve_steady(case, step), compress=True)
-        with np.load(path) as data:
-            values: dict[str, Any] = {name: data[name] for name in data.files}
+        name = f"steady_{case.name}_at{step:g}"
+        values = self.kept(name, lambda: _solve_steady(case, step))
         for name in _NUMBERS:
             values[name] = float(values[name])
         values["converged"], values["outcome"] = bool(values["converged"]), str(values["outcome"])
@@ -128,13 +129,10 @@ class Store:
         The film is steady at the first. Steps in `keep` are those of the thesis too.
         """
         name = f"march_{case.name}_from{first}_to{last}"
-        path = self.folder / f"{name}.npz"
-        if self._lacks(path):
-            logger.info("march %s, steps %d to %d", case.name, first, last)
-            write_arrays(path, self._march(case, first, last, keep, name), compress=True)
-            for part in self.folder.glob(f"{name}.*part.npz"):
-                part.unlink()
-        return March.read(path)
+        values = self.kept(name, lambda: self._march(case, first, last, keep, name))
+        for part in self.folder.glob(f"{name}.*part.npz"):
+            part.unlink()
+        return March.of(values)
 
     def _march(
         self, case: FilmCase, first: int, last: int, keep: tuple[int, ...], name: str

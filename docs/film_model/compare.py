@@ -1,7 +1,7 @@
 """The shipped axle, films by formula and solved: python -m docs.film_model.compare.
 
 About five minutes. Writes docs/film_model/axle.csv, the figure docs/images/film_model_axle.png and
-the tables of docs/film_model_axle.md between their marks.
+tables of docs/film_model_axle.md.
 """
 
 from __future__ import annotations
@@ -14,8 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from docs.film_model.marked_page import put
-from docs.page import IMAGES
+from docs.page import IMAGES, Page
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.plotting.style import BLUE, GREEN, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
@@ -37,6 +36,14 @@ CASES = (
     ("formula, 5 MPa", "formula", 5.0, BLUE, "--"),
     ("solved, 2 MPa", "solved", 2.0, VERMILLION, "-"),
     ("solved, 5 MPa", "solved", 5.0, VERMILLION, "--"),
+)
+# flanks warmer than the oil by a resistance [K/W]; points of speed [km/h], torque [N.m], oil [degC]
+BULK_RESISTANCES, BULK_STRESS = (0.0, 0.02, 0.04), 2.0
+BULK_POINTS = (
+    (40.0, 100.0, 95.0),
+    (100.0, 50.0, 60.0),
+    (100.0, 100.0, 95.0),
+    (100.0, 300.0, 95.0),
 )
 HEAD = (
     "case", "oil_degc", "speed_km_h", "torque_n_m", "mesh_efficiency_percent", "bound_percent",
@@ -150,70 +157,96 @@ def figure(cases: dict[str, dict[str, Array]]) -> Any:
     return made
 
 
-def range_table(cases: dict[str, dict[str, Array]]) -> str:
-    """Return ratios of formula to solved over the range, by share of points, as Markdown."""
-    lines = [
-        "| 2 MPa, formula over solved | least | 5 % | median | 95 % | most |",
-        "|---|---|---|---|---|---|",
-    ]
+def range_rows(cases: dict[str, dict[str, Array]]) -> list[list[str]]:
+    """Return ratios of formula to solved over the range, by share of points."""
+    rows = []
     formula, solved = cases["formula, 2 MPa"], cases["solved, 2 MPa"]
     for key, words in (("friction_w", "friction loss"), ("boundary_w", "of it by asperities"),
                        ("least_film_um", "least film")):  # fmt: skip
         ratio = (formula[key] / solved[key])[solved["share_outside_percent"] < 1.0]
         cells = np.quantile(ratio, (0.0, 0.05, 0.5, 0.95, 1.0))
-        lines.append(f"| {words} | " + " | ".join(f"{one:.2f}" for one in cells) + " |")
+        rows.append([words, *(f"{one:.2f}" for one in cells)])
+    return rows
+
+
+def put_outside(page: Page, solved: dict[str, Array]) -> None:
+    """Put in how many points lie outside the domain, and the bound of the loss."""
     outside = solved["share_outside_percent"]
     bound = solved["bound_percent"] / (100.0 - solved["mesh_efficiency_percent"]) * 100.0
-    lines += [
-        "",
-        f"Of {outside.size} points {int(np.sum(outside < 1.0))} have less than 1 % of their load "
-        f"outside the domain, {int(np.sum(outside > 50.0))} more than half. The bound of the "
-        f"friction loss is {np.median(bound):.1f} % of it in the median, "
-        f"{np.quantile(bound, 0.95):.0f} % or less at 95 % of the points.",
-    ]
-    return "\n".join(lines) + "\n"
+    page.fill(
+        "Of {} points {} have less than 1 % of their load outside the domain, {} more than half. "
+        "The bound of the friction loss is {} % of it in the median, {} % or less at 95 % of the "
+        "points.",
+        outside.size,
+        int(np.sum(outside < 1.0)),
+        int(np.sum(outside > 50.0)),
+        f"{np.median(bound):.1f}",
+        f"{np.quantile(bound, 0.95):.0f}",
+    )
 
 
-def road_table(road: dict[str, dict[str, Array]]) -> str:
-    """Return efficiencies and films at the paper's points as Markdown."""
-    lines = [
-        "| | " + " | ".join(f"{speed:g} km/h" for speed in SPEEDS) + " | spread |",
-        "|---|" + "---|" * (SPEEDS.size + 1),
-    ]
+def road_rows(road: dict[str, dict[str, Array]]) -> list[list[str]]:
+    """Return efficiencies and films at the paper's points."""
+    rows = []
     for name, values in road.items():
         y, bound = values["mesh_efficiency_percent"], values["bound_percent"]
         cells = [
             f"{a:.2f} ± {b:.2f}" if b > 0.0 else f"{a:.2f}" for a, b in zip(y, bound, strict=True)
         ]
-        lines.append(
-            f"| {name}: efficiency of the mesh [%] | " + " | ".join(cells) + f" | {np.ptp(y):.2f} |"
-        )
+        rows.append([f"{name}: efficiency of the mesh [%]", *cells, f"{np.ptp(y):.2f}"])
     for name in ("formula, 2 MPa", "solved, 2 MPa"):
-        ratio = road[name]["least_film_ratio"]
-        cells = [f"{one:.2f}" for one in ratio]
-        lines.append(f"| {name}: least film ratio λ | " + " | ".join(cells) + " | |")
-    return "\n".join(lines) + "\n"
+        cells = [f"{one:.2f}" for one in road[name]["least_film_ratio"]]
+        rows.append([f"{name}: least film ratio λ", *cells, ""])
+    return rows
 
 
-def model_line() -> str:
-    """Return which model was taken."""
-    model = FilmModel.named("hypoid_flank")
-    film, friction = 100.0 * model.film_bound, 100.0 * model.friction_bound
-    return (
-        f"Model `hypoid_flank`, checksum `{model.checksum}`, state "
-        f"`{model.provenance.get('state')}`: bounds {film:.2f} % of the film, {friction:.2f} % of "
-        "the friction.\n"
+def warmed(film: str, resistance: float, at: tuple[float, float, float]) -> list[str]:
+    """Return rise of the bulk [K], efficiency of the mesh [%] and least film ratio."""
+    axle = replace(axle_of(film, BULK_STRESS), flank_bulk_resistance=resistance)
+    speed, torque, degc = at
+    pinion = read_axle("mohammadpour_2015").driveline.road_load.pinion_speed(kmh_to_ms(speed))
+    oil = celsius_to_kelvin(degc)
+    losses = axle_losses(
+        axle, torques=np.array([torque]), speeds=np.array([pinion]), temperatures=np.array([oil])
     )
+    friction = float(losses.power[0, 0, 0, :2].sum())
+    return [
+        f"{float(losses.bulk_temperature[0, 0, 0]) - oil:.0f}",
+        f"{100.0 * (1.0 - friction / (pinion * torque)):.2f}",
+        f"{float(losses.film_ratio[0, 0, 0]):.2f}",
+    ]
+
+
+def bulk_rows() -> list[list[str]]:
+    """Return what flanks that their own friction warms do."""
+    rows = []
+    for at in BULK_POINTS:
+        for film in ("formula", "solved"):
+            cells = [cell for R in BULK_RESISTANCES for cell in warmed(film, R, at)]
+            speed, torque, degc = at
+            rows.append([f"{speed:g} km/h, {torque:g} N·m, {degc:g} °C: {film}", *cells])
+    return rows
 
 
 def main() -> None:
     """Compute all and write it."""
-    cases, road = over_the_range(), on_the_road()
+    cases, road, page = over_the_range(), on_the_road(), Page("film_model_axle")
     write_text(as_csv(cases), TABLE)
     figure(cases).savefig(FIGURE)
-    put("model", "compare", model_line())
-    put("range", "compare", range_table(cases))
-    put("road", "compare", road_table(road))
+    model = FilmModel.named("hypoid_flank")
+    page.fill(
+        "Model `hypoid_flank`, checksum `{}`, state `{}`: bounds {} % of the film, {} % of the "
+        "friction.",
+        model.checksum,
+        model.provenance.get("state"),
+        f"{100.0 * model.film_bound:.2f}",
+        f"{100.0 * model.friction_bound:.2f}",
+    )
+    page.rows("2 MPa, formula over solved", range_rows(cases))
+    put_outside(page, cases["solved, 2 MPa"])
+    page.rows("| 20 km/h", road_rows(road))
+    page.rows("2 MPa | 0 K/W", bulk_rows())
+    page.write()
 
 
 if __name__ == "__main__":

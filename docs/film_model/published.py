@@ -15,9 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from docs.film_model.marked_page import put
-from docs.film_model.published_formulas import FORMULAS, SIGMA, Local
-from docs.page import IMAGES
+from docs.page import IMAGES, Page
+from docs.published_friction import schlenk, xu_kahraman
 from gearlube.plotting.style import BLUE, GREEN, ORANGE, PURPLE, VERMILLION, house_style, new_figure
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
@@ -25,7 +24,7 @@ from gearlube_core.contact.hertz import ellipticity
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.ehl.gears.hypoid_film import pair_contact
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.friction.flank_data import ContactGeometry, contact_geometry
+from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_film import FlankEllipse, flank_film_model
 from gearlube_core.friction.flank_laws import SOLVED, Consistent
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
@@ -48,6 +47,9 @@ LEAST, MOST, BEYOND = 1.0, 10.0, 12.0  # MPa: of the model's domain; where more 
 TWIN_DISC = 0.045  # about, mineral oils (Doleschel et al., DGMK)
 _STEP = 1e-3  # of the logarithm of a load
 _STAR = " *"
+XU_KAHRAMAN, SCHLENK = FORMULAS = ("Xu and Kahraman", "Schlenk")
+LEAST_LINE_LOAD = 150.0  # N/mm, of Schlenk's formula
+SIGMA = 0.5e-6  # m, composite, of the shipped axle
 # of an oil: share of mineral oil's friction in ISO/TR 14179-2
 OILS = {
     "mohammadpour_2015": 1.0,
@@ -132,20 +134,22 @@ def solved_mean(c: Contacts, oil: LubricantState, film: int = SOLVED) -> Mean:
     )
 
 
-def published_mean(c: Contacts, formula: Callable[[Local], float], oil: LubricantState) -> float:
-    """Return the mean of a closed formula over an engagement, weighted alike."""
-    values = []
-    for n in range(c.load.size):
-        geometry: ContactGeometry = contact_geometry(
-            c.R_x[n], c.R_y[n], c.psi[n], SOLID.contact_modulus
-        )
-        p = geometry.pressure_coefficient * c.load[n] ** (1.0 / 3.0)
-        k = ellipticity(c.R_y[n] / c.R_x[n])
-        length = 2.0 * math.sqrt(c.load[n] * k / (math.pi * p))
-        place = (p, length, c.R_x[n], c.psi[n])
-        values.append(formula(Local(c.load[n], *place, c.speed[n], c.slip[n], 1e3 * oil.eta0)))
-    weights = c.load * c.slip
-    return float((np.array(values) * weights).sum() / weights.sum())
+def levels_of(c: Contacts, oil: LubricantState) -> dict[str, float]:
+    """Return the means of the published formulas over an engagement, weighted alike."""
+    geometry = [
+        contact_geometry(*one, SOLID.contact_modulus)
+        for one in zip(c.R_x, c.R_y, c.psi, strict=True)
+    ]
+    p = np.array([one.pressure_coefficient for one in geometry]) * c.load ** (1.0 / 3.0)
+    k = np.array([ellipticity(one) for one in c.R_y / c.R_x])
+    length = 2.0 * np.sqrt(c.load * k / (math.pi * p))
+    eta, weights = 1e3 * oil.eta0, c.load * c.slip
+    line_load = np.maximum(1e-3 * c.load / length, LEAST_LINE_LOAD)
+    local = {
+        XU_KAHRAMAN: xu_kahraman(1.5e-9 * p, c.slip / c.speed, c.speed, eta, c.R_x, SIGMA),
+        SCHLENK: schlenk(line_load, 2e3 * c.speed * np.cos(c.psi) * c.R_x, eta, SIGMA),
+    }
+    return {name: float((one * weights).sum() / weights.sum()) for name, one in local.items()}
 
 
 def needed_stress(c: Contacts, oil: str, degc: float, target: float) -> float:
@@ -191,14 +195,13 @@ def compared(oil: str) -> OilFriction:
             for torque in TORQUES:
                 c, own = contacts(float(speed), float(torque)), state(oil, float(degc), None)
                 mean = solved_mean(c, own)
-                levels = [
-                    published_mean(c, formula, own) * (share if name == "Schlenk" else 1.0)
-                    for name, formula in FORMULAS.items()
-                ]
+                published = levels_of(c, own)
+                published[SCHLENK] *= share
+                levels = [published[name] for name in FORMULAS]
                 rows.append((mean.friction, mean.outside, *levels))
                 wanted.append([needed_stress(c, oil, float(degc), one) for one in levels])
     values, needed = np.array(rows).T, np.array(wanted).T
-    names = list(FORMULAS)
+    names = FORMULAS
     return OilFriction(
         own.tau0 / MEGA,
         pressure_exponent(oil),
@@ -223,23 +226,19 @@ def _stresses(values: Array) -> str:
     return f"{_stress(middle)} ({_stress(low)} to {_stress(high)})"
 
 
-def table(found: dict[str, OilFriction]) -> str:
-    """Return all oils as Markdown: median and 5 to 95 % of the points."""
-    lines = [
-        "| Oil | Z at 40 °C | own τ₀ [MPa] | friction, solved films | Xu and Kahraman | Schlenk "
-        "| τ₀ for Xu and Kahraman [MPa] | τ₀ for Schlenk [MPa] |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
-    for oil, one in found.items():
-        cells = [
+def rows_of(found: dict[str, OilFriction]) -> list[list[str]]:
+    """Return all oils: median and 5 to 95 % of the points."""
+    return [
+        [
+            oil,
             f"{one.Z:.2f}",
             f"{one.own:.1f}",
             _spread(one.friction),
             *(_spread(one.published[name]) for name in FORMULAS),
             *(_stresses(one.needed[name]) for name in FORMULAS),
         ]
-        lines.append(f"| {oil} | " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+        for oil, one in found.items()
+    ]
 
 
 # dynamic viscosity [mPa s] and alpha [1/GPa] at 30, 60 and 100 degC, Table 2.3 of
@@ -267,17 +266,6 @@ def exponents_of_table() -> Array:
     return np.asarray(alpha / (ROELANDS_PRESSURE * (np.log(eta) + ROELANDS_LOG_VISCOSITY)))
 
 
-def exponent_line() -> str:
-    """Return what measured oils say of Z, as a sentence."""
-    Z = exponents_of_table()
-    low, middle, high = Z.min(), np.median(Z), Z.max()
-    return (
-        f"Z of {Z.shape[0]} measured mineral oils at 30, 60 and 100 °C: {low:.2f} to {high:.2f}, "
-        f"median {middle:.2f} (computed from viscosity and pressure coefficient in Table 2.3 of "
-        "Stachowiak and Batchelor, Engineering Tribology).\n"
-    )
-
-
 def film_exponents() -> Array:
     """Return d ln h/d ln W of solved films at all points and phases inside the domain."""
     law = Consistent()(gear_flanks(SIGMA), SOLID)._replace(film=float(SOLVED))
@@ -300,15 +288,6 @@ def film_exponents() -> Array:
                     if low.outside == high.outside == 0.0:
                         found.append((high.log_film - low.log_film) / (2.0 * _STEP))
     return np.array(found)
-
-
-def exponent_of_load() -> str:
-    """Return what claim 46 becomes, as a sentence."""
-    low, first, middle, last, high = np.quantile(film_exponents(), (0.0, 0.05, 0.5, 0.95, 1.0))
-    return (
-        f"d ln h/d ln W of solved films over the points and the engagement: median {middle:.3f}, "
-        f"{first:.3f} to {last:.3f} at 90 % of the contacts, {low:.3f} to {high:.3f} in all.\n"
-    ).replace("-", "−")
 
 
 def figure(found: dict[str, OilFriction]) -> Any:
@@ -337,8 +316,9 @@ def _draw(axes: Any, label: str, x: Array, at: Callable[[float], Contacts]) -> N
         axes.plot(x, y, line, color=VERMILLION, label=f"solved films, τ₀ = {tau0:g} MPa")
     y = [solved_mean(at(float(one)), state(oil, 95.0, 2.0), 0).friction for one in x]
     axes.plot(x, y, color=BLUE, label="formulas, τ₀ = 2 MPa")
-    for (name, formula), colour in zip(FORMULAS.items(), (GREEN, PURPLE), strict=True):
-        y = [published_mean(at(float(one)), formula, state(oil, 95.0, None)) for one in x]
+    levels = [levels_of(at(float(one)), state(oil, 95.0, None)) for one in x]
+    for name, colour in zip(FORMULAS, (GREEN, PURPLE), strict=True):
+        y = [one[name] for one in levels]
         axes.plot(x, y, "o-", color=colour, label=name)
     axes.axhline(TWIN_DISC, color=ORANGE, lw=1.2, label="mineral oils, twin discs (measured)")
     axes.set_xlabel(label)
@@ -373,9 +353,21 @@ def main() -> None:
     oils.insert(oils.index(OTHER_ALPHA[0]) + 1, OTHER_ALPHA[0] + _STAR)
     found = {oil: compared(oil) for oil in oils}
     figure(found).savefig(FIGURE)
-    put("published", "published", table(found))
-    put("exponents", "published", exponent_line())
-    put("load", "published", exponent_of_load())
+    page = Page("film_model_axle")
+    page.rows("Oil | Z at 40 °C", rows_of(found))
+    Z = exponents_of_table()
+    page.fill(
+        "Z of {} measured mineral oils at 30, 60 and 100 °C: {} to {}, median {} (computed",
+        Z.shape[0],
+        *(f"{one:.2f}" for one in (Z.min(), Z.max(), np.median(Z))),
+    )
+    quantiles = np.quantile(film_exponents(), (0.5, 0.05, 0.95, 0.0, 1.0))
+    page.fill(
+        "d ln h/d ln W of solved films over the points and the engagement: median {}, {} to {} at "
+        "90 % of the contacts, {} to {} in all.",
+        *(f"{one:.3f}".replace("-", "−") for one in quantiles),
+    )
+    page.write()
 
 
 if __name__ == "__main__":

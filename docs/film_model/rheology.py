@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from docs.film_model.compare import axle_of, found
-from docs.film_model.marked_page import put
-from docs.page import IMAGES
+from docs.page import IMAGES, Page
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.plotting.style import (
     BLUE,
@@ -113,35 +112,28 @@ def shares(friction: Array, weights: Array) -> Array:
     )
 
 
-def efficiency_table(made: Efficiency) -> str:
-    """Return the efficiencies as Markdown."""
-    head = "".join(f" {stress:g} MPa |" for stress in STRESSES)
-    lines = [f"| efficiency of the mesh [%], 95 °C |{head}", "|---|" + "---|" * STRESSES.size]
+def efficiency_rows(made: Efficiency) -> list[list[str]]:
+    """Return the efficiencies by formula and by solved films."""
+    rows = []
     for j, speed in enumerate(SPEEDS):
         for k, torque in enumerate(TORQUES):
             at = f"{speed:g} km/h, {torque:g} N·m"
             solved = zip(made.solved[:, j, k], made.bound[:, j, k], strict=True)
-            cells = " | ".join(f"{one:.2f}" for one in made.formula[:, j, k])
-            lines.append(f"| {at}: formula | {cells} |")
-            cells = " | ".join(f"{one:.2f} ± {bound:.2f}" for one, bound in solved)
-            lines.append(f"| {at}: solved | {cells} |")
-    return "\n".join(lines) + "\n"
+            rows.append([f"{at}: formula", *(f"{one:.2f}" for one in made.formula[:, j, k])])
+            rows.append([f"{at}: solved", *(f"{one:.2f} ± {bound:.2f}" for one, bound in solved)])
+    return rows
 
 
-def limit_table(by_oil: dict[str, tuple[Array, Array, Array]]) -> str:
-    """Return where a limiting stress would bind, as Markdown."""
-    head = "".join(f" {stress:g} MPa |" for stress in STRESSES)
-    lines = [
-        f"| share of the flanks' friction loss with mean stress above the limit [%] |{head}",
-        "|---|" + "---|" * STRESSES.size,
-    ]
+def limit_rows(by_oil: dict[str, tuple[Array, Array, Array]]) -> list[list[str]]:
+    """Return where a limiting stress would bind [%]."""
+    rows = []
     for name, (solved, formula, weights) in by_oil.items():
         for words, friction in (("solved", solved), ("formula", formula)):
             made = 100.0 * shares(friction, weights)
             for n, limit in enumerate(LIMITS):
-                cells = " | ".join(f"{one:.0f}" for one in made[:, n])
-                lines.append(f"| {name}, {words}: limit {limit:g} p | {cells} |")
-    return "\n".join(lines) + "\n"
+                cells = (f"{one:.0f}" for one in made[:, n])
+                rows.append([f"{name}, {words}: limit {limit:g} p", *cells])
+    return rows
 
 
 def figure(made: Efficiency, by_oil: dict[str, tuple[Array, Array, Array]]) -> Any:
@@ -188,7 +180,10 @@ def main() -> None:
     made = efficiencies()
     by_oil = {name: frictions(name) for name in FilmPlan().oils}
     figure(made, by_oil).savefig(FIGURE)
-    put("rheology", "rheology", efficiency_table(made) + "\n" + limit_table(by_oil))
+    page = Page("film_model_axle")
+    page.rows("efficiency of the mesh [%], 95 °C", efficiency_rows(made))
+    page.rows("share of the flanks' friction loss with", limit_rows(by_oil))
+    page.write()
 
 
 if __name__ == "__main__":

@@ -15,8 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from docs.film_model.marked_page import put
-from docs.page import IMAGES, ROOT
+from docs.page import IMAGES, ROOT, Page
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 from gearlube.studies.film_model.samples import flank_contact_of
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
@@ -164,31 +163,23 @@ def motion(rows: Array) -> tuple[Array, Array]:
     return c["film_in_time"] / c["film_steady"], c["friction_in_time"] / c["friction_steady"]
 
 
-def table(found: dict[Engagement, Array]) -> str:
-    """Return what motion changes, as Markdown."""
-    lines = [
-        "| in motion over at rest | film: least | most | mean | friction: least | most | mean |",
-        "|---|---|---|---|---|---|---|",
-    ]
+def put(page: Page, found: dict[Engagement, Array]) -> None:
+    """Put in what motion changes."""
+    cells, off = [], []
     for point, rows in found.items():
-        load = columns(rows)["load"]
-        cells = []
+        load, row = columns(rows)["load"], [point.words]
         for one in motion(rows):
             mean = float((one * load).sum() / load.sum())
-            cells += [f"{one.min():.3f}", f"{one.max():.3f}", f"{mean:.3f}"]
-        lines.append(f"| {point.words} | " + " | ".join(cells) + " |")
-    inner = [(columns(rows)["load"] > 0.5 * columns(rows)["load"].max()) for rows in found.values()]
-    off = [
-        np.abs(np.array(motion(rows))[:, held] - 1.0)
-        for rows, held in zip(found.values(), inner, strict=True)
-    ]
-    film, friction = (100.0 * max(float(one[k].max()) for one in off) for k in range(2))
-    lines += [
-        "",
-        f"Where the pair carries more than half of its largest load, motion changes the film by at "
-        f"most {film:.1f} % and the friction by at most {friction:.1f} %.",
-    ]
-    return "\n".join(lines)
+            row += [f"{one.min():.3f}", f"{one.max():.3f}", f"{mean:.3f}"]
+        cells.append(row)
+        held = load > 0.5 * load.max()
+        off.append([100.0 * float(np.abs(one[held] - 1.0).max()) for one in motion(rows)])
+    page.rows("in motion over at rest", cells)
+    page.fill(
+        "Where the pair carries more than half of its largest load, motion changes the film by at "
+        "most {} % and the friction by at most {} %.",
+        *(f"{one:.1f}" for one in np.max(off, axis=0)),
+    )
 
 
 def figure(found: dict[Engagement, Array]) -> Any:
@@ -220,7 +211,9 @@ def main() -> None:
     """Solve what is missing; write table, figure and page."""
     found = kept()
     figure(found).savefig(FIGURE)
-    put("transient", "transient", table(found) + "\n")
+    page = Page("film_model_axle")
+    put(page, found)
+    page.write()
 
 
 if __name__ == "__main__":

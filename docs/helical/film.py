@@ -1,7 +1,6 @@
 """Friction of the oil film along the contact lines, beside constants and gear-practice formulas.
 
-The formulas are written from their sources: Schlenk 1995 (in ISO/TR 14179-2), Benedict and Kelley
-1961, Xu and Kahraman 2007 (fitted to thermal non-Newtonian EHL of a 75W90 oil).
+The formulas are those of Schlenk 1995, of Benedict and Kelley 1961, and of Xu and Kahraman 2007.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from docs.helical.cases import HE
+from docs.published_friction import schlenk, xu_kahraman
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
@@ -176,13 +176,11 @@ def _viscosity(temperature: float) -> float:
 
 
 def _schlenk(rpm: float, temperature: float) -> float:
-    """0.048 [F_bt/b/(v_sum rho)]^0.2 eta^-0.05 Ra^0.25, N/mm, m/s, mm, mPa s, um; mineral oil."""
+    """Schlenk's mean over the mesh, with load and speeds at the pitch point."""
     load = PINION_TORQUE / HE.pinion_base_radius / HE.face_width * 1e-3
     rho = 1e3 * _PLANE.P * (_PLANE.x_g - _PLANE.P) / _PLANE.x_g / _PLANE.cos_b
-    Ra = 1e6 * SIGMA / math.sqrt(2.0) / 1.25  # of one of two like Gaussian surfaces
     speed = 2.0 * _PLANE.P * rpm * RPM
-    return float(0.048 * (load / (speed * rho)) ** 0.2 * _viscosity(temperature) ** -0.05
-                 * Ra**0.25)  # fmt: skip
+    return float(schlenk(load, speed * rho, _viscosity(temperature), SIGMA))
 
 
 def _benedict_kelley(w: Array, u_p: Array, u_g: Array, R: Array, nu: float) -> Array:
@@ -193,14 +191,9 @@ def _benedict_kelley(w: Array, u_p: Array, u_g: Array, R: Array, nu: float) -> A
 
 
 def _xu_kahraman(w: Array, u_p: Array, u_g: Array, R: Array, nu: float) -> Array:
-    """exp(f) p^b2 SR^b3 u^b6 nu^b7 R^b8; GPa, m/s, mPa s, m, um."""
-    b = (-8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958)
     u = 0.5 * (u_p + u_g)
-    SR = np.abs(u_p - u_g) / u
     p = 1e-9 * np.sqrt(w * _SOLID.contact_modulus / (math.pi * R))
-    group = SR * p * math.log10(nu)
-    f = b[0] + b[3] * group + b[4] * np.exp(-group) + 0.620305 * math.exp(1e6 * SIGMA)
-    return np.asarray(np.exp(f) * p ** b[1] * SR ** b[2] * u ** b[5] * nu ** b[6] * R ** b[7])
+    return xu_kahraman(p, np.abs(u_p - u_g) / u, u, nu, R, SIGMA)
 
 
 def _mean_of(formula: Local, rpm: float, temperature: float) -> float:

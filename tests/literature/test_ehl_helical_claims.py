@@ -7,16 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from docs.ehl import claims_cycle, measures
+from docs.ehl import claims, claims_cycle
 from docs.ehl.cases import CYCLE, LAYER, FilmCase, facet_case, parabola_case
 from docs.ehl.claims import verdicts
 from docs.ehl.claims_cycle import CYCLES
 from docs.ehl.claims_facets import FACETED_FLANKS, facet_gaps
-from docs.ehl.claims_motion import MOTIONS
+from docs.ehl.claims_motion import MOTIONS, section
 from docs.ehl.claims_relief import RELIEFS
-from docs.ehl.lines import COLUMNS, GivenUpError, Lines, March, write_arrays
+from docs.ehl.lines import COLUMNS, GivenUpError, Lines, March
 from docs.ehl.runs import Run, all_runs
-from docs.ehl.sections import section
 from docs.ehl.store import Steady, Store
 from docs.page import FAILS, HOLDS, PARTLY
 from gearlube_core.ehl.transient.solution import FilmSolution
@@ -76,16 +75,16 @@ class Given:
 
 def test_measures_on_curves_known_in_closed_form():
     steps = np.arange(10.0)
-    assert measures.off_range(np.array([0.9, 1.1, 2.2]), 1.0, 2.0) == pytest.approx(0.1)
-    assert measures.jumps(steps, np.where(steps < 4, 0.0, 5.0) + 0.1 * steps, 3.0) == [3.5]
-    assert measures.exponent([1, 2, 5], [3 * s**0.68 for s in (1, 2, 5)]) == pytest.approx(0.68)
-    assert measures.first_above(steps, steps**2, 20.0) == pytest.approx(4.0 + 4.0 / 9.0)
-    assert measures.highest_near(steps, np.sin(steps), 5.0) == (2.0, 8.0)
+    assert claims.off_range(np.array([0.9, 1.1, 2.2]), 1.0, 2.0) == pytest.approx(0.1)
+    assert claims.jumps(steps, np.where(steps < 4, 0.0, 5.0) + 0.1 * steps, 3.0) == [3.5]
+    assert claims.exponent([1, 2, 5], [3 * s**0.68 for s in (1, 2, 5)]) == pytest.approx(0.68)
+    assert claims.first_above(steps, steps**2, 20.0) == pytest.approx(4.0 + 4.0 / 9.0)
+    assert claims.highest_near(steps, np.sin(steps), 5.0) == (2.0, 8.0)
     phase = np.linspace(0.0, 1.0, 400)
     waves = 2.0 + np.cos(26.0 * np.pi * phase)  # 13 whole waves: 12 inside and two half ones
-    assert measures.peaks(waves, 0.2) == 14
+    assert claims.peaks(waves, 0.2) == 14
     arch = 1.0 - (2.0 * phase - 1.0) ** 2
-    assert measures.peaks(arch + 1e-2 * np.sin(26.0 * np.pi * phase), 0.2) == 1
+    assert claims.peaks(arch + 1e-2 * np.sin(26.0 * np.pi * phase), 0.2) == 1
 
 
 @each(("power", "rise", "verdict"), [(0.68, 1.0, HOLDS), (0.5, 1.0, PARTLY), (0.5, 1.1, FAILS)])
@@ -215,11 +214,8 @@ def test_lines_survive_a_file_and_count_failures(tmp_path):
     read = Lines.read(tmp_path / "lines.npz")
     assert read.failed_on_end() == 2
     assert np.array_equal(np.array(read.rows), np.array(lines.rows))
-    write_arrays(
-        tmp_path / "march.npz",
-        read.arrays(2.0) | {"x": np.zeros(3), "y": np.zeros(4), "complete": True},
-    )
-    march = March.read(tmp_path / "march.npz")
+    rest = {"x": np.zeros(3), "y": np.zeros(4), "complete": True}
+    march = March.of(Store(tmp_path).kept("march", lambda: read.arrays(2.0) | rest))
     assert list(march.step) == [0.0, 2.0, 4.0]
     assert march.failures == 2
     assert march.fields(2.0)[0].max() == 2.0
