@@ -10,7 +10,8 @@ import csv
 import logging
 import math
 import sys
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -19,18 +20,130 @@ from docs.film_error.contacts import (
     RandomContact,
     random_contacts,
 )
-from docs.film_error.marches import march_rows, solve_marches
-from docs.film_error.solved import (
-    Estimates,
-    Films,
-    read_estimates,
-    read_films,
-    seconds,
-    solve_estimates,
-    solve_films,
-)
 from docs.page import Page, begin
-from gearlube_core.ehl.grid_error import LARGE_ERROR, FilmNumbers, estimated_error
+from gearlube_core.ehl.gears.helical_film import march_helical_cycle
+from gearlube_core.ehl.grid_error import LARGE_ERROR, FilmNumbers, estimated_error, peak_error
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solution import PointSolution
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from tests.helpers.jamali_2015 import jamali_2015_film
+
+_PLAIN = PointSolverSettings(estimate_error=False)
+# number of the contact and nodes along a side: what stands in a row
+Films = dict[tuple[int, int], FilmNumbers]
+Estimates = dict[tuple[int, int], tuple[list[FilmNumbers], float]]
+
+
+def solve_films(path: Path, contacts: list[RandomContact], nodes: int) -> None:
+    """Solve contacts on a grid, without an estimate, and add them to a file."""
+    for contact in _lacking(path, contacts, nodes):
+        began = time.process_time()
+        film = solve_point_contact(contact.problem(nodes), _PLAIN, throw=False)
+        _append(path, [*_head(contact, nodes, film), *film.numbers, _spent(began)])
+
+
+def solve_estimates(path: Path, contacts: list[RandomContact], nodes: int) -> None:
+    """Solve contacts on a grid, with what their estimates come from, and add them to a file."""
+    for contact in _lacking(path, contacts, nodes):
+        began = time.process_time()
+        film = solve_point_contact(contact.problem(nodes), throw=False)
+        numbers = [value for one in (film, *film.coarser) for value in one.numbers]
+        peak = peak_error(film, film.coarser[0]) if film.coarser else math.nan
+        _append(path, [*_head(contact, nodes, film), peak, *numbers, _spent(began)])
+
+
+def read_films(path: Path) -> Films:
+    """Return converged films by contact and nodes."""
+    return {key: FilmNumbers(*numbers[1:5]) for key, numbers in _rows(path)}
+
+
+def read_estimates(path: Path) -> Estimates:
+    """Return converged films with the coarser ones, finest first, and the errors of the peak."""
+    found: Estimates = {}
+    for key, numbers in _rows(path):
+        values = numbers[2:-1]
+        films = [FilmNumbers(*values[k : k + 4]) for k in range(0, len(values), 4)]
+        found[key] = films, numbers[1]
+    return found
+
+
+def seconds(path: Path) -> float:
+    """Return the time of the processor that a file took [s]."""
+    return sum(numbers[-1] for _, numbers in _rows(path))
+
+
+def _rows(path: Path) -> Iterator[tuple[tuple[int, int], list[float]]]:
+    if not path.exists():
+        return
+    with path.open(encoding="utf-8", newline="") as file:
+        for number, nodes, converged, wedge, *rest in csv.reader(file):
+            if converged == "1" and wedge == _PLAIN.wedge:
+                yield (int(number), int(nodes)), [float(one) for one in rest]
+
+
+def _lacking(path: Path, contacts: list[RandomContact], nodes: int) -> Iterator[RandomContact]:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    done = set()
+    if path.exists():
+        with path.open(encoding="utf-8", newline="") as file:
+            done = {(int(row[0]), int(row[1])) for row in csv.reader(file)}
+    for contact in contacts:
+        if (contact.number, nodes) not in done:
+            logger.info("contact %d on %d nodes", contact.number, nodes)
+            yield contact
+
+
+def _head(contact: RandomContact, nodes: int, film: PointSolution) -> list[object]:
+    outcome = film.outcome
+    return [contact.number, nodes, int(outcome.converged), outcome.wedge, outcome.limited]
+
+
+def _append(path: Path, row: list[object]) -> None:
+    with path.open("a", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerow(row)
+
+
+def _spent(began: float) -> float:
+    return round(time.process_time() - began, 2)
+
+
+FIRST, LAST = 470, 490  # steps of design A of Jamali 2015
+NODES = (97, 81)
+SUBSTEPS = (1, 2, 4, 8)
+
+
+def solve_marches(path: Path) -> None:
+    """March with ever shorter steps and write the smallest film with its estimated errors."""
+    if path.exists():
+        return
+    film = jamali_2015_film("a", nodes=NODES, solids=None)
+    rows = []
+    for substeps in SUBSTEPS:
+        cycle = march_helical_cycle(
+            film, first=FIRST, last=LAST, substeps=substeps, settings=MARCH_SETTINGS
+        )
+        rows.append([substeps, cycle["minimum_film"][-1], cycle["time_error"][-1]])
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(rows)
+
+
+def march_rows(path: Path) -> list[list[str]]:
+    """Return films, both estimates and the error against the film that the steps go to."""
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = [[float(one) for one in row] for row in csv.reader(file)]
+    films = [row[1] for row in rows]
+    # between the first and the second order of the last halving
+    exact = films[-1] + (films[-1] - films[-2]) * 2.0 / 3.0
+    lines = []
+    for k, (substeps, film, embedded) in enumerate(rows):
+        repeat = "" if k == 0 else f"{100.0 * abs(films[k - 1] / film - 1.0):.2g} %"
+        true = f"{100.0 * abs(film - exact) / film:.2g} %"
+        lines.append(
+            [f"{substeps:.0f}", f"{1e6 * film:.4f}", f"{100.0 * embedded:.2g} %", repeat, true]
+        )
+    return lines
+
 
 KEPT = Path(__file__).parent / "films.csv"
 FIT = 200  # contacts that were seen before the factors of safety were chosen

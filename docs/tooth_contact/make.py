@@ -16,9 +16,8 @@ from docs.page import IMAGES, Page, begin
 from docs.tooth_contact import sensitivity
 from docs.tooth_contact.claims import CLAIMS
 from docs.tooth_contact.pages import axle_row, refinement_rows, torque_rows, variant_row
-from docs.tooth_contact.refinement import refinements
 from docs.tooth_contact.relief import put_relief
-from docs.tooth_contact.study import analysed, axle_sweep
+from docs.tooth_contact.study import analysed, axle_sweep, refinements
 from docs.tooth_contact.variants import variants
 from gearlube.studies.contact.figures import save_contact_figures
 from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
