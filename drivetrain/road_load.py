@@ -272,20 +272,16 @@ class RoadLoad:
         return check_within("vehicle speed", speed, 0.1, _HIGHEST_SPEED, "m/s", _SPEED_CURE)
 
 
-def mohammadpour_2015_road_load(
-    grade: float = 0.0, final_drive: FinalDrive | None = None
-) -> RoadLoad:
+def mohammadpour_2015_road_load(grade: float = 0.0) -> RoadLoad:
     """Return the road load of Mohammadpour et al. 2015 (Tables A1 and A3).
 
     Parameters
     ----------
     grade : float
         Rise over horizontal distance [-].
-    final_drive : FinalDrive, optional
-        Of another gear pair in the same car.
     """
     return RoadLoad(
         vehicle=mohammadpour_2015_vehicle(grade),
         tyre=Tyre.from_size("195/65R16"),
-        final_drive=final_drive or FinalDrive(),
+        final_drive=FinalDrive(),
     )

@@ -126,11 +126,11 @@ def read_content(
         raise error(f"{unread(what, path, reason)}. {cure}".strip()) from None
 
 
-def check_address(scheduler: str, name: str = "--scheduler") -> str:
+def check_address(scheduler: str) -> str:
     """Return the address of a Dask scheduler; raise ParameterError unless it looks like one."""
     if not re.fullmatch(r"[a-z]+://[^\s/]+", scheduler):
         raise ParameterError(
-            f"{name} must be an address such as tcp://host:8786, got {scheduler!r}. "
+            f"--scheduler must be an address such as tcp://host:8786, got {scheduler!r}. "
             "Take the one that the Dask scheduler prints when it starts."
         )
     return scheduler

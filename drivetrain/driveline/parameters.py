@@ -15,13 +15,8 @@ _STEEL_SHEAR_MODULUS = 79.3e9  # Pa
 _DAMPING = Number("N m s/rad", 0.0, 1e4)
 
 
-def shaft_stiffness(
-    outer_diameter: float,
-    length: float,
-    inner_diameter: float = 0.0,
-    shear_modulus: float = _STEEL_SHEAR_MODULUS,
-) -> float:
-    """Return the torsional stiffness of a straight round shaft [N m/rad].
+def shaft_stiffness(outer_diameter: float, length: float, inner_diameter: float = 0.0) -> float:
+    """Return the torsional stiffness of a straight round shaft of steel [N m/rad].
 
     k = G pi (D^4 - d^4) / (32 l)   (Saint-Venant)
 
@@ -29,14 +24,12 @@ def shaft_stiffness(
     ----------
     outer_diameter, length, inner_diameter : float
         D, l, d [m].
-    shear_modulus : float
-        G [Pa].
     """
     check_positive("length", length, "m")
     check_positive("outer_diameter", outer_diameter, "m")
     check_within("inner_diameter", inner_diameter, 0.0, 0.999 * outer_diameter, "m")
     polar = math.pi / 32.0 * (outer_diameter**4 - inner_diameter**4)
-    return shear_modulus * polar / length
+    return _STEEL_SHEAR_MODULUS * polar / length
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,7 +11,7 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import atomic_write, write_figure
 
 
-def save_figure_folder(figures: Mapping[str, Any], folder: Path, dpi: int = 150) -> list[Path]:
+def save_figure_folder(figures: Mapping[str, Any], folder: Path) -> list[Path]:
     """Write figures by name as PNG and return the files; what an earlier run drew does not stay.
 
     Without figures there is no folder after.
@@ -24,7 +24,7 @@ def save_figure_folder(figures: Mapping[str, Any], folder: Path, dpi: int = 150)
     elif folder.is_dir() and not any(folder.iterdir()):
         folder.rmdir()
     for figure, path in zip(figures.values(), paths, strict=True):
-        write_figure(figure, path, dpi)
+        write_figure(figure, path)
     return paths
 
 

@@ -97,12 +97,12 @@ def cell_edges(centres: Array) -> Array:
     )
 
 
-def typical_speeds(dataset: xr.Dataset, count: int = 3) -> list[int]:
-    """Return positions of up to `count` finished speeds spread from the lowest to the highest."""
+def typical_speeds(dataset: xr.Dataset) -> list[int]:
+    """Return positions of up to three finished speeds spread from the lowest to the highest."""
     finished = np.flatnonzero((dataset["status"] == 1).any("preload").values)
     if finished.size == 0:
         return []
-    chosen = finished[np.linspace(0, finished.size - 1, min(count, finished.size)).astype(int)]
+    chosen = finished[np.linspace(0, finished.size - 1, min(3, finished.size)).astype(int)]
     return [int(i) for i in chosen]
 
 

@@ -140,13 +140,12 @@ def stack_chart(
     kept: Sequence[bool] | Array | None = None,
     colours: Sequence[str] = COLOURS,
     bars: bool = False,
-    height: int = 440,
 ) -> Any:
     """Return parts that add up, of shape (parts, len(x)): as areas, or as bars.
 
     `kept` says which parts are drawn, `colours` the colour of each.
     """
-    figure = empty_chart(x_axis, y_axis, height)
+    figure = empty_chart(x_axis, y_axis, 440)
     add_stack(figure, names, x, parts, x_axis, y_axis, kept=kept, colours=colours, bars=bars)
     return figure
 

@@ -33,15 +33,13 @@ class Picture:
     needs: str = ""
 
 
-def save_pictures(
-    catalogue: Mapping[str, Picture], folder: Path, *given: Any, prefix: str = "", dpi: int = 150
-) -> list[Path]:
+def save_pictures(catalogue: Mapping[str, Picture], folder: Path, *given: Any) -> list[Path]:
     """Draw every picture of a catalogue from `given` into a folder as PNG; return the files."""
     folder.mkdir(parents=True, exist_ok=True)
     files = []
     for name, one in catalogue.items():
-        path = folder / f"{prefix}{name}.png"
-        write_figure(one.draw(*given), path, dpi)
+        path = folder / f"{name}.png"
+        write_figure(one.draw(*given), path)
         files.append(path)
     return files
 
@@ -50,7 +48,6 @@ def pictured(
     catalogue: Mapping[str, Picture],
     folder: Path,
     charts: Mapping[str, Any] | None = None,
-    prefix: str = "",
 ) -> list[Figure]:
     """Return the figures of a catalogue that lie in a folder as PNG, in its order.
 
@@ -59,7 +56,7 @@ def pictured(
     charts = charts or {}
     found = []
     for name, one in catalogue.items():
-        path = folder / f"{prefix}{name}.png"
+        path = folder / f"{name}.png"
         chart = charts.get(name)
         if chart is None and not path.is_file():
             continue

@@ -15,7 +15,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import contact_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
-from gearlube_core.hypoid_contact.ease_off import contact_pattern, ease_off
+from gearlube_core.hypoid_contact.ease_off import closest_approach, ease_off
 from gearlube_core.hypoid_contact.mesh_cycle import (
     MAP_SHAPE,
     PAIRS_BESIDE,
@@ -197,8 +197,8 @@ def unloaded_contact(pair: FlankPair) -> dict[str, Array]:
         "path_t": np.where(inside, path.gear_t, np.nan),
         "path_error": np.where(inside, path.transmission_error, np.nan),
         "ease_off": ease.normal_gap(),
-        "closest": contact_pattern(ease).closest,
-        "path_contact_ratio": np.array(contact_ratio(pair).path),
+        "closest": closest_approach(ease),
+        "path_contact_ratio": np.array(contact_ratio(pair)),
     }
 
 

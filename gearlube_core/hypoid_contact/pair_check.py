@@ -196,9 +196,9 @@ def misfits_by_cost(file: HypoidGearFile, known: Cuts | None = None) -> Iterator
     yield _slopes(file, cuts)
 
 
-def first_misfits(file: HypoidGearFile, known: Cuts | None = None) -> list[Misfit]:
+def first_misfits(file: HypoidGearFile) -> list[Misfit]:
     """Return the misfits of the first group that a file must be refused for; empty if none."""
-    for group in misfits_by_cost(file, known):
+    for group in misfits_by_cost(file):
         refused = [one for one in group if one.is_refused]
         if refused:
             return refused

@@ -21,26 +21,6 @@ _SCAN = 32  # positions a pitch of the coarse path
 
 
 @dataclass(frozen=True, slots=True)
-class ContactRatio:
-    """Contact ratio from the unloaded path of contact, and number of pairs in real contact.
-
-    Parameters
-    ----------
-    entry, leaving : float
-        Gear angles [rad] between which the path lies on both teeth.
-    path : float
-        Their distance in pitches [-]: pairs whose path of contact is open at a time, on average.
-    effective : float
-        Pairs that touch without load [-]: one, unless two errors happen to be equal.
-    """
-
-    entry: float
-    leaving: float
-    path: float
-    effective: float
-
-
-@dataclass(frozen=True, slots=True)
 class UnloadedError:
     """Transmission error over one mesh period, from handover to handover.
 
@@ -142,11 +122,18 @@ def _zero(
         return None
 
 
-def contact_ratio(pair: FlankPair, coarse: ContactPath | None = None) -> ContactRatio:
-    """Return the number of pitches over which the unloaded path of contact lies on both teeth.
+def contact_ratio(pair: FlankPair, coarse: ContactPath | None = None) -> float:
+    """Return the pitches [-] over which the unloaded path of contact lies on both teeth.
 
-    `coarse` is the `coarse_path` of the pair, where it is known.
+    So many pairs have an open path at a time, on average; without load one of them touches, unless
+    two errors happen to be equal. `coarse` is the `coarse_path` of the pair, where it is known.
     """
+    entry, leaving = path_ends(pair, coarse)
+    return (leaving - entry) / pair.gear_pitch
+
+
+def path_ends(pair: FlankPair, coarse: ContactPath | None = None) -> tuple[float, float]:
+    """Return the gear angles [rad] between which the unloaded path of contact is on both teeth."""
     path = coarse_path(pair) if coarse is None else coarse
     margin = _margin(path)
     inside = margin >= 0.0
@@ -157,7 +144,7 @@ def contact_ratio(pair: FlankPair, coarse: ContactPath | None = None) -> Contact
         while 0 <= k + way < margin.size and inside[k + way]:
             k += way
         ends.append(_edge_angle(pair, path.gear_angle[k], path.gear_angle[k] + way * _step(pair)))
-    return ContactRatio(ends[0], ends[1], (ends[1] - ends[0]) / pair.gear_pitch, 1.0)
+    return ends[0], ends[1]
 
 
 def _edge_angle(pair: FlankPair, inner: float, outer: float) -> float:

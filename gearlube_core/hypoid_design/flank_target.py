@@ -242,7 +242,7 @@ def measured_contact(file: HypoidGearFile, side: Side) -> MeasuredContact | str:
         error = unloaded_error(pair, _POSITIONS, coarse)
         angles = error.extreme_angle + np.array([-_PATH_STEP, 0.0, _PATH_STEP]) * pair.gear_pitch
         path = contact_path(pair, angles)
-        ratio = contact_ratio(pair, coarse).path
+        ratio = contact_ratio(pair, coarse)
     except ParameterError as reason:
         return str(reason)
     s, t = float(path.gear_s[1]), float(path.gear_t[1])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -169,7 +168,6 @@ def fit_pinion(
     *,
     freedoms: BlankMachine,
     first: Array | None = None,
-    progress: Callable[[float], None] = lambda misfit: None,
 ) -> Fit:
     """Return the pinion settings that bring the gaps of both sides nearest to the wanted ones.
 
@@ -186,8 +184,6 @@ def fit_pinion(
         Which settings may move besides those that every machine has.
     first : ndarray, optional
         Moves to begin with.
-    progress : callable
-        Called with the root mean square of the residuals [um].
 
     Raises
     ------
@@ -237,7 +233,6 @@ def fit_pinion(
 
     def jacobian(x: Array) -> Array:
         at = residual(x)
-        progress(float(np.sqrt(np.mean(at**2))))
         steps = _STEP * np.eye(x.size)
         return np.stack([(residual(x + step) - at) / _STEP for step in steps], axis=1)
 

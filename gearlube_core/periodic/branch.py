@@ -152,7 +152,6 @@ def switch_branch(
     point: SpecialPoint,
     *,
     step: float = 0.05,
-    settings: NewtonSettings = _DEFAULTS,
 ) -> BranchStart:
     """Return a motion on the branch that leaves at a special point.
 
@@ -167,8 +166,6 @@ def switch_branch(
     step
         Scaled distance [-] at which to look; halved up to six times. Its sign chooses the side: the
         two sides of a period doubling are the same motion, one period apart.
-    settings
-        Tolerance and limits of Newton's method.
 
     Raises
     ------
@@ -198,7 +195,7 @@ def switch_branch(
     across *= 1.0 if across[np.argmax(np.abs(across))] > 0.0 else -1.0
     for halving in range(_HALVINGS + 1):
         place = centre + step * 0.5**halving * across
-        correction = correct(problem, place, across, settings)
+        correction = correct(problem, place, across, _DEFAULTS)
         if correction.converged:
             found = correction.evaluation.place
             return BranchStart(*problem.unscaled(found), found - centre)

@@ -59,14 +59,13 @@ class AngleWindow:
         return self.start + step * np.arange(self.size, dtype=np.float64)
 
 
-def whole_revolutions(
-    orders: Sequence[float], minimum: int, *, search: int = 10, resolution: float = 0.5
-) -> int:
+def whole_revolutions(orders: Sequence[float], minimum: int, *, search: int = 10) -> int:
     """Return the number of revolutions for which all orders are closest to whole cycles.
 
     A line of order q falls on a bin of a window of N revolutions when N q is an integer. The
     window is the N in [minimum, minimum + search] with the smallest sum over the orders of the
-    distance from N q to the nearest integer; the shortest wins a tie.
+    distance from N q to the nearest integer; the shortest wins a tie. Distances count in steps of
+    0.5 % of a cycle, so that a window is not made longer for a gain that no plot shows.
 
     Parameters
     ----------
@@ -76,9 +75,6 @@ def whole_revolutions(
         Shortest window [rev].
     search : int
         How many longer windows are tried [rev].
-    resolution : float
-        Distances are counted in steps of `resolution` percent of a cycle [%], so that a window
-        is not made longer for a gain that no plot shows.
 
     Returns
     -------
@@ -89,7 +85,7 @@ def whole_revolutions(
     best, best_misfit = minimum, math.inf
     for revolutions in range(minimum, minimum + search + 1):
         distances = (abs(revolutions * q - round(revolutions * q)) for q in orders)
-        misfit = sum(round(100.0 * distance / resolution) for distance in distances)
+        misfit = sum(round(200.0 * distance) for distance in distances)
         if misfit < best_misfit:
             best, best_misfit = revolutions, misfit
     return best

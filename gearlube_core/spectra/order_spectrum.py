@@ -325,20 +325,3 @@ def order_spectrum(samples: Array, window: AngleWindow) -> OrderSpectrum:
         amplitude[-1] *= 0.5
     order = np.arange(amplitude.shape[0]) / window.revolutions
     return OrderSpectrum(order=order, amplitude=amplitude, mean_speed=window.mean_speed)
-
-
-def order_cut(spectrum: OrderSpectrum, order: float, half_width: float = 0.0) -> float:
-    """Return the largest amplitude within `order` +- `half_width` [orders].
-
-    With `half_width` = 0 the nearest bin is read. A channel axis is not allowed.
-    """
-    distance = np.abs(spectrum.order - order)
-    nearest = float(np.min(distance))
-    bin_width = float(spectrum.order[1] - spectrum.order[0])
-    if nearest > 0.5 * bin_width * (1.0 + 1e-9):
-        raise ParameterError(
-            f"order must be within 0 to {spectrum.order[-1]:g}, the range of the spectrum, "
-            f"got {order:g}."
-        )
-    chosen = distance <= max(half_width, nearest) * (1.0 + 1e-12)
-    return float(np.max(spectrum.amplitude[chosen]))

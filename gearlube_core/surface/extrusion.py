@@ -246,12 +246,11 @@ def check_divides(name: str, length: float, period: float) -> int:
     return count
 
 
-def periodic_section(
-    profile: Profile, start: float, length: float, *, search: float | None = None
-) -> Profile:
+def periodic_section(profile: Profile, start: float, length: float) -> Profile:
     """Return a part of a profile that can be repeated, cut near a given place.
 
-    Among the cuts near `start` the one is taken whose ends agree best in height and slope. Then the
+    Among the cuts within half a period of `start` the one is taken whose ends agree best in height
+    and slope. Then the
     line that joins its ends is subtracted, so that their heights agree.
 
     Parameters
@@ -262,8 +261,6 @@ def periodic_section(
         Where the part begins [m].
     length
         Period of the part [m], rounded to whole points of the profile.
-    search
-        How far the start may move to either side [m]; None: half the length.
 
     Raises
     ------
@@ -279,7 +276,7 @@ def periodic_section(
     """
     spacing, height = profile.spacing, profile.height
     count = round(length / spacing)
-    reach = round((0.5 * length if search is None else search) / spacing)
+    reach = round(0.5 * length / spacing)
     # a point to each side for the slopes
     first = max(round(start / spacing) - reach, 1)
     last = min(round(start / spacing) + reach, height.size - count - 2)

@@ -240,9 +240,7 @@ def _integrated(flank: Flank, s_nodes: Array, t_nodes: Array, parts: int) -> Arr
     return shares.T @ (shares.T @ inverse).T
 
 
-def half_space_compliance(
-    flank: Flank, s_nodes: Array, t_nodes: Array, solid: Solid, refinement: int = 1
-) -> Array:
+def half_space_compliance(flank: Flank, s_nodes: Array, t_nodes: Array, solid: Solid) -> Array:
     """Return the hats' compliance on the half-space, symmetric (mh nh, mh nh) [m/N].
 
     c[i, j] = (1 - nu^2)/(pi E) double integral of (hat_i/A_i)(x) (hat_j/A_j)(x') / |x - x'|
@@ -255,16 +253,13 @@ def half_space_compliance(
         Parameters of the hats' centres [-].
     solid
         Elastic constants.
-    refinement
-        Multiplies the number of integration cells along both directions.
 
     References
     ----------
     [johnson_1985 (3.22a)]: u_z = (1 - nu^2)/(pi E) P/r of a point force P.
     """
     coarse, fine = (
-        _integrated(flank, s_nodes, t_nodes, refinement * parts)
-        for parts in (_COARSE_CELLS, _FINE_CELLS)
+        _integrated(flank, s_nodes, t_nodes, parts) for parts in (_COARSE_CELLS, _FINE_CELLS)
     )
     average = (4.0 * fine - coarse) / 3.0
     factor = (1.0 - solid.poisson_ratio**2) / (math.pi * solid.youngs_modulus)

@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
-from gearlube_core.hypoid_contact.ease_off import contact_pattern, ease_off
+from gearlube_core.hypoid_contact.ease_off import MARKING_COMPOUND, closest_approach, ease_off
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import Misalignment
-from gearlube_core.hypoid_contact.unloaded_error import contact_ratio, unloaded_error
+from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
+from gearlube_core.hypoid_contact.unloaded_error import contact_ratio, path_ends, unloaded_error
 from tests.helpers.contact_cases import (
     SIDES,
     angles_on_teeth,
@@ -133,8 +134,8 @@ def test_displaced_flanks_keep_mechanics(offset, axial, shaft, place):
     pair = shipped_pair("drive").misaligned(
         Misalignment(pinion_offset=offset, gear_axial=axial, shaft_angle=shaft)
     )
-    ratio = contact_ratio(pair)
-    angle = ratio.entry + place * (ratio.leaving - ratio.entry)
+    entry, leaving = path_ends(pair)
+    angle = entry + place * (leaving - entry)
     step = 1e-4
     path = contact_path(pair, angle + np.array([-step, 0.0, step]))
     k = path_kinematics(path)
@@ -148,44 +149,41 @@ def test_displaced_flanks_keep_mechanics(offset, axial, shaft, place):
 @pytest.mark.parametrize("side", SIDES)
 def test_contact_ratio_counts_the_pitches_on_both_teeth(side):
     pair = shipped_pair(side)
-    found = contact_ratio(pair)
+    entry, leaving = path_ends(pair)
     just = 1e-7
-    ends = np.array(
-        [found.entry - just, found.entry + just, found.leaving - just, found.leaving + just]
-    )
+    ends = np.array([entry - just, entry + just, leaving - just, leaving + just])
     assert contact_path(pair, ends).inside.tolist() == [False, True, True, False]
-    assert found.path == pytest.approx((found.leaving - found.entry) * 36 / (2 * np.pi), rel=1e-12)
-    assert found.effective == 1.0
+    pitches = (leaving - entry) * 36 / (2 * np.pi)
+    assert contact_ratio(pair) == pytest.approx(pitches, rel=1e-12)
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_pattern_grows_with_the_compound_and_shrinks_with_neighbours(side):
+def test_pattern_shrinks_with_neighbours(side):
     ease = shipped_ease_off(side)
-    one = contact_pattern(ease, pairs="one")
-    every = contact_pattern(ease, pairs="all")
-    thick = contact_pattern(ease, pairs="all", thickness=20e-6)
-    known = np.isfinite(every.closest)
+    touch = searched_transmission_error(ease.pair, ease.gear_angle).error
+    alone = ease.pair.touching_sign * (ease.error - touch[:, None, None]) * ease.R_p
+    # points that a pair alone never reaches are far apart
+    one = np.where(np.isnan(alone), 1.0, alone).min(axis=0)
+    every = closest_approach(ease)
+    known = np.isfinite(every)
     # neighbours can only hold a pair apart; rounding of the touch, 1e-12 rad of 20 mm
-    assert (every.closest[known] >= one.closest[known] - 1e-12).all()
-    assert (one.marked | ~every.marked).all()
-    assert (thick.marked | ~every.marked).all()
-    assert 0.1 < every.marked.mean() < one.marked.mean() < 0.5
+    assert (every[known] >= one[known] - 1e-12).all()
+    marked, of_one = every <= MARKING_COMPOUND, one <= MARKING_COMPOUND
+    assert (of_one | ~marked).all()
+    assert 0.1 < marked.mean() < of_one.mean() < 0.5
     # the teeth never overlap: touch is found to a few nm where it lies on an edge
-    assert np.nanmin(one.closest) > -10e-9
-    s, t = every.centre
-    assert 0.4 < s < 0.8
-    face = every.t[every.marked.any(axis=0)]
-    assert face.min() < t < face.max()
+    assert one.min() > -10e-9
+    assert 0.4 < ease.s[np.nonzero(marked)[0]].mean() < 0.8
 
 
 @pytest.mark.parametrize("side", SIDES)
 def test_path_of_contact_runs_inside_the_pattern(side):
     pair = shipped_pair(side)
-    pattern = contact_pattern(shipped_ease_off(side))
+    closest = closest_approach(shipped_ease_off(side))
     path = unloaded_error(pair, 17).path
     i = np.rint(path.gear_s * 15).astype(int)
     j = np.rint(path.gear_t * 30).astype(int)
-    assert pattern.marked[i, j].all()
+    assert (closest[i, j] <= MARKING_COMPOUND).all()
 
 
 def test_straight_blades_leave_no_profile_crown():

@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube.studies.helical.sweep_grid import QUANTITIES, harmonic_grid
+from gearlube.studies.helical.settings import HARMONICS
+from gearlube.studies.helical.sweep_grid import QUANTITIES, friction_column
 from gearlube_core.dynamics.helical_pair.linear.linear_system import relative_rows
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
@@ -100,17 +101,17 @@ def test_speed_must_be_positive() -> None:
 
 
 def test_grid_holds_the_single_responses() -> None:
-    mu, speed = [0.0, 0.1], [80.0, SPEED]
-    grid = harmonic_grid(he_2007_pair(0.0), mu, speed, count=6)
+    column = friction_column(he_2007_pair(0.0), np.array([0.0, 0.1]), SPEED)
     response = periodic_response(he_2007_pair(0.1), SPEED)
     for i, name in enumerate(QUANTITIES):
-        expected = harmonics(response.signal(name), 6)
-        assert np.allclose(grid.displacement[1, 1, i], expected, rtol=1e-12, atol=0.0)
-    assert np.allclose(grid.bearing_force[1, 1], harmonics(response.bearing_force, 6).T)
-    assert np.allclose(grid.mean_bearing_force[1, 1], response.bearing_force.mean(axis=0))
-    assert grid.friction_torque[1, 1] == response.friction_torque
-    assert grid.stability_margin.shape == (2, 2)
-    assert (grid.stability_margin > 0.0).all()
+        expected = harmonics(response.signal(name), HARMONICS)
+        assert np.allclose(column["displacement"][1, i], expected, rtol=1e-12, atol=0.0)
+    force = harmonics(response.bearing_force, HARMONICS).T
+    assert np.allclose(column["bearing_force"][1], force)
+    assert np.allclose(column["mean_bearing_force"][1], response.bearing_force.mean(axis=0))
+    assert column["friction_torque"][1] == response.friction_torque
+    assert column["stability_margin"].shape == (2,)
+    assert (column["stability_margin"] > 0.0).all()
 
 
 COARSE = {"steps_per_mesh_period": 16}

@@ -86,16 +86,17 @@ def test_variables_of_a_sweep_are_known(pair, monkeypatch):
     of_motion, of_force = (np.array([made_up(n) for n in names]) for names in
                            (QUANTITIES, BEARING_FORCES))  # fmt: skip
 
-    def grid(parameters, mu, speed, count):
-        size = np.outer(1.0 + mu, speed)
-        return named(
-            displacement=size[..., None, None] * np.multiply.outer(of_motion, np.arange(1.0, 16.0)),
-            bearing_force=size[..., None, None] * np.multiply.outer(of_force, np.arange(1.0, 16.0)),
-            mean_bearing_force=size[..., None] * of_force,
-            friction_torque=2.0 * size, stability_margin=3.0 * size,
-        )  # fmt: skip
+    def column(parameters, mu, speed):
+        size, orders = (1.0 + mu) * speed, np.arange(1.0, 16.0)
+        return {
+            "displacement": np.multiply.outer(size, np.outer(of_motion, orders)),
+            "bearing_force": np.multiply.outer(size, np.outer(of_force, orders)),
+            "mean_bearing_force": np.outer(size, of_force),
+            "friction_torque": 2.0 * size,
+            "stability_margin": 3.0 * size,
+        }
 
-    monkeypatch.setattr(sweep_grid, "harmonic_grid", grid)
+    monkeypatch.setattr(sweep_grid, "friction_column", column)
     made = sweep_grid.sweep_dataset(pair, mu, speeds)
     size, k = np.outer(1.0 + mu, speeds), 1.5 + 0.01 * speeds
     frequency = 30.0 * speeds

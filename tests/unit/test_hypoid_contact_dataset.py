@@ -94,8 +94,8 @@ def found():
             "FlankPair": SimpleNamespace(from_file=from_file),
             "contact_path": contact_path,
             "ease_off": ease_off,
-            "contact_pattern": lambda ease: SimpleNamespace(closest=ease.normal_gap() + 1.0),
-            "contact_ratio": lambda pair: SimpleNamespace(path=1.5 + 0.1 * pair.touching_sign),
+            "closest_approach": lambda ease: ease.normal_gap() + 1.0,
+            "contact_ratio": lambda pair: 1.5 + 0.1 * pair.touching_sign,
             "searched_transmission_error": searched_transmission_error,
             "contact_kinematics": made_up_kinematics,
         }.items():

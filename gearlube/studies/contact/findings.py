@@ -143,18 +143,14 @@ def _middle(part: xr.Dataset) -> float:
     return float(state["pressure_max"].values.ravel()[most])
 
 
-def transmission_orders(part: xr.Dataset, orders: int = 3) -> np.ndarray:
-    """Return amplitudes of the loaded transmission error [µm], shape (torques, orders)."""
-    rows = []
-    for torque in part["torque"].values:
-        spectrum = np.fft.rfft(loaded_error(part.sel(torque=torque)))
-        amplitude = 2.0 * np.abs(spectrum) / part.sizes["phase"]
-        rows.append([amplitude[k] if k < amplitude.size else np.nan for k in range(1, orders + 1)])
-    return np.array(rows)
+def first_order(part: xr.Dataset) -> np.ndarray:
+    """Return the first mesh order of the loaded transmission error [µm], shape (torques,)."""
+    errors = [loaded_error(part.sel(torque=torque)) for torque in part["torque"].values]
+    return np.asarray(2.0 * np.abs(np.fft.rfft(errors)[:, 1]) / part.sizes["phase"])
 
 
 def _error(part: xr.Dataset, side: str) -> Finding:
-    first, torque = transmission_orders(part)[:, 0], part["torque"].values
+    first, torque = first_order(part), part["torque"].values
     most, least = int(np.argmax(first)), int(np.argmin(first))
     unloaded = 1e6 * float(part["R_p"].mean() * np.ptp(part["error"].values))
     return Finding(
@@ -209,7 +205,7 @@ def numbers(contact: xr.Dataset) -> list[Number]:
     found = []
     for side in SIDES:
         part = contact.sel(side=side)
-        first = transmission_orders(part)[:, 0]
+        first = first_order(part)
         found += [
             Number(f"largest first order of the loaded error, {side}", float(first.max()), "µm"),
             Number(

@@ -113,11 +113,11 @@ class Misses(NamedTuple):
         return int(over[0]), int(over[1])
 
 
-def conformal_bounds(errors: Array, confidence: float = CONFIDENCE) -> tuple[float, float]:
+def conformal_bounds(errors: Array) -> tuple[float, float]:
     """Return the bounds of split conformal prediction from errors (n, 2).
 
-    The ceil((n + 1) confidence)-th smallest amount: the next contact drawn alike exceeds it with
-    a probability of at most 1 - confidence [vovk_2005].
+    The ceil((n + 1) CONFIDENCE)-th smallest amount: the next contact drawn alike exceeds it with
+    a probability of at most 1 - CONFIDENCE [vovk_2005].
 
     Examples
     --------
@@ -125,7 +125,7 @@ def conformal_bounds(errors: Array, confidence: float = CONFIDENCE) -> tuple[flo
     >>> conformal_bounds(np.arange(1.0, 20.0)[:, None] * np.array([[1.0, -2.0]]))
     (19.0, 38.0)
     """
-    rank = math.ceil((len(errors) + 1) * confidence)
+    rank = math.ceil((len(errors) + 1) * CONFIDENCE)
     if rank > len(errors):
         raise ParameterError(f"Bounds need at least 19 calibration contacts, got {len(errors)}.")
     ordered = np.sort(np.abs(errors), axis=0)

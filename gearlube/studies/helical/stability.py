@@ -30,6 +30,7 @@ from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, resumab
 
 Axis = Literal["stiffness_variation", "damping_ratio", "mu"]
 _SAMPLES = 16  # the march adds the mesh's own kinks
+_STEPS = 20  # of the march, in an oscillation
 LIGHT_DAMPING = 0.01  # [-], of welded bodies and rolling bearings, below the paper's 0.05
 VARIATION = 8.0  # of the mesh about its mean; spur gears of this size vary five times as much
 DAMPING = (0.001, 0.05)
@@ -77,8 +78,6 @@ def instability_map(
     mesh_frequency: Array,
     axis: Axis,
     values: Array,
-    *,
-    steps_per_oscillation: int = 20,
 ) -> InstabilityMap:
     """Return the map over mesh frequencies [Hz] and values of an axis.
 
@@ -90,8 +89,6 @@ def instability_map(
         Axes.
     axis
         What the values are.
-    steps_per_oscillation
-        Of the march over a period.
     """
     check_option("axis", axis, get_args(Axis))
     check_option("parameters.friction", parameters.friction, ("off", "constant"))
@@ -106,7 +103,7 @@ def instability_map(
         else:
             system = linear_system(_changed(parameters, axis, float(value)))
         for j, frequency in enumerate(mesh_frequency):
-            march = march_period(system, 1.0 / frequency, _SAMPLES, steps_per_oscillation)
+            march = march_period(system, 1.0 / frequency, _SAMPLES, _STEPS)
             multiplier[i, j] = floquet_multipliers(march.transition[-1])[0]
     return InstabilityMap(
         axis=axis,

@@ -42,9 +42,9 @@ class PairContact(NamedTuple):
     sliding: Array  # of the pinion's surface over the gear's, over pinion speed [m], (N, 2)
 
 
-def phase_of(table: MeshTable, angle: Array, pair: int = 0) -> Array:
+def phase_of(table: MeshTable, angle: Array) -> Array:
     """Return the phase of a pair at pinion angles [rad]: mesh periods from its window's middle."""
-    turned = table.pinion_teeth * np.asarray(angle) / (2.0 * np.pi) + pair
+    turned = table.pinion_teeth * np.asarray(angle) / (2.0 * np.pi)
     return np.asarray(turned % PAIRS - _MIDDLE)
 
 

@@ -30,6 +30,7 @@ from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import compute_positions, stack_records
 
 _POSITIONS_PER_ORDER = 4  # as in the mesh table: what is above folds onto the rest
+_MOST_ORDERS = 8  # that are told of what repeats with the hunting turn alone
 _NOTHING = 1e-9  # of the largest error: rounding
 _FORMAT = 2  # raise with every change of the model that changes results
 
@@ -85,21 +86,16 @@ class ToothErrorCycle:
             parts[member] = own.reshape(levels, teeth * positions)
         return parts, rest
 
-    def hunting_orders(self, most: int = 8) -> tuple[Array, Array]:
+    def hunting_orders(self) -> tuple[Array, Array]:
         """Return the largest orders of what repeats with the hunting turn alone.
 
         They are no whole numbers of either member's turn, and are not in the mesh table.
 
-        Parameters
-        ----------
-        most : int
-            How many orders.
-
         Returns
         -------
         orders : ndarray of shape (K,)
-            Of the pinion's turn [-], the largest amplitude first; times gear teeth over pinion
-            teeth they are those of the gear's turn.
+            Of the pinion's turn [-], at most eight, the largest amplitude first; times gear teeth
+            over pinion teeth they are those of the gear's turn.
         amplitudes : ndarray of shape (L, K)
             [m]
         """
@@ -109,7 +105,7 @@ class ToothErrorCycle:
         spectrum = np.abs(np.fft.rfft(rest.reshape(levels, samples), axis=1)) * (2.0 / samples)
         spectrum = spectrum[:, : samples // _POSITIONS_PER_ORDER + 1]
         size = spectrum.max(axis=0)
-        largest = np.argsort(-size)[:most]
+        largest = np.argsort(-size)[:_MOST_ORDERS]
         largest = largest[size[largest] > _NOTHING * np.abs(self.error).max()]
         return largest * (self.pinion_teeth / meshes), spectrum[:, largest]
 

@@ -26,7 +26,7 @@ _STEEL, _PINION = "#C9CED3", "#7FA8C9"
 _LIGHT = {"ambient": 0.45, "diffuse": 0.8, "specular": 0.25, "roughness": 0.5}
 
 
-def solid_view(dataset: xr.Dataset, height: int = 560) -> Any:
+def solid_view(dataset: xr.Dataset) -> Any:
     """Return pinion and gear in mesh with the pressure of the drive flanks at the highest torque.
 
     A slider turns the pair through a mesh period. Flanks are drawn coarse, the pressure is in the
@@ -79,7 +79,7 @@ def solid_view(dataset: xr.Dataset, height: int = 560) -> Any:
         hoverinfo="skip",
         name="pressure",
     )
-    figure = go.Figure([*bodies, pressed], layout={"template": None, "height": height})
+    figure = go.Figure([*bodies, pressed], layout={"template": None, "height": 560})
     figure.frames = [
         go.Frame(name=name, data=[go.Mesh3d(**one) for one in data], traces=[0, 1, 2])
         for data, name in frames

@@ -48,9 +48,9 @@ def segments(dataset: xr.Dataset, model: str) -> list[xr.Dataset]:
     return [part.isel(row=np.flatnonzero(numbers == number)) for number in np.unique(numbers)]
 
 
-def shown_models(dataset: xr.Dataset, wanted: tuple[str, ...] = _SHOWN) -> list[str]:
-    """Return which of the wanted models a dataset holds."""
-    return [model for model in wanted if model in dataset["model"].values]
+def shown_models(dataset: xr.Dataset) -> list[str]:
+    """Return which of the compared models a dataset holds."""
+    return [model for model in _SHOWN if model in dataset["model"].values]
 
 
 def draw_branch(ax: Any, branch: xr.Dataset, values: Array, colour: str, **style: Any) -> None:

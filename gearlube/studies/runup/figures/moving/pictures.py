@@ -183,8 +183,9 @@ def ring_at(dataset: xr.Dataset, ring: int, frame: int) -> Ring:
     )
 
 
-def _arcs(angle: Array, load: Array, bins: int = 72) -> tuple[Array, Array]:
+def _arcs(angle: Array, load: Array) -> tuple[Array, Array]:
     """Return begin and end of the arcs [rad] in which every roller that passes carries load."""
+    bins = 72
     place = np.minimum((angle / (2.0 * np.pi) * bins).astype(int), bins - 1)
     passed = np.bincount(place.ravel(), minlength=bins)
     idle = np.bincount(place[load <= 0.0].ravel(), minlength=bins)
