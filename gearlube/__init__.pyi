@@ -199,7 +199,7 @@ from gearlube.studies.films.run_steady import run_helical_line as run_helical_li
 from gearlube.studies.films.run_march import MarchSteps as MarchSteps
 from gearlube.studies.films.run_march import run_helical_march as run_helical_march
 from gearlube.studies.films.run_hypoid import run_hypoid as run_hypoid
-from gearlube.studies.films.compare import compare_marches as compare_marches
+from gearlube.studies.films.run_march import compare_marches as compare_marches
 
 # -- Study: vehicle speed sweep
 from gearlube.studies.sweep.settings import SweepSettings as SweepSettings

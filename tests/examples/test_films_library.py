@@ -7,11 +7,10 @@ import pytest
 import xarray as xr
 
 from gearlube.studies.films import results
-from gearlube.studies.films.compare import compare_marches
 from gearlube.studies.films.datasets.contact import line_dataset, point_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase, with_flanks
 from gearlube.studies.films.results import write_film_results
-from gearlube.studies.films.run_march import MarchSteps, run_helical_march
+from gearlube.studies.films.run_march import MarchSteps, compare_marches, run_helical_march
 from gearlube.studies.films.run_steady import run_helical_line, run_line
 from gearlube_core.ehl.case.contact_case import LineCase
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 
-from gearlube.studies.films.compare import compare_marches
 from gearlube.studies.films.datasets import contact, helical
 from gearlube.studies.films.datasets.helical import (
     CycleLines,
@@ -13,6 +12,7 @@ from gearlube.studies.films.datasets.helical import (
     with_steady_points,
 )
 from gearlube.studies.films.film_formulas import FilmFormula
+from gearlube.studies.films.run_march import compare_marches
 from gearlube_core.ehl.line.thermal import ThermalLineSolution
 from gearlube_core.ehl.point.thermal.solver import ThermalPointSolution
 from gearlube_core.ehl.point.traction import PointTraction

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from gearlube.studies.helical.gear_surfaces import write_gears
+from gearlube.studies.helical.run import write_gears
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.flank.step_file import tooth_surfaces, write_step
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth

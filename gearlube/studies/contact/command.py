@@ -139,7 +139,7 @@ def contact(
         findings,
         gear_file_warnings,
     )
-    from gearlube.studies.contact.gear_solids import write_gears
+    from gearlube.studies.contact.run import write_gears
     from gearlube.studies.contact.settings import (
         QUICK,
         ContactSettings,

@@ -1,4 +1,4 @@
-"""Analyse the tooth contact of a hypoid pair: from a gear file to a dataset and a mesh table."""
+"""Tooth contact of a hypoid pair: from a gear file to dataset and mesh table, and files for CAD."""
 
 from __future__ import annotations
 
@@ -23,6 +23,18 @@ from gearlube.studies.contact.figures.solid_view import solid_view
 from gearlube.studies.contact.findings import contact_summary, findings, numbers
 from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
+from gearlube_core.hypoid_contact.mesh_cycle import SIDES
+from gearlube_core.hypoid_geometry.flank import step_file
+from gearlube_core.hypoid_geometry.flank.flank import Flank, Role
+from gearlube_core.hypoid_geometry.flank.tooth import Tooth
+from gearlube_core.hypoid_geometry.flank.tooth_solid import (
+    FORMATS,
+    gear_solid,
+    mirror_image,
+    tooth_solid,
+    write_flank_csv,
+    write_solid,
+)
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
@@ -197,3 +209,28 @@ def _table(contact: xr.Dataset) -> Table:
         rows=rows,
         caption="Means over the mesh; the pressure is the highest of it.",
     )
+
+
+ROLES: tuple[Role, Role] = ("pinion", "gear")
+
+
+def write_gears(file: HypoidGearFile, folder: Path) -> list[Path]:
+    """Write each flank as CSV, those of a tooth as STEP, each tooth and gear as STL and GLB.
+
+    All are of the hand of the file: with a left-handed pinion they are mirrored, y -> -y.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    mirrored, files = file.pair.pinion_hand == "left", []
+    for role in ROLES:
+        tooth = Tooth.from_file(file, role)
+        for side in SIDES:
+            flank, path = Flank.from_file(file, role, side), folder / f"{role}_{side}.csv"
+            files.append(write_flank_csv(flank, path, mirrored=mirrored))
+        surfaces = step_file.tooth_surfaces(tooth)
+        if mirrored:
+            surfaces = {name: step_file.mirror_image(one) for name, one in surfaces.items()}
+        files.append(step_file.write_step(surfaces, folder / f"{role}_flanks.step"))
+        for name, solid in ((f"{role}_tooth", tooth_solid(tooth)), (role, gear_solid(tooth))):
+            one = mirror_image(solid) if mirrored else solid
+            files += [write_solid(one, folder / f"{name}.{kind}") for kind in FORMATS]
+    return files

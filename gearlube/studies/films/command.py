@@ -48,7 +48,7 @@ def compare(
     For instance of one pair with other tip reliefs, crowns, facets or speeds, each marched before
     by gearlube ehl helical --march. Writes compare.png.
     """
-    from gearlube.studies.films.compare import compare_marches
+    from gearlube.studies.films.run_march import compare_marches
 
     with exit_on_errors(out):
         folders: dict[str, Path] = {}

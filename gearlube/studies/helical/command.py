@@ -152,7 +152,7 @@ def helical(
     from gearlube.report.stored import PAGE
     from gearlube.studies.helical import run
     from gearlube.studies.helical.findings import findings
-    from gearlube.studies.helical.gear_surfaces import write_gears
+    from gearlube.studies.helical.run import write_gears
     from gearlube.studies.helical.settings import LINE_DENSITY, HelicalSettings, quick_settings
     from gearlube.studies.helical.summary import remarks, summary_rows
     from gearlube_core.dynamics.helical_pair.gear_file_pair import gear_file_oil

@@ -1,8 +1,11 @@
-"""Run a study of a helical pair: from settings to datasets and line mesh."""
+"""Run a study of a helical pair: from settings to datasets and line mesh; its flanks for CAD."""
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
+
+import numpy as np
 
 from gearlube.studies.helical.figures.catalogue import save_helical_figures
 from gearlube.studies.helical.operating_point import study_attributes
@@ -12,6 +15,17 @@ from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.helical.stages import HelicalResults, RunningStudy, StageReport, stages_of
 from gearlube.studies.helical.summary import summary_csv, summary_rows
 from gearlube_core.errors import GearLubeError
+from gearlube_core.helical_contact.tooth_body import half_angle, tooth_form
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.helical_geometry.involute import MEMBERS
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.hypoid_geometry.flank.step_file import (
+    COLUMNS,
+    ROWS,
+    SplineSurface,
+    surface_through,
+    write_step,
+)
 from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
 from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import write_dataset, write_text
@@ -131,3 +145,35 @@ def _solved(
         failures=failures,
         interrupted=interrupted,
     )
+
+
+def write_gears(file: HelicalGearFile, folder: Path) -> list[Path]:
+    """Write both flanks of one tooth of each member as FOLDER/MEMBER_flanks.step."""
+    folder.mkdir(parents=True, exist_ok=True)
+    pair = file.helical_pair()
+    return [
+        write_step(tooth_surfaces(pair, member), folder / f"{member}_flanks.step")
+        for member in MEMBERS
+    ]
+
+
+def tooth_surfaces(pair: HelicalPair, member: str) -> dict[str, SplineSurface]:
+    """Return the flanks of one tooth of the "pinion" or the "gear", without modifications.
+
+    From the start of the involute to the tip, about the member's own axis, z, with mid-face at
+    z = 0. The pinion's tooth points towards +y, the gear's towards -y.
+    """
+    form, start = tooth_form(pair, member), pair.involute_starts[MEMBERS.index(member)]
+    s, t = np.linspace(0.0, 1.0, ROWS), np.linspace(0.0, 1.0, COLUMNS)
+    tip = math.sqrt(form.tip_radius**2 - form.base_radius**2)
+    roll = (start.roll + (tip - start.roll) * s)[:, None]
+    z = ((t - 0.5) * pair.face_width)[None, :]
+    radius = np.hypot(form.base_radius, roll)
+    lead = z * math.tan(pair.base_helix_angle) / form.base_radius
+    up = 1.0 if member == "pinion" else -1.0
+    found = {}
+    for name, side in (("drive", up), ("coast", -up)):
+        angle = lead + side * half_angle(form, radius)
+        points = [radius * np.sin(angle), up * radius * np.cos(angle), z + 0.0 * angle]
+        found[f"{member} {name} flank"] = surface_through(np.stack(points, axis=-1), s, t)
+    return found

@@ -3,9 +3,13 @@
 from gearlube.studies.sweep.figures.bubbles import spectrum_bubbles
 from gearlube.studies.sweep.figures.catalogue import CATALOGUE, ESSENTIAL, Entry, save_figures
 from gearlube.studies.sweep.figures.charts import efficiency, extremes_against_speed
-from gearlube.studies.sweep.figures.operation import operating_points
 from gearlube.studies.sweep.figures.orders import order_cuts
-from gearlube.studies.sweep.figures.waveforms import film_over_mesh_cycle, roller_zone, waveforms
+from gearlube.studies.sweep.figures.waveforms import (
+    film_over_mesh_cycle,
+    operating_points,
+    roller_zone,
+    waveforms,
+)
 
 __all__ = [
     "CATALOGUE",

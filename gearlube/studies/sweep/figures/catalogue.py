@@ -15,9 +15,13 @@ from gearlube.plotting.style import preload_label
 from gearlube.report.charts import Axis, panels
 from gearlube.studies.sweep.figures import bubbles, charts, orders
 from gearlube.studies.sweep.figures.charts import efficiency
-from gearlube.studies.sweep.figures.operation import operating_points
 from gearlube.studies.sweep.figures.orders import BEARING_CUTS, MapChannel, default_top, order_cuts
-from gearlube.studies.sweep.figures.waveforms import film_over_mesh_cycle, roller_zone, waveforms
+from gearlube.studies.sweep.figures.waveforms import (
+    film_over_mesh_cycle,
+    operating_points,
+    roller_zone,
+    waveforms,
+)
 from gearlube_core.storage.atomic_file import write_figure
 
 _SPEED = Axis("vehicle speed", "km/h")
