@@ -95,13 +95,17 @@ class HelicalMeshKernels(NamedTuple):
         constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
         flanks, load, kept = constants.motion.flanks, s[at[_PSI]], at[_KEPT]
         plane, table = flanks.plane, _table(at, memory)
-        s[kept], s[kept + 1] = abs(load) * plane.r_bp, -1.0
+        level = s[at[_PORT]] if at[_PORT] > 0 else load * plane.r_bp
+        s[kept], s[kept + 1] = abs(level), -1.0
         for i in range(1, N_FRICTION):
             s[kept + 1 + i] = constants.mu
         # the relative rotation at which all lines touch, see `equilibrium.settle`
         pressed = 2.0 * abs(load) / (plane.W * mean_density(table)) + largest_offset(table)
         pressed = max(pressed, _LEAST_PRESSED)
-        rotation = pressed if load >= 0.0 else -pressed - flanks.backlash
+        rotation = pressed if load > 0.0 else -pressed - flanks.backlash
+        if load == 0.0:  # where drive flanks just touch, of all places between the flanks
+            _follow_level(at, memory, s[kept])
+            rotation = max(_data(at, memory)[LEAST_OFFSET], -0.5 * flanks.backlash)
         s[at[_PSI]] = rotation / plane.cos_b
 
     @kernel
