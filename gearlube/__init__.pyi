@@ -30,7 +30,7 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     helical_march_parameters as helical_march_parameters,
 )
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel as HelicalPairModel
+from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel as HelicalPairModel
 
 # -- Trains of bodies and elements
 from gearlube_core.dynamics.train.model import Train as Train

@@ -30,9 +30,10 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     data_size,
     pack_march_mesh,
 )
-from gearlube_core.dynamics.helical_pair.march.model import torque_limits
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.ranges import Range
+from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
+from gearlube_core.dynamics.train.helical_pair_model import torque_limits
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.model import LINE, shipped_model
 from gearlube_core.film_model.net import N_ARRAY, UNITS, WIDTH
@@ -67,8 +68,7 @@ class CasePlaces(NamedTuple):
 
     film_models: int  # as many numbers of cases lie before
     cases: int
-    work: int  # without pair data
-    uniform_size: int  # room for the density of the stiffness model uniform
+    work: int  # without the memory of the mesh
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,14 +83,14 @@ class HelicalCases:
         Why a case is missing, by its number.
     ranges : tuple of Range
         Words of the ranges.
-    longest_data : int
-        Length of the longest pair data.
+    longest_memory : int
+        Length of the longest memory of a mesh.
     """
 
     data: Array
     missing: dict[int, str]
     ranges: tuple[Range, ...]
-    longest_data: int
+    longest_memory: int
 
 
 def helical_cases(definition: Definition) -> HelicalCases:
@@ -130,7 +130,7 @@ def helical_cases(definition: Definition) -> HelicalCases:
         data=np.concatenate([places, *models, oils, *blocks]),
         missing=missing,
         ranges=ranges,
-        longest_data=longest,
+        longest_memory=longest,
     )
 
 
@@ -152,7 +152,7 @@ def _words(parameters: HelicalMarchParameters) -> tuple[Range, ...]:
 
 
 def _case(parameters: HelicalMarchParameters) -> tuple[Array, int]:
-    """Return the constants of one case and the length of its pair data."""
+    """Return the constants of one case and the length of the memory of its mesh."""
     mesh = pack_march_mesh(parameters.mesh)
     station = all_stations(parameters.mesh)
     limits = torque_limits(parameters)
@@ -169,12 +169,12 @@ def _case(parameters: HelicalMarchParameters) -> tuple[Array, int]:
     block = np.concatenate(
         [flatten(head), flatten(parameters.given()), station, mesh.torque, *fields]
     )
-    return block, data_size(station.size, size)
+    return block, pair_data_at(mesh.torque.size, size) + data_size(station.size, size)
 
 
 @kernel
-def _case_length(case: Any, uniform: bool, places: CasePlaces) -> tuple[int, int]:
-    """Return the lengths of a case and of its pair data; 0, 0 if its sizes cannot be."""
+def _case_length(case: Any) -> tuple[int, int]:
+    """Return the lengths of a case and of the memory of its mesh; 0, 0 if its sizes cannot be."""
     head: CaseHead = tuple_from_array(array_at(case, HEAD_FLOATS), CaseHead)
     given: GivenPair = tuple_from_array(
         array_at(pointer_at(case, HEAD_FLOATS), GIVEN_FLOATS), GivenPair
@@ -185,10 +185,8 @@ def _case_length(case: Any, uniform: bool, places: CasePlaces) -> tuple[int, int
     if not (fits and given.lines * given.phases * given.stations == head.size):
         return 0, 0
     levels, stations, size = int(head.levels), int(head.stations), int(head.size)
-    if uniform and levels * size > places.uniform_size:
-        return 0, 0
     length = HEAD_FLOATS + GIVEN_FLOATS + stations + levels + 2 * levels * size
-    return length, data_size(stations, size)
+    return length, pair_data_at(levels, size) + data_size(stations, size)
 
 
 @kernel
@@ -213,8 +211,7 @@ def check_cases(data: Any, lengths: Array, literals: Array, places: CasePlaces) 
         last = lengths[0] - HEAD_FLOATS - GIVEN_FLOATS
         fits = is_whole(place, float(places.cases), last)
         if fits:
-            uniform = number % STIFFNESS_MODELS == 0
-            length, own = _case_length(pointer_at(data, int(place)), uniform, places)
+            length, own = _case_length(pointer_at(data, int(place)))
             fits = length > 0 and place + length <= lengths[0]
             fits = fits and places.work + own <= lengths[1]
             if fits:

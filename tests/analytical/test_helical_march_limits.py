@@ -17,22 +17,12 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 from gearlube_core.dynamics.helical_pair.march.flanks import FlankConstants, coast_view, drive_view
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
-from gearlube_core.dynamics.helical_pair.march.pair_forces import flank_wrench, turned_wrench
-from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.helical_pair.march.rates import march_rates
-from gearlube_core.dynamics.helical_pair.march.state import (
-    MESH_DAMPING,
-    N_ODE,
-    N_STATE,
-    PHI_P,
-    PSI,
-    TH_G,
-    TH_P,
-    U_G,
-    U_P,
-    W_P,
-    pair_motion,
+from gearlube_core.dynamics.helical_pair.march.pair_forces import (
+    flank_wrench,
+    pair_forces,
+    turned_wrench,
 )
+from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from tests.helpers.each import each
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_accelerations import points_damping
@@ -48,6 +38,7 @@ from tests.helpers.helical_march_cases import (
     wavy_mesh,
 )
 from tests.helpers.named_pairs import named_pair
+from tests.helpers.pair_motions import N_MOTION, PHI_P, PSI, TH_G, TH_P, U_G, U_P, W_P, pair_motion
 
 MU = np.full(60, 0.1)
 
@@ -58,7 +49,7 @@ def sums_of(a: float, tilt: float, phase: float, data: np.ndarray) -> LineSums:
 
 def flanks(parameters: HelicalMarchParameters) -> tuple[FlankConstants, np.ndarray]:
     constants = parameters.constants()
-    return constants.motion.flanks, pair_data(constants, parameters.mesh, parameters.film_model())
+    return constants.flanks, pair_data(constants, parameters.mesh, parameters.film_model())
 
 
 @each("phase", [0.03, 0.37, 0.71, 5.9])
@@ -130,7 +121,7 @@ def test_coast_flanks_press_the_other_way_and_need_no_frame_of_their_own() -> No
     """Virtual work: every component of the coast flanks' wrench is a slope of their energy."""
     p, data = flanks(he_march(backlash=50e-6))
     rng = np.random.default_rng(3)
-    s = np.zeros(N_STATE)
+    s = np.zeros(N_MOTION)
     s[U_P : U_P + 3] = 1e-6 * rng.normal(size=3)
     s[U_G : U_G + 3] = 1e-6 * rng.normal(size=3)
     s[TH_P : TH_P + 2] = 2e-5 * rng.normal(size=2)
@@ -254,14 +245,15 @@ def test_mesh_damping_is_that_of_the_pair_in_all_coordinates(
 ) -> None:
     march = he_march(friction="off", backlash=1e-4)
     p, data = flanks(march)
-    s, ds = np.zeros(N_STATE), np.zeros(N_ODE)
+    s = np.zeros(N_MOTION)
     s[PSI], s[TH_P + 1], s[PHI_P] = psi, tilt, 0.3 * p.plane.pitch / p.plane.r_bp
     s[W_P] = psi_rate / p.plane.r_bp
-    march_rates(s, 0.0, 0.0, data, ds)
+    found = pair_forces(pair_motion(s), MU, 0, data)
     whole = replace(he_2007_pair(0.0), contact="one_sided", line_divisions=64)
     q = np.zeros(12)
     q[4], q[5] = tilt, -psi / p.plane.r_bp
     points = loaded_points(whole, 0.3, q)[0]
     force = points_damping(-psi_rate, whole.kernel_parameters(), points, len(points))
-    assert ds[MESH_DAMPING] > 0.0
-    assert ds[MESH_DAMPING] == pytest.approx(-force * psi_rate, rel=tolerance)
+    lost = found.damping * found.closing
+    assert lost > 0.0
+    assert lost == pytest.approx(-force * psi_rate, rel=tolerance)

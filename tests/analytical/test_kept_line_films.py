@@ -20,13 +20,15 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_ma
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.state import MU, REFRESHED, W_P, pair_motion
+from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
+from gearlube_core.dynamics.train.helical_pair_outputs import LOAD_TORQUE, MARKS
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.friction.solved_line import line_film, line_inlet, solved_line_friction
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.oil.lubricant import lubricant_state
+from tests.helpers.helical_march_cases import pair_data_of
+from tests.helpers.pair_motions import motion_of
 
 PARAMETERS = replace(helical_march_parameters(HelicalGearFile.named("he_2007")), film="solved")
 TEETH = HelicalGearFile.named("he_2007").pinion.teeth
@@ -47,14 +49,14 @@ def running(speed: float, torque: float, temperature: float) -> HelicalPairModel
 
 def evaluated(model: HelicalPairModel, view: FlankView, line: int, place: int, oil: Any) -> Any:
     """Film and friction by the film model itself, sliding speed; None where there is no line."""
-    constants, flanks = model.constants, model.constants.motion.flanks
+    constants, flanks = model.parameters.constants(), model.parameters.constants().flanks
     plane = flanks.plane
     point = line_points.line_place(view.phase - math.floor(view.phase), line, place, plane)
     if point.length == 0.0:
         return None
     g = view.a + view.tilt * (point.z * plane.cos_b + point.x * plane.sin_b)
-    load = line_points.point_load(g, point.at_line, view.phase, line, model._data, flanks)
-    m = line_kinematics(point.x, abs(model._state[W_P]), plane)
+    load = line_points.point_load(g, point.at_line, view.phase, line, pair_data_of(model), flanks)
+    m = line_kinematics(point.x, abs(motion_of(model).w_p), plane)
     inlet = line_inlet(oil, constants.solid, constants.limiting_slope)
     solved = solved_line_friction(
         load, m.R, m.entrainment, m.sliding, oil, constants.surface, constants.solid, inlet, NUMBERS
@@ -65,8 +67,8 @@ def evaluated(model: HelicalPairModel, view: FlankView, line: int, place: int, o
 def carried_film(model: HelicalPairModel, view: FlankView, coast: bool, line: int, place: int,
                  load: float, oil: Any) -> float:  # fmt: skip
     """Film by the film model at the node, carried on by the formula of Dowson and Toyoda [m]."""
-    p, plane = model.constants, model.constants.motion.flanks.plane
-    modulus, speed = 2.0 * p.solid.contact_modulus, abs(model._state[W_P])
+    p, plane = model.parameters.constants(), model.parameters.constants().flanks.plane
+    modulus, speed = 2.0 * p.solid.contact_modulus, abs(motion_of(model).w_p)
     node, part = line_points.film_node(view.phase, coast, p)
     then = line_points.line_place(part, line, place, plane)
     now = line_points.line_place(view.phase - math.floor(view.phase), line, place, plane)
@@ -85,20 +87,20 @@ def carried_film(model: HelicalPairModel, view: FlankView, coast: bool, line: in
 def marched(speed: float, torque: float, temperature: float, *, kept: bool) -> tuple[Any, Any]:
     """Transmission error [m] and friction power [W] of some mesh periods, step by step."""
     model = running(speed, torque, temperature)
-    oil = lubricant_state(model.constants.oil, temperature)
-    flanks = model.constants.motion.flanks
+    oil = lubricant_state(model.parameters.constants().oil, temperature)
+    flanks = model.parameters.constants().flanks
     h = 0.9 * 2.0 * math.pi / (TEETH * speed) / 64.0  # one step of the integrator
     found = []
     for _ in range(200):
-        state = model._state
-        if refresh_friction(pair_motion(state), state[REFRESHED:], model._data, oil) and not kept:
-            view = drive_view(pair_motion(model._state), flanks)
+        friction = model._state[LOAD_TORQUE + 1 : MARKS]  # when computed, then coefficients
+        if refresh_friction(motion_of(model), friction, pair_data_of(model), oil) and not kept:
+            view = drive_view(motion_of(model), flanks)
             for line in range(int(flanks.lines)):
-                slot = MU + POINTS_PER_LINE * pair_slot(view.phase, line, int(flanks.lines))
+                slot = 1 + POINTS_PER_LINE * pair_slot(view.phase, line, int(flanks.lines))
                 for place in range(POINTS_PER_LINE):
                     point = evaluated(model, view, line, place, oil)
                     if point is not None:
-                        model._state[slot + place] = point[0].friction_coefficient
+                        friction[slot + place] = point[0].friction_coefficient
         model.step(h, torque, torque * RATIO, temperature)
         found.append((model.output("mesh.dte"), model.output("friction.power_loss")))
     return tuple(np.transpose(found))
@@ -126,19 +128,25 @@ def test_films_and_frictions_are_the_models_at_any_load_speed_and_phase(coast):
         model = running(speed, torque, temperature)
         for _ in range(int(rng.integers(1, 40))):
             model.step(1e-5, torque, torque * RATIO, temperature)
-        oil = lubricant_state(model.constants.oil, temperature)
-        flanks = model.constants.motion.flanks
+        oil = lubricant_state(model.parameters.constants().oil, temperature)
+        constants = model.parameters.constants()
+        flanks = constants.flanks
         view = (
-            coast_view(pair_motion(model._state), flanks)
-            if coast
-            else drive_view(pair_motion(model._state), flanks)
+            coast_view(motion_of(model), flanks) if coast else drive_view(motion_of(model), flanks)
         )
         for line in range(int(flanks.lines)):
             for place in range(POINTS_PER_LINE):
                 known = evaluated(model, view, line, place, oil)
-                pinion_speed = abs(model._state[W_P])
+                pinion_speed = abs(motion_of(model).w_p)
                 load, length, _, found = line_points.line_point(
-                    view, coast, line, place, pinion_speed, model._data, oil, model.constants
+                    view,
+                    coast,
+                    line,
+                    place,
+                    pinion_speed,
+                    pair_data_of(model),
+                    oil,
+                    model.parameters.constants(),
                 )
                 assert (length == 0.0) == (known is None)
                 if known is not None and load > 1e3:
@@ -225,23 +233,26 @@ def test_what_is_kept_is_a_plane_through_its_films():
 def test_compiled_kernels_equal_their_python_functions():
     model = running(150.0, 226.0, 353.15)
     model.step(1e-4, 226.0, 226.0 * RATIO, 353.15)
-    oil, constants = lubricant_state(model.constants.oil, 353.15), model.constants
-    view = drive_view(pair_motion(model._state), constants.motion.flanks)
+    oil, constants = (
+        lubricant_state(model.parameters.constants().oil, 353.15),
+        model.parameters.constants(),
+    )
+    view = drive_view(motion_of(model), constants.flanks)
     box = kept_films.bin_of(1.3e5, 150.0, 353.15)
     assert kept_films.bin_of.py_func(1.3e5, 150.0, 353.15) == pytest.approx(box, rel=1e-12)
-    x = constants.motion.flanks.plane.P + 1e-3
+    x = constants.flanks.plane.P + 1e-3
     for n in range(kept_films.N_FILMS):
-        given = (x, box, n, model._data, constants)
+        given = (x, box, n, pair_data_of(model), constants)
         compiled = line_points.bin_film(*given)
         np.testing.assert_allclose(line_points.bin_film.py_func(*given), compiled, rtol=1e-10)
     node = line_points.film_node
     assert node(view.phase, False, constants) == node.py_func(view.phase, False, constants)
-    model._data[KEPT_AT:LEAST_OFFSET] = 0.0
-    given = (view, False, 1, 0, 150.0, model._data, oil, constants)
+    pair_data_of(model)[KEPT_AT:LEAST_OFFSET] = 0.0
+    given = (view, False, 1, 0, 150.0, pair_data_of(model), oil, constants)
     compiled = line_points.line_point(*given)
     python = line_points.line_point.py_func(*given)
     np.testing.assert_allclose(python[3].state, compiled[3].state, rtol=1e-10)
-    kept = model._data[KEPT_AT:LEAST_OFFSET]
+    kept = pair_data_of(model)[KEPT_AT:LEAST_OFFSET]
     assert (kept != 0.0).sum() == pytest.approx(kept_films.N_KEPT, abs=6)  # one bin of one point
 
 
@@ -255,4 +266,4 @@ def test_nothing_is_kept_with_more_refreshes_than_nodes_or_near_rest():
     still = running(0.0, 226.0, 353.15)
     still.step(1e-6, 226.0, 226.0 * RATIO, 353.15)
     for one in (model, still):
-        assert not one._data[KEPT_AT:LEAST_OFFSET].any()
+        assert not pair_data_of(one)[KEPT_AT:LEAST_OFFSET].any()

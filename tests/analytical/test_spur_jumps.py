@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.helical_pair.march import state as at
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.jumps import time_to_jump
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers import pair_motions as at
 
 FILE = HelicalGearFile.named("he_2007").varied({"pair.helix_angle_deg": 0.0})
 SPUR = replace(helical_march_parameters(FILE), friction="constant")
@@ -35,7 +35,7 @@ def exact() -> np.ndarray:
     """Return the relative rotation after DURATION by another integrator, jump after jump."""
     model = started(8)
     model.step(1e-9, *LOADS)  # the torques are those of the last step
-    s, time = np.array(model.state_view[: at.N_ODE]), 1e-9
+    s, time = model.continuous, 1e-9
     turned = PLANE.r_bp / PLANE.pitch
     while time < DURATION:
         phase = turned * s[at.PHI_P]
@@ -65,12 +65,12 @@ def test_error_of_a_spur_pair_falls_with_the_order_of_the_step(wanted):
     swing = []
     for _ in range(40):
         model.step(1e-4, *LOADS)
-        swing.append(model.state_view[at.PSI])
+        swing.append(model.continuous[at.PSI])
     errors = []
     for steps in (8, 16, 32):
         model = started(steps)
         model.step(DURATION, *LOADS)
-        errors.append(abs(model.state_view[at.PSI] - wanted[at.PSI]) / np.ptp(swing))
+        errors.append(abs(model.continuous[at.PSI] - wanted[at.PSI]) / np.ptp(swing))
     # without ends at the jumps they are 2e-2 to 5e-3, and halve with the step
     assert errors[0] < 4e-3
     # fourth order is 16 times; friction and separation bend the forces, too
@@ -79,8 +79,8 @@ def test_error_of_a_spur_pair_falls_with_the_order_of_the_step(wanted):
 
 
 def test_time_to_a_jump_is_that_of_the_phase():
-    flanks = SPUR.constants().motion.flanks
-    still = at.pair_motion(np.zeros(at.N_STATE))._replace(psi=2e-5, w_p=SPEED)
+    flanks = SPUR.constants().flanks
+    still = at.pair_motion(np.zeros(at.N_MOTION))._replace(psi=2e-5, w_p=SPEED)
     rate = PLANE.r_bp * SPEED / PLANE.pitch
     for phase in np.linspace(3.01, 3.99, 23):
         pressed = still._replace(phi_p=phase * PLANE.pitch / PLANE.r_bp)

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.helical_pair.march.state import N_ODE, PINION_WORK, PSI
+from gearlube_core.dynamics.train.helical_pair_outputs import STATE_NAMES
 from tests.helpers.helical_march_cases import PERIOD, RATIO, TORQUE, he_march, history, started
 
+PSI, PINION_WORK = (STATE_NAMES.index(name) for name in ("mesh.rotation", "energy.pinion_work"))
 NAMES = ["mesh.dte", "mesh.load", "pinion.displacement.y", "pinion.tilt.x", "bearing[1].force.x"]
 
 
@@ -53,10 +54,10 @@ def test_result_depends_little_on_the_communication_step(friction: str) -> None:
 def test_an_adaptive_integrator_finds_the_same_motion() -> None:
     model = started(he_march(friction_coefficient=0.05, steps_per_highest_period=400))
     start = model.get_state()
-    begin = model.state_view[:N_ODE].copy()
+    begin = model.continuous
     duration = 1.5 * PERIOD
     history(model, NAMES, 20, duration / 20)
-    marched_state = model.state_view[:N_ODE].copy()
+    marched_state = model.continuous
     model.set_state(start)
     solution = solve_ivp(
         lambda t, y: model.derivative(y), (0.0, duration), begin, method="DOP853", rtol=1e-10,

@@ -15,38 +15,40 @@ import pytest
 from fmu_src.helical_pair import DEFINITION, definition_with, pair_parameters
 from fmu_src.helical_variables import HELICAL_PAIR
 from fmu_src.native.helical_cases import GIVEN_FLOATS, HEAD_FLOATS
-from fmu_src.native.helical_pair import (
+from fmu_src.native.helical_pair import native_model
+from fmu_src.native.helical_parameters import (
     BEARINGS_AT,
     COUPLING_TOO_LARGE,
-    DATA_AT,
     DENSITY_WITH_LINE_MESH,
     GIVEN_AT,
     INPUT_OUT_OF_RANGE,
+    MEMORY_AT,
     MISSING_CASE,
     NO_EQUILIBRIUM,
-    native_model,
+    NUMBERS_AT,
+    PLAN_AT,
+    TRIAL_AT,
 )
 from fmu_src.native.model import OK, NativeModel, Operation
 from gearlube_core.dynamics.helical_pair.march.given_pair import GivenPair
-from gearlube_core.dynamics.helical_pair.march.integrate import (
-    MAX_STEPS,
-    NOT_FINITE,
-    TOO_FAST,
-    TOO_MANY_STEPS,
-)
-from gearlube_core.dynamics.helical_pair.march.mesh_data import FILM_AT, pair_data
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.state import (
-    LOAD_TORQUE,
-    MU,
-    N_CONTINUOUS,
-    N_STATE,
-    PHI_P,
-    PSI,
-    REFRESHED,
-    W_G,
-)
+from gearlube_core.dynamics.helical_pair.march.mesh_data import FILM_AT
 from gearlube_core.dynamics.ranges import TOO_FAR, range_limits
+from gearlube_core.dynamics.train.assemble import Assembly, assemble
+from gearlube_core.dynamics.train.element import RZ, W
+from gearlube_core.dynamics.train.elements.helical_mesh_kernels import TABLE, pair_data_at
+from gearlube_core.dynamics.train.helical_pair import bearing_shares, helical_pair
+from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
+from gearlube_core.dynamics.train.helical_pair_outputs import (
+    LOAD_TORQUE,
+    MARKS,
+    PINION,
+    PSI,
+    SENSES,
+    STATE_PLACES,
+    WHEEL,
+)
+from gearlube_core.dynamics.train.march import MAX_STEPS, NOT_FINITE, TOO_FAST, TOO_MANY_STEPS
+from gearlube_core.dynamics.train.plan import OF_TABLES
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.film_model.net import N_NUMBERS
 from gearlube_core.kernels.flat_tuples import count_floats
@@ -115,12 +117,21 @@ def check_packed(loaded: LoadedModel, seed: int, count: int) -> None:
         given = {v.argument: v.decoded(x) for v, x in zip(PARAMETERS, values, strict=True)}
         del given["pinion_speed"]
         parameters = pair_parameters(given)
-        data = pair_data(parameters.constants(), parameters.mesh, parameters.film_model())
-        np.testing.assert_array_equal(native.work[DATA_AT : DATA_AT + data.size], data)
+        check_train(native, assemble(*helical_pair(parameters), parameters.oil))
         shares = native.work[BEARINGS_AT:GIVEN_AT]
-        np.testing.assert_array_equal(shares, parameters.bearing_shares())
+        np.testing.assert_array_equal(shares, bearing_shares(parameters))
         ranges = native.work[model.ranges_at : model.ranges_at + 2 * len(model.ranges)]
         np.testing.assert_array_equal(ranges, range_limits(parameters.ranges))
+
+
+def check_train(native: NativeRun, made: Assembly, memory: int | None = None) -> None:
+    """Numbers, plan and memory in the work array, so much of it, are those of a train in Python."""
+    np.testing.assert_array_equal(native.work[NUMBERS_AT:PLAN_AT], made.numbers)
+    plan, by_table = native.work[PLAN_AT:TRIAL_AT].view(np.int64), np.array(made.shape) == OF_TABLES
+    np.testing.assert_array_equal(plan[by_table], made.plan[by_table])
+    end = made.memory[:-1].size if memory is None else memory
+    found = native.work[MEMORY_AT + TABLE : MEMORY_AT + end]  # behind what a step leaves
+    np.testing.assert_array_equal(found, made.memory[TABLE:end])
 
 
 def check_starts(loaded: LoadedModel, seed: int, count: int) -> None:
@@ -286,9 +297,9 @@ def test_film_model_and_oil_of_a_gear_file_are_those_of_python(
         found = pair.parameters
         assert found.line_film_model is not None
         assert (found.line_film_model.name, found.oil.name) == (name, "own")
-        data = pair_data(pair.constants, found.mesh, found.film_model())
-        end = FILM_AT + N_NUMBERS
-        np.testing.assert_array_equal(native.work[DATA_AT : DATA_AT + end], data[:end])
+        made = assemble(*helical_pair(found), found.oil)
+        films = pair_data_at(*made.plan[np.array(made.shape) == OF_TABLES][2:4])
+        check_train(native, made, films + FILM_AT + N_NUMBERS)
         for _ in range(20):
             pair.step(STEP, *INPUTS)
             assert native.step(STEP) == OK
@@ -330,32 +341,31 @@ def test_rates_are_how_the_state_changes_and_events_renew_friction_alone(
     assert run(Operation.DERIVATIVES) == OK
     np.testing.assert_array_equal(run.state, before)
     first = DEFINITION.output_names.index("der(mesh.rotation)")
-    rates = run.outputs[first : first + N_CONTINUOUS].copy()
-    assert rates[LOAD_TORQUE] == 0.0
+    rates = run.outputs[first : first + STATE_PLACES.size].copy()
+    assert rates[-1] == 0.0
     h = 1e-7
     slopes = []
     for step in (h, 2.0 * h):
         run.state[:] = before
         assert run(Operation.STEP, step) == OK
-        slopes.append((run.state[:N_CONTINUOUS] - before[:N_CONTINUOUS]) / step)
+        slopes.append(SENSES * (run.state - before)[STATE_PLACES] / step)
     # Richardson's; third derivatives at 5 kHz leave 3e-6, roundings of 100 rad/s 1e-7 rad/s2
     slope = 2.0 * slopes[0] - slopes[1]
-    nominal = NOMINAL[first : first + N_CONTINUOUS]
+    nominal = NOMINAL[first : first + STATE_PLACES.size]
     assert np.all(np.abs(slope - rates) < 1e-5 * np.maximum(np.abs(rates), nominal))
 
     run.state[:] = before
     run.state[LOAD_TORQUE] -= 10.0  # behind the torque by so much, with 20 ms
     assert run(Operation.DERIVATIVES) == OK
-    assert run.outputs[first + LOAD_TORQUE] == pytest.approx(500.0, rel=1e-12)
+    assert run.outputs[first + STATE_PLACES.size - 1] == pytest.approx(500.0, rel=1e-12)
     run.state[:] = before
-    run.state[PHI_P] += 2.0 * math.pi / 25 / 16  # to the next update: 25 teeth, 16 a mesh period
+    run.state[PINION + RZ] -= 2.0 * math.pi / 25 / 16  # of 25 teeth: to the next update
     assert run(Operation.EVENT) == OK
     changed = np.flatnonzero(run.state != before)
-    assert changed[0] == PHI_P
-    assert changed[1] == REFRESHED
-    assert changed[2] >= MU
-    assert changed[-1] < N_STATE
-    run.state[W_G] = -5001.0
+    assert changed[0] == PINION + RZ
+    assert changed[1] == LOAD_TORQUE + 1  # when friction was last computed, then its coefficients
+    assert LOAD_TORQUE + 2 <= changed[2] <= changed[-1] < MARKS
+    run.state[WHEEL + W] = -5001.0
     assert run(Operation.DERIVATIVES) == TOO_FAST
     run.state[:] = before
     run.state[PSI] = 0.2

@@ -57,7 +57,7 @@ def support_force(q: Array, v: Array, supports: SupportArrays, force: Array) -> 
     Notes
     -----
     He et al. 2007 eq. (28)-(35); the paper's combined bearing force F_SB is rows 0-2 and 6-8. For
-    any matrix, those as printed too; `march.rates.support_rates` knows which entries can differ
+    any matrix, those as printed too; the kernels of `SpringSupport` know which entries can differ
     from zero, 9 products a member in place of 36.
     """
     for member in range(2):

@@ -12,9 +12,11 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     ReplacedBearings,
     helical_march_parameters,
 )
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.outputs import ENERGIES, OUTPUT_INDEX
+from gearlube_core.dynamics.helical_pair.march.mesh_data import pack_march_mesh
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
+from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
+from gearlube_core.dynamics.train.helical_pair_outputs import ENERGIES, OUTPUT_INDEX
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
@@ -55,6 +57,13 @@ def started(
         oil_temperature=OIL,
     )
     return model
+
+
+def pair_data_of(model: HelicalPairModel) -> np.ndarray:
+    """Constants, kept films and line mesh in the memory of the model's mesh, as they are."""
+    packed = pack_march_mesh(model.parameters.mesh)
+    memory = model._train[1]
+    return memory[pair_data_at(*packed.density.shape) : -1]
 
 
 def output(model: HelicalPairModel, name: str) -> float:

@@ -83,9 +83,9 @@ def e_axle(turned: float = 0.0, friction: str = "film", hand: bool = True) -> Tr
     that the whole can be turned about z.
     """
     pair = replace(PAIR, friction=friction)
-    support = PAIR.constants().motion.gear
-    even = support._replace(K_yy=support.K_xx, K_ax=support.K_ay, c_y=support.c_x,
-                            c_ax=support.c_ay, K_x_ay=0.0, K_y_ax=0.0)  # fmt: skip
+    own = spring_support("bearings", "gear", PAIR.gear, PAIR.support_damping_ratio)
+    even = replace(own, K_yy=own.K_xx, K_ax=own.K_ay, c_y=own.c_x, c_ax=own.c_ay, K_x_ay=0.0,
+                   K_y_ax=0.0)  # fmt: skip
     bodies = [
         Body(name="input", mass=3.0, inertia=0.004, polar_inertia=0.02),
         Body(name="counter", mass=6.0, inertia=0.02, polar_inertia=0.01),
@@ -107,7 +107,7 @@ def e_axle(turned: float = 0.0, friction: str = "film", hand: bool = True) -> Tr
         Port(name="right wheel", body="right"),
         first,
         second,
-        *(spring_support(f"{b.name} bearings", b.name, even) for b in bodies[:3]),
+        *(replace(even, name=f"{b.name} bearings", body=b.name) for b in bodies[:3]),
         HalfShaft(name="left shaft", first="differential", second="left", stiffness=8e3),
         HalfShaft(name="right shaft", first="differential", second="right", stiffness=6e3),
     ]

@@ -10,18 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from gearlube_core.dynamics.helical_pair.march import flanks as module
 from gearlube_core.dynamics.helical_pair.march.flanks import FlankConstants, FlankView
-from gearlube_core.dynamics.helical_pair.march.state import (
-    N_STATE,
-    PHI_P,
-    PSI,
-    TH_G,
-    TH_P,
-    U_G,
-    U_P,
-    pair_motion,
-)
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from tests.helpers.each import each
+from tests.helpers.pair_motions import N_MOTION, PHI_P, PSI, TH_G, TH_P, U_G, U_P, pair_motion
 from tests.helpers.source_of import interpret
 
 HELIX, TILT = 0.35, 0.6  # base helix angle, line of centres against y [rad]
@@ -42,7 +33,7 @@ def uncompiled(monkeypatch):
 
 
 def motion() -> np.ndarray:
-    s = np.full(N_STATE, np.nan)  # nothing else may count
+    s = np.full(N_MOTION, np.nan)  # nothing else may count
     s[[PSI, *range(U_P, U_P + 3), *range(U_G, U_G + 3)]] = 1e-5 * RNG.normal(size=7)
     s[[TH_P, TH_P + 1, TH_G, TH_G + 1]] = 1e-4 * RNG.normal(size=4)
     s[PHI_P] = 12.3
@@ -124,7 +115,7 @@ def test_coast_flanks_that_are_not_near_cannot_touch():
 @each("sign", [1.0, -1.0])
 @each("at", [U_P, U_P + 1, U_P + 2, U_G, U_G + 1, U_G + 2])
 def test_a_displacement_alone_brings_the_coast_flanks_near_before_they_touch(at: int, sign: float):
-    s = np.zeros(N_STATE)
+    s = np.zeros(N_MOTION)
     s[at] = sign * 1.01 * CONSTANTS.backlash  # no direction counts less than its size
     assert module.coast_near(pair_motion(s), 0.0, CONSTANTS)
     s[at] *= 0.98
@@ -134,7 +125,7 @@ def test_a_displacement_alone_brings_the_coast_flanks_near_before_they_touch(at:
 
 @pytest.mark.parametrize("at", [TH_P, TH_P + 1, TH_G, TH_G + 1])
 def test_tilts_reach_as_far_as_the_gears_are_large(at: int):
-    s = np.zeros(N_STATE)
+    s = np.zeros(N_MOTION)
     # least distance on any flank: the lever of the pinion's base radius
     s[at] = -1.01 * CONSTANTS.backlash / (PLANE.r_bp + PLANE.r_bg)
     assert module.coast_near(pair_motion(s), 0.0, CONSTANTS)
@@ -143,7 +134,7 @@ def test_tilts_reach_as_far_as_the_gears_are_large(at: int):
 
 
 def test_rotation_backward_brings_the_coast_flanks_near():
-    s = np.zeros(N_STATE)
+    s = np.zeros(N_MOTION)
     s[PSI] = -1.01 * CONSTANTS.backlash / PLANE.cos_b
     assert module.coast_near(pair_motion(s), 0.0, CONSTANTS)
     s[PSI] *= 0.98

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.state import N_ODE, PSI, U_P, V_P, W_G, W_P
 from gearlube_core.dynamics.helical_pair.supports import support_damping
+from gearlube_core.dynamics.train.helical_pair import bearing_shares
+from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
@@ -25,6 +25,7 @@ from tests.helpers.helical_march_cases import (
     output,
     started,
 )
+from tests.helpers.pair_motions import PSI, U_P, V_P, W_G, W_P
 
 PLACES = np.r_[PSI, U_P : U_P + 10]
 ROWS = np.r_[W_P, V_P : V_P + 10]
@@ -38,7 +39,7 @@ def free(model: HelicalPairModel) -> np.ndarray:
 
 def scipy_equilibrium(model: HelicalPairModel) -> np.ndarray:
     """Displacements [m, rad] without acceleration after SciPy, from twice those of the model."""
-    state = model.get_state()[:N_ODE]
+    state = model.continuous
     places, rows = PLACES[free(model)], ROWS[free(model)]
 
     def accelerations(micro: np.ndarray) -> np.ndarray:
@@ -73,13 +74,13 @@ def test_the_start_is_the_equilibrium_that_scipy_finds(
     places = PLACES[free(model)]
     expected = scipy_equilibrium(model)
     # SciPy stops where rounding of forces does; of the largest displacement
-    apart = np.abs(model.get_state()[places] - expected).max()
+    apart = np.abs(model.continuous[places] - expected).max()
     assert apart < 1e-9 * np.abs(expected).max()
 
 
 def test_film_friction_at_the_start_belongs_to_its_loads() -> None:
     model = started(he_march(friction="film"))
-    rates = model.derivative(model.get_state()[:N_ODE])
+    rates = model.derivative(model.continuous)
     # friction follows the loads of the fourth pass; what is left is far below the mesh's force
     pinion = model.parameters.pinion
     force = TORQUE / model.parameters.pair.pinion_base_radius
@@ -89,13 +90,13 @@ def test_film_friction_at_the_start_belongs_to_its_loads() -> None:
 
 def first_order_frequencies(model: HelicalPairModel) -> np.ndarray:
     """Natural frequencies [Hz] from NumPy's eigenvalues of the linear motion, rising."""
-    state = model.get_state()[:N_ODE]
+    state = model.continuous
     state[[W_P, W_G]] = 0.0
     n = free(model)[1:] - 1
     kept = np.r_[PSI, U_P + n, W_P, W_G, V_P + n]
     matrix = np.empty((kept.size, kept.size))
     for column, place in enumerate(kept):
-        step = np.zeros(N_ODE)
+        step = np.zeros(state.size)
         step[place] = 1e-8
         difference = model.derivative(state + step) - model.derivative(state - step)
         matrix[:, column] = difference[kept] / 2e-8
@@ -161,7 +162,7 @@ def test_a_start_that_fails_leaves_the_model_as_it_was() -> None:
 
 def test_bearings_share_a_members_support_and_damping() -> None:
     parameters = he_march(support_damping_ratio=0.1)
-    shares = parameters.bearing_shares().reshape(2, 2, 8).sum(axis=1)
+    shares = bearing_shares(parameters).reshape(2, 2, 8).sum(axis=1)
     for body, both in zip((parameters.pinion, parameters.gear), shares, strict=True):
         total = body.support.first.K_xx + body.support.second.K_xx
         assert both[:5] == pytest.approx([total, 0.0, total, 0.0, total], abs=1e-6)

@@ -14,7 +14,6 @@ from gearlube_core.dynamics.helical_pair.march.flanks import (
     POINTS_PER_LINE,
     FlankView,
 )
-from gearlube_core.dynamics.helical_pair.march.state import MU, N_STATE, W_P
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import line_groups
 from gearlube_core.friction.flank_laws import FORMULA, SOLVED
@@ -34,14 +33,13 @@ POINTS[1, 2, 0] = 0.0  # apart, with a length
 POINTS[2, :, 3] *= -1.0
 MU_OF = 0.02 + 0.05 * RNG.random((LINES, POINTS_PER_LINE))
 BOUNDS = RNG.random((LINES, POINTS_PER_LINE, 3))  # share outside, bounds of film and coefficient
+MU = 5  # place of the coefficients
 COEFFICIENTS = 0.02 + 0.05 * RNG.random(2 * FLANK_POINTS)
 
 
 def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=MU, film=FORMULA):
     interpret(monkeypatch, module)
-    s = np.zeros(N_STATE)
-    s[W_P] = -120.0
-    s[MU:] = COEFFICIENTS
+    s = np.concatenate([np.zeros(MU), COEFFICIENTS])
 
     def line_point(view, coast, line, place, pinion_speed, data, lubricant, p):
         assert (view.phase, pinion_speed, data, lubricant) == (PHASE, 120.0, "data", OIL)
@@ -65,7 +63,7 @@ def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=
 
     monkeypatch.setattr(module, "line_point", line_point)
     p = SimpleNamespace(
-        motion=SimpleNamespace(flanks=SimpleNamespace(lines=float(LINES))),
+        flanks=SimpleNamespace(lines=float(LINES)),
         solid=SimpleNamespace(contact_modulus=MODULUS),
         surface=SimpleNamespace(sigma=SIGMA),
         friction_form=friction_form,
@@ -75,7 +73,7 @@ def written(monkeypatch, friction_form=1.0, points=POINTS, ratio_of=None, mu_at=
     end = FIRST + size + 1
     out = np.full(end + len(line_outputs.LINE_BOUNDS) + 1, -7.0)
     view = FlankView(0.0, 0.0, PHASE)
-    given = view, mu_at != MU, s, mu_at, s[W_P], HOT, "data", OIL, p
+    given = view, mu_at != MU, s, mu_at, -120.0, HOT, "data", OIL, p
     found = source_of(module.write_lines)(*given, FIRST, end, out)
     assert np.all(out[:FIRST] == -7.0)
     assert out[end - 1] == out[-1] == -7.0

@@ -24,7 +24,7 @@ from tests.helpers.source_of import interpret, source_of
 WAVY = wavy_mesh(he_march())
 CONSTANTS = WAVY.constants()
 DATA = pair_data(CONSTANTS, WAVY.mesh, WAVY.film_model())
-PLANE = CONSTANTS.motion.flanks.plane
+PLANE = CONSTANTS.flanks.plane
 LINES = WAVY.mesh.lines
 MU_AT = 3
 # every tooth pair and place its own; none of them falls to zero between pitch line and end

@@ -12,9 +12,8 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     ReplacedBearings,
     helical_march_parameters,
 )
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_INDEX, OUTPUT_NAMES
-from gearlube_core.dynamics.helical_pair.march.state import LOAD_TORQUE
+from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
+from gearlube_core.dynamics.train.helical_pair_outputs import OUTPUT_INDEX, OUTPUT_NAMES
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
@@ -264,7 +263,7 @@ def test_load_level_follows_the_torque_within_hundredths_of_a_second() -> None:
     history(model, [], 20, 1e-3, torque=1.5 * TORQUE)
     # a first-order lag of 20 ms after 20 ms, for a torque that does not change meanwhile
     expected = TORQUE * (1.5 - 0.5 * math.exp(-1.0))
-    assert model.get_state()[LOAD_TORQUE] == pytest.approx(expected, rel=1e-12)
+    assert output(model, "mesh.load_torque") == pytest.approx(expected, rel=1e-12)
 
 
 def test_film_friction_is_frozen_between_updates_and_converges_with_them() -> None:

@@ -90,7 +90,7 @@ WRONG = {
     ),
     "another unit": (
         ("K_xx_n_per_um = 400.0", "K_xx_n_per_um = 4e8"),
-        "elements.motor_bearings.K_xx_n_per_um must be a number, 0 to 1e+07 N/um, got "
+        "elements.motor_bearings.K_xx_n_per_um must be a number, 0 to 1e+08 N/um, got "
         "400000000.0. Stiffness along x. Is it in N/m? 4e+08 N/m is 400 N/um.",
     ),
     "an unknown kind": (

@@ -116,7 +116,10 @@ class Kernels(Protocol):
         out: Array,
         first: int,
     ) -> None:
-        """Write the element's outputs into `out` from place `first` on."""
+        """Write the element's outputs into `out` from place `first` on.
+
+        `stored_energy` of this state has been computed before.
+        """
 
     def exchange(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int

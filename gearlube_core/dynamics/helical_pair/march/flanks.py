@@ -167,27 +167,6 @@ def friction_direction(pinion_speed: float) -> float:
     return min(max(pinion_speed / SPEED_OF_FULL_FRICTION, -1.0), 1.0)
 
 
-class SupportConstants(NamedTuple):
-    """Support of one member: stiffness against (u, theta), dampers on its diagonal."""
-
-    K_xx: float  # [N/m]
-    K_yy: float
-    K_zz: float
-    K_ax: float  # against tilting about x [N.m/rad]
-    K_ay: float
-    K_x_ay: float  # symmetric coupling [N/rad]
-    K_y_ax: float
-    c_x: float  # [N s/m]
-    c_y: float
-    c_z: float
-    c_ax: float  # [N.m s/rad]
-    c_ay: float
-    mobility: float  # 1/m [1/kg]
-    mobility_z: float  # ditto along z; 0 when held
-    mobility_a: float  # 1/J against tilting [1/(kg m2)]; 0 when held
-    mobility_r: float  # 1/J_z of rotation [1/(kg m2)]
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarchScalars(FlankScalars):
     """Numbers of the pair that a user may give, besides those of `FlankScalars`.
@@ -206,18 +185,10 @@ class MarchScalars(FlankScalars):
     film_limiting_slope: Annotated[float, LIMITING_SLOPE] = 0.0
 
 
-class MotionConstants(NamedTuple):
-    """What the rates of change depend on."""
+class MarchConstants(NamedTuple):
+    """Constants of the marching model; `flanks` come first, so that they can be read alone."""
 
     flanks: FlankConstants
-    pinion: SupportConstants
-    gear: SupportConstants
-
-
-class MarchConstants(NamedTuple):
-    """Constants of the marching model; `motion` comes first, so that it can be read alone."""
-
-    motion: MotionConstants
     teeth: float  # of the pinion
     friction_form: float  # -1 off, 0 constant, 1 film
     mu: float  # of the constant form [-]

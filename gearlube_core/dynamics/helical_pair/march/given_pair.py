@@ -13,15 +13,10 @@ from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.helical_pair.march.flanks import (
     FlankConstants,
     MarchConstants,
-    MotionConstants,
-    SupportConstants,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
 from gearlube_core.dynamics.helical_pair.supports import (
-    bearing_at_gear,
     coupling_limit,
-    damping_constant,
-    member_stiffness,
     replaced_bearing,
 )
 from gearlube_core.dynamics.ranges import RangeLimits
@@ -30,9 +25,6 @@ from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantParameters
-
-N_BEARINGS = 4
-BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c_z
 
 
 class GivenBody(NamedTuple):
@@ -147,30 +139,6 @@ def replace_bearings(
 
 
 @kernel
-def support_constants(body: GivenBody, ratio: float, held: float) -> SupportConstants:
-    """Return the support of one member; `held` takes axial motion and tilt away."""
-    K = member_stiffness(body.first, body.second)
-    return SupportConstants(
-        K.K_xx,
-        K.K_yy,
-        K.K_zz,
-        K.K_ax,
-        K.K_ay,
-        K.K_x_ay,
-        K.K_y_ax,
-        damping_constant(K.K_xx, body.mass, ratio),
-        damping_constant(K.K_yy, body.mass, ratio),
-        damping_constant(K.K_zz, body.mass, ratio),
-        damping_constant(K.K_ax, body.inertia, ratio),
-        damping_constant(K.K_ay, body.inertia, ratio),
-        1.0 / body.mass,
-        (1.0 - held) / body.mass,
-        (1.0 - held) / body.inertia,
-        1.0 / body.polar_inertia,
-    )
-
-
-@kernel
 def write_constants(given: Array, oil: Array, choices: Array, constants: Array) -> None:
     """Write MarchConstants from GivenPair, GivenOil and MarchChoices, all flattened."""
     pair: GivenPair = tuple_from_array(given, GivenPair)
@@ -191,11 +159,7 @@ def write_constants(given: Array, oil: Array, choices: Array, constants: Array) 
     ranges = of_oil.ranges
     tuple_to_array(
         MarchConstants(
-            MotionConstants(
-                flanks,
-                support_constants(pair.pinion, chosen.support_damping_ratio, chosen.held),
-                support_constants(pair.gear, chosen.support_damping_ratio, chosen.held),
-            ),
+            flanks,
             pair.teeth,
             chosen.friction_form,
             chosen.friction_coefficient if chosen.friction_form == 0.0 else 0.0,
@@ -222,39 +186,3 @@ def write_constants(given: Array, oil: Array, choices: Array, constants: Array) 
         ),
         constants,
     )
-
-
-@kernel
-def write_share(
-    bearing: SupportStiffness, member: SupportConstants, first: int, out: Array
-) -> None:
-    """Write the BEARING_FIELDS of one bearing of a member from place `first` of `out`."""
-    own = bearing_at_gear(bearing)
-    out[first] = own.K_xx
-    out[first + 1] = own.K_x_ay
-    out[first + 2] = own.K_yy
-    out[first + 3] = own.K_y_ax
-    out[first + 4] = own.K_zz
-    out[first + 5] = member.c_x * own.K_xx / member.K_xx if member.K_xx > 0.0 else 0.0
-    out[first + 6] = member.c_y * own.K_yy / member.K_yy if member.K_yy > 0.0 else 0.0
-    out[first + 7] = member.c_z * own.K_zz / member.K_zz if member.K_zz > 0.0 else 0.0
-
-
-@kernel
-def write_bearing_shares(given: Array, constants: Array, shares: Array) -> None:
-    """Write the share of every bearing in the support force of its member.
-
-    Parameters
-    ----------
-    given, constants : ndarray
-        Flattened GivenPair, and MarchConstants made of it.
-    shares : ndarray
-        BEARING_FIELDS of each of the four bearings. A member's damping is shared in the ratio of
-        the bearings' stiffness.
-    """
-    pair: GivenPair = tuple_from_array(given, GivenPair)
-    motion: MotionConstants = tuple_from_array(constants, MotionConstants)
-    write_share(pair.pinion.first, motion.pinion, 0, shares)
-    write_share(pair.pinion.second, motion.pinion, BEARING_FIELDS, shares)
-    write_share(pair.gear.first, motion.gear, 2 * BEARING_FIELDS, shares)
-    write_share(pair.gear.second, motion.gear, 3 * BEARING_FIELDS, shares)

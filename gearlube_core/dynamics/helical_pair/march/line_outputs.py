@@ -165,7 +165,7 @@ def write_lines(
     weighted with the load. A line without load has no film: zeros, and the temperature of the oil.
     From `mu_at` on `mu` has the flank's friction coefficients; `coast` says which flank it is.
     """
-    lines = int(p.motion.flanks.lines)
+    lines = int(p.flanks.lines)
     for i in range(LINES_MAX):
         here = first + i * N_LINE_QUANTITIES
         for j in range(N_LINE_QUANTITIES):

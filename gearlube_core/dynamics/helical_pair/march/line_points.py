@@ -14,7 +14,6 @@ from gearlube_core.dynamics.helical_pair.march.flanks import (
     FlankConstants,
     FlankView,
     MarchConstants,
-    MotionConstants,
     PairMotion,
     coast_near,
     coast_view,
@@ -66,7 +65,7 @@ from gearlube_core.kernels.places import place_below
 from gearlube_core.oil.lubricant import LubricantState, lubricant_state
 
 # place of MarchConstants.refreshes in the pair data
-REFRESHES_AT = count_floats(MotionConstants) + MarchConstants._fields.index("refreshes") - 1
+REFRESHES_AT = count_floats(FlankConstants) + MarchConstants._fields.index("refreshes") - 1
 _TINY = 1e-300  # coefficient of friction in pure rolling
 
 
@@ -138,7 +137,7 @@ def film_node(phase: float, coast: bool, p: MarchConstants) -> tuple[int, float]
 
     Nodes are the phases of the drive flanks at which friction is computed anew.
     """
-    refreshes, start = p.refreshes, p.motion.flanks.coast_phase
+    refreshes, start = p.refreshes, p.flanks.coast_phase
     if refreshes > NODES_KEPT:
         return -1, 0.0
     number = np.floor((start - phase if coast else phase) * refreshes)
@@ -164,7 +163,7 @@ def bin_film(x: float, box: Bin, n: int, data: Array, p: MarchConstants) -> Node
     elif n == 4:
         slipping = math.exp(NUDGES[3])
     oil = lubricant_state(p.oil, temperature)
-    motion = line_kinematics(x, speed, p.motion.flanks.plane)
+    motion = line_kinematics(x, speed, p.flanks.plane)
     inlet = line_inlet(oil, p.solid, p.limiting_slope)
     R, u, slip = motion.R, motion.entrainment, motion.sliding * slipping
     film = line_film(data[FILM_AT:KEPT_AT], load, R, u, slip, p.solid, inlet)
@@ -209,7 +208,7 @@ def point_film(
         at = place_of(coast, node, line, place, box)
         there = is_kept(kept, at, box)
         if not there:
-            plane = p.motion.flanks.plane
+            plane = p.flanks.plane
             point = line_place(part, line, place, plane)
             if point.length > 0.0:
                 there = True
@@ -247,7 +246,7 @@ def line_point(
     The point is that of `line_place`; `coast` says which flanks `view` is of. The length is zero
     where there is no line.
     """
-    flanks = p.motion.flanks
+    flanks = p.flanks
     plane = flanks.plane
     point = line_place(view.phase - np.floor(view.phase), line, place, plane)
     if point.length == 0.0:
@@ -279,7 +278,7 @@ def refresh_flank(
     p: MarchConstants,
 ) -> None:
     """Compute the friction coefficients of one flank again, `mu` of shape (FLANK_POINTS,)."""
-    lines = int(p.motion.flanks.lines)
+    lines = int(p.flanks.lines)
     for line in range(lines):
         slot = POINTS_PER_LINE * pair_slot(view.phase, line, lines)
         for place in range(POINTS_PER_LINE):
@@ -302,8 +301,7 @@ def refresh_friction(m: PairMotion, kept: Array, data: Array, lubricant: Lubrica
         Pair data, see `mesh_data`.
     lubricant : LubricantState
     """
-    motion: MotionConstants = tuple_from_array(data, MotionConstants)
-    flanks = motion.flanks
+    flanks: FlankConstants = tuple_from_array(data, FlankConstants)
     drive = drive_view(m, flanks)
     on_drive = touches(drive, data[LEAST_OFFSET], flanks)
     on_coast = coast_near(m, data[LEAST_OFFSET], flanks)

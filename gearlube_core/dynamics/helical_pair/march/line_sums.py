@@ -8,7 +8,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
-from gearlube_core.dynamics.helical_pair.march.flanks import POINTS_PER_LINE, MotionConstants
+from gearlube_core.dynamics.helical_pair.march.flanks import POINTS_PER_LINE, FlankConstants
 from gearlube_core.dynamics.helical_pair.march.line_moments import (
     LINEAR,
     built_up_stations,
@@ -118,8 +118,7 @@ def line_sums(
     feels as a torque -r_bp moving. It is about 1e-4 of the mesh torque and missing in He et al.
     2007.
     """
-    motion: MotionConstants = tuple_from_array(data, MotionConstants)
-    p = motion.flanks
+    p: FlankConstants = tuple_from_array(data, FlankConstants)
     plane = p.plane
     half = 0.5 * plane.W
     tan_b = plane.sin_b / plane.cos_b

@@ -13,7 +13,7 @@ films are what `kept_films` remembers, the moments what `line_sums` does.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws
 
 FILM_AT = count_floats(MarchConstants)  # numbers of a film model of lines; zeros with formulas
 KEPT_AT = FILM_AT + N_ARRAY  # `kept_films`; zeros: nothing is kept
@@ -43,17 +42,7 @@ class MarchMesh(NamedTuple):
     offset: Array  # ditto [m]
 
 
-# the same as a plain tuple: Python hands that over 0.6 us faster a call; then laws of the oil's
-# own, if it has any
-MeshFields: TypeAlias = tuple[Any, ...]
-
-
-@kernel
-def laws_of_oil(
-    torque: Array, density: Array, offset: Array, laws: OilLaws = FORMULA_LAWS
-) -> OilLaws:
-    """Return the laws among `MeshFields`."""
-    return laws
+MeshFields: TypeAlias = tuple[Array, Array, Array]  # the same as a plain tuple
 
 
 def all_stations(mesh: LineMesh) -> Array:

@@ -8,7 +8,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.flanks import (
     FLANK_POINTS,
     FlankConstants,
-    MotionConstants,
     PairMotion,
     coast_near,
     coast_view,
@@ -105,8 +104,7 @@ def pair_forces(m: PairMotion, mu: Array, mu_at: int, data: Array) -> PairForces
     data : ndarray
         Pair data, see `mesh_data`.
     """
-    motion: MotionConstants = tuple_from_array(data, MotionConstants)
-    p = motion.flanks
+    p: FlankConstants = tuple_from_array(data, FlankConstants)
     plane = p.plane
     direction = friction_direction(m.w_p)
     psi_rate = plane.r_bp * m.w_p - plane.r_bg * m.w_g

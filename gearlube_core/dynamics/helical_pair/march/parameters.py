@@ -13,13 +13,10 @@ from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.flanks import LINES_MAX, MarchConstants, MarchScalars
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
-    BEARING_FIELDS,
-    N_BEARINGS,
     GivenBody,
     GivenOil,
     GivenPair,
     MarchChoices,
-    write_bearing_shares,
     write_constants,
 )
 from gearlube_core.dynamics.helical_pair.march.mesh_data import all_stations
@@ -243,9 +240,3 @@ class HelicalMarchParameters(MarchScalars):
         write_constants(given, flatten(self.given_oil()), flatten(self.choices()), floats)
         found: MarchConstants = tuple_from_array(floats, MarchConstants)
         return found
-
-    def bearing_shares(self) -> Array:
-        """Return the shares of all bearings in the members' supports, see `given_pair`."""
-        shares = np.zeros(N_BEARINGS * BEARING_FIELDS)
-        write_bearing_shares(flatten(self.given()), flatten(self.constants()), shares)
-        return shares

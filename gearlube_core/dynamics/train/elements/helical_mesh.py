@@ -24,6 +24,7 @@ from gearlube_core.dynamics.train.element import (
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import (
     TABLE,
     HelicalMeshKernels,
+    pair_data_at,
 )
 from gearlube_core.dynamics.train.elements.mesh_outputs import (
     FILM_SHARE,
@@ -117,7 +118,7 @@ class HelicalMesh(Element):
         packed = pack_march_mesh(self.parameters.mesh)
         levels, size = packed.density.shape
         data = self._pair_data().size
-        return levels, size, TABLE + levels + 2 * levels * size, data
+        return levels, size, int(pair_data_at(levels, size)), data
 
     def _pair_data(self) -> Array:
         given = self.parameters

@@ -16,6 +16,7 @@ from gearlube_core.dynamics.helical_pair.march.flanks import (
     coast_view,
     deepest,
     drive_view,
+    friction_direction,
 )
 from gearlube_core.dynamics.helical_pair.march.jumps import (
     LOAD_FILTER_TIME,
@@ -30,7 +31,7 @@ from gearlube_core.dynamics.helical_pair.march.line_outputs import (
     write_lines,
 )
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
-from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
+from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     FILM_AT,
     LEAST_OFFSET,
@@ -41,7 +42,13 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     mean_density,
     mesh_at_torque,
 )
-from gearlube_core.dynamics.helical_pair.march.pair_forces import pair_forces
+from gearlube_core.dynamics.helical_pair.march.pair_forces import (
+    flank_wrench,
+    friction_heat,
+    pair_forces,
+    turned_friction_heat,
+    turned_wrench,
+)
 from gearlube_core.dynamics.train.element import (
     RATE,
     Axes,
@@ -63,7 +70,7 @@ from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.array_rows import rows
 from gearlube_core.kernels.checked_numbers import all_finite, is_whole
-from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantState
@@ -75,9 +82,11 @@ _LEAST_PRESSED = 1e-9  # m
 _ALL_TOUCH = 1e-5  # m, compression at which all lines touch
 _MICRO = 1e6  # um per m: indicators of order 1, which solvers with a tolerance for roots expect
 # places in the memory: torque on the pinion in the last stage [N.m], length of the last step [s],
-# how much of a difference the load level follows in it
-_TORQUE, _STEP, _FOLLOWS = range(3)
-TABLE = 3  # torque levels, then density and offset at each, then the pair data
+# how much of a difference the load level follows in it, sums of both flanks for `write`
+_TORQUE, _STEP, _FOLLOWS, _DRIVE = range(4)
+_N_SUMS = len(LineSums._fields)
+_COAST = _DRIVE + _N_SUMS
+TABLE = _COAST + _N_SUMS  # torque levels, then density and offset at each, then the pair data
 
 
 class HelicalMeshKernels(NamedTuple):
@@ -93,13 +102,13 @@ class HelicalMeshKernels(NamedTuple):
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         """See `Kernels.at_rest`."""
         constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
-        flanks, load, kept = constants.motion.flanks, s[at[_PSI]], at[_KEPT]
+        flanks, load, kept = constants.flanks, s[at[_PSI]], at[_KEPT]
         plane, table = flanks.plane, _table(at, memory)
         level = s[at[_PORT]] if at[_PORT] > 0 else load * plane.r_bp
         s[kept], s[kept + 1] = abs(level), -1.0
         for i in range(1, N_FRICTION):
             s[kept + 1 + i] = constants.mu
-        # the relative rotation at which all lines touch, see `equilibrium.settle`
+        # the relative rotation at which all lines touch
         pressed = 2.0 * abs(load) / (plane.W * mean_density(table)) + largest_offset(table)
         pressed = max(pressed, _LEAST_PRESSED)
         rotation = pressed if load > 0.0 else -pressed - flanks.backlash
@@ -112,7 +121,7 @@ class HelicalMeshKernels(NamedTuple):
     def full_contact(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         """See `Kernels.full_contact`."""
         constants: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
-        flanks, table = constants.motion.flanks, _table(at, memory)
+        flanks, table = constants.flanks, _table(at, memory)
         plane = flanks.plane
         if s[at[_KEPT]] < plane.r_bp * plane.W * mean_density(table) * _ALL_TOUCH:
             pressed = (_ALL_TOUCH + largest_offset(table)) / plane.cos_b
@@ -132,7 +141,7 @@ class HelicalMeshKernels(NamedTuple):
         level, before = s[at[_KEPT]], data[LEVEL]
         if abs(level - before) > LOAD_REACH * (1.0 + before):
             _follow_level(at, memory, level)
-        cost = max(1.0, p.motion.flanks.stations / STATIONS)
+        cost = max(1.0, p.flanks.stations / STATIONS)
         if p.friction_form > 0.0:
             kept = part(s, at[_KEPT] + 1, N_FRICTION)
             if refresh_friction(_motion(self, at, s), kept, data, oil):
@@ -146,7 +155,7 @@ class HelicalMeshKernels(NamedTuple):
         """See `Kernels.add_forces`."""
         data = _data(at, memory)
         constants: MarchConstants = tuple_from_array(data, MarchConstants)
-        plane = constants.motion.flanks.plane
+        plane = constants.flanks.plane
         mesh = pair_forces(_motion(self, at, s), s, at[_KEPT] + 2, data)
         w = mesh.wrench
         # dampers act along the line of action, and the work of moving lines on the pinion alone
@@ -183,7 +192,7 @@ class HelicalMeshKernels(NamedTuple):
         out[first] = (abs(_torque(at, memory, s)) - s[at[_KEPT]]) / LOAD_FILTER_TIME
         data = _data(at, memory)
         p: MarchConstants = tuple_from_array(data, MarchConstants)
-        m, flanks = _motion(self, at, s), p.motion.flanks
+        m, flanks = _motion(self, at, s), p.flanks
         drive = drive_view(m, flanks)
         out[first + 1] = deepest(drive, data[LEAST_OFFSET], flanks) * _MICRO
         out[first + 2] = coast_deepest(m, data[LEAST_OFFSET], flanks) * _MICRO
@@ -205,12 +214,14 @@ class HelicalMeshKernels(NamedTuple):
         """See `Kernels.stored_energy`."""
         data = _data(at, memory)
         constants: MarchConstants = tuple_from_array(data, MarchConstants)
-        m, flanks = _motion(self, at, s), constants.motion.flanks
+        m, flanks = _motion(self, at, s), constants.flanks
         mu = at[_KEPT] + 2
         drive, coast = drive_view(m, flanks), coast_view(m, flanks)
-        stored = line_sums(drive.a, drive.tilt, drive.phase, data, s, mu).energy
-        mu += FLANK_POINTS
-        return stored + line_sums(coast.a, coast.tilt, coast.phase, data, s, mu).energy
+        on_drive = line_sums(drive.a, drive.tilt, drive.phase, data, s, mu)
+        on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, mu + FLANK_POINTS)
+        tuple_to_array(on_drive, part(memory, _DRIVE, _N_SUMS))
+        tuple_to_array(on_coast, part(memory, _COAST, _N_SUMS))
+        return on_drive.energy + on_coast.energy
 
     @kernel
     def step_rate(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
@@ -226,10 +237,10 @@ class HelicalMeshKernels(NamedTuple):
         """See `Kernels.time_to_jump`."""
         data = _data(at, memory)
         constants: MarchConstants = tuple_from_array(data, MarchConstants)
-        if constants.motion.flanks.plane.sin_b > 0.0:  # before the motion is put together
+        if constants.flanks.plane.sin_b > 0.0:  # before the motion is put together
             return math.inf
         m = _motion(self, at, s)
-        return time_to_jump(m, data[LEAST_OFFSET], constants.motion.flanks)
+        return time_to_jump(m, data[LEAST_OFFSET], constants.flanks)
 
     @kernel
     def write(
@@ -244,12 +255,16 @@ class HelicalMeshKernels(NamedTuple):
         """See `Kernels.write`."""
         data, mu = _data(at, memory), at[_KEPT] + 2
         p: MarchConstants = tuple_from_array(data, MarchConstants)
-        m, flanks = _motion(self, at, s), p.motion.flanks
+        m, flanks = _motion(self, at, s), p.flanks
         plane = flanks.plane
-        mesh = pair_forces(m, s, mu, data)
         drive, coast = drive_view(m, flanks), coast_view(m, flanks)
-        on_drive = line_sums(drive.a, drive.tilt, drive.phase, data, s, mu)
-        on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, mu + FLANK_POINTS)
+        on_drive: LineSums = tuple_from_array(part(memory, _DRIVE, _N_SUMS), LineSums)
+        on_coast: LineSums = tuple_from_array(part(memory, _COAST, _N_SUMS), LineSums)
+        direction = friction_direction(m.w_p)
+        front = flank_wrench(on_drive, direction, plane)
+        behind = turned_wrench(flank_wrench(on_coast, -direction, plane), flanks)
+        heat = friction_heat(on_drive, direction, m, flanks)
+        heat += turned_friction_heat(on_coast, -direction, m, flanks)
         back = on_coast.N > on_drive.N
         view, mu_at = (coast, mu + FLANK_POINTS) if back else (drive, mu)
         lines = first + OWN + _LINES
@@ -265,17 +280,18 @@ class HelicalMeshKernels(NamedTuple):
             1.0 if on_coast.N > 0.0 else 0.0,
             p.teeth * m.w_p / (2.0 * math.pi),
             s[at[_KEPT]],
-            mesh.heat,
-            found.loss_bound * abs(mesh.heat),
+            heat,
+            found.loss_bound * abs(heat),
             found.thinnest_film,
             found.outside,
         )
         torque = max(on_drive.N, on_coast.N) * plane.r_bp * plane.cos_b
         torque = max(abs(s[at[_KEPT]]), torque)
         write_mesh(values, -torque if back else torque, found, p.ranges, first, out)
-        own, w = first + OWN, mesh.wrench
+        own = first + OWN
         out[own] = on_drive.N - on_coast.N
-        out[own + 1], out[own + 2], out[own + 3] = unseen(self.axes, w.F_x, w.F_y, w.F_z)
+        force = front.F_x + behind.F_x, front.F_y + behind.F_y, front.F_z + behind.F_z
+        out[own + 1], out[own + 2], out[own + 3] = unseen(self.axes, *force)
         out[own + 4] = m.ry_p - m.ry_g
         out[own + 5] = found.loss_bound
 
@@ -287,12 +303,12 @@ class HelicalMeshKernels(NamedTuple):
         if not (1 <= levels <= most and 2 <= size <= most and kept == 1 + N_FRICTION):
             return 0.0
         end = data_at + at[_DATA_SIZE]
-        if not (data_at == TABLE + levels + 2 * levels * size and end == memory.size):
+        if not (data_at == pair_data_at(levels, size) and end == memory.size):
             return 0.0
         if at[_DATA_SIZE] < STATIONS_AT or not all_finite(memory, TABLE, data_at):
             return 0.0
         p: MarchConstants = tuple_from_array(_data(at, memory), MarchConstants)
-        flanks, stations = p.motion.flanks, p.motion.flanks.stations
+        flanks, stations = p.flanks, p.flanks.stations
         fits = is_whole(flanks.lines, 1.0, float(LINES_MAX)) and is_whole(stations, 2.0, MOST)
         fits = fits and is_whole(flanks.phases, 1.0, MOST)
         fits = fits and flanks.lines * flanks.phases * stations == float(size)
@@ -314,14 +330,25 @@ def _data(at: Any, memory: Array) -> Array:
 
 
 @inside
-def _table(at: Any, memory: Array) -> tuple[Array, Array, Array]:
-    levels, size = at[_LEVELS], at[_SIZE]
+def line_table(memory: Array, levels: int, size: int) -> tuple[Array, Array, Array]:
+    """Return torque levels, and density and offset at each, among the memory of a mesh."""
     at_density = TABLE + levels
     return (
         part(memory, TABLE, levels),
         rows(memory, at_density, levels, size),
         rows(memory, at_density + levels * size, levels, size),
     )
+
+
+@kernel
+def pair_data_at(levels: int, size: int) -> int:
+    """Return where the pair data begin in the memory of a mesh."""
+    return TABLE + levels + 2 * levels * size
+
+
+@inside
+def _table(at: Any, memory: Array) -> tuple[Array, Array, Array]:
+    return line_table(memory, at[_LEVELS], at[_SIZE])
 
 
 @kernel

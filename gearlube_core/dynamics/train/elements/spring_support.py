@@ -16,15 +16,21 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
-_DAMPING = Number("N.s/m", 0.0, 1e9)
-_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e9)
+# of all bearings of a body together, up to 10 m from its centre
+_STIFFNESS, _TILTING = STIFFNESS._replace(high=1e14), TILTING._replace(high=1e16)
+_COUPLING = COUPLING._replace(low=-1e15, high=1e15)
+_DAMPING = Number("N.s/m", 0.0, 1e11)
+_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e12)
+_ROUNDED_UP = 1.0 + 1e-12
 
 
 def _worded(number: Number, text: str, shown: str = "") -> Number:
     return number._replace(text=text, shown=shown)
 
 
-class _Support(NamedTuple):
+class SpringKernels(NamedTuple):
+    """Constants of springs and dampers, and their kernels: see `element.Kernels`."""
+
     K_xx: float  # [N/m]
     K_yy: float
     K_zz: float
@@ -42,6 +48,7 @@ class _Support(NamedTuple):
     def add_forces(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
     ) -> None:
+        """See `Kernels.add_forces`."""
         u, lost = at
         v = u + RATE
         x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
@@ -56,6 +63,7 @@ class _Support(NamedTuple):
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        """See `Kernels.stored_energy`."""
         u = at[0]
         x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
         elastic = self.K_xx * x * x + self.K_yy * y * y + self.K_zz * z * z
@@ -66,6 +74,7 @@ class _Support(NamedTuple):
     def write(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
     ) -> None:
+        """See `Kernels.write`."""
         u, v = at[0], at[0] + RATE
         x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
         out[first] = -(self.K_xx * x + self.K_x_ay * a_y + self.c_x * s[v])
@@ -83,9 +92,9 @@ class SpringSupport(Element):
     ----------
     name, body : str
     K_xx, K_yy, K_zz : float
-        Stiffness against displacement [N/m], 0 to 1e13.
+        Stiffness against displacement [N/m], 0 to 1e14.
     K_ax, K_ay : float
-        Against tilting about x and y [N.m/rad], 0 to 1e13.
+        Against tilting about x and y [N.m/rad], 0 to 1e16.
     K_x_ay, K_y_ax : float
         Symmetric coupling of x with tilting about y, and of y with tilting about x [N/rad].
     c_x, c_y, c_z, c_ax, c_ay : float
@@ -105,14 +114,14 @@ class SpringSupport(Element):
     name: str
     body: str
     kind: ClassVar = "spring_support"
-    interpreted: ClassVar = (Listed(_Support, (), 2),)
-    K_xx: Annotated[float, _worded(STIFFNESS, "Stiffness along x", "N/um")] = 0.0
-    K_yy: Annotated[float, _worded(STIFFNESS, "Stiffness along y", "N/um")] = 0.0
-    K_zz: Annotated[float, _worded(STIFFNESS, "Stiffness along z", "N/um")] = 0.0
-    K_ax: Annotated[float, _worded(TILTING, "Stiffness against tilting about x")] = 0.0
-    K_ay: Annotated[float, _worded(TILTING, "Stiffness against tilting about y")] = 0.0
-    K_x_ay: Annotated[float, _worded(COUPLING, "Force along x per tilt about y", "kN/rad")] = 0.0
-    K_y_ax: Annotated[float, _worded(COUPLING, "Force along y per tilt about x", "kN/rad")] = 0.0
+    interpreted: ClassVar = (Listed(SpringKernels, (), 2),)
+    K_xx: Annotated[float, _worded(_STIFFNESS, "Stiffness along x", "N/um")] = 0.0
+    K_yy: Annotated[float, _worded(_STIFFNESS, "Stiffness along y", "N/um")] = 0.0
+    K_zz: Annotated[float, _worded(_STIFFNESS, "Stiffness along z", "N/um")] = 0.0
+    K_ax: Annotated[float, _worded(_TILTING, "Stiffness against tilting about x")] = 0.0
+    K_ay: Annotated[float, _worded(_TILTING, "Stiffness against tilting about y")] = 0.0
+    K_x_ay: Annotated[float, _worded(_COUPLING, "Force along x per tilt about y", "kN/rad")] = 0.0
+    K_y_ax: Annotated[float, _worded(_COUPLING, "Force along y per tilt about x", "kN/rad")] = 0.0
     c_x: Annotated[float, _worded(_DAMPING, "Damper along x")] = 0.0
     c_y: Annotated[float, _worded(_DAMPING, "Damper along y")] = 0.0
     c_z: Annotated[float, _worded(_DAMPING, "Damper along z")] = 0.0
@@ -131,9 +140,10 @@ class SpringSupport(Element):
             ("K_x_ay", self.K_xx, self.K_ay),
             ("K_y_ax", self.K_yy, self.K_ax),
         ):
-            limit, cure = coupling_limit(direct, tilting), COUPLING_CURE
+            # of one bearing alone the coupling is as large as this, to rounding
+            limit, cure = coupling_limit(direct, tilting) * _ROUNDED_UP, COUPLING_CURE
             check_within(coupling, getattr(self, coupling), -limit, limit, "N/rad", cure)
 
-    def numbers(self) -> _Support:
+    def numbers(self) -> SpringKernels:
         """Return the constants of the kernels."""
-        return constants_of(_Support, self)
+        return constants_of(SpringKernels, self)
