@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.style import VERMILLION
 from gearlube_core.arrays import Array
+from gearlube_core.hypoid_contact.ease_off import MARKING_COMPOUND
 from gearlube_core.hypoid_geometry.flank.flank import tooth_region
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
@@ -60,6 +62,34 @@ class DrawnTooth:
         ax.text(1.01, 0.03, "root", ha="left", va="bottom", **look)
         if title:
             ax.set_title(title, fontsize=9.5)
+
+    def draw_ease_off(self, ax: Any, part: xr.Dataset, levels: Array, width: float) -> Any:
+        """Draw one side's ease-off, pattern of the marking compound and path of contact.
+
+        `levels` are those of the ease-off [um], `width` that of the pattern's line. Returned is
+        what a colour bar is made for.
+        """
+        places = self.along(part["ease_t"]), self.up(part["ease_s"])
+        filled = ax.contourf(
+            *places, 1e6 * part["ease_off"], levels=levels, cmap="viridis_r", extend="max"
+        )
+        ax.contour(
+            *places,
+            part["closest"].fillna(1.0),
+            levels=[MARKING_COMPOUND],
+            colors=VERMILLION,
+            linewidths=width,
+        )
+        ax.plot(self.along(part["path_t"]), self.up(part["path_s"]), color="black", lw=1.8)
+        return filled
+
+
+def ease_off_levels(dataset: xr.Dataset) -> Array:
+    """Return the levels of the ease-off [um] that both sides are drawn with."""
+    from matplotlib.ticker import MaxNLocator
+
+    top = float(np.nanpercentile(1e6 * dataset["ease_off"].values, 97))
+    return np.asarray(MaxNLocator(12).tick_values(0.0, top))
 
 
 def ellipse(centre: Array, minor: Array, major: Array, size: float = 1.0) -> tuple[Array, Array]:

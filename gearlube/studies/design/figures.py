@@ -7,42 +7,22 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.drawn_tooth import DrawnTooth
+from gearlube.plotting.drawn_tooth import DrawnTooth, ease_off_levels
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 from gearlube.report.pictures import Picture
-from gearlube_core.hypoid_contact.ease_off import MARKING_COMPOUND
 
 _TITLES = {"drive": "drive flanks", "coast": "coast flanks"}
 
 
 def contact_patterns(dataset: xr.Dataset) -> Any:
     """Return ease-off, path and marked pattern on the gear tooth, with the place asked for."""
-    from matplotlib.ticker import MaxNLocator
-
-    tooth = DrawnTooth.of_dataset(dataset)
+    tooth, levels = DrawnTooth.of_dataset(dataset), ease_off_levels(dataset)
     with house_style():
         figure = new_figure(9.6, 5.4)
         axes = figure.subplots(2, 1)
-        top = float(np.nanpercentile(1e6 * dataset["ease_off"].values, 97))
-        levels = MaxNLocator(12).tick_values(0.0, top)
         for ax, side in zip(axes, _TITLES, strict=True):
             part = dataset.sel(side=side)
-            grid = tooth.along(part["ease_t"]), tooth.up(part["ease_s"])
-            filled = ax.contourf(
-                *grid,
-                1e6 * part["ease_off"].values,
-                levels=levels,
-                cmap="viridis_r",
-                extend="max",
-            )
-            ax.contour(
-                *grid,
-                part["closest"].fillna(1.0).values,
-                levels=[MARKING_COMPOUND],
-                colors=VERMILLION,
-                linewidths=1.8,
-            )
-            ax.plot(tooth.along(part["path_t"]), tooth.up(part["path_s"]), color="black", lw=1.8)
+            filled = tooth.draw_ease_off(ax, part, levels, 1.8)
             asked = tooth.along(part["asked_t"]), tooth.up(part["asked_s"])
             ax.plot(*asked, "o", color="white", mec="black", ms=7, zorder=7)
             ratio = float(part["path_contact_ratio"])

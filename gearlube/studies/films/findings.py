@@ -22,6 +22,8 @@ _ERRORS = (
     ("largest pressure", "error_pressure_max"),
     ("friction", "error_friction"),
 )
+_MORE_NODES = "Take more nodes; --film-error 2% does so for lines and points."
+_WIDER_DOMAIN = "Take a wider domain, or leave the default one."
 _SOLVED = ("central film", "minimum film")
 
 
@@ -45,9 +47,10 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         _converged(dataset),
         *_thin(dataset),
         *_thick_formulas(dataset),
-        *_grid(largest_errors(dataset)),
+        *_error("grid", largest_errors(dataset), "coarser grids", _MORE_NODES),
     ]
-    found += _domain(dataset)
+    domain = largest_errors(dataset, "domain_")
+    found += _error("domain", domain, "a domain twice as wide", _WIDER_DOMAIN)
     if dataset.attrs["contact"] in STEADY:
         of_films = _steady(dataset)
     elif dataset.attrs["contact"] == "hypoid":
@@ -83,16 +86,19 @@ def _signed(phase: float) -> str:
     return f"{phase:.2f}".replace("-", "−")
 
 
-def largest_errors(dataset: xr.Dataset) -> dict[str, float]:
-    """Return the estimated errors of the grid by their quantities, those that are known [-]."""
-    of = dataset.attrs
-    found = {name: float(of.get(key, math.nan)) for name, key in _ERRORS}
-    if "steady_grid_error" in dataset:
+def largest_errors(dataset: xr.Dataset, of: str = "") -> dict[str, float]:
+    """Return the estimated errors of the grid by their quantities, those that are known [-].
+
+    `of` is "domain_" for those of the domain.
+    """
+    found = {name: float(dataset.attrs.get(of + key, math.nan)) for name, key in _ERRORS}
+    if not of and "steady_grid_error" in dataset:
         found["films"] = float(dataset["steady_grid_error"].max())
     return {name: error for name, error in found.items() if math.isfinite(error)}
 
 
-def _grid(errors: dict[str, float]) -> list[Finding]:
+def _error(what: str, errors: dict[str, float], source: str, cure: str) -> list[Finding]:
+    """Return how large the error of the grid or the domain is, if it is known [-]."""
     if not errors:
         return []
     worst = max(errors, key=lambda name: errors[name])
@@ -101,28 +107,8 @@ def _grid(errors: dict[str, float]) -> list[Finding]:
     return [
         Finding(
             WARNING if large else GOOD,
-            f"The grid makes an error of about {100.0 * errors[worst]:.2g} % of the {worst}.",
-            f"Estimated from coarser grids: {listed}."
-            + (" Take more nodes; --film-error 2% does so for lines and points." if large else ""),
-        )
-    ]
-
-
-def _domain(dataset: xr.Dataset) -> list[Finding]:
-    of = dataset.attrs
-    errors = {name: float(of.get(f"domain_{key}", math.nan)) for name, key in _ERRORS}
-    known = {name: one for name, one in errors.items() if math.isfinite(one)}
-    if not known:
-        return []
-    worst = max(known, key=lambda name: known[name])
-    large = known[worst] > LARGE_ERROR
-    listed = ", ".join(f"{name} {100.0 * one:.2g} %" for name, one in known.items())
-    return [
-        Finding(
-            WARNING if large else GOOD,
-            f"The domain makes an error of about {100.0 * known[worst]:.2g} % of the {worst}.",
-            f"Estimated from a domain twice as wide: {listed}."
-            + (" Take a wider domain, or leave the default one." if large else ""),
+            f"The {what} makes an error of about {100.0 * errors[worst]:.2g} % of the {worst}.",
+            f"Estimated from {source}: {listed}." + (f" {cure}" if large else ""),
         )
     ]
 

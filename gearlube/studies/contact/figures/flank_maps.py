@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.drawn_tooth import DrawnTooth
-from gearlube.plotting.style import SKY, VERMILLION, house_style, new_figure
+from gearlube.plotting.drawn_tooth import DrawnTooth, ease_off_levels
+from gearlube.plotting.style import SKY, house_style, new_figure
 from gearlube.report.charts import Axis, Line, add_line, panels
 from gearlube_core.arrays import Array
-from gearlube_core.hypoid_contact.ease_off import MARKING_COMPOUND
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
 _SIDES = {"drive": "drive side", "coast": "coast side"}
@@ -22,28 +21,13 @@ _LOADED = 1e-3
 
 def ease_off_map(dataset: xr.Dataset) -> Any:
     """Return ease-off, path of contact and marked pattern on the drawn gear tooth, both sides."""
-    from matplotlib.ticker import MaxNLocator
-
-    tooth = DrawnTooth.of_dataset(dataset)
+    tooth, levels = DrawnTooth.of_dataset(dataset), ease_off_levels(dataset)
     with house_style():
         figure = new_figure(9.6, 6.4)
         axes = figure.subplots(2, 1)
-        top = float(np.nanpercentile(1e6 * dataset["ease_off"].values, 97))
-        levels = MaxNLocator(12).tick_values(0.0, top)
         for ax, side in zip(axes, _SIDES, strict=True):
             part = dataset.sel(side=side)
-            places = tooth.along(part["ease_t"]), tooth.up(part["ease_s"])
-            filled = ax.contourf(
-                *places, 1e6 * part["ease_off"], levels=levels, cmap="viridis_r", extend="max"
-            )
-            ax.contour(
-                *places,
-                part["closest"].fillna(1.0),
-                levels=[MARKING_COMPOUND],
-                colors=VERMILLION,
-                linewidths=2.0,
-            )
-            ax.plot(tooth.along(part["path_t"]), tooth.up(part["path_s"]), color="black", lw=1.8)
+            filled = tooth.draw_ease_off(ax, part, levels, 2.0)
             ratio = float(part["path_contact_ratio"])
             tooth.draw(ax, f"{_SIDES[side]}: the path lasts {ratio:.2f} mesh periods")
         axes[0].set_xlabel("")
