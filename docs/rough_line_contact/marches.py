@@ -5,7 +5,7 @@ for `variants`, ten minutes for `cases`, which are cases A, B and C with five se
 grid. Those on its finer grid, whose names end in ", fine", take one to eight minutes each and are
 marched only if named. Each march is kept in a folder of its own, by default below
 build/rough_line_contact; a stopped one goes on, a finished one is only read. Writes variants.csv or
-cases.csv; numbers of marches that are not in the folder stay. `tables` prints and draws them.
+cases.csv; numbers of marches that are not in the folder stay. `tables` puts them into the page.
 """
 
 from __future__ import annotations
