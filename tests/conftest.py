@@ -49,6 +49,9 @@ _ApproxArray.__eq__ = _equal_arrays
 # threads of linear algebra in several processes wait for one another, which takes ten times the
 # processor time of small matrices; a plugin of pytest has loaded numpy, with its threads, by now
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# numba colours every reason why a function does not fit, also of those that it never shows: a
+# twentieth of the time of compilation where colorama, which comes with a package of tests, is
+os.environ.setdefault("NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING", "1")
 threadpool_limits(1, user_api="blas")
 
 _folder = open_session_folder()

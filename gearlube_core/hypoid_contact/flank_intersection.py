@@ -106,6 +106,17 @@ def intersect_line(
 
 
 @kernel
+def copy_parameters(parameters: Array, copy: Array) -> None:
+    """Write the numbers of one array into another.
+
+    numba's assignment of arrays brings the text of an error into the code, which takes two
+    seconds of compilation in each process.
+    """
+    for k in range(parameters.size):
+        copy[k] = parameters[k]
+
+
+@kernel
 def intersect_rotation(
     motion: CuttingMotion,
     placement: Placement,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
-from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_line
+from gearlube_core.hypoid_contact.flank_intersection import HIT, copy_parameters, intersect_line
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import (
     Placement,
@@ -62,7 +62,7 @@ def along_normals(
         )
         x = np.array([starts[i, 0], starts[i, 1], starts[i, 2], 0.0])
         if intersect_line(motion, placement, origin, direction, x) == HIT:
-            found[i] = x
+            copy_parameters(x, found[i])
     return found
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_line
+from gearlube_core.hypoid_contact.flank_intersection import HIT, copy_parameters, intersect_line
 from gearlube_core.hypoid_contact.gap_map import GapMap, closing_arm, gear_arm, within_tooth
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import Placement
@@ -207,15 +207,15 @@ def _facing_parameters(
             inner_i = i - 1 if i > mx else i + 1
             parameters = last.copy()
             if i != mx and not np.isnan(found[inner_i, j, 0]):
-                parameters[:] = found[inner_i, j]
+                copy_parameters(found[inner_i, j], parameters)
             elif j != my and not np.isnan(found[i, inner_j, 0]):
-                parameters[:] = found[i, inner_j]
+                copy_parameters(found[i, inner_j], parameters)
             o = frame[0] + x[i] * frame[1] + y[j] * frame[2]
             if (
                 intersect_line(motion, placement, Vector(o[0], o[1], o[2]), direction, parameters)
                 == HIT
             ):
-                found[i, j] = parameters
+                copy_parameters(parameters, found[i, j])
                 last = parameters
     return found
 

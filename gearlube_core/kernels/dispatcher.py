@@ -7,15 +7,18 @@ functions that Python calls become machine code, which saves a third of its comp
 
 from __future__ import annotations
 
+import gc
 import itertools
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from numba import types
 from numba.core import config
 from numba.core.bytecode import FunctionIdentity
-from numba.core.compiler import Compiler
+from numba.core.compiler import Compiler, Flags
+from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher
 
 from gearlube_core.kernels.compiled_cache import LinkedCache, SourceCache, cache_of
@@ -27,6 +30,36 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 # two processes on disk then has equal names, and a third process that loads both runs one for the
 # other. A count that begins anywhere keeps them apart.
 FunctionIdentity._unique_ids = itertools.count(secrets.randbits(48))
+
+# numba compares all options of a compilation, by name, each time that it looks up a function, and
+# gives all sets of options one hash: a twentieth of the time of compilation. Most are the same.
+_compare_by_name = Flags.__eq__
+
+
+def _equal_flags(one: Any, other: Any) -> Any:
+    same = type(one) is type(other) and one._values == other._values
+    return same or _compare_by_name(one, other)
+
+
+Flags.__eq__ = _equal_flags  # type: ignore[method-assign]
+Flags.__hash__ = lambda flags: hash(type(flags))  # type: ignore[method-assign]
+
+# objects between two searches for garbage: compilation makes many that stay, and with Python's
+# usual number the searches take a seventh of its time
+_MANY = 100_000
+
+
+@contextmanager
+def _little_garbage() -> Iterator[None]:
+    """Look for garbage seldom, where it is looked for at all, while one thread compiles."""
+    with global_compiler_lock:
+        usual = gc.get_threshold()
+        if 0 < usual[0] < _MANY:
+            gc.set_threshold(_MANY, *usual[1:])
+        try:
+            yield
+        finally:
+            gc.set_threshold(*usual)
 
 
 class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
@@ -47,6 +80,11 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
         linked: Any = CPUDispatcher(py_func, locals, linked_options, LinkedCodeCompiler)
         linked._cache = cache_of(LinkedCache, py_func)
         self._linked = linked
+
+    def compile(self, sig: Any) -> Any:
+        """Compile for a signature, or read what is on disk; numba's name of this method."""
+        with _little_garbage():
+            return super().compile(sig)
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Return numba's template of a call from another kernel.

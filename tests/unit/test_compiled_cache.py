@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import gc
 import os
 import random
 import shutil
@@ -13,12 +14,15 @@ from typing import Any
 
 import pytest
 from numba.core.caching import NullCache
+from numba.core.compiler import Flags
+from numba.core.registry import CPUDispatcher
 
 import gearlube_core
 from gearlube_core.kernels.compiled_cache import _CheckedFiles
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.source_code import code_of
 from gearlube_core.kernels.source_files import source_files, source_stamp
+from tests.helpers.each import each
 
 ROOT = Path(str(gearlube_core.__file__)).parents[1]
 SOURCES = {
@@ -254,6 +258,30 @@ def test_a_called_kernel_has_no_machine_code() -> None:
     assert inner.overloads == {}
     library = next(iter(inner._linked.overloads.values())).library
     assert library.get_pointer_to_function(next(library.get_defined_functions()).name) == 0
+
+
+def test_options_of_a_compilation_are_equal_by_their_values() -> None:
+    plain, given = Flags(), Flags()
+    given.release_gil = False  # as where it is not given
+    assert plain == given == given.copy()
+    assert hash(plain) == hash(given)
+    given.release_gil = True
+    assert plain != given
+    assert plain != "release_gil"
+
+
+@each("usual", [(700, 10, 10), (0, 10, 10), (500_000, 3, 3)])
+def test_garbage_is_looked_for_seldom_during_compilation_alone(usual, monkeypatch):
+    before = gc.get_threshold()
+    found = []
+    monkeypatch.setattr(CPUDispatcher, "compile", lambda *_: found.append(gc.get_threshold()))
+    try:
+        gc.set_threshold(*usual)
+        kernel(lambda x: x).compile("float64(float64)")
+        assert gc.get_threshold() == usual
+    finally:
+        gc.set_threshold(*before)
+    assert found[0] == (usual if usual[0] != 700 else (100_000, 10, 10))
 
 
 def test_linked_code_is_read_from_disk_when_its_caller_is_compiled_anew(

@@ -169,7 +169,8 @@ def subtract_stencil(
     """
     for j in range(rows[0], rows[1]):
         row = rest[j]
-        row[:] = right[j]
+        for i in range(row.size):  # not row[:] = right[j]: numba compiles the text of its error
+            row[i] = right[j, i]
         _subtract(offsets, by_pressure, period, pressure, j, row)
         _subtract(film_offsets, by_film, period, film, j, row)
 
