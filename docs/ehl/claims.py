@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from scipy.signal import find_peaks
 
-from docs.ehl.lines import GivenUpError
+from docs.ehl.lines import LostFilmError
 from docs.ehl.store import MissingFilmError, Store
 from docs.page import FAILS, Claims, Verdict
 from gearlube_core.arrays import Array
@@ -66,7 +66,7 @@ logger = logging.getLogger("docs.ehl")
 def verdicts(claims: Claims, store: Store) -> dict[str, Verdict]:
     """Return the verdicts on all claims but those whose films are missing, which the log names.
 
-    A claim on a march that was given up fails.
+    A claim on a march whose film was lost fails.
     """
     found = {}
     for name, claim in claims.items():
@@ -74,8 +74,8 @@ def verdicts(claims: Claims, store: Store) -> dict[str, Verdict]:
             found[name] = claim(store)
         except MissingFilmError as error:
             logger.warning("%s stays as it is: %s is not computed yet", name, error)
-        except GivenUpError as error:
-            found[name] = Verdict("-", FAILS, f"A march was {error}.")
+        except LostFilmError as error:
+            found[name] = Verdict("-", FAILS, f"The film of a march was {error}.")
     return found
 
 

@@ -1,16 +1,13 @@
-"""What is kept of every step of a march: curves, and the extremes of every section."""
+"""What is kept of every step of a march."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.storage.atomic_file import write_arrays
 
 COLUMNS = (
     "number", "max_pressure", "max_pressure_y", "min_film", "min_film_y", "load_error",
@@ -18,74 +15,23 @@ COLUMNS = (
 )  # fmt: skip
 
 
-class GivenUpError(Exception):
-    """A march was given up before the step that is asked for."""
+_LOST = 10  # steps on end that fail before a film counts as lost
 
 
-@dataclass(slots=True)
-class Lines:
-    """Steps of a march that goes on."""
+class LostFilmError(Exception):
+    """The film of a march was lost before the step that is asked for."""
 
-    rows: list[Array] = field(default_factory=list)  # COLUMNS
-    pressure: list[Array] = field(default_factory=list)  # largest of every section [Pa]
-    film: list[Array] = field(default_factory=list)  # smallest of every section [m]
-    kept: dict[int, tuple[Array, Array]] = field(default_factory=dict)  # whole fields
 
-    def add(self, n: int, solution: FilmSolution, keep: bool, seconds: float) -> None:
-        """Add a step and what it took of the processor [s]."""
-        pressure, film = solution.pressure, solution.film
-        row = int(pressure.max(axis=0).argmax())
-        thin = int(film.min(axis=0).argmin())
-        self.rows.append(
-            np.array(
-                [n, pressure.max(), solution.y[row], film.min(), solution.y[thin],
-                 solution.load_error, solution.converged, seconds, solution.border_pressure,
-                 solution.touch.share, solution.touch.area]
-            )
-        )  # fmt: skip
-        self.pressure.append(pressure.max(axis=0).astype(np.float32))
-        self.film.append(film.min(axis=0).astype(np.float32))
-        if keep:
-            self.kept[n] = (pressure.astype(np.float32), film.astype(np.float32))
-
-    def failed_on_end(self) -> int:
-        """Return how many of the last steps failed one after the other."""
-        failed = 0
-        for row in reversed(self.rows):
-            if row[COLUMNS.index("converged")]:
-                break
-            failed += 1
-        return failed
-
-    def arrays(self, scale: float = 1.0) -> dict[str, Any]:
-        """Return everything as arrays; `scale` turns numbers of steps into those of the thesis."""
-        table = np.array(self.rows).reshape(-1, len(COLUMNS))
-        numbers = sorted(self.kept)
-        return {
-            "step": table[:, 0] * scale,
-            "table": table,
-            "pressure": np.array(self.pressure),
-            "film": np.array(self.film),
-            "kept_steps": np.array(numbers, dtype=float) * scale,
-            "kept_pressure": np.array([self.kept[n][0] for n in numbers]),
-            "kept_film": np.array([self.kept[n][1] for n in numbers]),
-        }
-
-    def write(self, path: Path) -> None:
-        """Write the steps so far."""
-        write_arrays(path, self.arrays(), compress=True)
-
-    @classmethod
-    def read(cls, path: Path) -> Lines:
-        """Return the steps in a file; none if it is not there."""
-        if not path.exists():
-            return cls()
-        with np.load(path) as data:
-            kept = {
-                int(n): (data["kept_pressure"][i], data["kept_film"][i])
-                for i, n in enumerate(data["kept_steps"])
-            }
-            return cls(list(data["table"]), list(data["pressure"]), list(data["film"]), kept)
+def row_of(n: int, solution: FilmSolution, seconds: float) -> list[float]:
+    """Return the numbers of a step in the order of `COLUMNS`; `seconds` of the processor."""
+    pressure, film = solution.pressure, solution.film
+    row = int(pressure.max(axis=0).argmax())
+    thin = int(film.min(axis=0).argmin())
+    return [
+        n, pressure.max(), solution.y[row], film.min(), solution.y[thin], solution.load_error,
+        solution.converged, seconds, solution.border_pressure, solution.touch.share,
+        solution.touch.area,
+    ]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,19 +40,15 @@ class March:
 
     step: Array  # of the thesis' 575
     table: Array  # (steps, COLUMNS)
-    x: Array  # [m]
-    y: Array  # [m]
-    pressure: Array  # largest of every section [Pa], (steps, y)
-    film: Array  # smallest of every section [m], (steps, y)
     kept_steps: Array
     kept_pressure: Array  # [Pa], (kept, x, y)
     kept_film: Array  # [m]
-    complete: bool  # False: given up after steps that failed
 
-    @classmethod
-    def of(cls, kept: dict[str, Any]) -> March:
-        """Return the march of kept arrays."""
-        return cls(**(kept | {"complete": bool(kept["complete"])}))
+    @property
+    def complete(self) -> bool:
+        """Whether the film was not lost for good: some of the last steps converged."""
+        last = self["converged"][-_LOST:]
+        return last.size < _LOST or bool((last > 0.0).any())
 
     def __getitem__(self, column: str) -> Array:
         """Return a column by its name."""
@@ -124,14 +66,14 @@ class March:
         return float(found[-1]) if found.size else np.nan
 
     def whole(self) -> March:
-        """Return the march, which must not have been given up."""
+        """Return the march, whose film must not have been lost."""
         if not self.complete:
-            raise GivenUpError(f"given up after step {self.last_found:.0f}")
+            raise LostFilmError(f"lost after step {self.last_found:.0f}")
         return self
 
     def row(self, step: float) -> int:
         """Return the row of the nearest step."""
-        if step > self.step[-1]:
+        if not step <= self.last_found:
             self.whole()
         return int(np.abs(self.step - step).argmin())
 
@@ -141,7 +83,7 @@ class March:
 
     def fields(self, step: float) -> tuple[Array, Array]:
         """Return pressure [Pa] and film [m] of a kept step, shape (x, y)."""
-        if step > self.step[-1]:
+        if not step <= self.last_found:
             self.whole()
         i = int(np.abs(self.kept_steps - step).argmin())
         return self.kept_pressure[i], self.kept_film[i]

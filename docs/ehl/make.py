@@ -20,7 +20,7 @@ from docs.ehl.claims_facets import FACETED_FLANKS
 from docs.ehl.claims_motion import MOTIONS
 from docs.ehl.claims_relief import RELIEFS
 from docs.ehl.film_map_page import put_film_map
-from docs.ehl.lines import GivenUpError
+from docs.ehl.lines import LostFilmError
 from docs.ehl.micro_cavity_page import put_micro_cavity
 from docs.ehl.minimum_film import put_minimum_film
 from docs.ehl.pages import dry_rows, grid_rows, put_counts, put_touching
@@ -53,7 +53,7 @@ def draw(store: Store) -> None:
     for name, picture in PICTURES.items():
         try:
             picture(store).savefig(IMAGES / f"ehl_{name}.png", dpi=100)
-        except (MissingFilmError, GivenUpError) as error:
+        except (MissingFilmError, LostFilmError) as error:
             logger.warning("picture %s stays as it is: %s", name, error)
 
 

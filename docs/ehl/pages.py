@@ -52,7 +52,7 @@ def put_touching(page: Page, store: Store) -> None:
 
 def _values(march: March) -> list[str]:
     films, good = march["min_film"], march["converged"] > 0.0
-    failed = f"{march.failures} of {len(march.step)}" + ("" if march.complete else ", given up")
+    failed = f"{march.failures} of {len(march.step)}" + ("" if march.complete else ", film lost")
     return [
         f"{1e3 * UM * films[good].min():.1f}",
         f"{GPA * march['max_pressure'][good].max():.2f}",
@@ -153,7 +153,7 @@ def put_counts(page: Page, store: Store) -> None:
                 border, where = float(march["border_pressure"].max()), "in motion"
                 bad = bool(march.failures) or not march.complete
                 how = f": {march.failures} of {len(march.step)} steps"
-                how += "" if march.complete else ", given up"
+                how += "" if march.complete else ", film lost"
         except MissingFilmError:
             return
         cut += [f"{name} {where}"] if border > _CUT else []

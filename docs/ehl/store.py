@@ -12,14 +12,13 @@ from typing import Any
 import numpy as np
 
 from docs.ehl.cases import STEPS, FilmCase
-from docs.ehl.lines import Lines, March
+from docs.ehl.lines import COLUMNS, March, row_of
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.gears.helical_film import march_helical_cycle, solve_helical_line
+from gearlube_core.ehl.gears.helical_film import solve_helical_line
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.history import MarchRecord
+from gearlube_core.ehl.transient.curves import NumberedSteps, march_curves
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.errors import ConvergenceError
 from gearlube_core.storage.atomic_file import write_arrays
 
 logger = logging.getLogger("docs.ehl")
@@ -31,7 +30,6 @@ _NUMBERS = (
 )  # fmt: skip
 _LOADED = 1.0e6  # Pa; from where a section counts as loaded
 _EVERY = 25  # steps between records of a march
-_GIVE_UP = 10  # steps on end that fail before a march is given up
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,10 +74,6 @@ class Steady:
     def column(self, y: float) -> int:
         """Return the number of the section nearest to y [m]."""
         return int(np.abs(self.y - y).argmin())
-
-
-class _Given(Exception):  # noqa: N818
-    """A march is given up."""
 
 
 class MissingFilmError(Exception):
@@ -129,51 +123,48 @@ class Store:
         The film is steady at the first. Steps in `keep` are those of the thesis too.
         """
         name = f"march_{case.name}_from{first}_to{last}"
-        values = self.kept(name, lambda: self._march(case, first, last, keep, name))
-        for part in self.folder.glob(f"{name}.*part.npz"):
-            part.unlink()
-        return March.of(values)
-
-    def _march(
-        self, case: FilmCase, first: int, last: int, keep: tuple[int, ...], name: str
-    ) -> dict[str, Any]:
-        film = case.film()
         record = self.folder / f"{name}.record_part.npz"
-        beside = self.folder / f"{name}.lines_part.npz"
-        begin, end = (round(case.number(n)) for n in (first, last))
-        lines = Lines.read(beside)
-        if not record.exists() or MarchRecord.read(record).steps + 1 != len(lines.rows):
-            record.unlink(missing_ok=True)
-            lines = Lines()
-        began, complete = time.monotonic(), True
-        spent = time.process_time()
+        values = self.kept(name, lambda: _march(case, first, last, keep, record))
+        record.unlink(missing_ok=True)
+        return March(**{key: values[key] for key in March.__slots__})
 
-        def follow(n: int, last: int, solution: FilmSolution) -> None:
-            nonlocal spent
-            now = time.process_time()
-            lines.add(n, solution, n in wanted, now - spent)
-            spent = now
-            given_up = lines.failed_on_end() >= _GIVE_UP
-            if n % _EVERY == 0 or n == last or given_up:
-                lines.write(beside)
-                logger.info("  step %d of %d, %.0f s", n, last, time.monotonic() - began)
-            if given_up:
-                raise _Given
 
-        wanted = {round(case.number(n)) for n in keep}
-        try:
-            march_helical_cycle(
-                film, first=begin, last=end, settings=SETTINGS, checkpoint=record,
-                checkpoint_every=_EVERY, progress=follow, throw=False,
-            )  # fmt: skip
-        except _Given:
-            complete = False
-        except ConvergenceError as error:
-            logger.info("  %s", error)
-            complete = False
-        moving = film.moving_film()
-        scale = STEPS / case.count
-        return lines.arrays(scale) | {"x": moving.x, "y": moving.y, "complete": complete}
+def _march(
+    case: FilmCase, first: int, last: int, keep: tuple[int, ...], record: Path
+) -> dict[str, Any]:
+    film = case.film()
+    begin, end = (round(case.number(n)) for n in (first, last))
+    began, spent = time.monotonic(), time.process_time()
+
+    def row(n: int, solution: FilmSolution) -> list[float]:
+        nonlocal spent
+        seconds, spent = time.process_time() - spent, time.process_time()
+        return row_of(n, solution, seconds)
+
+    def follow(n: int, last: int, _: FilmSolution) -> None:
+        if n % _EVERY == 0 or n == last:
+            logger.info("  step %d of %d, %.0f s", n, last, time.monotonic() - began)
+
+    curves = march_curves(
+        film.moving_film(),
+        COLUMNS,
+        row,
+        NumberedSteps(begin, end, begin * film.time_step, film.time_step),
+        settings=SETTINGS,
+        keep=tuple(round(case.number(n)) for n in keep),
+        checkpoint=record,
+        checkpoint_every=_EVERY,
+        progress=follow,
+        throw=False,
+    )
+    scale, kept = STEPS / case.count, [curves.kept[n] for n in sorted(curves.kept)]
+    return {
+        "step": curves["number"] * scale,
+        "table": curves.table,
+        "kept_steps": np.array(sorted(curves.kept), dtype=float) * scale,
+        "kept_pressure": np.array([one.pressure.astype(np.float32) for one in kept]),
+        "kept_film": np.array([one.film.astype(np.float32) for one in kept]),
+    }
 
 
 def _solve_steady(case: FilmCase, step: float) -> dict[str, Any]:

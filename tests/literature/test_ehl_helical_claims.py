@@ -14,7 +14,7 @@ from docs.ehl.claims_cycle import CYCLES
 from docs.ehl.claims_facets import FACETED_FLANKS, facet_gaps
 from docs.ehl.claims_motion import MOTIONS, section
 from docs.ehl.claims_relief import RELIEFS
-from docs.ehl.lines import COLUMNS, GivenUpError, Lines, March
+from docs.ehl.lines import COLUMNS, LostFilmError, March, row_of
 from docs.ehl.runs import Run, all_runs
 from docs.ehl.store import Steady, Store
 from docs.page import FAILS, HOLDS, PARTLY
@@ -55,9 +55,8 @@ def march(steps, pressure, film, place=None, load_error=0.0, converged=1.0):
         table[:, COLUMNS.index(name)] = values
     empty = np.zeros((steps.size, 0))
     return March(
-        step=steps, table=table, x=np.zeros(0), y=np.zeros(0), pressure=empty, film=empty,
-        kept_steps=np.zeros(0), kept_pressure=empty, kept_film=empty, complete=True,
-    )  # fmt: skip
+        step=steps, table=table, kept_steps=np.zeros(0), kept_pressure=empty, kept_film=empty
+    )
 
 
 class Given:
@@ -178,47 +177,45 @@ def test_march_of_the_store_goes_on_from_its_record(tmp_path, monkeypatch):
     monkeypatch.setattr("docs.ehl.store._EVERY", 2)
     case = FilmCase(nodes=(33, 49))
     whole = Store(tmp_path / "whole").march(case, 300, 306)
-    add, seen = Lines.add, []
+    seen = []
 
-    def interrupted(self, n, *rest):
+    def interrupted(n, *rest):
         seen.append(n)
         if n == 305 and seen.count(305) == 1:
             raise KeyboardInterrupt
-        add(self, n, *rest)
+        return row_of(n, *rest)
 
-    monkeypatch.setattr(Lines, "add", interrupted)
+    monkeypatch.setattr("docs.ehl.store.row_of", interrupted)
     store = Store(tmp_path / "parts")
     with pytest.raises(KeyboardInterrupt):
         store.march(case, 300, 306)
     parts = store.march(case, 300, 306)
     assert seen == [300, 301, 302, 303, 304, 305, 305, 306]
     assert np.array_equal(whole["max_pressure"], parts["max_pressure"])
-    assert np.array_equal(whole.film, parts.film)
+    assert np.array_equal(whole["min_film"], parts["min_film"])
 
 
-def test_lines_survive_a_file_and_count_failures(tmp_path):
-    lines = Lines()
-    for n, good in enumerate((True, False, False)):
-        grid = np.full((3, 4), 1.0 + n)
-        lines.add(
-            n,
-            FilmSolution(
-                time=0.0, x=np.arange(3.0), y=np.arange(4.0), pressure=grid, film=grid,
-                approach=0.0, load=1.0, load_error=0.0, residual=0.0, converged=good, outcome="",
-                newton_steps=1, krylov_steps=1, seconds=0.0,
-            ),
-            keep=n == 1,
-            seconds=0.5,
-        )  # fmt: skip
-    lines.write(tmp_path / "lines.npz")
-    read = Lines.read(tmp_path / "lines.npz")
-    assert read.failed_on_end() == 2
-    assert np.array_equal(np.array(read.rows), np.array(lines.rows))
-    rest = {"x": np.zeros(3), "y": np.zeros(4), "complete": True}
-    march = March.of(Store(tmp_path).kept("march", lambda: read.arrays(2.0) | rest))
-    assert list(march.step) == [0.0, 2.0, 4.0]
-    assert march.failures == 2
-    assert march.fields(2.0)[0].max() == 2.0
+def test_numbers_of_a_step_are_those_of_its_film():
+    grid = np.array([[1.0, 2.0, 5.0, 3.0], [4.0, 2.5, 1.0, 2.0], [0.5, 3.0, 2.0, 1.0]])
+    film = FilmSolution(
+        time=0.0, x=np.arange(3.0), y=10.0 * np.arange(4.0), pressure=grid, film=grid,
+        approach=0.0, load=1.0, load_error=0.25, residual=0.0, converged=False, outcome="",
+        newton_steps=1, krylov_steps=1, seconds=0.0,
+    )  # fmt: skip
+    row = dict(zip(COLUMNS, row_of(7, film, 0.5), strict=True))
+    assert (row["number"], row["seconds"], row["load_error"], row["converged"]) == (7, 0.5, 0.25, 0)
+    assert (row["max_pressure"], row["max_pressure_y"]) == (5.0, 20.0)
+    assert (row["min_film"], row["min_film_y"]) == (0.5, 0.0)
+
+
+def test_steps_that_failed_are_counted_and_kept_fields_found():
+    found = march([0.0, 2.0, 4.0], 1e9, 2e-7, converged=np.array([1.0, 0.0, 0.0]))
+    found = replace(
+        found, kept_steps=np.array([0.0, 2.0]), kept_pressure=np.array([[[1.0]], [[2.0]]]),
+        kept_film=np.array([[[3.0]], [[4.0]]]),
+    )  # fmt: skip
+    assert (found.failures, found.last_found, found.complete) == (2, 0.0, True)
+    assert found.fields(2.0) == (np.array([[2.0]]), np.array([[4.0]]))
 
 
 def test_what_is_missing_is_not_judged(tmp_path, caplog):
@@ -229,16 +226,15 @@ def test_what_is_missing_is_not_judged(tmp_path, caplog):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_claims_on_a_march_that_was_given_up_fail_with_the_step_it_came_to():
+def test_claims_on_a_march_whose_film_was_lost_fail_with_the_step_it_came_to():
     steps = np.arange(0, 40)
-    short = march(steps, 1e9, 2e-7, converged=(steps < 31).astype(float))
-    short = replace(short, complete=False)
+    short = march(steps, 1e9, 2e-7, converged=(steps < 30).astype(float))
     store = Given(steady, lambda case: short)
     found = verdicts({name: CLAIMS[name] for name in ("J3", "J9", "J14")}, store).values()
     assert [v.verdict for v in found] == [FAILS] * 3
-    assert {v.reason for v in found} == {"A march was given up after step 30."}
-    assert short.at("min_film", 39) == 2e-7
-    with pytest.raises(GivenUpError):
+    assert {v.reason for v in found} == {"The film of a march was lost after step 29."}
+    assert short.at("min_film", 29) == 2e-7
+    with pytest.raises(LostFilmError):
         short.at("min_film", 300)
 
 
