@@ -9,7 +9,8 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from docs.ehl.lines import LostFilmError
-from docs.ehl.store import MissingFilmError, Store
+from docs.ehl.store import Store
+from docs.kept_films import MissingFilmError
 from docs.page import FAILS, Claims, Verdict
 from gearlube_core.arrays import Array
 

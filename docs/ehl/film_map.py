@@ -6,15 +6,14 @@ Every contact is solved on two grids; the finer one counts and both tell the err
 
 from __future__ import annotations
 
-import csv
-import logging
 import math
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
-from pathlib import Path
+from dataclasses import asdict, astuple, dataclass
+from functools import partial
+from typing import Any
 
-from docs.ehl.store import Store
+from docs.kept_films import KeptFilms, MissingFilmError
 from gearlube.studies.films.film_formulas import point_film_formulas
 from gearlube_core.contact.hertz import log_curvature_ratio
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
@@ -23,8 +22,6 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.film.point_film import regime_films
 from gearlube_core.oil.film_oil_data import film_oil
-
-logger = logging.getLogger("docs.ehl")
 
 ELLIPTICITIES = (1.0, 2.0, 3.0, 5.0, 8.0)  # those of Hamrock and Dowson 1977: one to eight
 LOADS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
@@ -168,52 +165,25 @@ def refined_contacts() -> list[Contact]:
 Films = dict[tuple[Contact, int], Film]
 
 
-def all_films(store: Store) -> Films:
-    """Return the films of the map, those not in the folder computed if the store does that."""
-    path = store.folder / "film_map.csv"
-    films = read_films(path)
+def all_films(kept: KeptFilms) -> Films:
+    """Return the films of the map; those that are missing and may not be solved are left out."""
     wanted = [(c, n) for c in (*map_contacts(), *turned_contacts()) for n in (COARSE, FINE)]
     wanted += [(c, FINEST) for c in refined_contacts()]
-    missing = [key for key in dict.fromkeys(wanted) if key not in films]
-    if not store.compute:
-        return films
-    for n, (contact, nodes) in enumerate(missing, 1):
-        if n % 20 == 1:
-            logger.info("film map, %d of %d", n, len(missing))
-        films[contact, nodes] = solve(contact, nodes)
-        add_film(path, films[contact, nodes])
-    return films
-
-
-_GROUPS = tuple(field.name for field in fields(Contact))
-_FOUND = tuple(field.name for field in fields(Film))[1:]
-
-
-def add_film(path: Path, film: Film) -> None:
-    """Write a film after those of a file, which is made if it is not there."""
-    new = not path.exists()
-    with path.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        if new:
-            writer.writerow((*_GROUPS, *_FOUND))
-        values = [getattr(film.contact, name) for name in _GROUPS]
-        writer.writerow([*values, *(getattr(film, name) for name in _FOUND)])
-
-
-def read_films(path: Path) -> Films:
-    """Return the films of a file; none where there is no file."""
     films: Films = {}
-    if not path.exists():
-        return films
-    with path.open(newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            if None in row.values():  # cut off while it was written
-                continue
-            contact = Contact(*(float(row[name]) for name in _GROUPS))
-            numbers = [float(row[name]) for name in ("limited", "central", "minimum", "seconds")]
-            nodes, sound = int(row["nodes"]), row["converged"] == "True"
-            films[contact, nodes] = Film(contact, nodes, sound, row["wedge"], *numbers)
+    for contact, nodes in dict.fromkeys(wanted):
+        name = "_".join(f"{one:g}" for one in (*astuple(contact), nodes))
+        try:
+            data = kept.kept(f"film_map_{name}", partial(_numbers, contact, nodes))
+        except MissingFilmError:
+            continue
+        films[contact, nodes] = Film(contact, **{key: one.item() for key, one in data.items()})
     return films
+
+
+def _numbers(contact: Contact, nodes: int) -> dict[str, Any]:
+    film = asdict(solve(contact, nodes))
+    del film["contact"]
+    return film
 
 
 @dataclass(frozen=True, slots=True)

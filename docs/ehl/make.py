@@ -25,7 +25,8 @@ from docs.ehl.micro_cavity_page import put_micro_cavity
 from docs.ehl.minimum_film import put_minimum_film
 from docs.ehl.pages import dry_rows, grid_rows, put_counts, put_touching
 from docs.ehl.runs import all_runs, do_runs
-from docs.ehl.store import MissingFilmError, Store
+from docs.ehl.store import Store
+from docs.kept_films import MissingFilmError
 from docs.page import IMAGES, Claims, Page, begin
 
 SMOOTH = Claims(CYCLES | RELIEFS | MOTIONS)

@@ -18,7 +18,8 @@ from docs.ehl.micro_cavity import (
     kept_passage,
     speeds,
 )
-from docs.ehl.store import MissingFilmError, Store
+from docs.ehl.store import Store
+from docs.kept_films import MissingFilmError
 from docs.page import IMAGES, Page
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 

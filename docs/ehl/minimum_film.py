@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from docs.ehl.claims import MM, UM
-from docs.ehl.store import MissingFilmError, Store
+from docs.ehl.store import Store
+from docs.kept_films import MissingFilmError
 from docs.page import Page
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import march_helical_cycle

@@ -29,7 +29,8 @@ from docs.ehl.runs import (
     power_case,
     touching_case,
 )
-from docs.ehl.store import MissingFilmError, Store
+from docs.ehl.store import Store
+from docs.kept_films import MissingFilmError
 from docs.page import Page
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,13 +12,13 @@ import numpy as np
 
 from docs.ehl.cases import STEPS, FilmCase
 from docs.ehl.lines import COLUMNS, March, row_of
+from docs.kept_films import KeptFilms
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import solve_helical_line
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.curves import NumberedSteps, march_curves
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.storage.atomic_file import write_arrays
 
 logger = logging.getLogger("docs.ehl")
 
@@ -76,35 +75,8 @@ class Steady:
         return int(np.abs(self.y - y).argmin())
 
 
-class MissingFilmError(Exception):
-    """A film is not in the folder and may not be computed."""
-
-
-class Store:
-    """Films by their names in a folder.
-
-    Parameters
-    ----------
-    folder
-        Made if it is not there.
-    compute
-        Whether what is missing is computed; else it raises `MissingFilmError`.
-    """
-
-    def __init__(self, folder: Path, compute: bool = True) -> None:
-        self.folder, self.compute = folder, compute
-        folder.mkdir(parents=True, exist_ok=True)
-
-    def kept(self, name: str, compute: Callable[[], Mapping[str, Any]]) -> dict[str, Any]:
-        """Return the arrays of a name, computed if they are not in the folder."""
-        path = self.folder / f"{name}.npz"
-        if not path.exists():
-            if not self.compute:
-                raise MissingFilmError(name)
-            logger.info("computing %s", name)
-            write_arrays(path, compute(), compress=True)
-        with np.load(path) as data:
-            return {key: data[key] for key in data.files}
+class Store(KeptFilms):
+    """Films of the page by their cases."""
 
     def steady(self, case: FilmCase, step: float) -> Steady:
         """Return the steady film of a case at one of the thesis' steps."""

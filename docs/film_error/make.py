@@ -11,101 +11,57 @@ import logging
 import math
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from docs.film_error.contacts import (
     RandomContact,
     random_contacts,
 )
+from docs.kept_films import KeptFilms, MissingFilmError
 from docs.page import Page, begin
 from gearlube_core.ehl.gears.helical_film import march_helical_cycle
 from gearlube_core.ehl.grid_error import LARGE_ERROR, FilmNumbers, estimated_error, peak_error
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
 from tests.helpers.jamali_2015 import jamali_2015_film
 
 _PLAIN = PointSolverSettings(estimate_error=False)
-# number of the contact and nodes along a side: what stands in a row
-Films = dict[tuple[int, int], FilmNumbers]
-Estimates = dict[tuple[int, int], tuple[list[FilmNumbers], float]]
+Key = tuple[int, int]  # number of the contact, nodes along a side
 
 
-def solve_films(path: Path, contacts: list[RandomContact], nodes: int) -> None:
-    """Solve contacts on a grid, without an estimate, and add them to a file."""
-    for contact in _lacking(path, contacts, nodes):
+class Solved(NamedTuple):
+    """A converged film of a contact."""
+
+    films: list[FilmNumbers]  # on coarser grids too if its error is estimated, finest first
+    peak: float  # how far above the largest pressure any node may come [-]
+    seconds: float  # of the processor
+
+
+def solved(kept: KeptFilms, contact: RandomContact, nodes: int, estimate: bool) -> Solved | None:
+    """Return a contact on a grid, with what its estimated error comes from; None: no film."""
+
+    def solve() -> dict[str, Any]:
         began = time.process_time()
-        film = solve_point_contact(contact.problem(nodes), _PLAIN, throw=False)
-        _append(path, [*_head(contact, nodes, film), *film.numbers, _spent(began)])
+        settings = None if estimate else _PLAIN
+        film = solve_point_contact(contact.problem(nodes), settings, throw=False)
+        return {
+            "films": np.array([one.numbers for one in (film, *film.coarser)]),
+            "peak": peak_error(film, film.coarser[0]) if film.coarser else math.nan,
+            "seconds": time.process_time() - began,
+            "found": film.outcome.converged and film.outcome.wedge == _PLAIN.wedge,
+        }
 
-
-def solve_estimates(path: Path, contacts: list[RandomContact], nodes: int) -> None:
-    """Solve contacts on a grid, with what their estimates come from, and add them to a file."""
-    for contact in _lacking(path, contacts, nodes):
-        began = time.process_time()
-        film = solve_point_contact(contact.problem(nodes), throw=False)
-        numbers = [value for one in (film, *film.coarser) for value in one.numbers]
-        peak = peak_error(film, film.coarser[0]) if film.coarser else math.nan
-        _append(path, [*_head(contact, nodes, film), peak, *numbers, _spent(began)])
-
-
-def read_films(path: Path) -> Films:
-    """Return converged films by contact and nodes."""
-    return {key: FilmNumbers(*numbers[1:5]) for key, numbers in _rows(path)}
-
-
-def read_estimates(path: Path) -> Estimates:
-    """Return converged films with the coarser ones, finest first, and the errors of the peak."""
-    found: Estimates = {}
-    for key, numbers in _rows(path):
-        values = numbers[2:-1]
-        films = [FilmNumbers(*values[k : k + 4]) for k in range(0, len(values), 4)]
-        found[key] = films, numbers[1]
-    return found
-
-
-def seconds(path: Path) -> float:
-    """Return the time of the processor that a file took [s]."""
-    return sum(numbers[-1] for _, numbers in _rows(path))
-
-
-def _rows(path: Path) -> Iterator[tuple[tuple[int, int], list[float]]]:
-    if not path.exists():
-        return
-    with path.open(encoding="utf-8", newline="") as file:
-        for number, nodes, converged, wedge, *rest in csv.reader(file):
-            if converged == "1" and wedge == _PLAIN.wedge:
-                yield (int(number), int(nodes)), [float(one) for one in rest]
-
-
-def _lacking(path: Path, contacts: list[RandomContact], nodes: int) -> Iterator[RandomContact]:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    done = set()
-    if path.exists():
-        with path.open(encoding="utf-8", newline="") as file:
-            done = {(int(row[0]), int(row[1])) for row in csv.reader(file)}
-    for contact in contacts:
-        if (contact.number, nodes) not in done:
-            logger.info("contact %d on %d nodes", contact.number, nodes)
-            yield contact
-
-
-def _head(contact: RandomContact, nodes: int, film: PointSolution) -> list[object]:
-    outcome = film.outcome
-    return [contact.number, nodes, int(outcome.converged), outcome.wedge, outcome.limited]
-
-
-def _append(path: Path, row: list[object]) -> None:
-    with path.open("a", encoding="utf-8", newline="") as file:
-        csv.writer(file).writerow(row)
-
-
-def _spent(began: float) -> float:
-    return round(time.process_time() - began, 2)
+    name = f"{'estimate' if estimate else 'film'}_{contact.number}_on_{nodes}"
+    data = kept.kept(name, solve)
+    films = [FilmNumbers(*one.tolist()) for one in data["films"]]
+    return Solved(films, float(data["peak"]), float(data["seconds"])) if data["found"] else None
 
 
 FIRST, LAST = 470, 490  # steps of design A of Jamali 2015
@@ -113,25 +69,19 @@ NODES = (97, 81)
 SUBSTEPS = (1, 2, 4, 8)
 
 
-def solve_marches(path: Path) -> None:
-    """March with ever shorter steps and write the smallest film with its estimated errors."""
-    if path.exists():
-        return
-    film = jamali_2015_film("a", nodes=NODES, solids=None)
-    rows = []
-    for substeps in SUBSTEPS:
-        cycle = march_helical_cycle(
-            film, first=FIRST, last=LAST, substeps=substeps, settings=MARCH_SETTINGS
-        )
-        rows.append([substeps, cycle["minimum_film"][-1], cycle["time_error"][-1]])
-    with path.open("w", encoding="utf-8", newline="") as file:
-        csv.writer(file).writerows(rows)
-
-
-def march_rows(path: Path) -> list[list[str]]:
+def march_rows(kept: KeptFilms) -> list[list[str]]:
     """Return films, both estimates and the error against the film that the steps go to."""
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = [[float(one) for one in row] for row in csv.reader(file)]
+
+    def march() -> dict[str, Any]:
+        film, rows = jamali_2015_film("a", nodes=NODES, solids=None), []
+        for substeps in SUBSTEPS:
+            cycle = march_helical_cycle(
+                film, first=FIRST, last=LAST, substeps=substeps, settings=MARCH_SETTINGS
+            )
+            rows.append([substeps, cycle["minimum_film"][-1], cycle["time_error"][-1]])
+        return {"rows": np.array(rows)}
+
+    rows = kept.kept("marches", march)["rows"].tolist()
     films = [row[1] for row in rows]
     # between the first and the second order of the last halving
     exact = films[-1] + (films[-1] - films[-2]) * 2.0 / 3.0
@@ -170,37 +120,43 @@ def extrapolated(coarse: FilmNumbers, fine: FilmNumbers) -> FilmNumbers:
     return FilmNumbers(*(f + (f - c) / 3.0 for c, f in zip(coarse, fine, strict=True)))
 
 
-def judged(contact: RandomContact, nodes: int, estimates: Estimates, films: Films) -> Judged | None:
-    """Return the errors of a contact on a grid; None: not solved there or on two finer grids."""
-    key = contact.number, nodes
+def judged(
+    contact: RandomContact, nodes: int, estimated: Solved, films: Mapping[Key, FilmNumbers]
+) -> Judged | None:
+    """Return the errors of a contact on a grid; None: it has no film on two finer grids."""
     grids = [n for n in (*FINER, FINEST) if (contact.number, n) in films]
-    if key not in estimates or len(grids) < 2 or grids[-1] <= nodes:
+    if len(grids) < 2 or grids[-1] <= nodes:
         return None
-    found, peak = estimates[key]
-    errors = FilmNumbers(*map(estimated_error, zip(*found, strict=True)))
-    errors = errors._replace(maximum_pressure=max(errors.maximum_pressure, peak))
+    errors = FilmNumbers(*map(estimated_error, zip(*estimated.films, strict=True)))
+    errors = errors._replace(maximum_pressure=max(errors.maximum_pressure, estimated.peak))
     exact = extrapolated(*(films[contact.number, n] for n in grids[-2:]))
-    true = FilmNumbers(*(_off(f, e) for f, e in zip(found[0], exact, strict=True)))
+    true = FilmNumbers(*(_off(f, e) for f, e in zip(estimated.films[0], exact, strict=True)))
     return Judged(contact, nodes, (grids[-2], grids[-1]), errors, true)
 
 
-def all_judged(folder: Path) -> list[Judged]:
-    """Return the errors of all contacts that are solved."""
-    estimates = read_estimates(folder / "estimates.csv")
-    films = {key: found[0] for key, (found, _) in estimates.items()}
-    films |= read_films(folder / "films.csv")
-    found = (judged(c, n, estimates, films) for n in BASES for c in random_contacts())
-    return [one for one in found if one is not None]
-
-
-def solve(folder: Path) -> None:
-    """Solve what is missing."""
+def all_judged(kept: KeptFilms) -> tuple[list[Judged], float]:
+    """Return the errors of all contacts that are solved, and the time that they took [s]."""
     contacts = random_contacts()
-    for nodes in BASES:
-        solve_estimates(folder / "estimates.csv", contacts, nodes)
-    solve_films(folder / "films.csv", contacts, FINER[1])
-    solve_films(folder / "films.csv", contacts[:FEW], FINEST)
-    solve_marches(folder / "marches.csv")
+    wanted = [(c, n, True) for n in BASES for c in contacts]
+    wanted += [(c, FINER[1], False) for c in contacts] + [
+        (c, FINEST, False) for c in contacts[:FEW]
+    ]
+    found: dict[Key, Solved] = {}
+    for contact, nodes, estimate in wanted:
+        try:
+            one = solved(kept, contact, nodes, estimate)
+        except MissingFilmError:
+            continue
+        if one is not None:
+            found[contact.number, nodes] = one
+    films = {key: one.films[0] for key, one in found.items()}
+    rows = [
+        judged(c, n, found[c.number, n], films)
+        for n in BASES
+        for c in contacts
+        if (c.number, n) in found
+    ]
+    return [one for one in rows if one is not None], sum(one.seconds for one in found.values())
 
 
 def write_csv(rows: list[Judged]) -> None:
@@ -276,13 +232,11 @@ def _off(value: float, exact: float) -> float:
 
 def main() -> None:
     """Solve, write the page and the table."""
-    folder = begin("film_error")
-    if "--present" not in sys.argv:
-        solve(folder)
-    rows, page = all_judged(folder), Page("film_error")
+    kept = KeptFilms(begin("film_error"), compute="--present" not in sys.argv)
+    (rows, spent), page = all_judged(kept), Page("film_error")
     write_csv(rows)
-    put(page, rows, sum(seconds(folder / name) for name in ("films.csv", "estimates.csv")))
-    page.rows("Time steps for one", march_rows(folder / "marches.csv"))
+    put(page, rows, spent)
+    page.rows("Time steps for one", march_rows(kept))
     page.write()
 
 

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import logging
 import time
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import astuple, dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import interpn
 
 from docs.ehl.film_map import RADIUS, REDUCED_MODULUS, Contact
+from docs.kept_films import KeptFilms, MissingFilmError
 from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.ehl.grid_error import FilmNumbers, peak_error
 from gearlube_core.ehl.point.problem import PointContactProblem
@@ -19,8 +18,6 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil import density
-
-logger = logging.getLogger("docs.film_table")
 
 SHAPES = ((1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (2.0, 45.0), (2.0, 90.0))  # a_y/a_x, angle in degrees
 LOADS = (10.0, 30.0, 100.0, 300.0, 1000.0)  # M
@@ -108,8 +105,8 @@ class Solved:
 Table = dict[tuple[Contact, str], Solved]
 
 
-def solve(contact: Contact, variant: str) -> Solved:
-    """Return a contact, solved on three grids."""
+def solve(contact: Contact, variant: str) -> dict[str, Any]:
+    """Return the numbers of a contact, solved on three grids."""
     began = time.process_time()
     if variant == "table":
         case = problem(contact, finest_nodes(contact))
@@ -120,65 +117,43 @@ def solve(contact: Contact, variant: str) -> Solved:
     settings = PointSolverSettings(wedge="upwind-2" if variant == "upwind-2" else WEDGE)
     film = solve_point_contact(case, settings, throw=False)
     all_grids = (film, *film.coarser)
-    sound = len(all_grids) == 3 and all(_sound(one, settings) for one in all_grids)
+    return {
+        "nodes": case.nodes[0],
+        "sound": len(all_grids) == 3 and all(_sound(one, settings) for one in all_grids),
+        "density_ratio": _density_ratio(film),
+        "peak": peak_error(film, film.coarser[0]) if film.coarser else np.nan,
+        "grids": np.array([one.numbers for one in all_grids]),
+        "seconds": time.process_time() - began,
+    }
+
+
+def solved(kept: KeptFilms, contact: Contact, variant: str) -> Solved:
+    """Return a contact, solved if it is not kept."""
+    groups = "_".join(f"{one:g}" for one in astuple(contact))
+    data = kept.kept(f"{variant}_{groups}", lambda: solve(contact, variant))
     return Solved(
         contact,
         variant,
-        case.nodes[0],
-        sound,
-        _density_ratio(film),
-        peak_error(film, film.coarser[0]) if film.coarser else np.nan,
-        tuple(one.numbers for one in all_grids),
-        time.process_time() - began,
+        int(data["nodes"]),
+        bool(data["sound"]),
+        float(data["density_ratio"]),
+        float(data["peak"]),
+        tuple(FilmNumbers(*one) for one in data["grids"].tolist()),
+        float(data["seconds"]),
     )
 
 
-def solve_missing(path: Path) -> Table:
-    """Return all contacts, those that are not in a file solved and added to it."""
-    table = read(path)
+def all_solved(kept: KeptFilms) -> Table:
+    """Return all contacts, those of the slow kind last; those that are missing are left out."""
     wanted = [(contact, "table") for contact in table_contacts()]
     wanted += [(contact, way) for contact in checked_contacts() for way in ("upwind-2", "wider")]
-    # those of the slow kind last
-    missing = sorted(
-        (key for key in wanted if key not in table),
-        key=lambda key: finest_nodes(key[0]) == NODES_AT_AN_ANGLE,
-    )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    began = time.monotonic()
-    for n, key in enumerate(missing, 1):
-        found = solve(*key)
-        _append(path, found)
-        table[key] = found
-        left = (time.monotonic() - began) / n * (len(missing) - n) / 60.0
-        logger.info(
-            "%d of %d, %.1f s, about %.0f minutes left", n, len(missing), found.seconds, left
-        )
-    return table
-
-
-def read(path: Path) -> Table:
-    """Return the contacts in a file; none where there is no file."""
     table: Table = {}
-    if not path.exists():
-        return table
-    with path.open(encoding="utf-8", newline="") as file:
-        for k, M, L, angle, variant, nodes, sound, *numbers in csv.reader(file):
-            values = [float(one) for one in numbers]
-            contact = Contact(float(k), float(M), float(L), float(angle))
-            rest = values[3:]
-            grids = tuple(FilmNumbers(*rest[i : i + 4]) for i in range(0, len(rest), 4))
-            table[contact, variant] = Solved(
-                contact, variant, int(nodes), sound == "1", values[0], values[1], grids, values[2]
-            )
+    for key in sorted(wanted, key=lambda key: finest_nodes(key[0]) == NODES_AT_AN_ANGLE):
+        try:
+            table[key] = solved(kept, *key)
+        except MissingFilmError:
+            continue
     return table
-
-
-def _append(path: Path, found: Solved) -> None:
-    c = found.contact
-    numbers = [value for grid in found.grids for value in grid]
-    row = [c.ellipticity, c.M, c.L, c.angle, found.variant, found.nodes, int(found.sound)]
-    with path.open("a", encoding="utf-8", newline="") as file:
-        csv.writer(file).writerow([*row, found.density_ratio, found.peak, found.seconds, *numbers])
 
 
 def _sound(film: PointSolution, settings: PointSolverSettings) -> bool:

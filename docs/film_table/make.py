@@ -21,13 +21,13 @@ from docs.film_table.contacts import (
     LOADS,
     MATERIALS,
     Table,
+    all_solved,
     checked_contacts,
     film_group,
-    read,
-    solve_missing,
     table_contacts,
 )
 from docs.film_table.extrapolated import Row, Value, extrapolated, write_table
+from docs.kept_films import KeptFilms
 from docs.page import IMAGES, Page, begin
 from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
 from gearlube_core.film.point_film import central_film_group
@@ -183,8 +183,7 @@ def _wide(rows: Sequence[Row]) -> list[list[str]]:
 
 def main() -> None:
     """Solve, write the table, the page and its figure."""
-    kept = begin("film_table") / "solved.csv"
-    solved = read(kept) if "--present" in sys.argv else solve_missing(kept)
+    solved = all_solved(KeptFilms(begin("film_table"), compute="--present" not in sys.argv))
     rows, page = rows_of(solved), Page("film_table")
     write_table(KEPT, rows, version("gearlube"))
     put(page, rows, solved)

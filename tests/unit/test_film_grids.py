@@ -16,14 +16,14 @@ from docs.ehl.film_map import (
     FINE,
     Contact,
     Film,
-    add_film,
+    all_films,
     grid_error,
     map_contacts,
-    read_films,
     spread,
     turned_contacts,
 )
 from docs.ehl.micro_cavity import FASTER, ROLLING, SLIDING, SPEED, A, Passage, shift_between, speeds
+from docs.kept_films import KeptFilms
 from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.ehl.point.newton import smoother, transfer
 from gearlube_core.ehl.point.newton.single_stencil import SingleStencil
@@ -204,17 +204,21 @@ def test_failures_lie_outside_every_limit():
     assert (found.low, found.high) == (0.95, 1.25)
 
 
-def test_films_are_kept_and_a_row_cut_off_is_not_read(tmp_path):
-    path = tmp_path / "films.csv"
-    failed = replace(FILM, nodes=COARSE, converged=False)
-    for film in (FILM, failed):
-        add_film(path, film)
-    with path.open("a") as file:
-        file.write("8.0,20.0,5.0")
-    films = read_films(path)
-    assert films == {(FILM.contact, FINE): FILM, (FILM.contact, COARSE): failed}
+def test_films_are_kept_and_missing_ones_left_out(tmp_path, monkeypatch):
+    made = {COARSE: replace(FILM, nodes=COARSE, converged=False), FINE: FILM}
+    for name, value in {
+        "map_contacts": lambda: [FILM.contact],
+        "turned_contacts": list,
+        "refined_contacts": list,
+        "solve": lambda contact, nodes: made[nodes],
+    }.items():
+        monkeypatch.setattr(f"docs.ehl.film_map.{name}", value)
+    films = all_films(KeptFilms(tmp_path))
+    assert films == {(FILM.contact, nodes): film for nodes, film in made.items()}
     assert FILM.sound
     assert not films[FILM.contact, COARSE].sound
+    next(tmp_path.glob(f"*_{COARSE}.npz")).unlink()
+    assert all_films(KeptFilms(tmp_path, compute=False)) == {(FILM.contact, FINE): FILM}
 
 
 def test_error_of_the_finer_grid_is_that_of_a_second_order_film():
