@@ -38,8 +38,7 @@ from gearlube_core.bearings.followed_shaft import TORQUE_LOSSES
 from gearlube_core.bearings.losses.laws import DEFAULT_LAW
 from gearlube_core.bearings.tapered_roller_bearing import PRELOAD, Approach, TaperedRollerBearing
 from gearlube_core.drag import CHURNING_LAWS
-from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
-from gearlube_core.dynamics.hypoid_axle.output_names import OWN_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.output_names import OWN_OUTPUTS, STATE_NAMES
 from gearlube_core.dynamics.hypoid_mesh.parameters import (
     Equations,
     HypoidAxleParameters,

@@ -14,7 +14,9 @@ from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters, contact_modulus
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PRESSURE, SHARE, pack_mesh
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PRESSURE, SHARE, PackedMesh, pack_mesh
+from gearlube_core.dynamics.train.elements.hypoid_mesh_places import TABLE
 from gearlube_core.friction.flank_data import PRINTED_TRACTION
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
@@ -71,9 +73,9 @@ class Reading:
         )
         axle = HypoidAxle(parameters)
         if self.circular:
-            modulus = contact_modulus(base.solid, base.solid)
-            packed = pack_mesh(parameters.mesh, modulus, "consistent", "tangent", "circular")
-            axle.packed.windows[:] = packed.windows
+            packed = _circular(parameters)
+            at = TABLE + packed.levels.size + packed.series.size  # behind levels and series
+            axle.assembly.memory[at : at + packed.windows.size] = packed.windows.ravel()
         return axle
 
     def efficiency(self, speed_kmh: float) -> float:
@@ -183,9 +185,15 @@ def sensitivity_rows() -> list[list[str]]:
     ]
 
 
+def _circular(axle: HypoidAxleParameters) -> PackedMesh:
+    modulus = contact_modulus(axle.solid, axle.solid)
+    return pack_mesh(axle.mesh, modulus, "consistent", "tangent", "circular")
+
+
 def circle_share() -> float:
     """Return the circle's mean pressure over the ellipse's, at 50 N.m, weighted by load share."""
-    packed = Reading().axle().packed, CIRCULAR.axle().packed
+    axle = Reading().axle().parameters
+    packed = axle.packed_mesh(), _circular(axle)
     level = int(np.argmin(np.abs(packed[0].levels - 50.0)))
     shape = packed[0].levels.size, packed[0].nodes + 1, N_CHANNELS
     ellipse, circle = (p.windows.reshape(shape)[level] for p in packed)

@@ -135,6 +135,7 @@ _WORDS = {
     "right_hand": "Whether the pinion's teeth are right-handed",
     "torque_loss": "Law of the drag, named as model.bearing_torque_loss of an axle file",
     "axes": "Places of the two radial axes and the axial one among x, y, z, counted from 0",
+    "cage_moment": "Whether the shaft carries the moment that loaded rollers exert on their cage",
     "law": "Law of the churning loss",
 }
 

@@ -1,7 +1,8 @@
 """What of an axle's constants depends on its mesh table and oils, and what they must be to be used.
 
-    DataSizes | packed floats of the start values | without losses | film models |
-    options | rows | numbers | levels | series of all options | windows of all options
+    DataSizes | packed floats of the start values | without losses | numbers of the train |
+    film models | options | rows | numbers | levels | series of all options |
+    windows of all options
 
 An axle's library is the same for all mesh tables, so it checks the constants that it is given.
 """
@@ -17,15 +18,16 @@ from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.integrate import work_size
-from gearlube_core.dynamics.hypoid_axle.model import START_WORK
+from gearlube_core.dynamics.hypoid_mesh.flanks import N_FRICTION
 from gearlube_core.dynamics.hypoid_mesh.parameters import (
     HypoidAxleParameters,
     MeshStiffness,
     Radii,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
+from gearlube_core.dynamics.train.elements.hypoid_mesh_places import TABLE
 from gearlube_core.film_model.net import UNITS, WIDTH
+from gearlube_core.friction.flank_film import N_FLANK_MODEL
 from gearlube_core.friction.thermal_eyring_data import PRESSURES
 from gearlube_core.kernels.checked_numbers import all_finite, is_whole
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
@@ -34,7 +36,6 @@ from gearlube_core.mesh_table.kernels import N_SERIES, SHAFT_HEAD
 
 VARIANTS = len(get_args(Radii)) * len(get_args(MeshStiffness))
 _PRESSURES = len(PRESSURES)
-_FIXED_WORK = work_size(0, -1)
 _MOST = 1e6  # of anything in a mesh table
 
 
@@ -89,10 +90,20 @@ def data_ends(start: int, sizes: DataSizes) -> DataEnds:
 
 
 @kernel
-def scratch_size(sizes: DataSizes) -> int:
-    """Return the length of the scratch that the kernels of the axle ask for."""
-    of_steps = _FIXED_WORK + int(sizes.series) + (int(sizes.nodes) + 1) * N_CHANNELS
-    return max(of_steps, START_WORK)
+def memory_of_mesh(sizes: DataSizes) -> int:
+    """Return the length of the memory of the mesh, with room for its film model."""
+    windows = (int(sizes.nodes) + 1) * N_CHANNELS
+    at_loads = (int(sizes.levels) + 1) * (int(sizes.series) + windows)
+    return TABLE + int(sizes.levels) + at_loads + N_FRICTION + N_CHANNELS + N_FLANK_MODEL
+
+
+@kernel
+def work_behind(sizes: DataSizes, others: int) -> int:
+    """Return the length of what stands last in the work array.
+
+    One load's series, the memory of the mesh, and so many numbers of the memory of all others.
+    """
+    return int(sizes.series) + memory_of_mesh(sizes) + others
 
 
 def mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list[Array]]:
@@ -118,13 +129,22 @@ class AxleStructure(NamedTuple):
     film_model: int
     roller_model: int
     options: int
-    scratch: int  # in work
+    numbers: int  # how many the train has
+    series: int  # in work
+    others: int  # numbers of the memory of all elements but the mesh
 
 
 def axle_structure(at: Any, n_parameters: int) -> AxleStructure:
     """Return the structure of an axle with these places."""
     return AxleStructure(
-        n_parameters, at.lossless, at.film_model, at.roller_model, at.options, at.scratch
+        n_parameters,
+        at.lossless,
+        at.film_model,
+        at.roller_model,
+        at.options,
+        at.n_numbers,
+        at.series,
+        at.others,
     )
 
 
@@ -229,11 +249,12 @@ def check_axle_data(
     if behind < 0 or 0 < behind < SHAFT_HEAD:
         return 1
     ends = data_ends(s.options, sizes)
-    if lengths[0] != ends.windows or lengths[1] != s.scratch + scratch_size(sizes):
+    if lengths[0] != ends.windows or lengths[1] != s.series + work_behind(sizes, s.others):
         return 1
     values = array_at(data, ends.windows)
     fits = _fits_map(values, s, ends, literals, counting) and _fits_mesh(values, ends, sizes)
     fits = fits and all_finite(values, 0, s.lossless)
+    fits = fits and all_finite(values, s.film_model - s.numbers, s.film_model)
     fits = fits and is_whole(values[s.film_model + UNITS], 1.0, float(WIDTH))
     fits = fits and is_whole(values[s.roller_model + UNITS], 1.0, float(WIDTH))
     return 0 if fits else 1

@@ -1,4 +1,4 @@
-"""The native model of HypoidAxle.fmu: one entry over the kernels of `gearlube_core`."""
+"""The native model of HypoidAxle.fmu: one entry over the train of the axle."""
 
 from __future__ import annotations
 
@@ -21,9 +21,11 @@ from fmu_src.native.axle_data import (
     counting_floats,
     data_ends,
     kind_of_classes,
+    memory_of_mesh,
     mesh_data,
-    scratch_size,
+    work_behind,
 )
+from fmu_src.native.axle_numbers import AxleTrain, axle_of_kind, write_numbers
 from fmu_src.native.model import Exchange, NativeModel, Operation
 from fmu_src.native.parameter_map import (
     AxleSettings,
@@ -35,24 +37,27 @@ from fmu_src.native.parameter_map import (
     place_of_each,
     write_packed,
 )
-from fmu_src.object_code import array_at, pointer_at
-from gearlube_core.arrays import Array
+from fmu_src.object_code import array_at, pointer_at, whole_at
+from gearlube_core.arrays import Array, Offsets
 from gearlube_core.bearings.bearing_type import ShaftBearings, write_derived
+from gearlube_core.bearings.followed_shaft import SOLVED_FILMS
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
-from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.dynamics.hypoid_axle import output_names
-from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels, state_status
-from gearlube_core.dynamics.hypoid_axle.continuous import (
-    EVENT_INDICATORS,
-    STATE_NAMES,
-    UNITS_OF_STATES,
+from gearlube_core.dynamics.hypoid_axle.model import (
+    NO_EQUILIBRIUM_CURE,
+    NO_MODES_WORDS,
+    STEP_REFUSALS,
+    put_start,
+    state_status,
+    take_speeds,
 )
-from gearlube_core.dynamics.hypoid_axle.force_derivatives import NO_MODES, NO_MODES_WORDS
-from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
-from gearlube_core.dynamics.hypoid_axle.model import STEP_REFUSALS
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE, OK
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE, TIME_IN_STEP
+from gearlube_core.dynamics.hypoid_axle.state import PINION_TORQUE, WHEEL_TORQUE
+from gearlube_core.dynamics.hypoid_axle.train_outputs import (
+    gather_motion,
+    gather_outputs,
+    gather_rates,
+)
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import equivalent_mass, modal_damping
 from gearlube_core.dynamics.hypoid_mesh.parameters import (
@@ -60,52 +65,57 @@ from gearlube_core.dynamics.hypoid_mesh.parameters import (
     PRINTED_WITH_SOLVED_FILM,
     MeshStiffness,
 )
+from gearlube_core.dynamics.train.elements.hypoid_mesh_places import ASKED, AT_MEANS, OF_LOAD, TABLE
+from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, START, WRITE
+from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST, OK
 from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.formula_laws import OilLaws
 
-MODAL_WITHOUT_LOSS, PRINTED_FILM = 6, 7  # statuses, beside those of the kernels
+MODAL_WITHOUT_LOSS, PRINTED_FILM = 20, 21  # statuses, beside those of the kernels
+_NO_EQUILIBRIUM = f"no static equilibrium at this pinion torque. {NO_EQUILIBRIUM_CURE}"
 REFUSALS: Mapping[int, str] = {
     **STEP_REFUSALS,
-    NO_EQUILIBRIUM: f"no static equilibrium at this pinion torque. {NO_EQUILIBRIUM_CURE}",
+    **dict.fromkeys((LOOSE, APART, NO_REST), _NO_EQUILIBRIUM),
     NO_MODES: NO_MODES_WORDS,
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
     PRINTED_FILM: PRINTED_WITH_SOLVED_FILM,
 }
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
 _CHECK = int(Operation.CHECK)
-_FLANKS = int(Operation.FLANKS)  # the groups follow in the order of `communication`
 _N_INPUTS = 3
-_N_CONTROL = count_floats(StepControl)
-_CONTROL_AT = N_STATE + _N_INPUTS
-_STATE_SIZE = _CONTROL_AT + _N_CONTROL
 
 
 class _Places(NamedTuple):
     """Where the parts of `data` and `work` begin; whole numbers, alike for all axles of a kind.
 
     In data `DataSizes` come first, then the packed floats of the start values. What has any length
-    lies from the options on, see `data_ends`.
+    lies from the options on, see `data_ends`; in work from the series on.
     """
 
     # in data
     lossless: int  # for each float of `AxleParameters` its value without losses, or NaN: unchanged
+    numbers: int  # of the train; those that parameters change are written over
     film_model: int
     roller_model: int
     options: int
     # in work
     settings: int
     without_losses: int
+    own_numbers: int
+    at_rest: int  # numbers of the train without losses
+    plan: int
     trial: int
-    control: int
-    rollers: int
-    films: int  # the film models of flanks and rollers, whose numbers are written into
-    roller_films: int
     scratch: int
+    series: int  # of a load, then the memory of the train
+    # sizes
+    n_numbers: int
+    n_plan: int
+    states: int
+    others: int  # numbers of the memory of all elements but the mesh
     # packed floats that are written here or by the bearings
     preload_g: int
     modal_damping: int
@@ -151,8 +161,6 @@ def _write_parameters(
     for i in range(at.settings):
         value = data[at.lossless + i]
         work[at.without_losses + i] = value if value == value else work[i]
-    for i in range(at.scratch - at.films):
-        work[at.films + i] = data[at.film_model + i]
     if settings.modal != 0.0 and settings.modal_loss_factor == 0.0:
         return MODAL_WITHOUT_LOSS
     if settings.solved != 0.0 and settings.own_film != 0.0:
@@ -161,34 +169,77 @@ def _write_parameters(
 
 
 @kernel
-def _chosen_mesh(ends: DataEnds, at: _Places, work: Array) -> tuple[int, int]:
-    """Return where series and windows of the options that are set in `work` begin in data."""
-    settings: AxleSettings = tuple_from_array(work[at.settings :], AxleSettings)
+def _write_memory(
+    settings: AxleSettings,
+    data: Array,
+    head: DataSizes,
+    ends: DataEnds,
+    at: _Places,
+    films: Offsets,
+    memory: Array,
+) -> None:
+    """Write the mesh table by the options that are set, and all film models."""
     variant = int(settings.radii) * _STIFFNESSES + int(settings.stiffness)
     series = ends.levels + variant * ends.series_size
-    return series, ends.series + int(settings.pressure) * ends.windows_size
+    windows = ends.series + int(settings.pressure) * ends.windows_size
+    for i in range(memory.size):
+        memory[i] = 0.0
+    memory[OF_LOAD], memory[ASKED] = np.nan, 1.0
+    k, levels = TABLE, int(head.levels)
+    for i in range(levels):
+        memory[k + i] = data[ends.numbers + i]
+    k += levels
+    for i in range(ends.series_size):
+        memory[k + i] = data[series + i]
+    k += ends.series_size
+    for i in range(ends.windows_size):
+        memory[k + i] = data[windows + i]
+    of_mesh = memory_of_mesh(head)
+    for i in range(N_FLANK_MODEL):
+        memory[of_mesh - N_FLANK_MODEL + i] = data[at.film_model + i]
+    for bearing in range(films.size):
+        for i in range(N_ARRAY):
+            memory[of_mesh + films[bearing] + i] = data[at.roller_model + i]
 
 
 def _entry(
     kinds: KernelClasses,
-    laws: tuple[OilLaws, ...],
+    axle: AxleTrain,
     at: _Places,
     n_parameters: int,
     at_speed: int,
     structure: AxleStructure,
     counting: Array,
 ) -> Callable[..., int]:
-    """Return the entry of a model with these bearings, flanks and own laws of the oil.
+    """Return the entry of a model with these bearings and flanks.
 
     `at` says how its data and work lie; the last two, what the data must be like.
     """
     bearing, law = kinds
-    kernels = axle_kernels(bearing, law)
-    static_state, step_control = kernels.static_state, kernels.step_control
-    step_without_outputs, write_outputs = kernels.step_without_outputs, kernels.outputs
-    motion_outputs, event = kernels.motion_outputs, kernels.event
-    group_outputs = kernels.group_outputs
-    continuous_rates = kernels.continuous_rates
+    operate, numbers_of, base_plan = axle.operate, axle.numbers, axle.plan
+    mesh_sizes, roller_films, behind = axle.mesh_sizes, axle.roller_films, axle.behind
+    mesh_memory, at_mesh, films = axle.mesh_memory, axle.mesh, axle.films
+    outputs_of, motion_of = axle.outputs, axle.motion
+    at_control, state_size = at.states + _N_INPUTS, at.states + _N_INPUTS + 1
+    sizes = axle.sizes
+
+    @kernel
+    def write_plan(
+        head: DataSizes, settings: AxleSettings, law_of_drag: float, plan: Offsets
+    ) -> None:
+        for i in range(plan.size):
+            plan[i] = base_plan[i]
+        of_mesh = memory_of_mesh(head)
+        plan[mesh_memory] = of_mesh
+        for i in range(behind.size):
+            plan[behind[i]] += of_mesh
+        plan[mesh_sizes] = int(head.levels)
+        plan[mesh_sizes + 1] = int(head.orders)
+        plan[mesh_sizes + 2] = int(head.nodes)
+        plan[mesh_sizes + 3] = int(head.series)
+        plan[mesh_sizes + 4] = N_FLANK_MODEL if settings.solved != 0.0 else 0
+        for i in range(roller_films.size):
+            plan[roller_films[i]] = N_ARRAY if law_of_drag == SOLVED_FILMS else 0
 
     def entry(
         operation: int,
@@ -205,113 +256,147 @@ def _entry(
             return check_axle_data(data, array_at(parameters, 2), structure, literals, counting)
         head: DataSizes = tuple_from_array(array_at(data, N_SIZES), DataSizes)
         ends = data_ends(at.options, head)
-        constants = array_at(data, ends.numbers)
-        work_end = at.scratch + scratch_size(head)
+        work_end = at.series + work_behind(head, at.others)
         values = array_at(work, work_end)
-        kept = array_at(state, _STATE_SIZE)
+        kept = array_at(state, state_size)
         given = array_at(inputs, _N_INPUTS)
         out = array_at(outputs, N_OUTPUTS)
+        at_memory = at.series + int(head.series)
+        memory = array_at(pointer_at(work, at_memory), work_end - at_memory)
+        plan = whole_at(pointer_at(work, at.plan), at.n_plan)
+        numbers = array_at(pointer_at(work, at.own_numbers), at.n_numbers)
+        scratch = array_at(pointer_at(work, at.scratch), at.series - at.scratch)
+        s = array_at(state, at.states)
         if operation in (_START, _RESUME):
+            constants = array_at(data, ends.windows)
             given_parameters = array_at(parameters, n_parameters)
             status = _write_parameters(given_parameters, constants, at, ends, bearing, law, values)
-            if status != OK or operation == _RESUME:
+            if status != OK:
                 return status
-        series, windows = _chosen_mesh(ends, at, values)
-        mesh = (
-            array_at(pointer_at(data, ends.numbers), int(head.levels)),
-            array_at(pointer_at(data, series), ends.series_size),
-            int(head.orders),
-            array_at(pointer_at(data, windows), ends.windows_size),
-            int(head.nodes),
-            array_at(pointer_at(work, at.films), at.roller_films - at.films),
-            array_at(pointer_at(work, at.roller_films), at.scratch - at.roller_films),
-            *laws,
-        )
-        packed = values[0 : at.settings]
-        s = kept[0:N_STATE]
-        if operation not in (_START, _RESUME):
+            settings: AxleSettings = tuple_from_array(values[at.settings :], AxleSettings)
+            p: AxleParameters = tuple_from_array(values, AxleParameters, bearing, law)
+            without = values[at.without_losses : at.own_numbers]
+            at_rest = array_at(pointer_at(work, at.at_rest), at.n_numbers)
+            for i in range(at.n_numbers):
+                numbers[i] = at_rest[i] = constants[at.numbers + i]
+            write_numbers(values, p, settings, numbers_of, 1.0, numbers)
+            write_numbers(without, p, settings, numbers_of, 0.0, at_rest)
+            _write_memory(settings, constants, head, ends, at, films, memory)
+            write_plan(head, settings, p.drag, plan)
+            if operation == _RESUME:
+                return OK
+            trial = array_at(pointer_at(work, at.trial), at.states)
+            for i in range(at.states):
+                trial[i] = 0.0
+            speed = given_parameters[at_speed]
+            put_start(given, trial, scratch)
+            memory[AT_MEANS] = 1.0
+            per_period = settings.steps_per_highest_period
+            status = int(
+                operate(START, trial, given[2], at_rest, memory, plan, per_period, 0.0, scratch)
+            )
+            memory[AT_MEANS] = 0.0
+            if status != OK:
+                return status
+            take_speeds(trial, speed, p.ratio, given[0])
+            for i in range(at.states):
+                s[i] = trial[i]
+            for i in range(_N_INPUTS):
+                kept[at.states + i] = given[i]
+            kept[at_control] = scratch[0]
+        else:
             status = state_status(s)
             if status != OK:
                 return status
-        trial = values[at.trial : at.control]
-        rollers = values[at.rollers : at.films]
-        scratch = values[at.scratch : work_end]
+        temperature = kept[at.states + 2]
         if operation == _STEP:
-            control = kept[_CONTROL_AT:_STATE_SIZE]
-            status = step_without_outputs(s, trial, step, given, mesh, packed, control, scratch)
-            if status == OK:
-                for i in range(_N_INPUTS):
-                    kept[N_STATE + i] = given[i]
-            return status
-        last = kept[N_STATE:_CONTROL_AT]
-        if operation == _DERIVATIVES:
-            continuous_rates(s, last, mesh, packed, scratch, out)
-            return OK
-        if operation == _EVENT:
-            event(s, mesh, packed, scratch)
-            return OK
-        if operation == _START:
-            settings: AxleSettings = tuple_from_array(values[at.settings :], AxleSettings)
-            lossless = values[at.without_losses : at.trial]
-            control = values[at.control : at.rollers]
-            speed = array_at(parameters, n_parameters)[at_speed]
-            status, _ = static_state(trial, speed, given, mesh, lossless, scratch)
-            if status != OK:
-                return status
-            status = step_control(
-                trial,
-                settings.steps_per_mesh_period,
-                settings.steps_per_highest_period,
-                given,
-                mesh,
-                lossless,
-                scratch,
-                control,
+            trial = array_at(pointer_at(work, at.trial), at.states)
+            for i in range(at.states):
+                trial[i] = s[i]
+            trial[PINION_TORQUE], trial[WHEEL_TORQUE] = given[0], given[1]
+            rate = kept[at_control]
+            status = int(
+                operate(ADVANCE, trial, given[2], numbers, memory, plan, step, rate, scratch)
             )
-            if status != OK:
-                return status
-            for i in range(N_STATE):
-                s[i] = trial[i]
-            for i in range(_N_INPUTS):
-                last[i] = given[i]
-            for i in range(_N_CONTROL):
-                kept[_CONTROL_AT + i] = control[i]
-        if operation == _MOTION and s[TIME_IN_STEP] > 0.0:  # before, powers are rates
-            motion_outputs(s, mesh, packed, scratch, out)
-        elif operation >= _FLANKS:
-            group_outputs(operation - _FLANKS, s, last, mesh, packed, scratch, rollers, out)
-        else:
-            write_outputs(s, last, mesh, packed, scratch, rollers, out)
+            if status == OK:
+                for i in range(at.states):
+                    s[i] = trial[i]
+                for i in range(_N_INPUTS):
+                    kept[at.states + i] = given[i]
+            return status
+        # a host may have set the inputs that the state has been started from
+        s[PINION_TORQUE], s[WHEEL_TORQUE] = kept[at.states], kept[at.states + 1]
+        if operation == _EVENT:
+            return int(operate(EVENT, s, temperature, numbers, memory, plan, 0.0, 0.0, scratch))
+        if operation == _DERIVATIVES:
+            status = int(
+                operate(EXCHANGE, s, temperature, numbers, memory, plan, 0.0, 0.0, scratch)
+            )
+            if status == OK:
+                gather_rates(s, scratch, outputs_of, out)
+            return status
+        if operation == _MOTION and s[sizes.states - 1] > 0.0:  # before, powers are rates
+            mesh: AxleParameters = tuple_from_array(values, AxleParameters, bearing, law)
+            series = array_at(pointer_at(work, at.series), int(head.series))
+            places = (
+                *at_mesh,
+                int(head.levels),
+                int(head.orders),
+                int(head.nodes),
+                int(head.series),
+                0,
+            )
+            gather_motion(
+                s,
+                mesh.mesh,
+                places,
+                memory,
+                series,
+                numbers,
+                sizes,
+                scratch,
+                outputs_of,
+                motion_of,
+                out,
+            )
+            return OK
+        operate(WRITE, s, temperature, numbers, memory, plan, 0.0, 0.0, scratch)
+        gather_outputs(s, scratch, outputs_of, out)
         return OK
 
     return entry
 
 
-def _places(found: ParameterMap, place: Any) -> _Places:
+def _places(found: ParameterMap, place: Any, axle: AxleTrain) -> _Places:
     """Return the layout of data and work; `place` is that of `place_of_each`."""
-    n_parameters = flatten(place).size
+    n_parameters, n_numbers = flatten(place).size, axle.n_numbers
     lossless = N_SIZES + found.base.size
-    film_model = lossless + n_parameters
+    numbers = lossless + n_parameters
+    film_model = numbers + n_numbers
     roller_model = film_model + N_FLANK_MODEL
     without = n_parameters + _N_SETTINGS
-    trial = without + n_parameters
-    rollers = trial + N_STATE + _N_CONTROL
-    films = rollers + ROLLERS_MAX
-    roller_films = films + N_FLANK_MODEL
-    scratch = roller_films + N_ARRAY
+    own_numbers = without + n_parameters
+    plan = own_numbers + 2 * n_numbers
+    trial = plan + axle.plan.size
+    scratch = trial + axle.sizes.states
     return _Places(
         lossless=lossless,
+        numbers=numbers,
         film_model=film_model,
         roller_model=roller_model,
         options=roller_model + N_ARRAY,
         settings=n_parameters,
         without_losses=without,
+        own_numbers=own_numbers,
+        at_rest=own_numbers + n_numbers,
+        plan=plan,
         trial=trial,
-        control=trial + N_STATE,
-        rollers=rollers,
-        films=films,
-        roller_films=roller_films,
         scratch=scratch,
+        series=scratch + axle.work,
+        n_numbers=n_numbers,
+        n_plan=axle.plan.size,
+        states=axle.sizes.states,
+        others=axle.others,
         preload_g=int(place.preload_g),
         modal_damping=int(place.mesh.modal_damping),
         bearing_p=int(flatten(place.bearing_p)[0]),
@@ -339,7 +424,8 @@ def native_model(definition: Definition) -> NativeModel:
     place = place_of_each(kinds)
     found = parameter_map(definition.variables, pack, derived_places(place, p))
     packed_mesh, series, windows = mesh_data(by_default)
-    at = _places(found, place)
+    axle = axle_of_kind(by_default, place)
+    at = _places(found, place, axle)
     sizes = DataSizes.of(packed_mesh, found)
     unknown = tuple_from_array(np.full(at.settings, np.nan), AxleParameters, *kinds)
     data = np.concatenate(
@@ -347,6 +433,7 @@ def native_model(definition: Definition) -> NativeModel:
             flatten(sizes),
             found.base,
             flatten(without_losses(unknown)),  # NaN where they stay
+            axle.constants,
             flank_film_model(by_default.flank_film_model or shipped_model(FLANK)),
             roller_film_model("solved_films", by_default.roller_film_model),
             *found.arrays[1:],
@@ -360,32 +447,28 @@ def native_model(definition: Definition) -> NativeModel:
     at_speed = parameters.index("pinion_speed")
     laws = by_default.oil.own_laws()
     structure, counting = axle_structure(at, len(parameters)), counting_floats(place, at)
-    words = (len(parameters), at_speed, at, counting.tolist())
+    words = (len(parameters), at_speed, at, counting.tolist(), axle.words)
+    states = at.states
     return NativeModel(
         definition=definition,
-        entry=_entry(kinds, laws, at, len(parameters), at_speed, structure, counting),
+        entry=_entry(kinds, axle, at, len(parameters), at_speed, structure, counting),
         kind="" if laws else kind_of_classes(kinds, words),
         data=data,
-        state_size=_STATE_SIZE,
-        control_at=_CONTROL_AT,
-        work_size=at.scratch + scratch_size(sizes),
+        state_size=states + _N_INPUTS + 1,
+        control_at=states + _N_INPUTS,
+        work_size=at.series + work_behind(sizes, at.others),
         limits_at=at.settings,
         ranges_at=int(place.ranges.torque_low),
         ranges=unnamed.ranges,
         refusals=REFUSALS,
         motion=frozenset(output_names.MOTION_OUTPUTS),
-        groups={
-            Operation.DERIVATIVES: frozenset(output_names.RATE_OUTPUTS),
-            Operation.FLANKS: frozenset(output_names.FLANK_GROUP),
-            Operation.BEARINGS: frozenset(output_names.BEARING_GROUP),
-            Operation.RACEWAYS: frozenset(output_names.RACEWAY_GROUP),
-        },
+        groups={Operation.DERIVATIVES: frozenset(output_names.RATE_OUTPUTS)},
         exchange=Exchange(
-            states=STATE_NAMES,
-            places=tuple(range(len(STATE_NAMES))),
-            units=UNITS_OF_STATES,
-            indicators=EVENT_INDICATORS,
-            inputs_at=N_STATE,
+            states=output_names.STATE_NAMES,
+            places=axle.state_places,
+            units=axle.state_units,
+            indicators=output_names.EVENT_INDICATORS,
+            inputs_at=states,
             of_states=frozenset(output_names.MOTION_OUTPUTS) - output_names.POWERS,
         ),
     )

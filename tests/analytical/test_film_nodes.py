@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle, rhs
-from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_STATE, PHI_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.dynamics.hypoid_mesh import flanks, node_films, tooth_pair
 from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
     blend_mesh,
 )
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with
@@ -24,23 +24,21 @@ class Flanks:
 
     def __init__(self):
         axle = HypoidAxle(axle_with(film="solved"))
-        mesh, self.p = axle.packed, axle.kernel_parameters
+        mesh, self.p = axle.parameters.packed_mesh(), axle.kernel_parameters
         window = np.zeros(mesh.window_size)
         levels = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
         at_load = MeshAtLoad(np.zeros(mesh.series_size), mesh.orders, window, mesh.nodes)
-        self.s = np.zeros(N_STATE)
-        self.s[LOAD_TORQUE] = TORQUE
         blend_mesh(TORQUE, 1.0, levels, at_load)
         self.window, self.nodes = window, mesh.nodes
         self.model = axle.parameters.film_model()
-        self.kept = np.zeros(rhs.N_FRICTION)
+        self.kept = np.zeros(flanks.N_FRICTION)
 
     def losses(self, phase, refresh, force=FORCE, speed=SPEED, oil=OIL):
         """Viscous and boundary power [W], bound of their sum [W]; phase in windows."""
-        self.s[PHI_P] = phase * 2.0 * np.pi * 3.0 / TEETH
-        self.s[W_P], self.s[W_G] = speed, speed * TEETH / 36.0
+        angle = phase * 2.0 * np.pi * 3.0 / TEETH
+        motion = MeshMotion(angle, 0.0, speed, speed * TEETH / 36.0, *6 * (0.0,))
         found = flanks.flank_sum(
-            rhs.mesh_motion(self.s), force, self.window, self.nodes,
+            motion, force, self.window, self.nodes,
             lubricant_state(self.p.oil, oil), self.p, refresh, self.kept, np.zeros(N_CHANNELS),
             self.model,
         )  # fmt: skip

@@ -25,7 +25,7 @@ from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
-from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
+from gearlube_core.dynamics.hypoid_axle.state import gear_motion, pinion_motion
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.each import each
 

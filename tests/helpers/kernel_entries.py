@@ -14,15 +14,18 @@ import numpy as np
 from gearlube_core.bearings import roller_loads, shaft_expansion, standalone, tapered_roller_kernels
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.losses import catalogue, laws, physical_loss, race_rolling
-from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle, integrate
-from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
-from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.state import CAGE_G, N_ODE, TIME_IN_STEP, U_P, W_G, X
+from gearlube_core.dynamics.hypoid_axle.output_names import MOTION_OUTPUTS, N_OUTPUTS, OUTPUT_INDEX
+from gearlube_core.dynamics.hypoid_axle.state import N_ODE, PHI_P, U_P, W_G, X
+from gearlube_core.dynamics.hypoid_axle.train_outputs import (
+    gather_motion,
+    gather_rates,
+    output_places,
+)
 from gearlube_core.dynamics.hypoid_torsional import (
     kernel_parameters,
     mode_march,
@@ -31,6 +34,8 @@ from gearlube_core.dynamics.hypoid_torsional import (
 )
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
+from gearlube_core.dynamics.train.march import EVENT, EXCHANGE, work_size
+from gearlube_core.dynamics.train.plan import AT, FIRST_ROW, N_PLACES
 from gearlube_core.errors import StepError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
@@ -125,11 +130,11 @@ def axle_entries(record, *, of_fmus=True):
 def states_of_axle(rest, name):
     """States from which a step is taken: rolling on, teeth apart, on the other flanks, refused."""
     moved = rest.copy()
-    moved[U_P : U_P + 3] += 0.5  # um
-    changes = {"rolling": (X, moved[X]), "coasting": (X, -155.0), "crossed": (X, -100.0)}
+    moved[U_P : U_P + 3] += 0.5e-6
+    changes = {"rolling": (X, moved[X]), "coasting": (X, -155e-6), "crossed": (X, -100e-6)}
     if name in ("plain", "printed"):
-        changes |= {"apart": (X, -3.0), "diverged": (X, -2e5), "fast": (W_G, -5001.0),
-                    "far": (CAGE_G, 1.1e9)}  # fmt: skip
+        changes |= {"apart": (X, -3e-6), "diverged": (X, -0.2), "fast": (W_G, -5001.0),
+                    "far": (PHI_P, 1.1e9)}  # fmt: skip
     states = {place: moved.copy() for place in changes}
     for place, (index, value) in changes.items():
         states[place][index] = value
@@ -137,22 +142,20 @@ def states_of_axle(rest, name):
 
 
 def fmu_entries(record, name, axle, start):
-    """The kernels of which FMUs make a step, its groups of outputs, rates and events."""
-    p, mesh = axle.kernel_parameters, axle.packed
-    table = (*mesh.fields, axle.parameters.film_model(), axle.parameters.roller_model())
-    kernels = axle_kernels(type(p.bearing_p), type(p.flank_law))
-    data, inputs = (table, flatten(p)), np.array([*operating_point(60)[1:], OIL])
-    trial, rollers, out = np.zeros(start.size), np.zeros(ROLLERS_MAX), np.zeros(N_OUTPUTS)
-    work = np.zeros(integrate.work_size(mesh.series_size, mesh.nodes))
-    s, control = start.copy(), flatten(axle.step_control)
-    kernels.step_without_outputs(s, trial, H, inputs, *data, control, work)
-    kernels.motion_outputs(s, *data, work, out)
-    for group in range(3):
-        kernels.group_outputs(group, s, inputs, *data, work, rollers, out)
-    record.keep(f"{name} groups", s, out)
-    s[TIME_IN_STEP] = 0.0
-    kernels.continuous_rates(s, inputs, *data, work, out)
-    kernels.event(s, *data, work)
+    """The kernels by which FMUs write the motion after a step, rates and events."""
+    given, made, out = axle.parameters, axle.assembly, np.zeros(N_OUTPUTS)
+    mesh, p, places = given.packed_mesh(), axle.kernel_parameters, output_places(made)
+    numbers, memory, plan = made.numbers, made.memory, made.plan
+    work, s = np.zeros(work_size(made.sizes)), start[: made.sizes.states].copy()
+    row = FIRST_ROW + sum(AT + plan[FIRST_ROW + i * (AT + 3) + N_PLACES] for i in range(2))
+    at = tuple(plan[row + AT : row + AT + plan[row + N_PLACES]].tolist())
+    motion = np.array([OUTPUT_INDEX[one] for one in MOTION_OUTPUTS])
+    series = np.zeros(mesh.series_size)
+    gather_motion(s, p.mesh, at, memory, series, numbers, made.sizes, work, places, motion, out)
+    record.keep(f"{name} motion", out)
+    axle.operate(EXCHANGE, s, OIL, numbers, memory, plan, 0.0, 0.0, work)
+    gather_rates(s, work, places, out)
+    axle.operate(EVENT, s, OIL, numbers, memory, plan, 0.0, 0.0, work)
     record.keep(f"{name} continuous", s, out)
 
 

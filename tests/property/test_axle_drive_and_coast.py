@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.rhs import follow_flank_of
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     PHI_G,
@@ -14,14 +13,19 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     SIDE,
     U_G,
     U_P,
-    UM,
+    V_G,
+    V_P,
+    W_G,
+    W_P,
     X,
 )
 from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
     blend_mesh,
+    follow_flank,
 )
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
 from gearlube_core.mesh_table.kernels import mesh_series
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
@@ -112,17 +116,20 @@ def test_changing_flanks_puts_no_energy_in(backlash):
 def followed(x_um, side, backlash):
     """Position and side [um, -] after the table has followed the flanks, mean k_m before, after."""
     axle = axle_of(TWO_SIDED, backlash=backlash)
-    mesh = axle.packed
+    mesh = axle.parameters.packed_mesh()
     table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
     at_load = MeshAtLoad(
         np.zeros(mesh.series_size), mesh.orders, np.zeros(mesh.window_size), mesh.nodes
     )
     s = np.array(axle.state_view)
-    s[X], s[SIDE] = x_um, side
-    blend_mesh(s[LOAD_TORQUE], side, table, at_load)
+    load, apart = s[LOAD_TORQUE], s[U_P : U_P + 3] - s[U_G : U_G + 3]
+    moving = s[V_P : V_P + 3] - s[V_G : V_G + 3]
+    motion = MeshMotion(s[PHI_P], 1e-6 * x_um, s[W_P], s[W_G], *apart, *moving)
+    blend_mesh(load, side, table, at_load)
     before = mesh_series(at_load.series, mesh.orders, 13.0, s[PHI_P]).k_m
-    follow_flank_of(s, s[LOAD_TORQUE], table, axle.kernel_parameters.mesh, at_load)
-    return s[X], s[SIDE], before, mesh_series(at_load.series, mesh.orders, 13.0, s[PHI_P]).k_m
+    x, other = follow_flank(motion, load, side, table, axle.kernel_parameters.mesh, at_load)
+    after = mesh_series(at_load.series, mesh.orders, 13.0, s[PHI_P]).k_m
+    return 1e6 * x, other, before, after
 
 
 @pytest.mark.parametrize(("x", "side"), [(-4.0, 1.0), (4.0, -1.0)])
@@ -137,7 +144,7 @@ def test_without_backlash_a_change_of_side_keeps_the_elastic_energy(x, side):
 
 @pytest.mark.parametrize(("x", "side"), [(3.0, 1.0), (-23.0, -1.0), (-1.0, 1.0), (-19.0, -1.0)])
 def test_flanks_in_contact_or_near_it_keep_their_side(x, side):
-    assert followed(x, side, 20e-6)[:2] == (x, side)
+    assert followed(x, side, 20e-6)[:2] == (1e6 * (1e-6 * x), side)
 
 
 @pytest.mark.parametrize(("x", "side"), [(-19.0, 1.0), (-1.0, -1.0)])
@@ -154,7 +161,7 @@ def test_both_gaps_follow_from_rotation_and_displacements_alone(backlash):
     _, states = tip_in_tip_out(axle, ["mesh.dte"], reversals=9)
     side = states[:, SIDE]
     lag = states[:, PHI_P] - RATIO * states[:, PHI_G]
-    lateral = (states[:, U_P : U_P + 3] - states[:, U_G : U_G + 3]) * UM
+    lateral = states[:, U_P : U_P + 3] - states[:, U_G : U_G + 3]
     n = np.array([SHIPPED.series[key][0, 0, 0] for key in ("n_x", "n_y", "n_z")])
     R_p = SHIPPED.series["R_p"][0, 0, 0]
     c = SHIPPED.series["e"][0]
@@ -162,7 +169,7 @@ def test_both_gaps_follow_from_rotation_and_displacements_alone(backlash):
     e = np.cos(angle) @ c[:, 0] + np.sin(angle) @ c[:, 1]
     drive = R_p * lag + lateral @ n - e
     coast = COAST_RADIUS * R_p * lag + lateral @ (n * [1.0, -1.0, 1.0]) - COAST_ERROR * e
-    x = states[:, X] * UM
+    x = states[:, X]
     # theta = lag - zero, from the first sample
     zero = (drive[0] - x[0] - 0.5 * backlash) / R_p
     drive -= R_p * zero

@@ -5,8 +5,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import rhs
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.hypoid_mesh import flank_outputs, flanks, tooth_pair
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
 from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
@@ -275,12 +273,3 @@ def test_sliding_speed_has_the_relative_velocity_along_the_direction_of_sliding(
     for row in PAIRS:
         found = source_of(tooth_pair.sliding_speed)(moving(), row)
         assert found == pytest.approx(sliding_of(row), rel=1e-13)
-
-
-def test_the_mesh_meets_the_pinion_against_the_gear():
-    s = np.zeros(N_STATE)
-    # DTE [um]; speeds, angles; displacements [um] and velocities of the pinion, then of the gear
-    s[:17] = 8, 150, 60, 0.3, 0.1, 5, 6, 7, 0.4, -0.7, 1.1, 1, 3, 9, -0.3, 0.5, 0.2
-    found = source_of(rhs.mesh_motion)(s)
-    expected = 0.3, 8e-6, 150.0, 60.0, 4e-6, 3e-6, -2e-6, 0.7, -1.2, 0.9
-    np.testing.assert_allclose(found, expected, rtol=1e-14)

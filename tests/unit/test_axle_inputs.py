@@ -11,6 +11,7 @@ from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
     mohammadpour_2015_axle,
 )
+from gearlube_core.dynamics.hypoid_axle.state import W_P, X
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 from tests.helpers.axle_cases import OIL, axle_with, running_axle
 from tests.helpers.each import each
@@ -173,7 +174,7 @@ def test_a_step_that_blows_up_is_refused_and_can_be_retried():
     """Teeth 2 m apart are no axle: the step is refused, the same state goes on with a cure."""
     axle, *torques = running_axle(60)
     good = axle.get_state()
-    axle.set_state(spoiled(axle, 0, 2e6))
+    axle.set_state(spoiled(axle, X, 2.0))
     broken, shown = axle.get_state(), axle.outputs.copy()
     with pytest.raises(StepError, match=r"step of 0\.0001 s refused: .* Reduce the torques"):
         axle.step(1e-4, *torques, OIL)
@@ -186,7 +187,7 @@ def test_a_step_that_blows_up_is_refused_and_can_be_retried():
 
 def test_a_speed_beyond_that_of_any_shaft_is_refused():
     axle, *torques = running_axle(60)
-    axle.set_state(spoiled(axle, 1, 1e7))
+    axle.set_state(spoiled(axle, W_P, 1e7))
     broken = axle.get_state()
     with pytest.raises(StepError, match="faster than 5000 rad/s"):
         axle.step(0.1, *torques, OIL)

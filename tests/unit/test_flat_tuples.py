@@ -8,7 +8,6 @@ from numba import njit
 
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import (
@@ -44,6 +43,16 @@ NESTED = Outer(1.0, Middle(Inner(2.0, 3.0), 4.0, Inner(5.0, 6.0)), Inner(7.0, 8.
 @njit
 def restore_outer(array):
     return tuple_from_array(array, Outer)
+
+
+class StepControl(NamedTuple):
+    """Any five floats."""
+
+    one: float
+    two: float
+    three: float
+    four: float
+    five: float
 
 
 @njit

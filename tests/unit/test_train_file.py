@@ -13,6 +13,7 @@ from drivetrain.train.part_section import section_of
 from drivetrain.train.train_file import TrainFile
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle
+from gearlube_core.dynamics.train.elements.drag import Churning
 from gearlube_core.dynamics.train.part import ELEMENTS
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -68,6 +69,9 @@ def test_the_hypoid_axle_as_a_file_is_its_list():
     train = TrainFile.named("hypoid_axle").case().train
     assert train.bodies == tuple(bodies)
     assert train.steps_per_highest_period == paper.steps_per_highest_period
+    sump = elements.pop()  # of the builder alone, for any law
+    assert isinstance(sump, Churning)
+    assert sump.law == "none"
     for one, other in zip(train.elements, elements, strict=True):
         assert type(one) is type(other)
         np.testing.assert_allclose(flatten(one.numbers()), flatten(other.numbers()), rtol=1e-12)

@@ -3,29 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
-from gearlube_core.dynamics.hypoid_axle.force_derivatives import DERIVATIVES_WORK, N_COORDINATES
-from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
-from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import NO_FILM_MODEL, MeshFields
-from gearlube_core.dynamics.packed_mesh import PackedMesh
-from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.dynamics.hypoid_axle.as_train import memory_of_means, numbers_at_rest
+from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    SIDE,
+    U_G,
+    U_P,
+    V_G,
+    V_P,
+    W_G,
+    W_P,
+    X,
+)
+from gearlube_core.dynamics.train.march import RATES, RENEW, work_size
 
 # generalised coordinates: pinion and gear rotation, then their displacements
 COORDINATES = ("phi_p", "phi_g", "x_p", "y_p", "z_p", "x_g", "y_g", "z_g")
-
-
-class AxleInState(Protocol):
-    """What of an axle is linearised."""
-
-    kernel_parameters: AxleParameters
-    packed: PackedMesh
-    state_view: Array  # shape (N_STATE,)
+_RATES = np.array([W_P, W_G, *range(V_P, V_P + 3), *range(V_G, V_G + 3)])
+_DISPLACEMENTS = np.array([*range(U_P, U_P + 3), *range(U_G, U_G + 3)])
+_ANGLE_STEP = 1e-8  # rad, of the central differences
+_LENGTH_STEP = 1e-9  # m
+_SPEED_STEP = 1e-5  # rad/s or m/s
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,37 +72,74 @@ class LinearAxle:
         return np.linalg.eigvals(np.vstack([upper, lower])).astype(np.complex128)
 
 
-def linearise(axle: AxleInState, oil_temperature: float, torque: float) -> LinearAxle:
+def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> LinearAxle:
     """Return the axle linearised about its present state at constant pinion angle.
 
-    Central differences of the right-hand side, with the periodic data held at their means, film
-    and friction as they are.
+    Central differences of the rates of its train, with the periodic data held at their means and
+    without friction and drag.
 
     Parameters
     ----------
     axle : HypoidAxle
-        Or any other object with what `AxleInState` names.
     oil_temperature : float
         [K]
     torque : float
         Pinion torque at which the mesh table is read [N.m].
     """
-    p = axle.kernel_parameters._replace(friction=0.0)
-    derivatives = axle_kernels(type(p.bearing_p), type(p.flank_law)).derivatives
-    mesh = axle.packed
-    fields: MeshFields = (*mesh.fields, NO_FILM_MODEL, NO_FILM_MODEL)
-    state, work = np.array(axle.state_view), np.zeros(DERIVATIVES_WORK)
+    made = axle.assembly
+    work, memory = np.zeros(work_size(made.sizes)), memory_of_means(made)
+    state = np.array(axle.state_view)
+    state[LOAD_TORQUE], state[SIDE] = abs(torque), -1.0 if torque < 0.0 else 1.0
+    given = axle.parameters
+    masses = np.array(
+        [given.pinion_inertia, given.gear_inertia] + 3 * [given.pinion_mass] + 3 * [given.gear_mass]
+    )
 
-    def matrix(of_speeds: float, constants: AxleParameters) -> Array:
-        found = np.zeros(N_COORDINATES**2)
-        derivatives(
-            state, of_speeds, torque, oil_temperature, fields, flatten(constants), work, found
-        )
-        return found.reshape(N_COORDINATES, N_COORDINATES)
+    def rates(s: Array, numbers: Array) -> Array:
+        for operation in (RENEW, RATES):
+            axle.operate(operation, s, oil_temperature, numbers, memory, made.plan, 0.0, 0.0, work)
+        return work[: made.sizes.integrated].copy()
 
-    stiffness = matrix(0.0, without_losses(p))
-    masses = np.array([p.I_p, p.I_g] + 3 * [p.m_p] + 3 * [p.m_g])
-    return LinearAxle(np.diag(masses), matrix(1.0, p), stiffness, matrix(0.0, p) - stiffness)
+    def forces(s: Array, numbers: Array) -> Array:
+        return masses * rates(s, numbers)[_RATES]
+
+    without, undamped = (
+        numbers_at_rest(axle.elements, made, given.oil, hysteresis=one, cages=True)
+        for one in (True, False)
+    )
+    # how much each coordinate moves the transmission error
+    still = state.copy()
+    still[_RATES] = 0.0
+    moves = np.zeros(len(COORDINATES))
+    for j, place in enumerate(_RATES):
+        turning = still.copy()
+        turning[place] = 1.0
+        moves[j] = rates(turning, without)[X]
+
+    def over_coordinates(numbers: Array) -> Array:
+        found = np.zeros((len(COORDINATES), len(COORDINATES)))
+        for j in range(len(COORDINATES)):
+            step = _ANGLE_STEP if j < 2 else _LENGTH_STEP
+            for side in (1.0, -1.0):
+                s = state.copy()
+                s[X] += side * step * moves[j]
+                if j >= 2:
+                    s[_DISPLACEMENTS[j - 2]] += side * step
+                found[:, j] -= side * forces(s, numbers) / (2.0 * step)
+        return found
+
+    def over_speeds(numbers: Array) -> Array:
+        found = np.zeros((len(COORDINATES), len(COORDINATES)))
+        for j, place in enumerate(_RATES):
+            for side in (1.0, -1.0):
+                s = state.copy()
+                s[place] += side * _SPEED_STEP
+                found[:, j] -= side * forces(s, numbers) / (2.0 * _SPEED_STEP)
+        return found
+
+    stiffness = over_coordinates(undamped)
+    circulatory = over_coordinates(without) - stiffness
+    return LinearAxle(np.diag(masses), over_speeds(without), stiffness, circulatory)
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +165,7 @@ class AxleMode:
     shape: Array
 
 
-def named_modes(axle: AxleInState, oil_temperature: float, torque: float) -> tuple[AxleMode, ...]:
+def named_modes(axle: HypoidAxle, oil_temperature: float, torque: float) -> tuple[AxleMode, ...]:
     """Return the natural modes of the axle, lowest frequency first.
 
     Parameters as in `linearise`.
@@ -153,7 +194,7 @@ def named_modes(axle: AxleInState, oil_temperature: float, torque: float) -> tup
     return tuple(found)
 
 
-def modes(axle: AxleInState, oil_temperature: float, torque: float) -> dict[str, float]:
+def modes(axle: HypoidAxle, oil_temperature: float, torque: float) -> dict[str, float]:
     """Return the natural frequencies [Hz] of the axle by the names of `AxleMode`.
 
     Parameters as in `linearise`.

@@ -4,50 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.checks import check_within
-from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.integrate import work_size
+from gearlube_core.dynamics.hypoid_axle.cycle_kernels import N_EXTREMES, cycle_kernels
 from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
-    N_EXTREMES,
+    LOSS_SOURCES,
     N_LOSSES,
     NO_BALANCE,
-    cycle_kernels,
     cycle_work,
 )
-from gearlube_core.dynamics.hypoid_axle.model import torque_limits
-from gearlube_core.dynamics.hypoid_axle.output_names import (
-    N_OUTPUTS,
-)
-from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.hypoid_axle.model import NO_EQUILIBRIUM_CURE, torque_limits
+from gearlube_core.dynamics.hypoid_axle.shafts_at_rest import NO_EQUILIBRIUM
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
-from gearlube_core.dynamics.packed_mesh import pack_mesh
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.progress import Progress, no_progress
 
 SETTLED = 0.01  # K, error of the temperature
 
-# in the order of the energies of the state
-LOSS_SOURCES = (
-    "friction_viscous",
-    "friction_boundary",
-    "mesh_damping",
-    "bearing_damping",
-    "bearing_torque",
-    "churning",
-    "seals",
-    "friction_rolling",
-)
 TOO_HOT = NO_BALANCE + 1
 FAILURES = {
     0: "",
@@ -174,20 +155,9 @@ def axle_losses(
         parameters.oil.check_temperature(float(temperature))
     check_within("angles", angles, 4, 4096, "", "Default 32.")
     p = parameters.kernel_parameters()
-    mesh = pack_mesh(
-        parameters.mesh.without_shaft_error(),  # over one mesh period
-        contact_modulus(parameters.solid, parameters.solid),
-        parameters.radii,
-        parameters.mesh_stiffness,
-        parameters.friction_law.pressure,
-    )
-    works = (
-        np.zeros(N_STATE),
-        np.zeros(cycle_work(mesh.orders, mesh.nodes)),
-        np.zeros(work_size(mesh.series_size, mesh.nodes)),
-        np.zeros(ROLLERS_MAX),
-        np.zeros(N_OUTPUTS),
-    )
+    # over one mesh period
+    mesh = replace(parameters, mesh=parameters.mesh.without_shaft_error()).packed_mesh()
+    work = np.zeros(cycle_work(mesh.series_size, mesh.nodes))
     kernel = cycle_kernels(type(p.bearing_p), type(p.flank_law)).losses_along_torque
     constants = flatten(p), flatten(without_losses(p))
     models = parameters.film_model(), parameters.roller_model()
@@ -198,9 +168,7 @@ def axle_losses(
     bulk = np.broadcast_to(temperatures[:, None, None], shape).copy()
 
     def write(speed: float, torques: Array, temperature: float, *of_torques: Array) -> None:
-        kernel(
-            speed, torques, temperature, angles, extremes, fields, *constants, works, *of_torques
-        )
+        kernel(speed, torques, temperature, angles, extremes, fields, *constants, work, *of_torques)
 
     for i, temperature in enumerate(temperatures):
         for j, speed in enumerate(speeds):

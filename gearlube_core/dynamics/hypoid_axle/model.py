@@ -2,72 +2,76 @@
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import RollerFilms
-from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
-from gearlube_core.dynamics.hypoid_axle.force_derivatives import CONTROL_WORK, NO_MODES_WORDS
-from gearlube_core.dynamics.hypoid_axle.integrate import (
-    MAX_STEPS,
+from gearlube_core.dynamics.hypoid_axle.as_train import (
+    hypoid_axle,
+    memory_of_means,
+    numbers_at_rest,
+)
+from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
+from gearlube_core.dynamics.hypoid_axle.state import (
+    CAGE_G,
+    CAGE_P,
+    PHI_G,
+    PHI_P,
+    PINION_TORQUE,
+    W_G,
+    W_P,
+    WHEEL_TORQUE,
+    X,
+)
+from gearlube_core.dynamics.hypoid_axle.train_outputs import gather_outputs, output_places
+from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_mesh.parameters import (
+    MARCH_WITH_WARM_FLANKS,
+    HypoidAxleParameters,
+)
+from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
+from gearlube_core.dynamics.stepped_model import Kernels, SteppedModel, TorqueLimits, Words
+from gearlube_core.dynamics.train.assemble import assemble
+from gearlube_core.dynamics.train.choice import generated_kernel
+from gearlube_core.dynamics.train.march import (
+    ADVANCE,
+    DIVERGED,
     NOT_FINITE,
+    RATES,
+    RENEW,
+    START,
     TOO_FAST,
-    TOO_MANY_STEPS,
-    StepControl,
-    step_inputs,
+    WRITE,
     work_size,
 )
-from gearlube_core.dynamics.hypoid_axle.output_names import (
-    OUTPUT_NAMES,
-)
-from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_raceways, axle_rhs
-from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM_CURE, OK, REST_WORK
-from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, SIDE
-from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import (
-    AxleParameters,
-    without_losses,
-)
-from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
-    MeshFields,
-    MeshLevels,
-    blend_mesh,
-    place_at_load,
-)
-from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
-from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
-from gearlube_core.dynamics.ranges import TOO_FAR
-from gearlube_core.dynamics.stepped_model import (
-    TOO_FAR_WORDS,
-    TOO_FAST_WORDS,
-    Kernels,
-    SteppedModel,
-    TorqueLimits,
-    Words,
-    too_many_steps_words,
-)
+from gearlube_core.dynamics.train.model import REFUSALS
+from gearlube_core.dynamics.train.rest_search import NO_MODES, OK
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.kernels.jit import kernel
 
 MAX_TORQUE = 1e4  # N.m at the pinion: far beyond any car axle
 MAX_WHEEL_TORQUE = 3e4  # N.m
-START_WORK = max(REST_WORK, CONTROL_WORK)
+NO_EQUILIBRIUM_CURE = "Increase the bearing preload or reduce the torque."
+NO_MODES_WORDS = (
+    "the natural frequencies at the static equilibrium could not be found. "
+    "Change the torque or the preload a little."
+)
 STEP_REFUSALS = {
+    **REFUSALS,
     NOT_FINITE: (
-        "the axle state is no longer finite or the teeth have parted by more than 0.1 m. "
+        "the axle state is no longer finite or a shaft has moved by more than 0.1 m. "
         "Reduce the torques or check for an unstable option (equations='as_printed')"
     ),
-    TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
-    TOO_FAST: TOO_FAST_WORDS,
-    TOO_FAR: TOO_FAR_WORDS,
 }
-MARCH_WITH_WARM_FLANKS = (
-    "flank_bulk_resistance must be 0 K/W in a march in time: teeth warm up in minutes, a march "
-    "lasts a second. Take `gearlube map` or `gearlube cycle`, which use mean losses, or leave "
-    "film.bulk_resistance_k_w out."
-)
 _WORDS = Words("axle", "the bearing modes", STEP_REFUSALS)
+
+
+class StepControl(NamedTuple):
+    """What the integrator step is tied to."""
+
+    least_rate: float  # integrator steps a second
 
 
 def torque_limits(parameters: HypoidAxleParameters) -> TorqueLimits:
@@ -75,6 +79,35 @@ def torque_limits(parameters: HypoidAxleParameters) -> TorqueLimits:
     return TorqueLimits.around(
         parameters.torque_range, parameters.mesh.ratio, MAX_TORQUE, MAX_WHEEL_TORQUE
     )
+
+
+@kernel
+def state_status(s: Array) -> int:
+    """Return OK, or why the model says nothing of a state: NOT_FINITE, TOO_FAST or TOO_FAR."""
+    if not abs(s[X]) <= DIVERGED:
+        return NOT_FINITE
+    if not max(abs(s[W_P]), abs(s[W_G])) <= MAX_SPEED:
+        return TOO_FAST
+    angle = max(abs(s[PHI_P]), abs(s[PHI_G]), abs(s[CAGE_P]), abs(s[CAGE_G]))
+    return OK if angle <= MAX_ANGLE else TOO_FAR
+
+
+@kernel
+def put_start(inputs: Array, s: Array, work: Array) -> None:
+    """Write what START begins with; the gear bears what the pinion's torque leaves.
+
+    Shafts do not turn yet: films of rollers build up from those at rest.
+    """
+    s[PINION_TORQUE], s[WHEEL_TORQUE] = inputs[0], inputs[1]
+    work[0], work[1], work[2] = 1.0, 0.0, math.nan
+
+
+@kernel
+def take_speeds(s: Array, speed: float, ratio: float, torque: float) -> None:
+    """Let an axle at rest under a torque [N.m] turn at a speed of the pinion [rad/s]."""
+    if torque == 0.0:  # flanks just touch
+        s[X] = 0.0
+    s[W_P], s[W_G] = speed, speed / ratio
 
 
 class HypoidAxle(SteppedModel[StepControl]):
@@ -90,7 +123,7 @@ class HypoidAxle(SteppedModel[StepControl]):
     -----
     Equations of motion are integrated by RK4 with a fixed step, which follows from the mesh period
     and the highest natural frequency. The same input gives the same output to the bit. Instances
-    share nothing.
+    share nothing. It is a train of elements, see `hypoid_axle_train`.
 
     References
     ----------
@@ -114,20 +147,15 @@ class HypoidAxle(SteppedModel[StepControl]):
                 f"{MARCH_WITH_WARM_FLANKS} Got {parameters.flank_bulk_resistance:g} K/W."
             )
         self.parameters = parameters
-        self.packed: PackedMesh = pack_mesh(
-            parameters.mesh,
-            contact_modulus(parameters.solid, parameters.solid),
-            parameters.radii,
-            parameters.mesh_stiffness,
-            parameters.friction_law.pressure,
-        )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
-        self._film_models = parameters.film_model(), parameters.roller_model()
-        self._laws = parameters.oil.own_laws()
+        bodies, self.elements = hypoid_axle(parameters)
+        made = self.assembly = assemble(bodies, self.elements, parameters.oil)
+        self.operate = generated_kernel(made)
+        self._at_rest = numbers_at_rest(self.elements, made, parameters.oil)
         super().__init__(
-            states=N_STATE,
+            states=made.sizes.states,
             output_names=OUTPUT_NAMES,
-            control=StepControl(0.0, 0.0, 1.0, 1.0, 0.0),
+            control=StepControl(1.0),
             oil=parameters.oil,
             torque_limits=torque_limits(parameters),
             ranges=parameters.ranges,
@@ -135,24 +163,37 @@ class HypoidAxle(SteppedModel[StepControl]):
         )
 
     def _with_data(self) -> Kernels:
-        mesh = self.packed
-        fields: MeshFields = (*mesh.fields, *self._film_models, *self._laws)
-        data = fields, flatten(self.kernel_parameters)
-        work, rollers = np.zeros(work_size(mesh.series_size, mesh.nodes)), np.zeros(ROLLERS_MAX)
-        p = self.kernel_parameters
-        kernels = self._start_kernels = axle_kernels(type(p.bearing_p), type(p.flank_law))
-        self._start_data = fields, flatten(without_losses(p)), np.zeros(START_WORK)
-        return Kernels(
-            kernels.communication_step,
-            (*data, self._control_values, work, rollers, self._outputs),
-            kernels.outputs,
-            (*data, work, rollers, self._outputs),
-        )
+        made = self.assembly
+        operate, work, places = self.operate, np.zeros(work_size(made.sizes)), output_places(made)
+        numbers, memory, plan = made.numbers, made.memory, made.plan
+        control, out = self._control_values, self._outputs
+        self._work = work
+
+        def write(s: Array, inputs: Array) -> None:
+            operate(WRITE, s, inputs[2], numbers, memory, plan, 0.0, 0.0, work)
+            gather_outputs(s, work, places, out)
+
+        def step(s: Array, trial: Array, h: float, inputs: Array) -> int:
+            status = state_status(s)
+            if status != OK:
+                return int(status)
+            trial[:] = s
+            trial[PINION_TORQUE], trial[WHEEL_TORQUE] = inputs[0], inputs[1]
+            rate = control[0]
+            status = int(operate(ADVANCE, trial, inputs[2], numbers, memory, plan, h, rate, work))
+            if status == OK:
+                status = state_status(trial)
+            if status == OK:
+                s[:] = trial
+                write(s, inputs)
+            return int(status)
+
+        return Kernels(step, (), write, ())
 
     @property
     def highest_frequency(self) -> float:
-        """Highest natural frequency at the initial load [Hz]; 1 before `initialise`."""
-        return self.step_control.highest_frequency
+        """Highest natural frequency at the initial load [Hz]; 1 / steps before `initialise`."""
+        return self.step_control.least_rate / self.parameters.steps_per_highest_period
 
     def derivative(self, state: Array) -> Array:
         """Return d/dt of the N_ODE integrated states, for any other integrator.
@@ -162,46 +203,35 @@ class HypoidAxle(SteppedModel[StepControl]):
         Parameters
         ----------
         state : ndarray of shape (N_ODE,)
-            In the units of `state`.
+            In the order of `state`, SI units.
         """
-        mesh = self.packed
-        p = self.kernel_parameters
+        made, rates = self.assembly, np.zeros(self._work.size)
         full = self._state.copy()
-        full[:N_ODE] = state
-        torque_p, torque_g, oil_temperature = self._inputs.tolist()
-        table = MeshLevels(*mesh.fields, *self._film_models, *self._laws)
-        oil = self.parameters.oil.state(oil_temperature)
-        at_load = place_at_load(table, np.zeros(mesh.series_size), np.zeros(mesh.window_size))
-        blend_mesh(full[LOAD_TORQUE], full[SIDE], table, at_load)
-        slope = np.zeros(N_ODE)
-        scratch = np.zeros(SCRATCH)
-        exact = RollerFilms(table.roller_model, scratch[:0], 0.0)
-        raceways = axle_raceways(full, oil, p, exact)
-        inputs = step_inputs(full, torque_p, torque_g, oil, p, raceways)
-        axle_rhs(full, inputs, at_load, oil, p, 1.0, 1.0, scratch, slope)
-        return slope
+        full[: state.size] = state
+        given = self._inputs[2], made.numbers, made.memory, made.plan, 0.0, 0.0, rates
+        self.operate(RENEW, full, *given)
+        self.operate(RATES, full, *given)
+        return rates[: made.sizes.integrated]
 
     def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
-        status, error = self._start_kernels.static_state(
-            self._state, speed, self._inputs, *self._start_data
+        made, work, s = self.assembly, self._work, self._state
+        put_start(self._inputs, s, work)
+        memory = memory_of_means(made)
+        per_period = float(self.parameters.steps_per_highest_period)
+        status = int(
+            self.operate(
+                START, s, oil_temperature, self._at_rest, memory, made.plan, per_period, 0.0, work
+            )
         )
+        if status == NO_MODES:
+            raise ConvergenceError(NO_MODES_WORDS)
         if status != OK:
             raise ConvergenceError(
                 f"no static equilibrium at a pinion torque of {torque:g} N.m: bearing forces are "
-                f"out by {error:g} N. {NO_EQUILIBRIUM_CURE}"
+                f"out by {work[1]:g} N. {NO_EQUILIBRIUM_CURE}"
             )
 
+        take_speeds(s, float(speed), self.parameters.mesh.ratio, float(torque))
+
     def _step_control(self, torque: float, oil_temperature: float) -> StepControl:
-        parameters = self.parameters
-        values = np.zeros(len(StepControl._fields))
-        status = self._start_kernels.step_control(
-            self._state,
-            float(parameters.steps_per_mesh_period),
-            float(parameters.steps_per_highest_period),
-            self._inputs,
-            *self._start_data,
-            values,
-        )
-        if status != OK:
-            raise ConvergenceError(NO_MODES_WORDS)
-        return StepControl(*values.tolist())
+        return StepControl(float(self._work[0]))

@@ -2,37 +2,40 @@
 
 from __future__ import annotations
 
-from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import (
-    ShaftBearings,
-    ShaftMotion,
-    bearing_loads,
-)
-from gearlube_core.dynamics.hypoid_axle.continuous import EVENT_INDICATORS, RATE_NAMES, STATE_NAMES
-from gearlube_core.dynamics.hypoid_axle.rhs import AxleRaceways
-from gearlube_core.dynamics.hypoid_axle.state import (
-    BEARING_DAMPING,
-    BEARING_TORQUE,
-    BOUNDARY,
-    CHURNING,
-    DRAG_BOUND,
-    FRICTION_BOUND,
-    MESH_DAMPING,
-    N_ENERGIES,
-    PINION_WORK,
-    ROLLING,
-    SEALS,
-    TIME_IN_STEP,
-    VISCOUS,
-    WHEEL_WORK,
-    WORK_MARK,
-)
 from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
-from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS
-from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
-from gearlube_core.oil.lubricant import LubricantState
+
+# outputs that hold the continuous states, in the order of the state vector
+STATE_NAMES: tuple[str, ...] = (
+    "mesh.dte",
+    "pinion.speed",
+    "wheel.speed",
+    "pinion.angle",
+    "wheel.angle",
+    *(
+        f"{member}.{quantity}.{axis}"
+        for member in ("pinion", "wheel")
+        for quantity in ("displacement", "velocity")
+        for axis in "xyz"
+    ),
+    "bearing[1].cage.angle",
+    "bearing[3].cage.angle",
+    "energy.pinion_work",
+    "energy.wheel_work",
+    "energy.friction_viscous",
+    "energy.friction_boundary",
+    "energy.mesh_damping",
+    "energy.bearing_damping",
+    "energy.bearing_torque",
+    "energy.churning",
+    "energy.seals",
+    "energy.friction_rolling",
+    "mesh.load_torque",
+)
+RATE_NAMES = tuple(f"der({name})" for name in STATE_NAMES)
+# in micrometres: numbers of order 1, which solvers with a tolerance for roots expect
+EVENT_INDICATORS = ("event.drive_flank", "event.coast_flank", "event.side")
 
 BEARING_QUANTITIES = ("force.x", "force.y", "force.z", "roller_load_max", "roller_load_min")
 N_BEARINGS = 4  # two of the pinion, then two of the gear
@@ -168,7 +171,7 @@ MOTION_OUTPUTS: tuple[str, ...] = (
     *OUTPUT_NAMES[PINION_DISPLACEMENT : WHEEL_DISPLACEMENT + 3],
     OUTPUT_NAMES[PINION_CAGE],
     OUTPUT_NAMES[GEAR_CAGE],
-    *OUTPUT_NAMES[ENERGIES : ENERGIES + N_ENERGIES],
+    *OUTPUT_NAMES[ENERGIES:STORED_ENERGY],
     *_OTHER_STATES,
 )
 
@@ -193,111 +196,3 @@ BEARING_GROUP: tuple[str, ...] = (
 
 # of motion, what an input changes at once while no step has been taken
 POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY_BOUND + 1])
-_IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
-
-
-@kernel
-def write_raceways(raceways: AxleRaceways, first: int, at_share: int, out: Array) -> None:
-    """Write the thinnest film of each bearing with its bound, from `first` on.
-
-    At `at_share` the share of the rollers' load outside the film model's domain. All zeros where
-    no model tells them.
-    """
-    one, two = raceways.pinion, raceways.gear
-    out[first] = one.first_film
-    out[first + 1] = one.first_bound
-    out[first + 2] = one.second_film
-    out[first + 3] = one.second_bound
-    out[first + 4] = two.first_film
-    out[first + 5] = two.first_bound
-    out[first + 6] = two.second_film
-    out[first + 7] = two.second_bound
-    load = one.load + two.load
-    out[at_share] = (one.load_outside + two.load_outside) / load if load > 0.0 else 0.0
-
-
-@kernel
-def write_shaft(
-    motion: ShaftMotion,
-    f_ref: float,
-    oil: LubricantState,
-    bearings: ShaftBearings,
-    first: int,
-    axes: tuple[int, int, int],
-    rollers: Array,
-    out: Array,
-) -> float:
-    """Write forces and extreme roller loads of two bearings; return roller 1 of the first [N].
-
-    Their outputs begin at `first`. `axes` are the places (0, 1, 2) of r1, r2 and the shaft in
-    x, y, z; `rollers` is work space of shape (ROLLERS_MAX,).
-    """
-    first_roller = 0.0
-    for k in range(2):
-        side = 1.0 - 2.0 * k
-        F_r1, F_r2, F_a, load, largest, smallest = bearing_loads(
-            bearings, motion, f_ref, oil, side, rollers
-        )
-        base = first + k * N_BEARING_QUANTITIES
-        out[base + FORCE + axes[0]] = F_r1
-        out[base + FORCE + axes[1]] = F_r2
-        out[base + FORCE + axes[2]] = F_a
-        out[base + ROLLER_LOAD_MAX] = largest
-        out[base + ROLLER_LOAD_MIN] = smallest
-        if k == 0:
-            first_roller = load
-    return first_roller
-
-
-@kernel
-def write_losses(
-    s: Array, rates: Array, friction_bound: float, drag_bound: float, out: Array
-) -> None:
-    """Write powers lost and efficiencies, averaged over the last communication step.
-
-    The bounds are those of the power lost in flank friction and in the bearings [W], read before
-    the first step only.
-
-    Efficiency is 1 - loss/input with the work put in at the side that drives; 0 where no work is
-    put in.
-
-    References
-    ----------
-    [mohammadpour_2015 (20)] [mohammadpour_2015 (21)]
-    """
-    duration = s[TIME_IN_STEP]
-    pinion = mean_power(s, rates, PINION_WORK, WORK_MARK, duration)
-    wheel = mean_power(s, rates, WHEEL_WORK, WORK_MARK + 1, duration)
-    viscous = mean_power(s, rates, VISCOUS, WORK_MARK + 2, duration)
-    boundary = mean_power(s, rates, BOUNDARY, WORK_MARK + 3, duration)
-    mesh = mean_power(s, rates, MESH_DAMPING, WORK_MARK + 4, duration)
-    rollers = mean_power(s, rates, BEARING_DAMPING, WORK_MARK + 5, duration)
-    drag = mean_power(s, rates, BEARING_TORQUE, WORK_MARK + 6, duration)
-    churning = mean_power(s, rates, CHURNING, WORK_MARK + 7, duration)
-    seals = mean_power(s, rates, SEALS, WORK_MARK + 8, duration)
-    rolling = mean_power(s, rates, ROLLING, WORK_MARK + 9, duration)
-    friction = viscous + boundary
-    out[FRICTION_LOSS] = friction
-    out[BOUNDARY_LOSS] = boundary
-    out[BEARING_LOSS] = drag
-    out[CHURNING_LOSS] = churning
-    out[SEAL_LOSS] = seals
-    out[ROLLING_LOSS] = rolling
-    out[DAMPING_LOSS] = mesh + rollers
-    out[EFFICIENCY] = 0.0
-    out[AXLE_EFFICIENCY] = 0.0
-    idle_power = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
-    put_in = pinion if pinion > 0.0 else -wheel
-    if duration > 0.0:
-        friction_bound = s[FRICTION_BOUND] * (1.0 / duration)
-        drag_bound = s[DRAG_BOUND] * (1.0 / duration)
-    out[LOSS_BOUND] = friction_bound
-    out[DRAG_LOSS_BOUND] = drag_bound
-    out[EFFICIENCY_BOUND] = 0.0
-    out[AXLE_EFFICIENCY_BOUND] = 0.0
-    if put_in > idle_power:
-        out[EFFICIENCY_BOUND] = friction_bound / put_in
-        out[AXLE_EFFICIENCY_BOUND] = (friction_bound + drag_bound) / put_in
-        out[EFFICIENCY] = 1.0 - friction / put_in
-        others = mesh + rollers + drag + churning + seals + rolling
-        out[AXLE_EFFICIENCY] = 1.0 - (friction + others) / put_in

@@ -1,40 +1,40 @@
-"""Layout of the axle's state vector.
-
-Displacements and the transmission error are kept in micrometres (MICRO per metre): their natural
-size then stands beside the speeds, which relative tolerances of an adaptive integrator need.
-"""
+"""Places in the state of the axle, which is that of its train: SI units."""
 
 from __future__ import annotations
 
-from gearlube_core.bearings.followed_shaft import N_FOLLOWED
-from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES
-from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.dynamics.train.element import BODY_STATES, RATE, RZ, W
 
-UM = 1.0e-6  # m per um; multiplied with, since a kernel divides dearly
+PINION, GEAR = 0, BODY_STATES
+U_P, V_P = PINION, PINION + RATE  # displacement [m] and velocity [m/s] of the pinion, x y z
+U_G, V_G = GEAR, GEAR + RATE  # those of the gear
+PHI_P, PHI_G = PINION + RZ, GEAR + RZ  # angles [rad]; all periodic data are indexed by the pinion's
+W_P, W_G = PINION + W, GEAR + W  # speeds [rad/s]
+X = GEAR + BODY_STATES  # dynamic transmission error [m]
+CAGE_P, CAGE_G = X + 1, X + 2  # cage angles [rad]
+PINION_WORK, WHEEL_WORK = X + 3, X + 4  # work put in; a load of the wheel takes it out [J]
+# losses [J]
+(
+    VISCOUS, BOUNDARY, ROLLING, MESH_DAMPING, BEARING_DAMPING, BEARING_TORQUE, SEALS, CHURNING,
+) = range(WHEEL_WORK + 1, WHEEL_WORK + 9)  # fmt: skip
+FRICTION_BOUND, BEARING_BOUND = CHURNING + 1, CHURNING + 2  # of losses by solved films [J]
+N_ODE = BEARING_BOUND + 1  # everything above is integrated
+PINION_TORQUE, WHEEL_TORQUE = N_ODE, N_ODE + 1  # of the last step [N.m]
+LOAD_TORQUE = N_ODE + 2  # filtered abs(pinion torque) that selects the load level [N.m]
+SIDE = LOAD_TORQUE + 1  # below 0: the mesh data are those of the coast flanks [-]
 
-X = 0  # dynamic transmission error [um]
-W_P, W_G = 1, 2  # speeds of pinion and gear [rad/s]
-PHI_P, PHI_G = 3, 4  # angles [rad]; all periodic data are indexed by the pinion's
-U_P, V_P = 5, 8  # displacement [um] and velocity [m/s] of the pinion, x y z
-U_G, V_G = 11, 14  # those of the gear
-CAGE_P, CAGE_G = 17, 18  # cage angles [rad]
-PINION_WORK, WHEEL_WORK = 19, 20  # work of the external torques [J]
-VISCOUS, BOUNDARY = 21, 22  # flank friction losses [J]
-MESH_DAMPING, BEARING_DAMPING, BEARING_TORQUE = 23, 24, 25  # other losses [J]
-CHURNING, SEALS, ROLLING = 26, 27, 28  # ditto
-N_ENERGIES = 10  # from PINION_WORK on
-N_ODE = 29  # everything above is integrated
 
-LOAD_TORQUE = 29  # filtered abs(pinion torque) that selects the load level [N.m]
-TIME_IN_STEP = 30  # length of the communication step that means are over, see `keep_means` [s]
-WORK_MARK = 31  # these energies at the start of that step [J]
-SIDE = WORK_MARK + N_ENERGIES  # below 0: the mesh data are those of the coast flanks [-]
-FRICTION_BOUND = SIDE + 1  # of the flank friction losses of that step [J]
-DRAG_BOUND = FRICTION_BOUND + 1  # of the drag losses of the bearings, likewise [J]
-FILM_NODES = DRAG_BOUND + 1  # films at the nodes of the mesh table, with a film model
-ROLLER_NODES = FILM_NODES + N_FILMS  # `roller_nodes` of both shafts, with a film model of rollers
-N_ROLLERS = 2 * N_ROLLER_NODES
-KEPT_DRAG = ROLLER_NODES + N_ROLLERS  # drag that is kept, with a law that takes single rollers
-N_DRAG = 2 * N_FOLLOWED
-N_STATE = KEPT_DRAG + N_DRAG
-N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events
+def pinion_motion(s: Array) -> ShaftMotion:
+    """Return the motion of the pinion in its bearings.
+
+    The shaft lies along x: r1 = z, r2 = y turns with the pinion, which drives about -x.
+    """
+    places = U_P + 2, U_P + 1, U_P, V_P + 2, V_P + 1, V_P, CAGE_P, W_P
+    return ShaftMotion._make(float(s[place]) for place in places)
+
+
+def gear_motion(s: Array) -> ShaftMotion:
+    """Return the motion of the gear in its bearings; the shaft lies along z."""
+    places = *range(U_G, U_G + 3), *range(V_G, V_G + 3), CAGE_G, W_G
+    return ShaftMotion._make(float(s[place]) for place in places)

@@ -38,7 +38,7 @@ from gearlube_core.dynamics.hypoid_mesh.mesh_force import (
     equivalent_mass,
     modal_damping,
 )
-from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
+from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES, PackedMesh, pack_mesh
 from gearlube_core.dynamics.ranges import Range, model_ranges, range_limits
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import check_oil, of_kind
@@ -67,6 +67,13 @@ PRINTED_WITH_SOLVED_FILM = (
     "its own, such as zhou_hoeprich_1991 or off. Change one of the two."
 )
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
+
+
+MARCH_WITH_WARM_FLANKS = (
+    "flank_bulk_resistance must be 0 K/W in a march in time: teeth warm up in minutes, a march "
+    "lasts a second. Take `gearlube map` or `gearlube cycle`, which use mean losses, or leave "
+    "film.bulk_resistance_k_w out."
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -313,6 +320,11 @@ class HypoidAxleParameters(AxleScalars):
         """Return the numbers of the film model of rollers for one axle; empty with other laws."""
         law = BEARING_LAWS.get(self.bearing_torque_loss, "")
         return roller_film_model(law, self.roller_film_model)
+
+    def packed_mesh(self) -> PackedMesh:
+        """Return the mesh table packed for the kernels."""
+        modulus, pressure = contact_modulus(self.solid, self.solid), self.friction_law.pressure
+        return pack_mesh(self.mesh, modulus, self.radii, self.mesh_stiffness, pressure)
 
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""

@@ -121,12 +121,10 @@ def now_kernel(elements: AllElements, rates: Callable[..., None]) -> Callable[..
         slope, begun = part(work, 0, n), part(work, n + exchanged, n_state)
         for i in range(n_state):
             begun[i] = s[i]
-        each_step(begun, oil, numbers, memory, plan, 0.0)
-        for i in range(n, sizes.kept):
-            begun[i] = s[i]
-        expand(begun, oil, numbers, memory, plan)
+        each_step(begun, oil, numbers, memory, plan, 0.0)  # changes what is kept
+        expand(s, oil, numbers, memory, plan)
         stage = AFTER_STEP if s[n_state - 1] > 0.0 else 0
-        rates(begun, oil, numbers, memory, plan, stage, slope)
+        rates(s, oil, numbers, memory, plan, stage, slope)
         exchange(s, oil, numbers, memory, plan, part(work, n, exchanged))
 
     return now

@@ -40,8 +40,7 @@ DIVERGED = 0.1  # m, displacement of a body: supports long broken
 @kernel
 def work_size(sizes: Sizes) -> int:
     """Return the length of `work` for all operations."""
-    advance = sizes.states + 2 * sizes.integrated
-    return max(advance, max(write_work_size(sizes), rest_work_size(sizes)))
+    return max(3 * sizes.integrated, max(write_work_size(sizes), rest_work_size(sizes)))
 
 
 def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
@@ -127,26 +126,25 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         plan: Offsets,
         stages: Array,
     ) -> None:
-        sizes = sizes_of(plan)
-        n, n_state = sizes.integrated, sizes.states
-        trial = part(stages, 0, n_state)
-        slope = part(stages, n_state, n)
-        total = part(stages, n_state + n, n)
+        # the state takes the stages itself: what elements keep, which may be long, stays in place
+        n = sizes_of(plan).integrated
+        begin, slope, total = part(stages, 0, n), part(stages, n, n), part(stages, 2 * n, n)
         rates(s, oil, numbers, memory, plan, 1, slope)
         for i in range(n):
+            begin[i] = s[i]
             total[i] = slope[i]
-            trial[i] = s[i] + 0.5 * h * slope[i]
-        rates(trial, oil, numbers, memory, plan, 2, slope)
+            s[i] = begin[i] + 0.5 * h * slope[i]
+        rates(s, oil, numbers, memory, plan, 2, slope)
         for i in range(n):
             total[i] += 2.0 * slope[i]
-            trial[i] = s[i] + 0.5 * h * slope[i]
-        rates(trial, oil, numbers, memory, plan, 3, slope)
+            s[i] = begin[i] + 0.5 * h * slope[i]
+        rates(s, oil, numbers, memory, plan, 3, slope)
         for i in range(n):
             total[i] += 2.0 * slope[i]
-            trial[i] = s[i] + h * slope[i]
-        rates(trial, oil, numbers, memory, plan, 4, slope)
+            s[i] = begin[i] + h * slope[i]
+        rates(s, oil, numbers, memory, plan, 4, slope)
         for i in range(n):
-            s[i] += h / 6.0 * (total[i] + slope[i])
+            s[i] = begin[i] + h / 6.0 * (total[i] + slope[i])
 
     @kernel
     def status_of(s: Array, plan: Offsets) -> int:
@@ -208,8 +206,6 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
                 cost += each_step(s, oil, numbers, memory, plan, piece)
                 if cost > MAX_STEPS:
                     return TOO_MANY_STEPS
-                for i in range(n, n_kept):
-                    work[i] = s[i]
                 rk4_step(s, piece, oil, numbers, memory, plan, work)
                 after_part(s, oil, numbers, memory, plan, piece)
                 rest -= piece
@@ -287,7 +283,6 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         begin(s, oil, numbers, memory, plan)
         if operation == ADVANCE:
             return float(advance(s, size, oil, numbers, memory, plan, least_rate, work))
-        expand(s, oil, numbers, memory, plan)
         stored = kinetic_energy(s, numbers, plan) + stored_energy(s, oil, numbers, memory, plan)
         if operation == WRITE:
             write_all(s, oil, numbers, memory, plan, stored, work)

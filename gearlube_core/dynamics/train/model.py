@@ -182,10 +182,14 @@ class Train:
 
         Powers are means over the last step of at least 1e-7 s; before the first one, those now.
         """
-        names = self._output_names
-        self._call(WRITE, self._state, self._work)
+        names, (_, written) = self._output_names, self.written()
         at = outputs_at(self._made.sizes)
-        return dict(zip(names, self._work[at : at + len(names)].tolist(), strict=True))
+        return dict(zip(names, written[at : at + len(names)].tolist(), strict=True))
+
+    def written(self) -> tuple[Array, Array]:
+        """Return the state and what WRITE of `train_kernel` leaves, for kernels of outputs."""
+        self._call(WRITE, self._state, self._work)
+        return self._state, self._work
 
     def exceeded(self) -> dict[str, str]:
         """Return what is outside its range now: a sentence for each, by its output.

@@ -117,6 +117,47 @@ def write_work_size(sizes: Sizes) -> int:
     return outputs_at(sizes) + max(outputs, sizes.states)
 
 
+@kernel
+def write_state(s: Array, slope: Array, numbers: Array, sizes: Sizes, work: Array) -> int:
+    """Write all outputs but those of elements and the stored energy, see `outputs_kernel`.
+
+    Returns the place of the first output of an element. `slope` has the rates, read for
+    accelerations and, before the first step, for powers.
+    """
+    first_mobility, works, energies = sizes.first_mobility, sizes.works, sizes.energies
+    n, n_state, n_kept = sizes.integrated, sizes.states, sizes.kept
+    first, k = n - energies, outputs_at(sizes)
+    for body in range(sizes.bodies):
+        u = BODY_STATES * body
+        work[k], work[k + 1], work[k + 2] = s[u + RZ], s[u + W], slope[u + RATE + RZ]
+        k += 3
+        for i in range(N_COORDINATES - 1):
+            if numbers[first_mobility + N_COORDINATES * body + i] > 0.0:
+                work[k] = s[u + i]
+                k += 1
+    of_elements = k
+    k += sizes.outputs
+    duration = s[n_state - 1]
+    lost = put_in = 0.0
+    for i in range(works, energies):
+        power = mean_power(s, slope, first + i, n_kept + i, duration)
+        work[k] = power
+        lost += power if i < works + sizes.losses else 0.0
+        k += 1
+    for i in range(works):
+        power = mean_power(s, slope, first + i, n_kept + i, duration)
+        work[k] = power
+        put_in += max(power, 0.0)
+        k += 1
+    idle = IDLE_WORK * (1.0 / duration) if duration > 0.0 else IDLE_WORK
+    work[k] = 1.0 - lost / put_in if put_in > idle else 0.0
+    k += 1
+    for i in range(energies):
+        work[k] = s[first + i]
+        k += 1
+    return of_elements
+
+
 def outputs_kernel(elements: AllElements, now: Callable[..., None]) -> Callable[..., None]:
     """Return the kernel that writes what `now` gives and then the outputs into `work`.
 
@@ -137,38 +178,8 @@ def outputs_kernel(elements: AllElements, now: Callable[..., None]) -> Callable[
     ) -> None:
         now(s, oil, numbers, memory, plan, work)
         sizes = sizes_of(plan)
-        first_mobility, works, energies = sizes.first_mobility, sizes.works, sizes.energies
-        n, n_state, n_kept = sizes.integrated, sizes.states, sizes.kept
-        first = n - energies
-        slope, k = part(work, 0, n), outputs_at(sizes)
-        for body in range(sizes.bodies):
-            u = BODY_STATES * body
-            work[k], work[k + 1], work[k + 2] = s[u + RZ], s[u + W], slope[u + RATE + RZ]
-            k += 3
-            for i in range(N_COORDINATES - 1):
-                if numbers[first_mobility + N_COORDINATES * body + i] > 0.0:
-                    work[k] = s[u + i]
-                    k += 1
+        k = write_state(s, part(work, 0, sizes.integrated), numbers, sizes, work)
         write(s, oil, numbers, memory, plan, part(work, k, sizes.outputs))
-        k += sizes.outputs
-        duration = s[n_state - 1]
-        lost = put_in = 0.0
-        for i in range(works, energies):
-            power = mean_power(s, slope, first + i, n_kept + i, duration)
-            work[k] = power
-            lost += power if i < works + sizes.losses else 0.0
-            k += 1
-        for i in range(works):
-            power = mean_power(s, slope, first + i, n_kept + i, duration)
-            work[k] = power
-            put_in += max(power, 0.0)
-            k += 1
-        idle = IDLE_WORK * (1.0 / duration) if duration > 0.0 else IDLE_WORK
-        work[k] = 1.0 - lost / put_in if put_in > idle else 0.0
-        k += 1
-        for i in range(energies):
-            work[k] = s[first + i]
-            k += 1
-        work[k] = stored
+        work[k + sizes.outputs + 2 * sizes.energies + 1] = stored
 
     return write_all

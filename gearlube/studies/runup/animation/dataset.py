@@ -25,8 +25,13 @@ from gearlube_core.bearings.roller_nodes import races_of, roller_film
 from gearlube_core.checks import check_within
 from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.rhs import gear_motion, pinion_motion
-from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, PHI_P, SIDE
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    PHI_P,
+    SIDE,
+    gear_motion,
+    pinion_motion,
+)
 from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_QUANTITIES
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import reference_frequency
 from gearlube_core.errors import ParameterError

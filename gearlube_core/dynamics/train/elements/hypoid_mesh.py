@@ -8,19 +8,16 @@ from typing import ClassVar
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_RECORDS
 from gearlube_core.dynamics.hypoid_mesh.flanks import N_FRICTION
 from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_mesh.tooth_pair import EXACT
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.element import Listed
-from gearlube_core.dynamics.train.elements.hypoid_mesh_kernels import (
-    OWN_FILMS,
-    HypoidMeshKernels,
-)
+from gearlube_core.dynamics.train.elements.hypoid_mesh_kernels import HypoidMeshKernels
+from gearlube_core.dynamics.train.elements.hypoid_mesh_places import OWN_FILMS
 from gearlube_core.dynamics.train.elements.mesh_outputs import FILM_SHARE, MESH_OUTPUTS
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.friction.flank_laws import MixedFlankFriction
@@ -30,6 +27,9 @@ from gearlube_core.number import Output
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HypoidMesh(Element):
     """Mesh of a hypoid pair: that of the axle of [mohammadpour_2015], between any two bodies.
+
+    I_p w_p' = T_p - R_p F + T_fr,p ; I_g w_g' = -T_g + R_g F + T_fr,g
+    m_p u_p'' = -n F - f xi + F_b,p ; m_g u_g'' = +n F + f xi + F_b,g
 
     Displacements of both bodies are those of the axle's frame; rz of a body is its rotation about
     its own axis in the drive direction.
@@ -42,6 +42,12 @@ class HypoidMesh(Element):
         Mesh table, damping, friction and films; masses for the limit of the step alone.
     torque_of : str, optional
         Port whose torque selects the level of the mesh table; default: that of the mesh.
+
+    Notes
+    -----
+    The printed [mohammadpour_2015 (1)] c-h has the opposite sign of n F to the one that
+    [mohammadpour_2015 (2)] implies, and no flank friction in the lateral equations: with equations
+    as printed it is so. Torques are those of [mohammadpour_2015 (6)].
 
     Examples
     --------
@@ -84,7 +90,7 @@ class HypoidMesh(Element):
 
     def sizes(self) -> tuple[int, ...]:
         """Return the sizes of the mesh table and of the film model."""
-        packed = _packed(self.parameters)
+        packed = self.parameters.packed_mesh()
         film = self.parameters.film_model().size
         return packed.levels.size, packed.orders, packed.nodes, packed.series_size, film
 
@@ -109,10 +115,10 @@ class HypoidMesh(Element):
 
     def memory(self) -> Array:
         """Return the mesh table, its data at the present load, friction and the film model."""
-        packed = _packed(self.parameters)
+        packed = self.parameters.packed_mesh()
         table = packed.levels, packed.series.ravel(), packed.windows.ravel()
         now = packed.series_size + packed.window_size + N_FRICTION + N_CHANNELS
-        head = np.array([np.nan, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, EXACT])
+        head = np.array([np.nan, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, EXACT, 0.0])
         return np.concatenate([head, *table, np.zeros(now), self.parameters.film_model()])
 
     def ranges(self) -> tuple[Range, ...]:
@@ -122,9 +128,3 @@ class HypoidMesh(Element):
     def kept_size(self) -> int:
         """Return the places of load level, side, stiffness at the start and films."""
         return OWN_FILMS + (N_FILMS if self.parameters.film == "solved" else 0)
-
-
-def _packed(given: HypoidAxleParameters) -> PackedMesh:
-    modulus = contact_modulus(given.solid, given.solid)
-    law = given.friction_law
-    return pack_mesh(given.mesh, modulus, given.radii, given.mesh_stiffness, law.pressure)

@@ -59,9 +59,10 @@ from gearlube_core.oil.lubricant import LubricantState
 # places of `at` behind body, cage, both losses and the bound: what is kept, three axes, size of the
 # film model
 _KEPT, _AXES, _FILM = 5, 6, 9
-# places in the memory behind the forces: drag of the present step [N.m], its bound [W], work space
-# of single rollers, of their nodes, the film model
-_DRAG, _DOUBT, _ROLLERS = N_FORCES, N_FORCES + 1, N_FORCES + 2
+# places in the memory behind the forces: drag of the present step [N.m], its bound [W], 1 where
+# films of outputs are those that are kept, work space of single rollers, of their nodes, the film
+# model
+_DRAG, _DOUBT, _ASKED, _ROLLERS = range(N_FORCES, N_FORCES + 4)
 _NODES = _ROLLERS + ROLLERS_MAX
 _MEMORY = _NODES + N_ROLLER_NODES
 _OWN = 4  # outputs of both bearings together
@@ -83,6 +84,7 @@ class _OpposedBearings(NamedTuple):
     orders: float  # of the reference frequency of the hysteresis, over that of rotation
     least_frequency: float  # [Hz]
     reach: float  # move of the shaft that ends an expansion [m]
+    on_cage: float  # share of the moment on the cages that the shaft carries: 1, or 0 as printed
 
     @kernel
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -101,9 +103,9 @@ class _OpposedBearings(NamedTuple):
     @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         m = _motion(at, s)
-        follow_forces(
-            self.bearings, m, _frequency(self, m), oil, h, self.reach, part(memory, 0, N_FORCES)
-        )
+        if h > 0.0:  # else `expand` follows
+            f_ref, forces = _frequency(self, m), part(memory, 0, N_FORCES)
+            follow_forces(self.bearings, m, f_ref, oil, h, self.reach, forces)
         kept, cost = part(s, at[_KEPT], N_FOLLOWED), 0.0
         if self.law > PALMGREN and not drag_holds(m, oil.temperature, kept):
             films = _films(at, memory, s)
@@ -119,13 +121,15 @@ class _OpposedBearings(NamedTuple):
         self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
     ) -> None:
         body, cage, damping, drag = at[0], at[1], at[2], at[3]
+        memory[_ASKED] = 0.0 if stage == 0 else 1.0
         m = _motion(at, s)
         f_1, f_2, f_a, lost = expanded_forces(self.bearings, m, part(memory, 0, N_EXPANSION))
         v = body + RATE
         ds[v + at[_AXES]] += f_1
         ds[v + at[_AXES + 1]] += f_2
         ds[v + at[_AXES + 2]] += f_a
-        ds[v + RZ] += self.bearings.cage_ratio * cage_torque(m.r1, m.r2, f_1, f_2) - memory[_DRAG]
+        carried = self.on_cage * self.bearings.cage_ratio * cage_torque(m.r1, m.r2, f_1, f_2)
+        ds[v + RZ] += carried - memory[_DRAG]
         ds[cage] = self.bearings.cage_ratio * m.speed
         ds[damping] += lost
         ds[drag] += memory[_DRAG] * m.speed
@@ -196,7 +200,7 @@ def _raceways(
     nodes = part(memory, _NODES, kept.nodes.size)
     for i in range(nodes.size):
         nodes[i] = kept.nodes[i]
-    films = RollerFilms(kept.model, nodes, 1.0)
+    films = RollerFilms(kept.model, nodes, memory[_ASKED])
     return raceways_of_shaft(self.bearings, m, self.law, oil, films)
 
 
@@ -246,6 +250,9 @@ class OpposedBearings(Element):
     axes : tuple of 3 int
         Which of x, y, z are the two radial axes, the first one turned towards the second, and the
         axial one: (0, 1, 2) for a shaft along z.
+    cage_moment : bool
+        Whether the shaft carries the moment that loaded rollers exert on their orbiting cage. The
+        printed [mohammadpour_2015 (1)] has none, and its rollers then do work on nothing.
 
     Examples
     --------
@@ -269,6 +276,7 @@ class OpposedBearings(Element):
     ] = 50.0
     steps_per_highest_period: int = 16
     axes: tuple[int, int, int] = (0, 1, 2)
+    cage_moment: bool = True
     kind: ClassVar = "opposed_bearings"
     interpreted: ClassVar = (Listed(_OpposedBearings, (TaperedRollerParameters,), 10),)
     on: ClassVar = ("body",)
@@ -310,6 +318,7 @@ class OpposedBearings(Element):
             float(self.orders),
             float(self.least_frequency),
             reach,
+            float(self.cage_moment),
         )
 
     def sizes(self) -> tuple[int, ...]:
