@@ -6,15 +6,16 @@ in the folder given as argument, by default build/ehl_hypoid; run again to go on
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 import xarray as xr
 
+from docs.kept_films import KeptFilms
 from docs.page import IMAGES, Page, begin
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
 from gearlube.studies.films.hypoid.summary import RatioRow, ratio_rows
@@ -22,7 +23,6 @@ from gearlube.studies.films.run_hypoid import run_hypoid
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.transient.curves import central_film
 from gearlube_core.ehl.transient.steady import solve_steady_film
-from gearlube_core.storage.atomic_file import write_text
 
 
 class Film(NamedTuple):
@@ -61,13 +61,13 @@ def listed(words: list[str]) -> str:
 def put_grids(page: Page, work: Path, case: HypoidCase) -> None:
     """Put in what the grid decides; films are kept in `work`."""
     across, along = _grids((case.solver.nodes_minor, case.solver.nodes_major))
-    path = work / "grids.json"
-    if not path.exists():
+
+    def solve() -> dict[str, Any]:
         flank = hypoid_flank(case)
         grids = [*((n, along[0]) for n in across), *((across[-1], n) for n in along[1:])]
-        work.mkdir(parents=True, exist_ok=True)
-        write_text(json.dumps([_solved(flank, nodes) for nodes in grids]), path)
-    films = [Film(*row) for row in json.loads(path.read_text(encoding="utf-8"))]
+        return {"films": np.array([_solved(flank, nodes) for nodes in grids])}
+
+    films = [Film(*row) for row in KeptFilms(work).kept("grids", solve)["films"].tolist()]
     coarse_to_fine, longer = films[: len(across)], films[len(across) :]
     moved = max(
         abs(there / here - 1.0)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from docs.kept_films import KeptFilms
 from docs.page import begin
 from docs.rough_line_contact.make import GRID
 from gearlube_core.ehl.case.rough_case import RoughCase
@@ -37,8 +38,8 @@ logger = logging.getLogger("docs.rough_line_contact")
 
 def marched(work: Path, scheme: str, columns: int) -> Films:
     """Return x over the half width, and pressure and film at the kept times, (times, nx, ny)."""
-    kept = work / f"{scheme}_{columns}.npz"
-    if not kept.exists():
+
+    def march_case() -> dict[str, np.ndarray]:
         steps = GRIDS[columns]
         case = RoughCase.named("jamali_2015_a").varied(
             MARCH
@@ -57,10 +58,10 @@ def marched(work: Path, scheme: str, columns: int) -> Films:
                 logger.info("%s, %d columns: step %d", scheme, columns, step)
         section = case.section()
         pressure, film = np.array(films).swapaxes(0, 1)
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        np.savez(kept, x=section.x / section.hertz_contact[0], pressure=pressure, film=film)
-    with np.load(kept) as read:
-        return read["x"], read["pressure"][FIRST:], read["film"][FIRST:]
+        return {"x": section.x / section.hertz_contact[0], "pressure": pressure, "film": film}
+
+    kept = KeptFilms(work).kept(f"{scheme}_{columns}", march_case)
+    return kept["x"], kept["pressure"][FIRST:], kept["film"][FIRST:]
 
 
 def off(one: Films, other: Films) -> tuple[float, float]:

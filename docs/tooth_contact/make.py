@@ -17,10 +17,10 @@ from docs.tooth_contact import sensitivity
 from docs.tooth_contact.claims import CLAIMS
 from docs.tooth_contact.pages import axle_row, refinement_rows, torque_rows, variant_row
 from docs.tooth_contact.relief import put_relief
-from docs.tooth_contact.study import analysed, axle_sweep, refinements
+from docs.tooth_contact.study import axle_sweep, refinements
 from docs.tooth_contact.variants import variants
 from gearlube.studies.contact.figures import save_contact_figures
-from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
+from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 
 VARIANT_SETTINGS = ContactSettings(cycle=CycleSettings(positions=12, torques=(20.0, 50.0, 100.0)))
@@ -29,19 +29,19 @@ logger = logging.getLogger("docs.tooth_contact")
 
 def main(work: Path) -> None:
     """Run or resume the study, write the page and the pictures."""
-    pairs = variants()
-    shipped = analysed(work, "shipped_full", pairs[0].file, ContactSettings())
+    pairs, store = variants(), work / "positions"
+    shipped = analyse_contact(pairs[0].file, ContactSettings(), store=store)
     contacts, axles = [], []
     for number, variant in enumerate(pairs, 1):
         logger.info("variant %d of %d: %s", number, len(pairs), variant.label)
-        contact = analysed(work, variant.name, variant.file, VARIANT_SETTINGS)
+        contact = analyse_contact(variant.file, VARIANT_SETTINGS, store=store)
         contacts.append([variant.label, *variant_row(contact)])
         sweep = axle_sweep(work, variant.name, variant.file, contact)
         axles.append([variant.label, *axle_row(sweep)])
     finer = []
     for number, (name, settings) in enumerate(refinements().items(), 1):
         logger.info("refinement %d: %s", number, name)
-        finer.append(analysed(work, name, pairs[0].file, settings))
+        finer.append(analyse_contact(pairs[0].file, settings, store=store))
 
     page = Page("tooth_contact")
     found = {name: claim(shipped) for name, claim in CLAIMS.items()}
