@@ -8,6 +8,7 @@ statement, numbers in a sentence. A place must be there exactly once.
 from __future__ import annotations
 
 import logging
+import math
 import re
 import sys
 from collections import Counter
@@ -56,6 +57,27 @@ def judge(ok: bool, partly: bool = False) -> str:
 def judge_parts(*parts: bool) -> str:
     """Return the word for a statement of several parts: all hold, none does, or some."""
     return judge(all(parts), any(parts))
+
+
+def border(
+    holds: Callable[[float], bool], good: float, bad: float, within: float, ratio: bool = False
+) -> float:
+    """Return where a condition begins to hold, by bisection between where it does and does not.
+
+    `within` is the largest distance of both ends at last; with `ratio` that of their logarithms.
+
+    Examples
+    --------
+    >>> round(border(lambda x: x > 2.0, 16.0, 1.0, 1e-6), 5)
+    2.0
+    """
+
+    def middle() -> float:
+        return math.sqrt(good * bad) if ratio else 0.5 * (good + bad)
+
+    while (abs(math.log(good / bad)) if ratio else abs(good - bad)) > within:
+        good, bad = (middle(), bad) if holds(middle()) else (good, middle())
+    return middle()
 
 
 def tally(verdicts: Iterable[str]) -> str:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from docs.page import Page
+from docs.page import Page, border
 from docs.resonance.cases import settled_orbit
 from docs.resonance.contacts import COLD, HOT, Contacts, contacts
 from docs.resonance.evidence import kept
@@ -281,13 +281,8 @@ def both(stress: float | None, **options: Any) -> HotAndCold:
 def crossing(share: Callable[[float], float], low: float, high: float) -> float:
     """Return where `share` crosses LARGEST between two values, to a hundredth, by bisection."""
     rises = share(high) > share(low)
-    while high / low > 1.01:
-        middle = (low * high) ** 0.5
-        if (share(middle) > LARGEST) == rises:
-            high = middle
-        else:
-            low = middle
-    return (low * high) ** 0.5
+    within = math.log(1.01)
+    return border(lambda one: (share(one) > LARGEST) == rises, high, low, within, ratio=True)
 
 
 def flank_decisions(page: Page, work: Path) -> None:

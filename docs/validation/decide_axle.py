@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from docs.page import border
 from docs.validation.measures import OIL_TEMPERATURE, PINION_TEETH
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
@@ -87,13 +88,7 @@ def smallest_roller_load(loss_factor: float, speed_kmh: float, preload: float) -
 def preload_needed(speed_kmh: float) -> float:
     """Return the preload [N] that keeps rollers loaded in the printed equations, to 50 N."""
     low, high = PRELOADS
-    while high - low > 50.0:
-        middle = 0.5 * (low + high)
-        if smallest_roller_load(1.0, speed_kmh, middle) > 0.0:
-            high = middle
-        else:
-            low = middle
-    return 0.5 * (low + high)
+    return border(lambda one: smallest_roller_load(1.0, speed_kmh, one) > 0.0, high, low, 50.0)
 
 
 def decisions() -> list[tuple[str | None, str]]:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from docs.page import Page
+from docs.page import Page, border
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters, contact_modulus
@@ -139,11 +139,7 @@ def needed_factor(name: str, reading: Reading | None = None) -> float | None:
     reached = [end for end in (1.0 / _WIDEST, _WIDEST) if short(end) < 0.0]
     if not reached:
         return None
-    good, bad = reached[0], 1.0
-    while abs(math.log(good / bad)) > _PRECISION:
-        middle = math.sqrt(good * bad)
-        good, bad = (middle, bad) if short(middle) <= 0.0 else (good, middle)
-    return math.sqrt(good * bad)
+    return border(lambda factor: short(factor) <= 0.0, reached[0], 1.0, _PRECISION, ratio=True)
 
 
 def spread(reading: Reading, speeds: tuple[float, ...] = _SWEPT) -> float:
@@ -154,12 +150,11 @@ def spread(reading: Reading, speeds: tuple[float, ...] = _SWEPT) -> float:
 
 def flat_roughness(reading: Reading) -> float:
     """Return the roughness [um] with which the efficiency is flat to claim 44, to a hundredth."""
-    good, bad = 0.1, 1.0
-    while math.log(bad / good) > _PRECISION:
-        middle = math.sqrt(good * bad)
-        flat = spread(reading.times("roughness", middle)) < _FLAT
-        good, bad = (middle, bad) if flat else (good, middle)
-    return INPUTS["roughness"][0] * math.sqrt(good * bad)
+
+    def flat(factor: float) -> bool:
+        return spread(reading.times("roughness", factor)) < _FLAT
+
+    return INPUTS["roughness"][0] * border(flat, 0.1, 1.0, _PRECISION, ratio=True)
 
 
 CIRCULAR = Reading(friction="printed_traction_circular")

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import xarray as xr
 
+from docs.page import border
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 
 PINION_TEETH = 13
@@ -66,15 +67,12 @@ def smallest_roller_load(preload: float, speed: float, torques: tuple[float, flo
 @cache
 def unloading_preload(speed: float, pinion_torque: float, wheel_torque: float) -> float:
     """Return the preload [N] below which some roller loses its load, to 25 N by bisection."""
-    low, high = 100.0, 3000.0
     torques = (pinion_torque, wheel_torque)
-    while high - low > 25.0:
-        middle = 0.5 * (low + high)
-        if smallest_roller_load(middle, speed, torques) > 0.0:
-            high = middle
-        else:
-            low = middle
-    return 0.5 * (low + high)
+
+    def loaded(preload: float) -> bool:
+        return smallest_roller_load(preload, speed, torques) > 0.0
+
+    return border(loaded, 3000.0, 100.0, 25.0)
 
 
 def range_text(values: np.ndarray, form: str = "{:.3g}", scale: float = 1.0) -> str:
