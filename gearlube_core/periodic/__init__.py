@@ -4,7 +4,6 @@ from gearlube_core.periodic.branch import Branch, BranchStart, SpecialPoint, swi
 from gearlube_core.periodic.continuation import ContinuationSettings, follow
 from gearlube_core.periodic.floquet import (
     floquet_multipliers,
-    loss_of_stability,
     stability_margin,
 )
 from gearlube_core.periodic.newton import NewtonSettings
@@ -22,7 +21,6 @@ __all__ = [
     "fixed_point_residual",
     "floquet_multipliers",
     "follow",
-    "loss_of_stability",
     "solve_periodic",
     "stability_margin",
     "switch_branch",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +10,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 
 Multipliers = np.ndarray[Any, np.dtype[np.complex128]]
-Loss = Literal["none", "fold", "period doubling", "Neimark-Sacker"]
 
 
 def floquet_multipliers(monodromy: Array, *, trivial: int = 0) -> Multipliers:
@@ -66,20 +65,6 @@ def stability_margin(multipliers: Multipliers) -> float:
 def stable(multipliers: Multipliers) -> bool:
     """Whether every small disturbance dies out: all multipliers inside the unit circle."""
     return stability_margin(multipliers) > 0.0
-
-
-def loss_of_stability(multipliers: Multipliers) -> Loss:
-    """Return where the largest multiplier has left the unit circle.
-
-    `none` while stable; `fold` for a real multiplier above one (a saddle, also beyond a branch
-    point), `period doubling` for a real one below minus one, `Neimark-Sacker` for a complex pair.
-    """
-    if stable(multipliers):
-        return "none"
-    largest = multipliers[np.argmax(np.abs(multipliers))]
-    if largest.imag != 0.0:
-        return "Neimark-Sacker"
-    return "fold" if largest.real > 0.0 else "period doubling"
 
 
 def exchange_test(multipliers: Multipliers) -> float:

@@ -11,7 +11,6 @@ from gearlube_core.periodic import (
     fixed_point_residual,
     floquet_multipliers,
     follow,
-    loss_of_stability,
     solve_periodic,
     stability_margin,
     switch_branch,
@@ -138,15 +137,6 @@ def test_multipliers_are_sorted_judged_and_freed_of_trivial_ones():
     monodromy = np.diag([0.5, 1.0 + 1e-9, -1.2])
     assert floquet_multipliers(monodromy, trivial=1).real.tolist() == [-1.2, 0.5]
     assert stability_margin(floquet_multipliers(monodromy, trivial=1)) == pytest.approx(-0.2)
-    turned = np.array([[0.0, -1.1], [1.0, 0.0]])
-    cases = {
-        "none": np.diag([0.5, -0.9]),
-        "fold": np.diag([1.3, -1.1]),
-        "period doubling": monodromy,
-        "Neimark-Sacker": turned,
-    }
-    for kind, matrix in cases.items():
-        assert loss_of_stability(floquet_multipliers(matrix)) == kind
     assert stability_margin(floquet_multipliers(np.zeros((0, 0)))) == 1.0
 
 
