@@ -105,6 +105,9 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         stage: int,
         ds: Array,
     ) -> None:
+        s, ds = part(s, 0, s.size), part(ds, 0, ds.size)  # not counted, as in `operate`
+        numbers, memory = part(numbers, 0, numbers.size), part(memory, 0, memory.size)
+        plan = part(plan, 0, plan.size)  # type: ignore[arg-type, assignment]
         sizes = sizes_of(plan)
         for i in range(sizes.integrated):  # as in `forces`, which would count all arrays once more
             ds[i] = 0.0
@@ -126,6 +129,9 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         plan: Offsets,
         stages: Array,
     ) -> None:
+        s, stages = part(s, 0, s.size), part(stages, 0, stages.size)  # not counted, as in `rates`
+        numbers, memory = part(numbers, 0, numbers.size), part(memory, 0, memory.size)
+        plan = part(plan, 0, plan.size)  # type: ignore[arg-type, assignment]
         # the state takes the stages itself: what elements keep, which may be long, stays in place
         n = sizes_of(plan).integrated
         begin, slope, total = part(stages, 0, n), part(stages, n, n), part(stages, 2 * n, n)
@@ -184,6 +190,9 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         least_rate: float,
         work: Array,
     ) -> int:
+        s, work = part(s, 0, s.size), part(work, 0, work.size)  # not counted, as in `rates`
+        numbers, memory = part(numbers, 0, numbers.size), part(memory, 0, memory.size)
+        plan = part(plan, 0, plan.size)  # type: ignore[arg-type, assignment]
         highest = least_rate * max(1.0, stiffening(s, oil, numbers, memory, plan))
         wanted = duration * max(highest, step_rate(s, oil, numbers, memory, plan))
         if not wanted < MAX_STEPS:
