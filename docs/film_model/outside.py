@@ -80,7 +80,7 @@ def formula_of(c: FilmContact) -> FlankState:
 
 
 def put(page: Page, rows: list[SolveRow]) -> None:
-    """Put in what was found, with how many contacts exceed the bounds."""
+    """Put in what was found, how many contacts exceed the bounds."""
     found, failed = compared(rows), [row for row in rows if row.failure]
     gpa = 1e-9 * found.pressure
     page.fill(
@@ -97,8 +97,8 @@ def put(page: Page, rows: list[SolveRow]) -> None:
         found.without_friction(),
         f"{found.loss_below(FOUND):.1g}",
     )
-    cells = found.exceeded(FOUND, (0.33, FORMULA_FILM_BOUND), 0.57, FORMULA_FRICTION_TOP)
-    page.cells("bound | exceeded", cells, first=1)
+    rows = found.exceeded(FOUND, FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP)
+    page.rows("bound | exceeded", rows)
 
 
 def _highest(rows: list[SolveRow]) -> float:

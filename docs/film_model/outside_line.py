@@ -108,8 +108,8 @@ def put_outside(page: Page) -> None:
         "all solved ones.",
         f"{found.loss_below(PRESSURE):.0f}",
     )
-    bounds = ((0.5, LINE_FORMULA_FILM_BOUND), 1.0, LINE_FORMULA_FRICTION_TOP)
-    page.cells("bound | exceeded", found.exceeded(PRESSURE, *bounds), first=1)
+    bounds = (LINE_FORMULA_FILM_BOUND, LINE_FORMULA_FRICTION_TOP)
+    page.rows("bound | exceeded", found.exceeded(PRESSURE, *bounds))
 
 
 if __name__ == "__main__":

@@ -33,21 +33,21 @@ class Outside(NamedTuple):
         """Return the share of the loss of contacts below a mean pressure [%]."""
         return 100.0 * float(self.loss[self.pressure < pressure].sum() / self.loss.sum())
 
-    def exceeded(
-        self, pressure: float, films: tuple[float, float], friction: float, top: float
-    ) -> list[list[str]]:
-        """Return how many exceed each bound above and below a pressure.
+    def exceeded(self, pressure: float, film: float, top: float) -> list[list[str]]:
+        """Return how many exceed each bound above and below a pressure [Pa].
 
-        Two bounds of the film [-], one of the friction [-], and one times the isothermal value.
+        The bound of the film is relative, `top` that of the friction over the isothermal value.
         """
-        off = np.abs(self.friction - self.formula) / np.maximum(self.formula, 1e-30)
         above = self.pressure >= pressure
-        thick = np.abs(self.film - 1.0)
-        values = ((thick, films[0]), (thick, films[1]), (off, friction),
-                  (self.friction / self.isothermal, top))  # fmt: skip
+        bounds = {
+            f"film: {100.0 * film:.0f} % of the formula's": np.abs(self.film - 1.0) > film,
+            f"friction: between 0 and {top:g} times the isothermal Eyring value": (
+                self.friction / self.isothermal > top
+            ),
+        }
         return [
-            [f"{(one[some] > bound).sum()} of {one[some].size}" for some in (above, ~above)]
-            for one, bound in values
+            [name, *(f"{one[some].sum()} of {one[some].size}" for some in (above, ~above))]
+            for name, one in bounds.items()
         ]
 
 
