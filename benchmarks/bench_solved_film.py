@@ -28,10 +28,10 @@ from fmpy import extract, fmi2, read_model_description
 from fmu_src.build import build_helical_pair, build_hypoid_axle, build_models
 from fmu_src.native.build import NativeOptions
 from fmu_src.native.platforms import platform_of_this_machine
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_mesh.parameters import Film
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 _LOGGER = logging.getLogger("bench_solved_film")

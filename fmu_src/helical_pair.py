@@ -14,14 +14,14 @@ from fmu_src.slave_base import CoSimulationSlave
 from fmu_src.variable import Variable, with_own_oil
 from gearlube_core.checks import read_content
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.outputs import OUTPUT_NAMES
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL, stated_oil
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     ReplacedBearings,
     helical_march_parameters,
 )
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
-from gearlube_core.dynamics.train.helical_pair_outputs import OUTPUT_NAMES
 from gearlube_core.errors import FileError, GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import check_oil, file_of_model, model_in
 from gearlube_core.film_model.model import LINE, FilmModel, read_model_content, shipped_model

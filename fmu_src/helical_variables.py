@@ -31,12 +31,12 @@ from fmu_src.variable import (
     tilt_speeds,
     velocities,
 )
+from gearlube_core.dynamics.helical_model.outputs import OWN_OUTPUTS, STATE_NAMES
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     STIFFNESS_DENSITY,
     ReplacedBearings,
 )
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.train.helical_pair_outputs import OWN_OUTPUTS, STATE_NAMES
 from gearlube_core.friction.flank_laws import FILM_MODELS
 
 _number = partial(declared, HelicalMarchParameters)

@@ -30,7 +30,7 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     helical_march_parameters as helical_march_parameters,
 )
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel as HelicalPairModel
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel as HelicalPairModel
 
 # -- Trains of bodies and elements
 from gearlube_core.dynamics.train.model import Train as Train
@@ -47,7 +47,7 @@ from gearlube_core.dynamics.train.elements.roller_bearing import RollerBearing a
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfShaft
 from gearlube_core.dynamics.train.elements.drag import Seal as Seal
 from gearlube_core.dynamics.train.elements.drag import Churning as Churning
-from gearlube_core.dynamics.train.helical_pair import helical_pair as helical_pair_train
+from gearlube_core.dynamics.helical_model.pair import helical_pair as helical_pair_train
 from gearlube_core.dynamics.hypoid_axle.as_train import axle_train as axle_train
 from gearlube_core.dynamics.hypoid_axle.as_train import axle_values as axle_values
 from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle as hypoid_axle_train

@@ -21,6 +21,7 @@ from fmu_src.helical_pair import EmbeddedPair, chosen_pair, embedded_pair, line_
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
 from fmu_src.object_code import array_at, pointer_at
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_model.model import torque_limits
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
 from gearlube_core.dynamics.helical_pair.march.flanks import LINES_MAX
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
@@ -33,7 +34,6 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
-from gearlube_core.dynamics.train.helical_pair_model import torque_limits
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.model import LINE, shipped_model
 from gearlube_core.film_model.net import N_ARRAY, UNITS, WIDTH

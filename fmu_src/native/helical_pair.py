@@ -19,14 +19,7 @@ from fmu_src.native.helical_cases import (
 )
 from fmu_src.native.model import OK, Exchange, NativeModel, Operation
 from fmu_src.object_code import array_at, pointer_at, whole_at
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import DENSITY_WITH_MESH_WORDS
-from gearlube_core.dynamics.helical_pair.march.mesh_data import data_size
-from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE
-from gearlube_core.dynamics.train.assemble import Assembly
-from gearlube_core.dynamics.train.choice import generated_kernel
-from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
-from gearlube_core.dynamics.train.helical_pair import N_NUMBERS
-from gearlube_core.dynamics.train.helical_pair_model import (
+from gearlube_core.dynamics.helical_model.model import (
     NO_EQUILIBRIUM_CURE,
     NO_FREQUENCIES_WORDS,
     WORDS,
@@ -34,7 +27,7 @@ from gearlube_core.dynamics.train.helical_pair_model import (
     put_torques,
     state_status,
 )
-from gearlube_core.dynamics.train.helical_pair_outputs import (
+from gearlube_core.dynamics.helical_model.outputs import (
     DURATION,
     EVENT_INDICATORS,
     MOTION_OUTPUTS,
@@ -48,6 +41,13 @@ from gearlube_core.dynamics.train.helical_pair_outputs import (
     write_motion,
     write_pair,
 )
+from gearlube_core.dynamics.helical_model.pair import N_NUMBERS
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import DENSITY_WITH_MESH_WORDS
+from gearlube_core.dynamics.helical_pair.march.mesh_data import data_size
+from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE
+from gearlube_core.dynamics.train.assemble import Assembly
+from gearlube_core.dynamics.train.choice import generated_kernel
+from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
 from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, START, WRITE
 from gearlube_core.dynamics.train.rest_search import NO_REST
 from gearlube_core.film_model.net import N_ARRAY

@@ -15,6 +15,19 @@ from fmu_src.native.helical_cases import (
 )
 from fmu_src.native.model import OK
 from gearlube_core.arrays import Array, Offsets
+from gearlube_core.dynamics.helical_model.model import (
+    FREE,
+    StepControl,
+)
+from gearlube_core.dynamics.helical_model.outputs import N_STATE
+from gearlube_core.dynamics.helical_model.pair import (
+    BEARING_FIELDS,
+    N_BEARINGS,
+    N_NUMBERS,
+    helical_pair,
+    write_bearing_shares,
+    write_numbers,
+)
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
     GivenOil,
@@ -37,19 +50,6 @@ from gearlube_core.dynamics.train.elements.helical_mesh_kernels import (
     line_table,
     pair_data_at,
 )
-from gearlube_core.dynamics.train.helical_pair import (
-    BEARING_FIELDS,
-    N_BEARINGS,
-    N_NUMBERS,
-    helical_pair,
-    write_bearing_shares,
-    write_numbers,
-)
-from gearlube_core.dynamics.train.helical_pair_model import (
-    FREE,
-    StepControl,
-)
-from gearlube_core.dynamics.train.helical_pair_outputs import N_STATE
 from gearlube_core.dynamics.train.march import work_size
 from gearlube_core.dynamics.train.plan import OF_TABLES
 from gearlube_core.film_model.net import N_ARRAY

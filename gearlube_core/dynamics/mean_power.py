@@ -11,24 +11,6 @@ LEAST_WINDOW = 1e-7
 
 
 @kernel
-def keep_means(
-    before: Array, s: Array, energy: int, mark: int, count: int, at_duration: int
-) -> None:
-    """Let the means of a state `s` be those of the state `before` a step below LEAST_WINDOW.
-
-    Parameters
-    ----------
-    before, s : ndarray
-        States; `count` energies stand from `energy` on, their marks from `mark` on.
-    at_duration : int
-        Place of the length of the step that the means are over [s].
-    """
-    for i in range(count):
-        s[mark + i] = s[energy + i] - (before[energy + i] - before[mark + i])
-    s[at_duration] = before[at_duration]
-
-
-@kernel
 def mean_power(s: Array, rates: Array, energy: int, mark: int, duration: float) -> float:
     """Return the mean rate of the energy s[energy] over the last communication step [W].
 

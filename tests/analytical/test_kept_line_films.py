@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.outputs import LOAD_TORQUE, MARKS
 from gearlube_core.dynamics.helical_pair.march import kept_films, line_points
 from gearlube_core.dynamics.helical_pair.march.flanks import (
     POINTS_PER_LINE,
@@ -20,8 +22,6 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_ma
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
-from gearlube_core.dynamics.train.helical_pair_outputs import LOAD_TORQUE, MARKS
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.friction.solved_line import line_film, line_inlet, solved_line_friction
 from gearlube_core.helical_geometry.contact_line import line_kinematics

@@ -10,10 +10,10 @@ import pytest
 
 from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.helical_model.outputs import OUTPUT_NAMES as PAIR_NAMES
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, OUTPUT_NAMES, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
 from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, PRESSURE, R_E, pack_mesh
-from gearlube_core.dynamics.train.helical_pair_outputs import OUTPUT_NAMES as PAIR_NAMES
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.oil.oil_file import OilFile
 from tests.helpers.each import each

@@ -10,8 +10,8 @@ import pytest
 
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.film_model.model import FilmModel

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.helical_pair.march.jumps import time_to_jump
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from tests.helpers import pair_motions as at
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from drivetrain.train.train_file import TrainFile
+from gearlube_core.dynamics.helical_model.pair import helical_pair
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.train.choice import generated_kernel, interpreted_kernel, kernel_of
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
-from gearlube_core.dynamics.train.helical_pair import helical_pair
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
 from gearlube_core.errors import ParameterError

@@ -11,10 +11,10 @@ import pytest
 
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.drag import CHURNING_LAWS, ChurningConstants, churning_torque
+from gearlube_core.dynamics.helical_model.pair import helical_pair
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
-from gearlube_core.dynamics.train.helical_pair import helical_pair
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.kernels.jit import kernel
 from tests.helpers.small_trains import (

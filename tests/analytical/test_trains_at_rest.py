@@ -9,13 +9,13 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 import pytest
 
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.pair import helical_pair
 from gearlube_core.dynamics.train.choice import interpreted_kernel
 from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
-from gearlube_core.dynamics.train.helical_pair import helical_pair
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.dynamics.train.march import START, work_size
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body, Element

@@ -8,17 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
-from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.train.assemble import assemble
-from gearlube_core.dynamics.train.helical_pair import (
-    BEARING_FIELDS,
-    N_BEARINGS,
-    bearing_shares,
-    helical_pair,
-)
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
-from gearlube_core.dynamics.train.helical_pair_outputs import (
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.outputs import (
     EVENT_INDICATORS,
     LOAD_TORQUE,
     MARKS,
@@ -28,6 +19,15 @@ from gearlube_core.dynamics.train.helical_pair_outputs import (
     STATE_PLACES,
     TORQUES,
 )
+from gearlube_core.dynamics.helical_model.pair import (
+    BEARING_FIELDS,
+    N_BEARINGS,
+    bearing_shares,
+    helical_pair,
+)
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.train.assemble import assemble
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.plan import AT, FIRST_ROW, N_PLACES, NUMBER
 from gearlube_core.errors import ParameterError, StepError

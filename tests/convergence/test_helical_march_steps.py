@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.train.helical_pair_outputs import STATE_NAMES
+from gearlube_core.dynamics.helical_model.outputs import STATE_NAMES
 from tests.helpers.helical_march_cases import PERIOD, RATIO, TORQUE, he_march, history, started
 
 PSI, PINION_WORK = (STATE_NAMES.index(name) for name in ("mesh.rotation", "energy.pinion_work"))

@@ -21,8 +21,8 @@ from fmu_src.check import problems
 from fmu_src.helical_pair import DEFINITION, GEAR_FILE, LINE_MESH_FILE, definition_with
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import write_line_mesh

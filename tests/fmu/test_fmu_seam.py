@@ -27,7 +27,7 @@ POWER = output("mesh.power", "W", "Power through the mesh", 1e3)
 ROOT = Path(__file__).parents[2]
 AXLE, PAIR = "gearlube_core/dynamics/hypoid_axle", "gearlube_core/dynamics/helical_pair/march"
 MESH = "gearlube_core/dynamics/hypoid_mesh"
-TRAIN = "gearlube_core/dynamics/train"
+MODEL = "gearlube_core/dynamics/helical_model"
 TABLES = ("variables", "helical_variables")
 SNAPSHOT = Path(__file__).with_name("value_references.json")
 
@@ -125,8 +125,8 @@ def naming(text: str, *folders: str) -> set[str]:
         (AXLE, "variables", '"mesh.stiffness"', "output_names"),
         (AXLE, "variables", '"axle.efficiency"', "output_names"),
         (AXLE, "variables", "roller_load_min", "output_names"),
-        (TRAIN, "helical_variables", '"mesh.coast_contact"', "helical_pair_outputs"),
-        (TRAIN, "helical_variables", '"pair.efficiency"', "helical_pair_outputs"),
+        (MODEL, "helical_variables", '"mesh.coast_contact"', "outputs"),
+        (MODEL, "helical_variables", '"pair.efficiency"', "outputs"),
         (PAIR, "helical_variables", "film_thickness_mean", "line_outputs"),
     ],
 )

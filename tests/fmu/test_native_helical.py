@@ -30,15 +30,8 @@ from fmu_src.native.helical_parameters import (
     TRIAL_AT,
 )
 from fmu_src.native.model import OK, NativeModel, Operation
-from gearlube_core.dynamics.helical_pair.march.given_pair import GivenPair
-from gearlube_core.dynamics.helical_pair.march.mesh_data import FILM_AT
-from gearlube_core.dynamics.ranges import TOO_FAR, range_limits
-from gearlube_core.dynamics.train.assemble import Assembly, assemble
-from gearlube_core.dynamics.train.element import RZ, W
-from gearlube_core.dynamics.train.elements.helical_mesh_kernels import TABLE, pair_data_at
-from gearlube_core.dynamics.train.helical_pair import bearing_shares, helical_pair
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
-from gearlube_core.dynamics.train.helical_pair_outputs import (
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.outputs import (
     LOAD_TORQUE,
     MARKS,
     PINION,
@@ -47,6 +40,13 @@ from gearlube_core.dynamics.train.helical_pair_outputs import (
     STATE_PLACES,
     WHEEL,
 )
+from gearlube_core.dynamics.helical_model.pair import bearing_shares, helical_pair
+from gearlube_core.dynamics.helical_pair.march.given_pair import GivenPair
+from gearlube_core.dynamics.helical_pair.march.mesh_data import FILM_AT
+from gearlube_core.dynamics.ranges import TOO_FAR, range_limits
+from gearlube_core.dynamics.train.assemble import Assembly, assemble
+from gearlube_core.dynamics.train.element import RZ, W
+from gearlube_core.dynamics.train.elements.helical_mesh_kernels import TABLE, pair_data_at
 from gearlube_core.dynamics.train.march import MAX_STEPS, NOT_FINITE, TOO_FAST, TOO_MANY_STEPS
 from gearlube_core.dynamics.train.plan import OF_TABLES
 from gearlube_core.errors import GearLubeError, ParameterError

@@ -10,8 +10,8 @@ from typing import Any
 from fmu_src import build, helical_pair, hypoid_axle
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.definition import Definition
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helpers.axle_cases import axle_with

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.outputs import ENERGIES, OUTPUT_INDEX
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     ReplacedBearings,
     helical_march_parameters,
@@ -15,8 +17,6 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pack_march_mesh
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
-from gearlube_core.dynamics.train.helical_pair_outputs import ENERGIES, OUTPUT_INDEX
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
 

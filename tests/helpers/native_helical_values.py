@@ -8,7 +8,7 @@ import numpy as np
 
 from fmu_src.helical_variables import HELICAL_PAIR
 from fmu_src.native.model import NativeModel
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 
 PARAMETERS = tuple(v for v in HELICAL_PAIR if v.is_model_parameter)
 NOT_GIVEN_IF_0 = {

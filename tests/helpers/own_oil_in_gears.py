@@ -19,11 +19,11 @@ from fmu_src.native.model import OK, Operation
 from gearlube.output.toml_text import toml_text
 from gearlube_core.bearings.losses.rib import RibParameters, rib_friction
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle, uncertain_of
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import check_oil
 from gearlube_core.film_model.model import FLANK, shipped_model

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.outputs import STATE_NAMES
 from gearlube_core.dynamics.helical_pair.march.flanks import PairMotion
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
-from gearlube_core.dynamics.train.helical_pair_outputs import STATE_NAMES
 
 PSI, W_P, W_G, PHI_P = (
     STATE_NAMES.index(name)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from gearlube_core.dynamics.helical_model.pair import spring_support
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.port import Port
-from gearlube_core.dynamics.train.helical_pair import spring_support
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.pair import bearing_shares
 from gearlube_core.dynamics.helical_pair.supports import support_damping
-from gearlube_core.dynamics.train.helical_pair import bearing_shares
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh

@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
+from gearlube_core.dynamics.helical_model.outputs import OUTPUT_INDEX, OUTPUT_NAMES
 from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
 from gearlube_core.dynamics.helical_pair.march.flanks import LINES_MAX
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     ReplacedBearings,
     helical_march_parameters,
 )
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
-from gearlube_core.dynamics.train.helical_pair_outputs import OUTPUT_INDEX, OUTPUT_NAMES
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh

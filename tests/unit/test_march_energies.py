@@ -7,13 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.march import flanks, pair_forces
-from gearlube_core.dynamics.helical_pair.march.flanks import FlankConstants
-from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums
-from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import Wrench
-from gearlube_core.dynamics.train import helical_pair_outputs as outputs
-from gearlube_core.dynamics.train.helical_pair import BEARING_FIELDS, N_BEARINGS
-from gearlube_core.dynamics.train.helical_pair_outputs import (
+from gearlube_core.dynamics.helical_model import outputs
+from gearlube_core.dynamics.helical_model.outputs import (
     DURATION,
     MARKS,
     MOTION_OUTPUTS,
@@ -25,6 +20,11 @@ from gearlube_core.dynamics.train.helical_pair_outputs import (
     STATE_PLACES,
     WORKS,
 )
+from gearlube_core.dynamics.helical_model.pair import BEARING_FIELDS, N_BEARINGS
+from gearlube_core.dynamics.helical_pair.march import flanks, pair_forces
+from gearlube_core.dynamics.helical_pair.march.flanks import FlankConstants
+from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import Wrench
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from tests.helpers.pair_motions import (
     N_MOTION,

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.ranges import (
     MAX_SPEED,
@@ -17,7 +18,6 @@ from gearlube_core.dynamics.ranges import (
     range_limits,
     write_ranges,
 )
-from gearlube_core.dynamics.train.helical_pair_model import HelicalPairModel
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.film.groups import (
     line_groups,

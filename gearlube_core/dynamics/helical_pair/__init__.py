@@ -5,7 +5,7 @@
 - `supports`: bearings and shafts
 - `linear`: flanks that stay in contact; periodic response, harmonics, maps of instability
 - `separation`: flanks that part; periodic motions, with derivatives for continuation
-- `march`: any motion in time, at any speed and load; what HelicalPair.fmu steps
+- `march`: lines, films and forces in any motion, of which trains make meshes
 
 All three motions have the same lines, strains, forces and mesh damping from `mesh`.
 """

@@ -225,7 +225,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         if status != OK:
             return status
         finish(s, oil, numbers, memory, plan)
-        for i in range(energies):  # a short step leaves the means as they were, see `keep_means`
+        for i in range(energies):  # a short step leaves the means as they were
             if duration < LEAST_WINDOW:
                 s[n_kept + i] += s[first_energy + i]
         return OK

@@ -1,1 +1,1 @@
-"""The pair marched in time, at any speed and load: what HelicalPair.fmu steps."""
+"""Contact lines of a pair in any motion, their films, friction and forces: kernels of a mesh."""

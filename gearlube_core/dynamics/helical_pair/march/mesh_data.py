@@ -1,4 +1,4 @@
-"""A line mesh as the marching kernels read it, behind the pair's constants in one array.
+"""A line mesh as the kernels of a mesh read it, behind the pair's constants in one array.
 
 Kernels take constants and line mesh as one float64 array, the *pair data*: handing over more arrays
 and tuples costs a call more than its work. Layout:

@@ -87,7 +87,7 @@ class Body:
 class HelicalMarchParameters(MarchScalars):
     """Everything that defines one pair in motion.
 
-    Its other fields are those of `state.MarchScalars` and of `state.FlankScalars`, such
+    Its other fields are those of `flanks.MarchScalars` and of `flanks.FlankScalars`, such
     as the backlash.
 
     Parameters

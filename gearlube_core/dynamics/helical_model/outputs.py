@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_model.pair import BEARING_FIELDS, N_BEARINGS
 from gearlube_core.dynamics.helical_pair.march.flanks import N_FRICTION
 from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_BOUNDS, LINE_OUTPUTS
 from gearlube_core.dynamics.mean_power import mean_power
@@ -18,7 +19,6 @@ from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.element import BODY_STATES, RATE, RZ, W
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
-from gearlube_core.dynamics.train.helical_pair import BEARING_FIELDS, N_BEARINGS
 from gearlube_core.dynamics.train.outputs import IDLE_WORK, TURNING
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output

@@ -10,6 +10,20 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array, Offsets
+from gearlube_core.dynamics.helical_model.outputs import (
+    N_STATE,
+    OUTPUT_NAMES,
+    PINION,
+    PSI,
+    RATES,
+    SENSES,
+    STATE_PLACES,
+    TORQUES,
+    WHEEL,
+    write_derivatives,
+    write_pair,
+)
+from gearlube_core.dynamics.helical_model.pair import bearing_shares, helical_pair
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.dynamics.stepped_model import (
@@ -24,20 +38,6 @@ from gearlube_core.dynamics.stepped_model import (
 from gearlube_core.dynamics.train.assemble import assemble
 from gearlube_core.dynamics.train.choice import generated_kernel
 from gearlube_core.dynamics.train.element import RZ, W
-from gearlube_core.dynamics.train.helical_pair import bearing_shares, helical_pair
-from gearlube_core.dynamics.train.helical_pair_outputs import (
-    N_STATE,
-    OUTPUT_NAMES,
-    PINION,
-    PSI,
-    RATES,
-    SENSES,
-    STATE_PLACES,
-    TORQUES,
-    WHEEL,
-    write_derivatives,
-    write_pair,
-)
 from gearlube_core.dynamics.train.march import (
     ADVANCE,
     DIVERGED,
