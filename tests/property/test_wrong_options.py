@@ -36,6 +36,7 @@ SOLVERS = (
     "gearlube.variation.run.BlockStore.made",
     "gearlube.studies.loss_map.run.axle_losses",
     "gearlube.studies.drive_cycle.run.losses_along",
+    "gearlube.studies.films.rough.files.solve_point_contact",
     "gearlube.studies.films.rough.run.FilmMarch",
     "gearlube.studies.roughness.results.write_results",
     "gearlube_core.rough_patch.table.flow_factors",

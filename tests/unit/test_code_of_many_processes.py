@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 # too long to be put into its caller, which calls it twice
-LONG = "\n".join("        x = x + k * math.sqrt(x)" for _ in range(200))
+LONG = "\n".join("        x = x + k * math.sqrt(x)" for _ in range(50))
 MODULE = f"""
 import math
 import sys
@@ -38,7 +38,7 @@ def by_hand(k: float) -> float:
     """Return the same in Python."""
     total = 0.0
     for x in (1.0, 2.0):
-        for _ in range(200):
+        for _ in range(50):
             x = x + k * math.sqrt(x)
         total += x
     return total
