@@ -12,11 +12,11 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
-from functools import wraps
+from functools import lru_cache, wraps
 from threading import Thread
 from typing import Any, Protocol, TypeVar, cast
 
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _END_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)
@@ -113,12 +113,19 @@ def processors() -> int:
     return os.cpu_count() or 1
 
 
-def single_threaded() -> threadpool_limits:
+def single_threaded() -> AbstractContextManager[Any]:
     """Limit the linear algebra of this process to one thread; in a context or permanently.
 
     Small matrix products lose more time to threads that wait for each other than they gain.
     """
-    return threadpool_limits(1)
+    limiter: AbstractContextManager[Any] = _libraries(len(sys.modules)).limit(limits=1)
+    return limiter
+
+
+@lru_cache(maxsize=1)
+def _libraries(_imported: int) -> ThreadpoolController:
+    """Return the libraries with threads, which only an import adds to: a search of milliseconds."""
+    return ThreadpoolController()
 
 
 def on_one_thread(function: _Function) -> _Function:

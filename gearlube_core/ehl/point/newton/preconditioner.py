@@ -75,7 +75,8 @@ class CoarseSolution:
         n = self._nodes.size
         matrix = np.empty((n + 1, n + 1), dtype=Single, order="F")
         rows = operator.matrix[self._nodes].astype(np.complex64)
-        matrix[:n, :n] = rows.imag @ grid.dense_deflection().astype(Single)[:, self._nodes]
+        deflection = np.take(grid.dense_deflection(), self._nodes, axis=1).astype(Single)
+        matrix[:n, :n] = rows.imag @ deflection
         matrix[:n, :n] += rows.real[:, self._nodes].toarray()
         matrix[:n, n] = operator.by_approach.ravel()[self._nodes]
         matrix[n, :n] = grid.cells[self._nodes % grid.shape[1]] / load
