@@ -78,6 +78,20 @@ def test_the_start_is_the_equilibrium_that_scipy_finds(
     assert apart < 1e-9 * np.abs(expected).max()
 
 
+@each("size", [1e-8, 1e-6, 1e-4, 1e-2])
+@each("sense", [1.0, -1.0])
+def test_flanks_of_either_side_bear_a_small_torque_at_the_start(size: float, sense: float) -> None:
+    """A share of the backlash is far more than such a torque presses the flanks together."""
+    torque = size * sense
+    model = started(he_march(friction="off"), torque=torque)
+    # K = 5e8 N/m times the spacing of numbers at a place behind a backlash of 0.1 mm is 7e-12 N
+    assert abs(model.output("mesh.load")) == pytest.approx(
+        size / model.parameters.pair.pinion_base_radius / model.parameters.pair.plane.cos_b,
+        rel=1e-2,
+    )
+    assert model.output("mesh.coast_contact") == (sense < 0.0)
+
+
 def test_film_friction_at_the_start_belongs_to_its_loads() -> None:
     model = started(he_march(friction="film"))
     rates = model.derivative(model.continuous)

@@ -95,6 +95,29 @@ def rest_kernels(
         swap_own(s, room.held, room.guess, room, work)
 
     @kernel
+    def leave_out_gaps(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        room: Room,
+        work: Array,
+    ) -> None:
+        """Take the smaller guess of both senses of the loads: one of them passes a backlash.
+
+        What is left is the move under load alone. Differences over a share of the backlash would
+        lose the contact of lightly loaded flanks.
+        """
+        for k in range(room.own):
+            work[room.right + k] = abs(work[room.guess + k])
+            work[room.loads + k] *= -1.0
+        keep(s, oil, numbers, memory, plan, room, work)
+        for k in range(room.own):
+            work[room.guess + k] = min(work[room.right + k], abs(work[room.guess + k]))
+            work[room.loads + k] *= -1.0
+
+    @kernel
     def unbalanced(u: Array, problem: Any, out: Array) -> None:
         s, oil, numbers, memory, plan, room, work = problem
         displace(u, s, room, work)
@@ -138,6 +161,7 @@ def rest_kernels(
         find_loads(numbers, m, room, work)
         keep(s, oil, numbers, memory, plan, room, work)
         find_own(s, m, room, work)
+        leave_out_gaps(s, oil, numbers, memory, plan, room, work)
         find_scales(m, room, work)
         moves, scales = part(work, room.moves, m), part(work, room.scales, m)
         problem = (s, oil, numbers, memory, plan, room, work)

@@ -111,9 +111,8 @@ class HypoidMeshKernels(NamedTuple):
             for i in range(N_FILMS):
                 s[kept + OWN_FILMS + i] = 0.0
         blend(at, memory, s)
-        deflection = load / now_in(at, memory).series[K_M]
-        deflection = deflection if abs(deflection) > _LEAST else _LEAST
-        s[at[AT_X]] = deflection - (self.mesh.backlash if load < 0.0 else 0.0)
+        pressed = max(abs(load) / now_in(at, memory).series[K_M], _LEAST)
+        s[at[AT_X]] = -self.mesh.backlash - pressed if load < 0.0 else pressed
 
     @kernel
     def full_contact(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
