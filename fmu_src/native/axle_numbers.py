@@ -14,6 +14,8 @@ from gearlube_core.arrays import Array, Offsets
 from gearlube_core.bearings.followed_shaft import EXPANSION_REACH
 from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle
 from gearlube_core.dynamics.hypoid_axle.output_names import (
+    BEARING_GROUP,
+    FLANK_GROUP,
     MOTION_OUTPUTS,
     OUTPUT_INDEX,
     STATE_NAMES,
@@ -78,13 +80,17 @@ class AxleTrain(NamedTuple):
     mesh: tuple[int, ...]  # places `at` of the mesh without its sizes
     outputs: Array
     motion: Offsets  # outputs that follow from the state and the mesh force
+    of_flanks: Offsets  # likewise from the flanks
+    of_bearings: Offsets
+    bits: tuple[int, int]  # of the mesh, and of both bearings, for SHOW
     state_places: tuple[int, ...]
     state_units: tuple[float, ...]
 
     @property
     def words(self) -> list[Any]:
         """All of it that is compiled into an entry."""
-        arrays = (self.plan, self.roller_films, self.behind, self.films, self.outputs, self.motion)
+        groups = self.motion, self.of_flanks, self.of_bearings
+        arrays = (self.plan, self.roller_films, self.behind, self.films, self.outputs, *groups)
         copied = self.numbers._replace(
             copied=self.numbers.copied.tolist(),  # type: ignore[arg-type]
             dragging=self.numbers.dragging.tolist(),  # type: ignore[arg-type]
@@ -184,9 +190,16 @@ def axle_of_kind(axle: HypoidAxleParameters, place: Any) -> AxleTrain:
         mesh=tuple(made.plan[at_mesh + AT : first_size].tolist()),
         outputs=output_places(made),
         motion=np.array([OUTPUT_INDEX[name] for name in MOTION_OUTPUTS]),
+        of_flanks=np.array([OUTPUT_INDEX[name] for name in FLANK_GROUP]),
+        of_bearings=np.array([OUTPUT_INDEX[name] for name in BEARING_GROUP]),
+        bits=(_bits(elements, HypoidMesh), _bits(elements, OpposedBearings)),
         state_places=tuple(states[STATES[name]].place for name in STATE_NAMES),
         state_units=tuple(-1.0 if name in AGAINST else 1.0 for name in STATE_NAMES),
     )
+
+
+def _bits(elements: list[Element], kind: type[Element]) -> int:
+    return sum(1 << i for i, one in enumerate(elements) if isinstance(one, kind))
 
 
 def _rows(made: Assembly, elements: list[Element]) -> dict[str, int]:

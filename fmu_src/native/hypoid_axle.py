@@ -54,6 +54,7 @@ from gearlube_core.dynamics.hypoid_axle.model import (
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.state import PINION_TORQUE, WHEEL_TORQUE
 from gearlube_core.dynamics.hypoid_axle.train_outputs import (
+    gather_group,
     gather_motion,
     gather_outputs,
     gather_rates,
@@ -66,7 +67,7 @@ from gearlube_core.dynamics.hypoid_mesh.parameters import (
     MeshStiffness,
 )
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import ASKED, AT_MEANS, OF_LOAD, TABLE
-from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, START, WRITE
+from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, SHOW, START, WRITE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST, OK
 from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
@@ -85,7 +86,7 @@ REFUSALS: Mapping[int, str] = {
     PRINTED_FILM: PRINTED_WITH_SOLVED_FILM,
 }
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
-_CHECK = int(Operation.CHECK)
+_CHECK, _FLANKS, _BEARINGS = map(int, (Operation.CHECK, Operation.FLANKS, Operation.BEARINGS))
 _N_INPUTS = 3
 
 
@@ -220,6 +221,8 @@ def _entry(
     mesh_sizes, roller_films, behind = axle.mesh_sizes, axle.roller_films, axle.behind
     mesh_memory, at_mesh, films = axle.mesh_memory, axle.mesh, axle.films
     outputs_of, motion_of = axle.outputs, axle.motion
+    of_flanks, of_bearings = axle.of_flanks, axle.of_bearings
+    bits = axle.bits
     at_control, state_size = at.states + _N_INPUTS, at.states + _N_INPUTS + 1
     sizes = axle.sizes
 
@@ -308,48 +311,14 @@ def _entry(
             status = state_status(s)
             if status != OK:
                 return status
-        temperature = kept[at.states + 2]
-        if operation == _STEP:
-            trial = array_at(pointer_at(work, at.trial), at.states)
-            for i in range(at.states):
-                trial[i] = s[i]
-            trial[PINION_TORQUE], trial[WHEEL_TORQUE] = given[0], given[1]
-            rate = kept[at_control]
-            status = int(
-                operate(ADVANCE, trial, given[2], numbers, memory, plan, step, rate, scratch)
-            )
-            if status == OK:
-                for i in range(at.states):
-                    s[i] = trial[i]
-                for i in range(_N_INPUTS):
-                    kept[at.states + i] = given[i]
-            return status
-        # a host may have set the inputs that the state has been started from
-        s[PINION_TORQUE], s[WHEEL_TORQUE] = kept[at.states], kept[at.states + 1]
-        if operation == _EVENT:
-            return int(operate(EVENT, s, temperature, numbers, memory, plan, 0.0, 0.0, scratch))
-        if operation == _DERIVATIVES:
-            status = int(
-                operate(EXCHANGE, s, temperature, numbers, memory, plan, 0.0, 0.0, scratch)
-            )
-            if status == OK:
-                gather_rates(s, scratch, outputs_of, out)
-            return status
-        if operation == _MOTION and s[sizes.states - 1] > 0.0:  # before, powers are rates
+        if operation == _MOTION and s[at.states - 1] > 0.0:  # before, powers are rates
             mesh: AxleParameters = tuple_from_array(values, AxleParameters, bearing, law)
             series = array_at(pointer_at(work, at.series), int(head.series))
-            places = (
-                *at_mesh,
-                int(head.levels),
-                int(head.orders),
-                int(head.nodes),
-                int(head.series),
-                0,
-            )
+            of_table = int(head.levels), int(head.orders), int(head.nodes), int(head.series), 0
             gather_motion(
                 s,
                 mesh.mesh,
-                places,
+                (*at_mesh, *of_table),
                 memory,
                 series,
                 numbers,
@@ -360,9 +329,39 @@ def _entry(
                 out,
             )
             return OK
-        operate(WRITE, s, temperature, numbers, memory, plan, 0.0, 0.0, scratch)
-        gather_outputs(s, scratch, outputs_of, out)
-        return OK
+        # one call of the train for all: the compiler would copy its code for each
+        own, todo, size, rate = s, WRITE, 0.0, 0.0
+        temperature = kept[at.states + 2]
+        if operation == _STEP:
+            own = array_at(pointer_at(work, at.trial), at.states)
+            for i in range(at.states):
+                own[i] = s[i]
+            own[PINION_TORQUE], own[WHEEL_TORQUE], temperature = given[0], given[1], given[2]
+            todo, size, rate = ADVANCE, step, kept[at_control]
+        else:  # a host may have set the inputs that stand behind the state
+            s[PINION_TORQUE], s[WHEEL_TORQUE] = kept[at.states], kept[at.states + 1]
+        if operation == _EVENT:
+            todo = EVENT
+        elif operation == _DERIVATIVES:
+            todo = EXCHANGE
+        elif operation in (_FLANKS, _BEARINGS):
+            todo, size = SHOW, float(bits[0] if operation == _FLANKS else bits[1])
+        status = int(operate(todo, own, temperature, numbers, memory, plan, size, rate, scratch))
+        if todo == WRITE:
+            gather_outputs(s, scratch, outputs_of, out)
+            return OK
+        if todo == SHOW:
+            group = of_flanks if operation == _FLANKS else of_bearings
+            gather_group(s, scratch, outputs_of, group, out)
+            return OK
+        if status == OK and operation == _DERIVATIVES:
+            gather_rates(s, scratch, outputs_of, out)
+        if status == OK and operation == _STEP:
+            for i in range(at.states):
+                s[i] = own[i]
+            for i in range(_N_INPUTS):
+                kept[at.states + i] = given[i]
+        return status
 
     return entry
 
@@ -462,7 +461,11 @@ def native_model(definition: Definition) -> NativeModel:
         ranges=unnamed.ranges,
         refusals=REFUSALS,
         motion=frozenset(output_names.MOTION_OUTPUTS),
-        groups={Operation.DERIVATIVES: frozenset(output_names.RATE_OUTPUTS)},
+        groups={
+            Operation.DERIVATIVES: frozenset(output_names.RATE_OUTPUTS),
+            Operation.FLANKS: frozenset(output_names.FLANK_GROUP),
+            Operation.BEARINGS: frozenset(output_names.BEARING_GROUP),
+        },
         exchange=Exchange(
             states=output_names.STATE_NAMES,
             places=axle.state_places,

@@ -63,8 +63,7 @@ class Operation(IntEnum):
     EVENT = 6  # state -> state after what an event changes, if anything
     FLANKS = 7  # state after a step -> the outputs of this group, see `groups`
     BEARINGS = 8  # likewise
-    RACEWAYS = 9  # likewise
-    CHECK = 10  # OK if the data can be used; `parameters` are the lengths of data and work, and
+    CHECK = 9  # OK if the data can be used; `parameters` are the lengths of data and work, and
     # `inputs` how many options each parameter has; see `kind`
 
 
@@ -113,7 +112,7 @@ class NativeModel:
         Outputs that cost next to nothing. With any, STEP writes no outputs: MOTION writes these and
         OUTPUTS all of them, when the host reads one.
     groups : mapping of Operation to frozenset of str
-        Outputs that FLANKS, BEARINGS or RACEWAYS write alone after a step, and those that
+        Outputs that FLANKS or BEARINGS write alone after a step, and those that
         DERIVATIVES writes besides rates and event indicators.
     exchange : Exchange, optional
         Without it the FMU is for co-simulation only, and the entry is never asked for

@@ -22,12 +22,11 @@ HEAD_SIZE = CHECKSUM_AT + 4
 # as the enumerations of `model.h` count
 _KINDS = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2}
 _CAUSALITIES = {"parameter": 0, "input": 1, "output": 2, "local": 2}
-_NOTHING, _OF_MOTION, _OF_RATES, _OF_OUTPUTS = 0, 1, 2, 32
+_NOTHING, _OF_MOTION, _OF_RATES, _OF_OUTPUTS = 0, 1, 2, 16
 _BITS = {
     Operation.DERIVATIVES: _OF_RATES,
     Operation.FLANKS: 4,
     Operation.BEARINGS: 8,
-    Operation.RACEWAYS: 16,
 }
 
 

@@ -82,8 +82,7 @@ gl_status gl_take_inputs(gl_instance *instance)
 static const struct { int group, operation; } alone[] = {{GL_OF_MOTION, GL_MOTION},
                                                          {GL_OF_FLANKS, GL_FLANKS},
                                                          {GL_OF_BEARINGS, GL_BEARINGS},
-                                                         {GL_OF_RATES, GL_DERIVATIVES},
-                                                         {GL_OF_RACEWAYS, GL_RACEWAYS}};
+                                                         {GL_OF_RATES, GL_DERIVATIVES}};
 
 /* Does an operation that computes some of what is missing: a group alone, or all outputs where
    that costs less. In model exchange powers of the motion are rates, which only the operation for

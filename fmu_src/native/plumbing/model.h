@@ -17,9 +17,8 @@ enum {
     GL_OF_RATES = 2,
     GL_OF_FLANKS = 4,
     GL_OF_BEARINGS = 8,
-    GL_OF_RACEWAYS = 16,
-    GL_OF_OUTPUTS = 32,
-    GL_ALL = 63
+    GL_OF_OUTPUTS = 16,
+    GL_ALL = 31
 };
 typedef enum { GL_PARAMETER, GL_INPUT, GL_OUTPUT } gl_causality;
 
@@ -100,7 +99,6 @@ enum {
     GL_EVENT,
     GL_FLANKS,
     GL_BEARINGS,
-    GL_RACEWAYS,
     GL_CHECK /* only of an entry that takes data of any length: `parameters` are the lengths of data
                 and work and then gl_sizes, `inputs` how many options each parameter has */
 };

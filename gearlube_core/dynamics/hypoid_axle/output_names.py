@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
-from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS
+from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.number import Output
 
 # outputs that hold the continuous states, in the order of the state vector
@@ -45,8 +45,6 @@ BEARING_OUTPUTS = tuple(
 
 # places within the outputs of one bearing
 FORCE = BEARING_QUANTITIES.index("force.x")
-ROLLER_LOAD_MAX = BEARING_QUANTITIES.index("roller_load_max")
-ROLLER_LOAD_MIN = BEARING_QUANTITIES.index("roller_load_min")
 N_BEARING_QUANTITIES = len(BEARING_QUANTITIES)
 # by solved films, in a group of their own
 FILM_QUANTITIES = ("film_thickness", "film_bound")
@@ -118,15 +116,9 @@ N_OUTPUTS = len(OUTPUT_NAMES)
 # places of the outputs that the kernel writes by name
 PINION_ANGLE = OUTPUT_INDEX["pinion.angle"]
 WHEEL_ANGLE = OUTPUT_INDEX["wheel.angle"]
-PINION_SPEED = OUTPUT_INDEX["pinion.speed"]
-WHEEL_SPEED = OUTPUT_INDEX["wheel.speed"]
 PINION_ACCELERATION = OUTPUT_INDEX["pinion.acceleration"]
 WHEEL_ACCELERATION = OUTPUT_INDEX["wheel.acceleration"]
 DTE = OUTPUT_INDEX["mesh.dte"]
-MESH_FORCE = OUTPUT_INDEX["mesh.force"]
-SEPARATED = OUTPUT_INDEX["mesh.separated"]
-MESH_STIFFNESS = OUTPUT_INDEX["mesh.stiffness"]
-MESH_FREQUENCY = OUTPUT_INDEX["mesh.frequency"]
 FRICTION_LOSS = OUTPUT_INDEX["friction.power_loss"]
 BOUNDARY_LOSS = OUTPUT_INDEX["friction.power_loss_boundary"]
 BEARING_LOSS = OUTPUT_INDEX["bearing.power_loss"]
@@ -149,17 +141,10 @@ BEARING_SHARE_OUTSIDE = OUTPUT_INDEX["bearing.share_outside"]
 
 # first place of a group of outputs of one kind
 FLANKS = OUTPUT_INDEX[FLANK_OUTPUTS[0]]
-FIRST_FLANK_BOUND = OUTPUT_INDEX[FLANK_BOUNDS[0]]
-FIRST_BEARING_FILM = OUTPUT_INDEX[BEARING_FILMS[0]]
 PINION_DISPLACEMENT = OUTPUT_INDEX["pinion.displacement.x"]
 WHEEL_DISPLACEMENT = OUTPUT_INDEX["wheel.displacement.x"]
 PINION_BEARINGS = OUTPUT_INDEX[BEARING_OUTPUTS[0]]
-GEAR_BEARINGS = PINION_BEARINGS + 2 * N_BEARING_QUANTITIES
 ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
-RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
-PINION_VELOCITY = OUTPUT_INDEX["pinion.velocity.x"]
-WHEEL_VELOCITY = OUTPUT_INDEX["wheel.velocity.x"]
-LOAD_LEVEL = OUTPUT_INDEX["mesh.load_torque"]
 RATES = OUTPUT_INDEX[RATE_NAMES[0]]  # in the order of the state
 EVENTS = OUTPUT_INDEX[EVENT_INDICATORS[0]]
 
@@ -180,16 +165,17 @@ RATE_OUTPUTS: tuple[str, ...] = (
     OUTPUT_NAMES[PINION_ACCELERATION],
     OUTPUT_NAMES[WHEEL_ACCELERATION],
 )
-# what follows from the flanks alone, from raceways alone, and from bearings and mesh
+# what follows from the flanks alone, and from bearings and stored energy
 FLANK_GROUP: tuple[str, ...] = (
     *FLANK_OUTPUTS,
     *FLANK_BOUNDS,
     OUTPUT_NAMES[SHARE_OUTSIDE],
     *RANGE_OUTPUTS,
 )
-RACEWAY_GROUP: tuple[str, ...] = (*BEARING_FILMS, OUTPUT_NAMES[BEARING_SHARE_OUTSIDE])
 BEARING_GROUP: tuple[str, ...] = (
     *BEARING_OUTPUTS,
+    *BEARING_FILMS,
+    OUTPUT_NAMES[BEARING_SHARE_OUTSIDE],
     OUTPUT_NAMES[FIRST_ROLLER],
     OUTPUT_NAMES[STORED_ENERGY],
 )

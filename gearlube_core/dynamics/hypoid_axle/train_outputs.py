@@ -207,10 +207,26 @@ def gather_outputs(s: Array, work: Array, places: Array, out: Array) -> None:
     for i in range(N_OUTPUTS):
         out[i] = _value(s, work, places, i)
     _write_losses(s, work, places, out)
+    _write_share(s, work, places, out)
+
+
+@kernel
+def _write_share(s: Array, work: Array, places: Array, out: Array) -> None:
+    """Write the share of the rollers' load outside the film model."""
     load_p, load_g = _value(s, work, places, _LOAD_P), _value(s, work, places, _LOAD_G)
     beyond = load_p * _value(s, work, places, _SHARE_P) + load_g * _value(s, work, places, _SHARE_G)
     load = load_p + load_g
     out[BEARING_SHARE_OUTSIDE] = beyond / load if load > 0.0 else 0.0
+
+
+@kernel
+def gather_group(s: Array, work: Array, places: Array, group: Offsets, out: Array) -> None:
+    """Write the outputs at these places, of flanks or of bearings; the others stay."""
+    for i in group:
+        if i == BEARING_SHARE_OUTSIDE:
+            _write_share(s, work, places, out)
+        else:
+            out[i] = _value(s, work, places, i)
 
 
 @kernel

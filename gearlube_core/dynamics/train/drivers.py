@@ -40,7 +40,8 @@ class AllElements(NamedTuple):
     """Kernels of these names of all elements, see `element.Kernels`, and one of the sizes.
 
     They take the state, the oil's, numbers and memory of the assembly and the plan, then what
-    those of an element take more. That of the sizes takes the plan alone.
+    those of an element take more; those of `expand` and `write` at last which elements: EVERY, or
+    a bit for each. That of the sizes takes the plan alone.
     """
 
     at_rest: Callable[..., None]
@@ -69,7 +70,7 @@ _LINES = {
     "at_rest": ("", "{call}", "None"),
     "full_contact": ("", "{call}", "None"),
     "begin": ("", "{call}", "None"),
-    "expand": ("", "{call}", "None"),
+    "expand": (", only", "{call}", "None"),
     "each_step": (", h", "total += {call}", "total"),
     "after_part": (", h", "{call}", "None"),
     "after_step": (", h", "{call}", "None"),
@@ -80,12 +81,14 @@ _LINES = {
     "stored_energy": ("", "total += {call}", "total"),
     "add_forces": (", stage, ds", "{call}", "None"),
     "event": ("", "{call}", "None"),
-    "write": (", out", "{call}", "None"),
+    "write": (", out, only", "{call}", "None"),
     "exchange": (", out", "{call}", "None"),
     "check": ("", "total = min(total, {call})", "total"),
 }
 # of a row: what these take last
 _LAST = {"write": OUTPUT, "exchange": EXCHANGED, "check": N_KEPT}
+# of these, the elements whose bit is set in `only` are called: EVERY; all behind share the last one
+_CHOSEN, _LAST_BIT, EVERY = ("expand", "write"), 62, 2**63 - 1
 _BEGIN = {"time_to_jump": "math.inf", "check": "1.0"}
 
 
@@ -126,6 +129,7 @@ class _Source:
         """Return the line that calls the kernel of a name of an element."""
         self.given[f"{name}{i}"] = getattr(one.numbers, name)
         more, line, _ = _LINES[name]
+        more = more.replace(", only", "")
         place = f", {first}" if name in _LAST else ""
         return line.format(call=f"{name}{i}({given}, s, oil{more}{place})")
 
@@ -174,7 +178,9 @@ def generated(elements: Sequence[Listed], plan: Sequence[int]) -> AllElements:
         for i, one in enumerate(elements):
             if hasattr(one.numbers, name):
                 line = source.call(name, i, one, calls[i], first[i].format(name))
-                source.lines.append(f"        {line}")
+                source.given |= {f"p{i}": 1 << min(i, _LAST_BIT)}
+                test = f"if only & p{i}: " if name in _CHOSEN else ""
+                source.lines.append(f"        {test}{line}")
         source.end(name)
     sizes = Sizes(*plan[:FIRST_ROW])
 
@@ -201,7 +207,7 @@ def interpreted(kinds: Sequence[Listed]) -> AllElements:
         source.begin(name)
         source.lines += [
             f"        at = {FIRST_ROW}",
-            "        for _ in range(rows_of(plan).elements):",
+            "        for i in range(rows_of(plan).elements):",
             f"            row = places(plan, at, {AT})",
             f"            kind = row[{KIND}]",
         ]
@@ -210,6 +216,8 @@ def interpreted(kinds: Sequence[Listed]) -> AllElements:
             first = f"row[{_LAST.get(name, 0)}]"
             line = source.call(name, i, kinds[i], calls[i], first)
             test = "if" if i == having[0] else "elif"
+            if name in _CHOSEN:
+                line = f"if only & (1 << min(i, {_LAST_BIT})): {line}"
             source.lines += [f"            {test} kind == q{i}:", f"                {line}"]
         source.lines.append(f"            at += {AT} + row[{N_PLACES}]")
         source.end(name)

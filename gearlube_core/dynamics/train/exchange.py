@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array, Offsets
-from gearlube_core.dynamics.train.drivers import AllElements
+from gearlube_core.dynamics.train.drivers import EVERY, AllElements
 from gearlube_core.dynamics.train.element import AFTER_STEP, BODY_STATES, COORDINATES, N_COORDINATES
 from gearlube_core.dynamics.train.outputs import MOVING, TURNING, named_of
 from gearlube_core.dynamics.train.part import Body, Element
@@ -105,24 +105,31 @@ def event_indicators(elements: Sequence[Element], integrated: int) -> tuple[Indi
 def now_kernel(elements: AllElements, rates: Callable[..., None]) -> Callable[..., None]:
     """Return the kernel of the rates of a state in which elements keep what they keep.
 
-    It writes the rates of all integrated states
-    into `work`, behind them what `Kernels.exchange` gives; the state stays as it is. `work` has
-    room for a state behind that.
+    It writes the rates of all integrated states into `work`, behind them what `Kernels.exchange`
+    gives; the state stays as it is. `work` has room for a state behind that. Unless it is asked for
+    EVERY element, the others serve no rates.
     """
     sizes_of, each_step = elements.sizes_of, elements.each_step
     expand, exchange = elements.expand, elements.exchange
 
     @kernel
     def now(
-        s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets, work: Array
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        which: int,
+        work: Array,
     ) -> None:
         sizes = sizes_of(plan)
         n, n_state, exchanged = sizes.integrated, sizes.states, sizes.exchanged
         slope, begun = part(work, 0, n), part(work, n + exchanged, n_state)
-        for i in range(n_state):
-            begun[i] = s[i]
-        each_step(begun, oil, numbers, memory, plan, 0.0)  # changes what is kept
-        expand(s, oil, numbers, memory, plan)
+        if which == EVERY:
+            for i in range(n_state):
+                begun[i] = s[i]
+            each_step(begun, oil, numbers, memory, plan, 0.0)  # changes what is kept
+        expand(s, oil, numbers, memory, plan, which)
         stage = AFTER_STEP if s[n_state - 1] > 0.0 else 0
         rates(s, oil, numbers, memory, plan, stage, slope)
         exchange(s, oil, numbers, memory, plan, part(work, n, exchanged))

@@ -13,10 +13,13 @@ from collections.abc import Callable
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.mean_power import LEAST_WINDOW
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
-from gearlube_core.dynamics.train.drivers import AllElements
+from gearlube_core.dynamics.train.drivers import EVERY, AllElements
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, W
 from gearlube_core.dynamics.train.exchange import now_kernel
-from gearlube_core.dynamics.train.outputs import outputs_kernel, write_work_size
+from gearlube_core.dynamics.train.outputs import (
+    outputs_kernel,
+    write_work_size,
+)
 from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.dynamics.train.rest import rest_kernels
 from gearlube_core.dynamics.train.rest_search import OK, rest_work_size
@@ -27,7 +30,7 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import OilLaws
 from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
 
-RATES, RENEW, START, ADVANCE, WRITE, ENERGY, STIFFNESS, EXCHANGE, EVENT = range(9)
+RATES, RENEW, START, ADVANCE, WRITE, ENERGY, STIFFNESS, EXCHANGE, EVENT, SHOW = range(10)
 # statuses of a step, beside OK
 NOT_FINITE = 1
 TOO_MANY_STEPS = 2
@@ -53,6 +56,9 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         Rates of all integrated states into `work`.
     RENEW
         What elements keep is found again for this state.
+    SHOW
+        What WRITE writes of the elements whose bits are set in `size` alone; accelerations,
+        rates and indicators are then not those of the state.
     ENERGY, WRITE
         The energy [J]; WRITE writes what EXCHANGE does and then the outputs into `work` before.
     EXCHANGE
@@ -245,7 +251,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     def renew(s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets) -> None:
         begin(s, oil, numbers, memory, plan)
         each_step(s, oil, numbers, memory, plan, 0.0)
-        expand(s, oil, numbers, memory, plan)
+        expand(s, oil, numbers, memory, plan, EVERY)
 
     start, stiffness = rest_kernels(of_all, renew, rates, forces)
     now = now_kernel(of_all, rates)
@@ -287,14 +293,15 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
                     event(s, oil, numbers, memory, plan)
                     finish(s, oil, numbers, memory, plan)
                 else:
-                    now(s, oil, numbers, memory, plan, work)
+                    now(s, oil, numbers, memory, plan, EVERY, work)
             return float(status)
         begin(s, oil, numbers, memory, plan)
         if operation == ADVANCE:
             return float(advance(s, size, oil, numbers, memory, plan, least_rate, work))
         stored = kinetic_energy(s, numbers, plan) + stored_energy(s, oil, numbers, memory, plan)
-        if operation == WRITE:
-            write_all(s, oil, numbers, memory, plan, stored, work)
+        if operation in (WRITE, SHOW):
+            which = EVERY if operation == WRITE else int(size)
+            write_all(s, oil, numbers, memory, plan, which, stored, work)
         return stored
 
     return operate

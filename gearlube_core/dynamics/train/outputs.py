@@ -173,13 +173,14 @@ def outputs_kernel(elements: AllElements, now: Callable[..., None]) -> Callable[
         numbers: Array,
         memory: Array,
         plan: Offsets,
+        which: int,
         stored: float,
         work: Array,
     ) -> None:
-        now(s, oil, numbers, memory, plan, work)
+        now(s, oil, numbers, memory, plan, which, work)
         sizes = sizes_of(plan)
         k = write_state(s, part(work, 0, sizes.integrated), numbers, sizes, work)
-        write(s, oil, numbers, memory, plan, part(work, k, sizes.outputs))
+        write(s, oil, numbers, memory, plan, part(work, k, sizes.outputs), which)
         work[k + sizes.outputs + 2 * sizes.energies + 1] = stored
 
     return write_all
