@@ -251,6 +251,30 @@ def drag_holds(motion: ShaftMotion, temperature: float, kept: Array) -> bool:
 
 
 @kernel
+def drag_of_motion(
+    bearings: ShaftBearings,
+    motion: ShaftMotion,
+    preload: float,
+    law: float,
+    oil: LubricantState,
+    model: Array,
+) -> ShaftDrag:
+    """Return the drag in this motion alone, each roller by itself; arguments as in `renew_drag`.
+
+    `model` are the numbers of the film model of rollers, empty with other laws.
+    """
+    films = RollerFilms(model, part(model, 0, 0), 0.0)
+    raceways = raceways_of_shaft(bearings, motion, law, oil, films)
+    return drag_of_shaft(bearings, motion, preload, law, oil, raceways)
+
+
+@kernel
+def drag_is_known(kept: Array) -> bool:
+    """Return whether a step has kept anything."""
+    return kept[_KNOWN] == 1.0
+
+
+@kernel
 def drag_near(motion: ShaftMotion, kept: Array) -> ShaftDrag:
     """Return the drag in this motion by what is kept, linear about it."""
     torque = kept[_TORQUE]

@@ -7,11 +7,24 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from gearlube_core.bearings.followed_shaft import N_FORCES
+from gearlube_core.bearings.bearing_type import RollerFilms
+from gearlube_core.bearings.followed_shaft import (
+    N_FORCES,
+    SOLVED_FILMS,
+    drag_of_shaft,
+    raceways_of_shaft,
+)
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, shafts_at_rest
 from gearlube_core.dynamics.hypoid_axle.as_train import memory_of_means, numbers_at_rest
 from gearlube_core.dynamics.hypoid_axle.mesh_cycle import mean_series
-from gearlube_core.dynamics.hypoid_axle.state import U_G, U_P, W_G, W_P
+from gearlube_core.dynamics.hypoid_axle.state import (
+    U_G,
+    U_P,
+    W_G,
+    W_P,
+    gear_motion,
+    pinion_motion,
+)
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshLevels
 from gearlube_core.dynamics.train.march import STIFFNESS, work_size
@@ -95,6 +108,23 @@ def test_the_step_is_tied_to_the_highest_mode_that_lapack_finds(equations, torqu
     highest = math.sqrt(squares.max()) / (2.0 * math.pi)
     # K from differences over 10 nm has 1e-13 of its own; the same K is used here
     assert axle.highest_frequency == pytest.approx(highest, rel=1e-11)
+
+
+def test_drag_at_the_start_is_that_of_each_roller_by_itself():
+    """Nodes of films, which steps keep, differ by 1e-4 here, and their slopes by far more."""
+    axle = started(60.0, speed=800.0, bearing_torque_loss="solved_films")
+    p, oil = axle.kernel_parameters, lubricant_state(axle.kernel_parameters.oil, OIL)
+    films = RollerFilms(axle.parameters.roller_model(), np.zeros(0), 0.0)
+    lost = 0.0
+    for bearings, motion, preload in (
+        (p.bearing_p, pinion_motion(axle.state_view), p.preload_p),
+        (p.bearing_g, gear_motion(axle.state_view), p.preload_g),
+    ):
+        raceways = raceways_of_shaft(bearings, motion, SOLVED_FILMS, oil, films)
+        drag = drag_of_shaft(bearings, motion, preload, SOLVED_FILMS, oil, raceways)
+        lost += drag.torque * motion.speed
+    # sums of rounding
+    assert axle.output("bearing.power_loss") == pytest.approx(lost, rel=1e-12)
 
 
 def test_rollers_without_contact_angle_carry_no_axial_force():

@@ -11,7 +11,6 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     N_EXPANSION,
-    NO_RACEWAYS,
     Bearing,
     RollerFilms,
     ShaftBearings,
@@ -29,10 +28,10 @@ from gearlube_core.bearings.followed_shaft import (
     N_FORCES,
     PALMGREN,
     TORQUE_LOSSES,
-    ShaftDrag,
     drag_holds,
+    drag_is_known,
     drag_near,
-    drag_of_shaft,
+    drag_of_motion,
     expand_about,
     follow_forces,
     forget_forces,
@@ -107,12 +106,15 @@ class _OpposedBearings(NamedTuple):
             f_ref, forces = _frequency(self, m), part(memory, 0, N_FORCES)
             follow_forces(self.bearings, m, f_ref, oil, h, self.reach, forces)
         kept, cost = part(s, at[_KEPT], N_FOLLOWED), 0.0
-        if self.law > PALMGREN and not drag_holds(m, oil.temperature, kept):
-            films = _films(at, memory, s)
-            cost = DRAG_COST * renew_drag(
-                self.bearings, m, self.preload, self.law, oil, films, kept
-            )
-        drag = _drag(self, m, oil, kept)
+        if self.law <= PALMGREN or (h == 0.0 and not drag_is_known(kept)):
+            drag = drag_of_motion(self.bearings, m, self.preload, self.law, oil, _model(at, memory))
+        else:
+            if not drag_holds(m, oil.temperature, kept):
+                films = _films(at, memory, s)
+                cost = DRAG_COST * renew_drag(
+                    self.bearings, m, self.preload, self.law, oil, films, kept
+                )
+            drag = drag_near(m, kept)
         memory[_DRAG], memory[_DOUBT] = drag.torque, drag.bound
         return cost
 
@@ -156,7 +158,7 @@ class _OpposedBearings(NamedTuple):
             f_2,
             f_a,
         )
-        out[first + 3] = _drag(self, m, oil, part(s, at[_KEPT], N_FOLLOWED)).torque
+        out[first + 3] = memory[_DRAG]
         found = _raceways(self, m, at, memory, s, oil)
         out[first + _OWN] = found.load
         out[first + _OWN + 1] = found.load_outside / found.load if found.load > 0.0 else 0.0
@@ -186,9 +188,12 @@ class _OpposedBearings(NamedTuple):
 def _films(at: Any, memory: Array, s: Array) -> RollerFilms:
     """Return the film model and its nodes; both empty where the law has none."""
     nodes = N_ROLLER_NODES if at[_FILM] > 0 else 0
-    return RollerFilms(
-        part(memory, _MEMORY, at[_FILM]), part(s, at[_KEPT] + N_FOLLOWED, nodes), 1.0
-    )
+    return RollerFilms(_model(at, memory), part(s, at[_KEPT] + N_FOLLOWED, nodes), 1.0)
+
+
+@inside
+def _model(at: Any, memory: Array) -> Array:
+    return part(memory, _MEMORY, at[_FILM])
 
 
 @kernel
@@ -202,13 +207,6 @@ def _raceways(
         nodes[i] = kept.nodes[i]
     films = RollerFilms(kept.model, nodes, memory[_ASKED])
     return raceways_of_shaft(self.bearings, m, self.law, oil, films)
-
-
-@kernel
-def _drag(self: _OpposedBearings, m: ShaftMotion, oil: LubricantState, kept: Array) -> ShaftDrag:
-    if self.law > PALMGREN:
-        return drag_near(m, kept)
-    return drag_of_shaft(self.bearings, m, self.preload, self.law, oil, NO_RACEWAYS)
 
 
 @kernel

@@ -24,7 +24,9 @@ from gearlube_core.bearings.followed_shaft import (
     N_FOLLOWED,
     TORQUE_LOSSES,
     drag_holds,
+    drag_is_known,
     drag_near,
+    drag_of_motion,
     raceways_of_shaft,
     renew_drag,
 )
@@ -109,12 +111,16 @@ class _RollerBearing(NamedTuple):
         if self.law == 0.0:
             return 0.0
         m, kept, cost = _motion(self, at, s), part(s, at[_KEPT], N_FOLLOWED), 0.0
-        if not drag_holds(m, oil.temperature, kept):
-            nodes = part(s, at[_KEPT] + N_FOLLOWED, _nodes(at))
-            films = RollerFilms(part(memory, _MODEL, at[_FILM]), nodes, 1.0)
-            rollers: Any = _Rollers(self.side, self.bearings)
-            cost = 0.5 * DRAG_COST * renew_drag(rollers, m, 0.0, self.law, oil, films, kept)
-        drag = drag_near(m, kept)
+        rollers: Any = _Rollers(self.side, self.bearings)
+        model = part(memory, _MODEL, at[_FILM])
+        if h == 0.0 and not drag_is_known(kept):
+            drag = drag_of_motion(rollers, m, 0.0, self.law, oil, model)
+        else:
+            if not drag_holds(m, oil.temperature, kept):
+                nodes = part(s, at[_KEPT] + N_FOLLOWED, _nodes(at))
+                films = RollerFilms(model, nodes, 1.0)
+                cost = 0.5 * DRAG_COST * renew_drag(rollers, m, 0.0, self.law, oil, films, kept)
+            drag = drag_near(m, kept)
         memory[_DRAG], memory[_DOUBT] = drag.torque, drag.bound
         return cost
 
@@ -154,9 +160,7 @@ class _RollerBearing(NamedTuple):
         m = _motion(self, at, s)
         f_1, f_2, f_a, _ = _forces(self, m, oil)
         out[first], out[first + 1], out[first + 2] = f_1, f_2, f_a
-        out[first + 3] = 0.0
-        if self.law > 0.0:
-            out[first + 3] = drag_near(m, part(s, at[_KEPT], N_FOLLOWED)).torque
+        out[first + 3] = memory[_DRAG]
         loads = bearing_loads(
             self.bearings,  # type: ignore[arg-type]
             m,
