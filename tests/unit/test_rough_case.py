@@ -151,6 +151,13 @@ def test_the_key_knows_what_an_oil_file_says(tmp_path):
     assert keys[0] != keys[1]
 
 
+@pytest.mark.parametrize(("option", "value"), [("threads", -1), ("threads", 65), ("steps", 0)])
+def test_a_wrong_option_of_a_march_is_refused_before_its_first_film(option, value, monkeypatch):
+    monkeypatch.setattr(rough_run, "Gathered", None)  # its call would fail otherwise
+    with pytest.raises(ParameterError, match=f"{option} must be within .*, got {value}"):
+        rough_run.run_rough(case(), **{option: value})
+
+
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
 def test_a_march_stores_oil_by_the_scheme_of_its_case(scheme, monkeypatch):
     given = []

@@ -28,6 +28,7 @@ from gearlube_core.ehl.transient.history import MarchRecord
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ConvergenceError, FileError, InterruptedRunError, ParameterError
+from gearlube_core.kernels.row_workers import MOST_THREADS
 from gearlube_core.progress import Progress, no_progress
 
 _FIELDS_KEPT = 2  # film and pressure, in single precision
@@ -105,7 +106,8 @@ def run_rough(
     Raises
     ------
     ParameterError
-        There is too little disk space, or the record is damaged or of another case.
+        `steps` or `threads` is out of range, there is too little disk space, or the record is
+        damaged or of another case.
     ConvergenceError
         Ten steps in turn did not converge, or a film is not finite; the last record is kept.
     FileError
@@ -126,6 +128,7 @@ def run_rough(
     schedule = case.schedule()
     last = schedule.steps if steps is None else steps
     check_within("steps", last, 1, schedule.steps, "", "The case ends there.")
+    check_within("threads", threads, 1, MOST_THREADS, "")
     key = case.key()
     if folder is not None:
         need = disk_need(case, folder)
