@@ -51,6 +51,17 @@ def too_many_steps_words(most: int) -> str:
 _OK = 0  # status of a kernel that made its step
 
 
+def _copied(
+    of: Callable[[Any], SteppedModel[Any]], parameters: Any, state: Array
+) -> SteppedModel[Any]:
+    """Return the model of these parameters in a state."""
+    model = of(parameters)
+    model._take(state)
+    if model._inputs[-1] > 0.0:  # an oil temperature: it has been started
+        model._write_outputs()
+    return model
+
+
 class Kernels(NamedTuple):
     """Compiled functions of a model, and what they take behind state and inputs."""
 
@@ -123,6 +134,8 @@ class SteppedModel(ABC, Generic[Control]):
         For messages.
     """
 
+    parameters: Any  # the one argument of the models
+
     def __init__(
         self,
         *,
@@ -150,6 +163,10 @@ class SteppedModel(ABC, Generic[Control]):
         self.outputs.flags.writeable = False
         self.state_view: Array = self._state.view()
         self.state_view.flags.writeable = False
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        """Let a copy, also one out of a pickle, be a model of its own in the same state."""
+        return _copied, (type(self), self.parameters, self.get_state())
 
     @abstractmethod
     def _with_data(self) -> Kernels:

@@ -1,6 +1,8 @@
 """What the axle refuses, in words, and that a refusal leaves it as it was."""
 
+import copy
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -143,6 +145,27 @@ def test_a_step_that_is_no_number_is_refused(axle, h):
     with pytest.raises(GearLubeError, match="step size must be finite"):
         axle.step(h, 40.0, 106.0, OIL)
     np.testing.assert_array_equal(axle.get_state(), before)
+
+
+@each("copied", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+def test_a_copy_is_a_model_of_its_own_in_the_same_state(copied):
+    model, *torques = running_axle(60)
+    model.step(1e-4, *torques, OIL)
+    other, state = copied(model), model.get_state()
+    np.testing.assert_array_equal(other.outputs, model.outputs)
+    other.step(1e-4, *torques, OIL)
+    np.testing.assert_array_equal(model.get_state(), state)
+    model.step(1e-4, *torques, OIL)
+    np.testing.assert_array_equal(other.outputs, model.outputs)
+    np.testing.assert_array_equal(other.get_state(), model.get_state())
+
+
+def test_a_copy_before_the_start_starts_as_the_model_does():
+    model = HypoidAxle(axle_with())
+    other = copy.deepcopy(model)
+    for one in (model, other):
+        one.initialise(**START)
+    np.testing.assert_array_equal(other.outputs, model.outputs)
 
 
 def spoiled(axle, index, value):
