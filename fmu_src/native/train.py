@@ -28,11 +28,12 @@ from gearlube_core.dynamics.train.march import (
     ADVANCE,
     EVENT,
     EXCHANGE,
+    REFUSALS,
     START,
     WRITE,
     work_size,
 )
-from gearlube_core.dynamics.train.model import MOST_TORQUE, REFUSALS, Train
+from gearlube_core.dynamics.train.model import MOST_TORQUE, Train
 from gearlube_core.dynamics.train.outputs import outputs_at
 from gearlube_core.dynamics.train.part import shipped_kinds
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
-from importlib.resources import files
 from pathlib import Path
 from typing import get_type_hints
 
 import numpy as np
 import pytest
 
-from fmu_src.helical_pair import DEFINITION, definition_with, pair_parameters
+from fmu_src.helical_pair import DEFINITION, pair_parameters
 from fmu_src.helical_variables import HELICAL_PAIR
 from fmu_src.native.helical_cases import GIVEN_FLOATS, HEAD_FLOATS
 from fmu_src.native.helical_pair import native_model
@@ -54,6 +52,7 @@ from gearlube_core.film_model.net import N_NUMBERS
 from gearlube_core.kernels.flat_tuples import count_floats
 from tests.helpers.native_helical_values import (
     PARAMETERS,
+    own_gear,
     python_model,
     random_values,
     usual_values,
@@ -97,14 +96,6 @@ def instance(
         parameters=np.array(values),
         work=np.zeros(model.work_size),
     )
-
-
-def own_gear(folder: Path, edit: Callable[[str], str]) -> NativeModel:
-    """Return the native model with the gear file of he_2007, edited."""
-    shipped = files("gearlube_core.helical_geometry") / "data" / "he_2007.toml"
-    path = folder / "own.toml"
-    path.write_text(edit(shipped.read_text()))
-    return native_model(definition_with(path))
 
 
 def check_packed(loaded: LoadedModel, seed: int, count: int) -> None:

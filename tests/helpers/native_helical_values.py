@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from fmu_src.helical_pair import definition_with
 from fmu_src.helical_variables import HELICAL_PAIR
+from fmu_src.native.helical_pair import native_model
 from fmu_src.native.model import NativeModel
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 
@@ -69,3 +74,11 @@ def usual_values(rng: np.random.Generator) -> list[float]:
             value = variable.nominal * 10.0 ** rng.uniform(-1.0, 1.0)
             values[variable.name] = min(max(value, low), high)
     return list(values.values())
+
+
+def own_gear(folder: Path, edit: Callable[[str], str]) -> NativeModel:
+    """Return the native model with the gear file of he_2007, edited."""
+    shipped = files("gearlube_core.helical_geometry") / "data" / "he_2007.toml"
+    path = folder / "own.toml"
+    path.write_text(edit(shipped.read_text()))
+    return native_model(definition_with(path))

@@ -13,13 +13,11 @@ from collections.abc import Callable
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.mean_power import LEAST_WINDOW
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
+from gearlube_core.dynamics.stepped_model import TOO_FAR_WORDS, TOO_FAST_WORDS, too_many_steps_words
 from gearlube_core.dynamics.train.drivers import EVERY, AllElements
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, W
 from gearlube_core.dynamics.train.exchange import now_kernel
-from gearlube_core.dynamics.train.outputs import (
-    outputs_kernel,
-    write_work_size,
-)
+from gearlube_core.dynamics.train.outputs import outputs_kernel, write_work_size
 from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.dynamics.train.rest import rest_kernels
 from gearlube_core.dynamics.train.rest_search import OK, rest_work_size
@@ -38,6 +36,14 @@ TOO_FAST = 3
 
 MAX_STEPS = 150_000  # in one communication interval, or their cost
 DIVERGED = 0.1  # m, displacement of a body: supports long broken
+REFUSALS = {
+    NOT_FINITE: (
+        "the state is no longer finite, or a body has moved by more than 0.1 m. Reduce the torques"
+    ),
+    TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
+    TOO_FAST: TOO_FAST_WORDS,
+    TOO_FAR: TOO_FAR_WORDS,
+}
 
 
 @kernel

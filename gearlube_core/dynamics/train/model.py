@@ -10,8 +10,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.ranges import MAX_SPEED, TOO_FAR
-from gearlube_core.dynamics.stepped_model import TOO_FAR_WORDS, TOO_FAST_WORDS, too_many_steps_words
+from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.assemble import Assembly, assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
 from gearlube_core.dynamics.train.elements.port import Port
@@ -20,14 +19,11 @@ from gearlube_core.dynamics.train.march import (
     ENERGY,
     EVENT,
     EXCHANGE,
-    MAX_STEPS,
-    NOT_FINITE,
     RATES,
+    REFUSALS,
     RENEW,
     START,
     STIFFNESS,
-    TOO_FAST,
-    TOO_MANY_STEPS,
     WRITE,
     work_size,
 )
@@ -40,14 +36,6 @@ from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
 
 MOST_TORQUE = 1e7  # N.m, of a port
-REFUSALS = {
-    NOT_FINITE: (
-        "the state is no longer finite, or a body has moved by more than 0.1 m. Reduce the torques"
-    ),
-    TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
-    TOO_FAST: TOO_FAST_WORDS,
-    TOO_FAR: TOO_FAR_WORDS,
-}
 
 
 class Train:
