@@ -165,7 +165,8 @@ RATE_OUTPUTS: tuple[str, ...] = (
     OUTPUT_NAMES[PINION_ACCELERATION],
     OUTPUT_NAMES[WHEEL_ACCELERATION],
 )
-# what follows from the flanks alone, and from bearings and stored energy
+# what follows from the flanks alone, and from forces of bearings and stored energy; films of
+# rollers are dear, and come with all outputs
 FLANK_GROUP: tuple[str, ...] = (
     *FLANK_OUTPUTS,
     *FLANK_BOUNDS,
@@ -174,8 +175,6 @@ FLANK_GROUP: tuple[str, ...] = (
 )
 BEARING_GROUP: tuple[str, ...] = (
     *BEARING_OUTPUTS,
-    *BEARING_FILMS,
-    OUTPUT_NAMES[BEARING_SHARE_OUTSIDE],
     OUTPUT_NAMES[FIRST_ROLLER],
     OUTPUT_NAMES[STORED_ENERGY],
 )

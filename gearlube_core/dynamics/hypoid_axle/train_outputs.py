@@ -223,10 +223,7 @@ def _write_share(s: Array, work: Array, places: Array, out: Array) -> None:
 def gather_group(s: Array, work: Array, places: Array, group: Offsets, out: Array) -> None:
     """Write the outputs at these places, of flanks or of bearings; the others stay."""
     for i in group:
-        if i == BEARING_SHARE_OUTSIDE:
-            _write_share(s, work, places, out)
-        else:
-            out[i] = _value(s, work, places, i)
+        out[i] = _value(s, work, places, i)
 
 
 @kernel

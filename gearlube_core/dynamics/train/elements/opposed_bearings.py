@@ -11,6 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     N_EXPANSION,
+    NO_RACEWAYS,
     Bearing,
     RollerFilms,
     ShaftBearings,
@@ -59,9 +60,9 @@ from gearlube_core.oil.lubricant import LubricantState
 # film model
 _KEPT, _AXES, _FILM = 5, 6, 9
 # places in the memory behind the forces: drag of the present step [N.m], its bound [W], 1 where
-# films of outputs are those that are kept, work space of single rollers, of their nodes, the film
-# model
-_DRAG, _DOUBT, _ASKED, _ROLLERS = range(N_FORCES, N_FORCES + 4)
+# films of outputs are those that are kept, 1 where they are found at all, work space of single
+# rollers, of their nodes, the film model
+_DRAG, _DOUBT, _ASKED, _ALL, _ROLLERS = range(N_FORCES, N_FORCES + 5)
 _NODES = _ROLLERS + ROLLERS_MAX
 _MEMORY = _NODES + N_ROLLER_NODES
 _OWN = 4  # outputs of both bearings together
@@ -93,6 +94,7 @@ class _OpposedBearings(NamedTuple):
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         forget_forces(part(memory, 0, N_FORCES))
+        memory[_ALL] = 0.0  # until `each_step`, which forces alone do not ask for
 
     @kernel
     def expand(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -102,6 +104,7 @@ class _OpposedBearings(NamedTuple):
     @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         m = _motion(at, s)
+        memory[_ALL] = 1.0
         if h > 0.0:  # else `expand` follows
             f_ref, forces = _frequency(self, m), part(memory, 0, N_FORCES)
             follow_forces(self.bearings, m, f_ref, oil, h, self.reach, forces)
@@ -159,7 +162,9 @@ class _OpposedBearings(NamedTuple):
             f_a,
         )
         out[first + 3] = memory[_DRAG]
-        found = _raceways(self, m, at, memory, s, oil)
+        found = NO_RACEWAYS
+        if memory[_ALL] > 0.0:
+            found = _raceways(self, m, at, memory, s, oil)
         out[first + _OWN] = found.load
         out[first + _OWN + 1] = found.load_outside / found.load if found.load > 0.0 else 0.0
         rollers = part(memory, _ROLLERS, ROLLERS_MAX)
