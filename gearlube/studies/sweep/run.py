@@ -199,10 +199,11 @@ def run_sweep(
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
             stack.enter_context(locked_folder(folder))
-        modes = _modes_aside(stack, model, loads, speeds[len(speeds) // 2], settings, car_axle)
         if fmu is None:
             progress(0.0, "the FMU of the axle; it is built if none is kept")
         archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
+        # after the build, whose kernels are then not compiled twice at once
+        modes = _modes_aside(stack, model, loads, speeds[len(speeds) // 2], settings, car_axle)
         progress(0.0, "starting the first points")
         directory = stack.enter_context(unpacked(archive))
         guid, kind = fmu_guid(directory), fmu_kind(directory)
@@ -268,7 +269,7 @@ def _modes_aside(
 ) -> Callable[[], xr.DataArray | None]:
     """Begin the natural frequencies in a process of their own; return what waits for them.
 
-    They compile kernels when the machine has none yet, as long as the FMU takes to build.
+    They compile kernels when the machine has none yet, beside the first points.
     """
     if model.natural_frequencies is None:
         return lambda: None
