@@ -158,7 +158,7 @@ def axle_of_kind(axle: HypoidAxleParameters, place: Any) -> AxleTrain:
         friction="consistent" if shipped else axle.friction,
     )
     bodies, elements = hypoid_axle(largest)
-    made = assemble(bodies, elements, largest.oil)
+    made = assemble(bodies, elements, largest.oil, kinds=())
     rows = _rows(made, elements)
     at_mesh = rows["mesh"]
     of_mesh = made.plan[at_mesh + N_MEMORY]

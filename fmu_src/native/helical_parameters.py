@@ -70,7 +70,7 @@ N_CONTROL = len(StepControl._fields)
 def pair_assembly(oil: Lubricant | None = None) -> Assembly:
     """Return the train of a pair, whose list and sizes but those of tables are those of all."""
     given = helical_march_parameters(HelicalGearFile.named("he_2007"), oil=oil)
-    return assemble(*helical_pair(given), given.oil)
+    return assemble(*helical_pair(given), given.oil, kinds=())
 
 
 PAIR = pair_assembly()

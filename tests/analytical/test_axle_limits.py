@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from gearlube_core.dynamics.hypoid_axle.state import X
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from tests.helpers.axle_cases import (
     axle_with,
@@ -53,7 +54,7 @@ def test_axle_on_rigid_bearings_is_the_two_dof_pair():
             conservative(axle_with(mesh=MESH, steps_per_highest_period=30)), factor
         )
         axle, *torques = running_axle(60, parameters, efficiency=0.99)
-        start = axle.get_state()[0] * 1e-6
+        start = axle.get_state()[X]
         full = record(axle, torques, ["mesh.dte"], 0.01)[0]
         mesh = parameters.mesh
         R_p = mesh.series["R_p"][0, 0, 0]

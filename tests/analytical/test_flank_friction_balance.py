@@ -12,7 +12,6 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     asperity_load,
 )
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.dynamics.packed_mesh import PRESSURE, R_E
 from gearlube_core.friction.flank import LOAD_FLOOR, flank_friction
 from gearlube_core.friction.flank_data import (
@@ -131,7 +130,7 @@ def test_printed_traction_at_circular_pressure_agrees_with_the_equations_by_hand
 @pytest.mark.parametrize("friction", ["printed_traction_circular", "as_printed"])
 def test_only_the_circular_reading_gives_the_axle_the_pressure_of_a_circle(friction: str) -> None:
     parameters = axle_with(friction=friction)
-    packed = HypoidAxle(parameters).packed
+    packed = parameters.packed_mesh()
     # first node of the first level of load
     R_x, R_y = (parameters.mesh.windows[name][0, 0] for name in ("R_x", "R_y"))
     if friction == "printed_traction_circular":
@@ -140,7 +139,7 @@ def test_only_the_circular_reading_gives_the_axle_the_pressure_of_a_circle(frict
         expected = HertzContact(R_x=R_x, R_y=R_y, contact_modulus=E_STAR, load=1.0).mean_pressure
     # scipy's elliptic integrals near m = 1
     assert packed.windows[PRESSURE] == pytest.approx(expected, rel=1e-11)
-    assert packed.windows[R_E] == HypoidAxle(axle_with()).packed.windows[R_E]
+    assert packed.windows[R_E] == axle_with().packed_mesh().windows[R_E]
 
 
 def test_printed_form_has_less_viscous_and_more_boundary_friction() -> None:

@@ -210,7 +210,7 @@ class HelicalPairModel(SteppedModel[StepControl]):
 
     def __init__(self, parameters: HelicalMarchParameters) -> None:
         self.parameters = parameters
-        made = assemble(*helical_pair(parameters), parameters.oil)
+        made = assemble(*helical_pair(parameters), parameters.oil, kinds=())
         self._operate = generated_kernel(made)
         self._train = made.numbers, made.memory, made.plan
         self._work = np.zeros(work_size(made.sizes))

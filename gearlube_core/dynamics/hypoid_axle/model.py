@@ -149,7 +149,7 @@ class HypoidAxle(SteppedModel[StepControl]):
         self.parameters = parameters
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         bodies, self.elements = hypoid_axle(parameters)
-        made = self.assembly = assemble(bodies, self.elements, parameters.oil)
+        made = self.assembly = assemble(bodies, self.elements, parameters.oil, kinds=())
         self.operate = generated_kernel(made)
         self._at_rest = numbers_at_rest(self.elements, made, parameters.oil)
         super().__init__(

@@ -25,8 +25,8 @@ from gearlube_core.dynamics.train.outputs import train_outputs
 from gearlube_core.dynamics.train.part import Body, Element, shipped_kinds
 from gearlube_core.dynamics.train.plan import (
     AT,
-    MEMORY,
     N_MEMORY,
+    NUMBER,
     OF_TABLES,
     UNKNOWN,
     Sizes,
@@ -61,13 +61,21 @@ class Assembly(NamedTuple):
     events: tuple[Indicator, ...]
 
 
-def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant) -> Assembly:
+def assemble(
+    bodies: Sequence[Body],
+    elements: Sequence[Element],
+    oil: Lubricant,
+    kinds: Sequence[Listed] | None = None,
+) -> Assembly:
     """Return a train of bodies and elements, whose order is the order of its states and sums.
 
     Parameters
     ----------
     bodies, elements
     oil : Lubricant
+    kinds : sequence of Listed, optional
+        What an element's number in the plan counts, for code that is interpreted; those of the
+        package by default. Generated code needs none: () then loads no other element.
 
     Raises
     ------
@@ -100,7 +108,8 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
         kept[one.name] = size
         size += one.kept_size()
     numbers, memory = [flatten(oil.parameters())], []
-    kinds, listed, rows, shapes = shipped_kinds(), list[Listed](), [], []
+    kinds = shipped_kinds() if kinds is None else kinds
+    listed, rows, shapes = list[Listed](), [], []
     at_number, at_memory, at_output, at_exchanged = numbers[0].size, 0, 0, 0
     for one in elements:
         constants, room = one.numbers(), one.memory()
@@ -164,9 +173,9 @@ def assemble(bodies: Sequence[Body], elements: Sequence[Element], oil: Lubricant
 
 
 def _shape(row: Sequence[int], sizes: int) -> list[int]:
-    """Return a row of the plan without what the size of a table decides."""
+    """Return a row of the plan without its kind and what the size of a table decides."""
     by_table = [OF_TABLES if row[N_MEMORY] else 0] * 2
-    head = [*row[:MEMORY], *by_table, *row[N_MEMORY + 1 : AT]]
+    head = [UNKNOWN, row[NUMBER], *by_table, *row[N_MEMORY + 1 : AT]]
     return [*head, *row[AT : len(row) - sizes], *sizes * [OF_TABLES]]
 
 
