@@ -95,7 +95,7 @@ def torque_limits(parameters: HelicalMarchParameters) -> TorqueLimits:
 
 @kernel
 def state_status(s: Array) -> int:
-    """Return OK, or why the model says nothing of a state: NOT_FINITE, TOO_FAST or TOO_FAR."""
+    """Return OK, or why a state is outside the model: NOT_FINITE, TOO_FAST or TOO_FAR."""
     if not abs(s[PSI]) <= DIVERGED:
         return NOT_FINITE
     if not max(abs(s[PINION + W]), abs(s[WHEEL + W])) <= MAX_SPEED:

@@ -40,13 +40,13 @@ from gearlube_core.dynamics.train.march import (
     DIVERGED,
     NOT_FINITE,
     RATES,
+    REFUSALS,
     RENEW,
     START,
     TOO_FAST,
     WRITE,
     work_size,
 )
-from gearlube_core.dynamics.train.model import REFUSALS
 from gearlube_core.dynamics.train.rest_search import NO_MODES, OK
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.kernels.jit import kernel
@@ -83,7 +83,7 @@ def torque_limits(parameters: HypoidAxleParameters) -> TorqueLimits:
 
 @kernel
 def state_status(s: Array) -> int:
-    """Return OK, or why the model says nothing of a state: NOT_FINITE, TOO_FAST or TOO_FAR."""
+    """Return OK, or why a state is outside the model: NOT_FINITE, TOO_FAST or TOO_FAR."""
     if not abs(s[X]) <= DIVERGED:
         return NOT_FINITE
     if not max(abs(s[W_P]), abs(s[W_G])) <= MAX_SPEED:
