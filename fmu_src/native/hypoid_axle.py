@@ -218,6 +218,7 @@ def _entry(
             return OK
         # one call of the train for all: the compiler would copy its code for each
         own, todo, size, rate = s, WRITE, 0.0, 0.0
+        torque_p, torque_g = s[PINION_TORQUE], s[WHEEL_TORQUE]
         temperature = kept[at.states + 2]
         if operation == _STEP:
             own = array_at(pointer_at(work, at.trial), at.states)
@@ -243,6 +244,8 @@ def _entry(
             return OK
         if status == OK and operation == _DERIVATIVES:
             gather_rates(s, scratch, outputs_of, out)
+        if status != OK:  # what is refused changes nothing
+            s[PINION_TORQUE], s[WHEEL_TORQUE] = torque_p, torque_g
         if status == OK and operation == _STEP:
             for i in range(at.states):
                 s[i] = own[i]
