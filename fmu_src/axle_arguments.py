@@ -11,12 +11,8 @@ from fmu_src.variables import HYPOID_AXLE, SHARED_PRELOAD
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
-    mohammadpour_2015_axle,
-)
-from gearlube_core.dynamics.hypoid_mesh.parameters import (
-    HypoidAxleParameters,
-)
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import numbers_of
 from gearlube_core.oil.lubricant import Lubricant

@@ -29,12 +29,8 @@ from drivetrain.road_load import FinalDrive, RoadLoad
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
-from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
-    mohammadpour_2015_axle,
-)
-from gearlube_core.dynamics.hypoid_mesh.parameters import (
-    HypoidAxleParameters,
-)
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile, InputNote, toml_data

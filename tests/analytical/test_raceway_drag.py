@@ -22,9 +22,7 @@ from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
-    mohammadpour_2015_axle,
-)
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.state import gear_motion, pinion_motion
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.each import each

@@ -36,9 +36,7 @@ from gearlube.studies.sweep.unpack import unpacked
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.output_names import (
-    OUTPUT_NAMES,
-)
+from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.uncertain import drawn_losses
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError

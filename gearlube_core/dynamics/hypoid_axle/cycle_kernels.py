@@ -8,9 +8,7 @@ from functools import cache
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import (
-    ShaftBearings,
-)
+from gearlube_core.bearings.bearing_type import ShaftBearings
 from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
     AT_CHANNELS,
     AT_EXPANSION,
@@ -28,9 +26,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
     mesh_cycle,
     turning_at,
 )
-from gearlube_core.dynamics.hypoid_axle.shafts_at_rest import (
-    OK,
-)
+from gearlube_core.dynamics.hypoid_axle.shafts_at_rest import OK
 from gearlube_core.dynamics.hypoid_mesh.flank_outputs import (
     FILM_RATIO,
     LOAD,
@@ -46,9 +42,7 @@ from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
     mesh_levels,
     place_at_load,
 )
-from gearlube_core.dynamics.hypoid_mesh.mesh_force import (
-    mesh_force,
-)
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import mesh_force
 from gearlube_core.dynamics.hypoid_mesh.tooth_pair import EXACT
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import write_ranges

@@ -34,11 +34,8 @@ from gearlube_core.dynamics.hypoid_axle.shafts_at_rest import (
     pinion_motion,
     shafts_at_rest,
 )
-from gearlube_core.dynamics.hypoid_mesh.flank_outputs import (
-    FLANK_OUTPUTS,
-    FLANK_RECORDS,
-)
-from gearlube_core.dynamics.hypoid_mesh.flanks import N_FRICTION, flank_sum
+from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_OUTPUTS, FLANK_RECORDS
+from gearlube_core.dynamics.hypoid_mesh.flanks import N_FRICTION, flank_sum, force_on_pinion
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
     MeshAtLoad,
@@ -77,7 +74,7 @@ N_LOSSES = len(LOSS_SOURCES)
     _ROLLING,
 ) = range(N_LOSSES)  # fmt: skip
 _MOST_BALANCES = 40
-_RESTS = 2  # of them that find the shafts' displacements anew; later ones change nothing
+_RESTS = 2  # of them that find the shafts' displacements again; later ones change nothing
 _BALANCED = 1e-6  # of the torques on the pinion
 _LEAST_TORQUE = 1e-3  # N.m, of which this share is taken at least
 
@@ -197,12 +194,9 @@ def _add_angle(
     p_z, p_y, p_x, lost_p = expanded_forces(p.bearing_p, here.pinion, expansion)
     expand_about(p.bearing_g, here.gear, f_g, oil, expansion)
     g_x, g_y, g_z, lost_g = expanded_forces(p.bearing_g, here.gear, expansion)
-    shared, lateral = p.mesh.consistent, p.lateral_sign * mesh.force
-    f_x = -mesh.n_x * lateral + shared * friction.f_x
-    f_y = -mesh.n_y * lateral + shared * friction.f_y
-    f_z = -mesh.n_z * lateral + shared * friction.f_z
+    f_x, f_y, f_z = force_on_pinion(mesh, friction, p.lateral_sign, p.mesh.consistent)
     cage = p.bearing_p.cage_ratio * cage_torque(here.pinion.r1, here.pinion.r2, p_z, p_y)
-    on_shaft = shared * cage - drag.bearings_p - drag.seal_p
+    on_shaft = p.mesh.consistent * cage - drag.bearings_p - drag.seal_p
     mean[_VISCOUS] += share * friction.viscous_power
     mean[_BOUNDARY] += share * friction.boundary_power
     mean[_MESH_DAMPING] += share * mesh.damping_power

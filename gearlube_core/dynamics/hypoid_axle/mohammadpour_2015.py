@@ -6,9 +6,7 @@ from typing import get_args
 
 from gearlube_core.bearings.tapered_roller_bearing import PRELOAD, Approach, TaperedRollerBearing
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.contact.solid import (
-    STEEL_MOHAMMADPOUR_2015,
-)
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable

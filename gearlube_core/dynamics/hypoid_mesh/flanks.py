@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
+from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForce, MeshMotion
 from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
 from gearlube_core.dynamics.hypoid_mesh.tooth_pair import (
     flank_coefficients,
@@ -50,6 +50,29 @@ class FlankSum(NamedTuple):
     viscous_power: float  # W
     boundary_power: float  # W
     rolling_power: float  # W
+
+
+@kernel
+def force_on_pinion(
+    mesh: MeshForce, friction: FlankSum, lateral_sign: float, consistent: float
+) -> tuple[float, float, float]:
+    """Return the force of the teeth on the pinion along x, y, z [N]; the gear carries the opposite.
+
+    Parameters
+    ----------
+    mesh : MeshForce
+    friction : FlankSum
+    lateral_sign : float
+        1, or -1 with the sign that the paper prints.
+    consistent : float
+        1: with the forces of friction; 0: without them, as printed.
+    """
+    lateral = lateral_sign * mesh.force
+    return (
+        -mesh.n_x * lateral + consistent * friction.f_x,
+        -mesh.n_y * lateral + consistent * friction.f_y,
+        -mesh.n_z * lateral + consistent * friction.f_z,
+    )
 
 
 @kernel

@@ -14,7 +14,13 @@ from gearlube_core.dynamics.hypoid_mesh.flank_outputs import (
     N_FLANK_QUANTITIES,
     write_flanks,
 )
-from gearlube_core.dynamics.hypoid_mesh.flanks import BOUND_POWER, FILMS, N_FRICTION, flank_sum
+from gearlube_core.dynamics.hypoid_mesh.flanks import (
+    BOUND_POWER,
+    FILMS,
+    N_FRICTION,
+    flank_sum,
+    force_on_pinion,
+)
 from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
     follow_flank,
     gap_rotation,
@@ -181,11 +187,7 @@ class HypoidMeshKernels(NamedTuple):
         )
         memory[TORQUE] = -mesh.torque_p
         memory[X_RATE] = mesh.x_rate
-        shared = self.mesh.consistent
-        lateral = self.lateral_sign * mesh.force
-        f_x = -mesh.n_x * lateral + shared * friction.f_x
-        f_y = -mesh.n_y * lateral + shared * friction.f_y
-        f_z = -mesh.n_z * lateral + shared * friction.f_z
+        f_x, f_y, f_z = force_on_pinion(mesh, friction, self.lateral_sign, self.mesh.consistent)
         p, g = at[0] + RATE, at[1] + RATE
         ds[p] += f_x
         ds[p + 1] += f_y
