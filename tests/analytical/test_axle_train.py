@@ -61,7 +61,8 @@ def test_the_axle_moves_as_its_train_and_loses_what_it_is_given(changes):
     assert found["mesh.film_thickness_min"] == pytest.approx(thinnest, rel=1e-9)
     assert min(axle.output("mesh.dte"), 0.0) < 0.0
     missing = train.work - sum(train.lost.values()) - (train.energy - start)
-    assert abs(missing) < 1e-3 * TORQUE * SPEED * 0.006
+    # the stiffness follows the load level without work: 5e-6 of what is put in, at any step
+    assert abs(missing) < 1e-5 * TORQUE * SPEED * 0.006
 
 
 def changed_model(name: str) -> FilmModel:
