@@ -33,6 +33,7 @@ from numba.core.serialize import dumps
 from numba.core.typing import Signature
 
 from gearlube_core.kernels.linked_code import rebuild_linked_code
+from gearlube_core.kernels.machine_code import rebuild_machine_code
 from gearlube_core.kernels.source_files import source_stamp
 
 logger = logging.getLogger(__name__)
@@ -44,6 +45,9 @@ class _Files(CompileResultCacheImpl):  # type: ignore[misc]
     def get_filename_base(self, fullname: str, abiflags: str) -> str:
         """Return a name other than that of numba's own cache, whose index may not be readable."""
         return f"{super().get_filename_base(fullname, abiflags)}.checked"
+
+    def rebuild(self, target_context: Any, payload: tuple[Any, ...]) -> Any:
+        return rebuild_machine_code(target_context, payload)
 
 
 class _LinkedFiles(_Files):

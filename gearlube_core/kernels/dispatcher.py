@@ -17,12 +17,13 @@ from typing import Any, TypeVar
 from numba import types
 from numba.core import config
 from numba.core.bytecode import FunctionIdentity
-from numba.core.compiler import Compiler, Flags
+from numba.core.compiler import Flags
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher
 
 from gearlube_core.kernels.compiled_cache import LinkedCache, SourceCache, cache_of
 from gearlube_core.kernels.linked_code import LinkedCodeCompiler
+from gearlube_core.kernels.machine_code import MachineCodeCompiler
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -70,7 +71,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
         py_func: Callable[..., Any],
         locals: dict[str, Any] | None = None,
         targetoptions: dict[str, Any] | None = None,
-        pipeline_class: type = Compiler,
+        pipeline_class: type = MachineCodeCompiler,
     ) -> None:
         options = {**(targetoptions or {}), "nopython": True, "no_cfunc_wrapper": True}
         locals = locals or {}

@@ -8,6 +8,7 @@ machine code computes the same numbers at the same speed.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from llvmlite.binding import parse_bitcode
@@ -56,10 +57,10 @@ class LinkedCodeCompiler(Compiler):  # type: ignore[misc]
 
 
 class _LoadingContext:
-    """A target context whose libraries are loaded as `_LinkedLibrary`."""
+    """A target context whose libraries are made by `load`, of a code generator and what is kept."""
 
-    def __init__(self, context: Any) -> None:
-        self._context = context
+    def __init__(self, context: Any, load: Callable[[Any, Any], Any]) -> None:
+        self._context, self._load = context, load
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._context, name)
@@ -67,15 +68,26 @@ class _LoadingContext:
     def codegen(self) -> _LoadingContext:
         return self
 
-    def unserialize_library(self, data: tuple[str, bytes]) -> _LinkedLibrary:
-        name, code = data
-        library = _LinkedLibrary(self._context.codegen(), name)
-        library._final_module = parse_bitcode(code)
-        library._finalize_final_module()
-        return library
+    def unserialize_library(self, data: Any) -> Any:
+        return self._load(self._context.codegen(), data)
+
+
+def rebuilt(
+    target_context: Any, payload: tuple[Any, ...], load: Callable[[Any, Any], Any]
+) -> CompileResult:
+    """Return the numba CompileResult that was stored as `payload`, its library made by `load`."""
+    result = CompileResult._rebuild(_LoadingContext(target_context, load), *payload)
+    return result._replace(target_context=target_context)
+
+
+def _loaded(codegen: Any, data: tuple[str, bytes]) -> _LinkedLibrary:
+    name, code = data
+    library = _LinkedLibrary(codegen, name)
+    library._final_module = parse_bitcode(code)
+    library._finalize_final_module()
+    return library
 
 
 def rebuild_linked_code(target_context: Any, payload: tuple[Any, ...]) -> Any:
     """Return the numba CompileResult that was stored as `payload`."""
-    result = CompileResult._rebuild(_LoadingContext(target_context), *payload)
-    return result._replace(target_context=target_context)
+    return rebuilt(target_context, payload, _loaded)

@@ -296,6 +296,10 @@ def test_linked_code_is_read_from_disk_when_its_caller_is_compiled_anew(
         return subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
 
     assert output() == ["2.0", "True"]
+    # a run that compiles nothing would hold intermediate code, which no caller is linked with
+    for code in (tmp_path / "cache").rglob("*.nbc"):
+        assert (b"BC\xc0\xde" in code.read_bytes()) == ("linked" in code.name)
+    assert output() == ["2.0", "True"]
     for caller in (tmp_path / "cache").rglob("*quarter*"):
         caller.unlink()
     assert output() == ["2.0", "1", "True"]
