@@ -33,7 +33,7 @@ from fmu_src.native.axle_layout import (
     write_parameters,
 )
 from fmu_src.native.axle_numbers import AxleTrain, axle_of_kind, write_numbers
-from fmu_src.native.model import Exchange, NativeModel, Operation
+from fmu_src.native.model import Exchange, Group, NativeModel, Operation
 from fmu_src.native.parameter_map import (
     AxleSettings,
     KernelClasses,
@@ -86,7 +86,8 @@ REFUSALS: Mapping[int, str] = {
     PRINTED_FILM: PRINTED_WITH_SOLVED_FILM,
 }
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
-_CHECK, _FLANKS, _BEARINGS = map(int, (Operation.CHECK, Operation.FLANKS, Operation.BEARINGS))
+_SHOW, _CHECK = map(int, tuple(Operation)[7:])
+_RATES, _FLANKS, _BEARINGS = map(int, Group)
 _N_INPUTS = 3
 
 
@@ -217,7 +218,7 @@ def _entry(
             )
             return OK
         # one call of the train for all: the compiler would copy its code for each
-        own, todo, size, rate = s, WRITE, 0.0, 0.0
+        own, todo, size, rate, groups = s, WRITE, 0.0, 0.0, 0
         torque_p, torque_g = s[PINION_TORQUE], s[WHEEL_TORQUE]
         temperature = kept[at.states + 2]
         if operation == _STEP:
@@ -230,20 +231,24 @@ def _entry(
             s[PINION_TORQUE], s[WHEEL_TORQUE] = kept[at.states], kept[at.states + 1]
         if operation == _EVENT:
             todo = EVENT
-        elif operation == _DERIVATIVES:
-            todo = EXCHANGE
-        elif operation in (_FLANKS, _BEARINGS):
-            todo, size = SHOW, float(bits[0] if operation == _FLANKS else bits[1])
+        elif operation in (_DERIVATIVES, _SHOW):
+            groups = int(step) if operation == _SHOW else _RATES
+            todo = EXCHANGE if groups & _RATES else SHOW
+            if groups & _FLANKS:
+                size += float(bits[0])
+            if groups & _BEARINGS:
+                size += float(bits[1])
+                rate = 1.0  # the stored energy too
         status = int(operate(todo, own, temperature, numbers, memory, plan, size, rate, scratch))
         if todo == WRITE:
             gather_outputs(s, scratch, outputs_of, out)
             return OK
-        if todo == SHOW:
-            group = of_flanks if operation == _FLANKS else of_bearings
-            gather_group(s, scratch, outputs_of, group, out)
-            return OK
-        if status == OK and operation == _DERIVATIVES:
+        if status == OK and groups & _RATES:
             gather_rates(s, scratch, outputs_of, out)
+        if status == OK and groups & _FLANKS:
+            gather_group(s, scratch, outputs_of, of_flanks, out)
+        if status == OK and groups & _BEARINGS:
+            gather_group(s, scratch, outputs_of, of_bearings, out)
         if status != OK:  # what is refused changes nothing
             s[PINION_TORQUE], s[WHEEL_TORQUE] = torque_p, torque_g
         if status == OK and operation == _STEP:
@@ -315,9 +320,9 @@ def native_model(definition: Definition) -> NativeModel:
         refusals=REFUSALS,
         motion=frozenset(output_names.MOTION_OUTPUTS),
         groups={
-            Operation.DERIVATIVES: frozenset(output_names.RATE_OUTPUTS),
-            Operation.FLANKS: frozenset(output_names.FLANK_GROUP),
-            Operation.BEARINGS: frozenset(output_names.BEARING_GROUP),
+            Group.RATES: frozenset(output_names.RATE_OUTPUTS),
+            Group.FLANKS: frozenset(output_names.FLANK_GROUP),
+            Group.BEARINGS: frozenset(output_names.BEARING_GROUP),
         },
         exchange=Exchange(
             states=output_names.STATE_NAMES,

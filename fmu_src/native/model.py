@@ -61,10 +61,17 @@ class Operation(IntEnum):
     MOTION = 4  # state after a step -> the outputs named in `motion`
     DERIVATIVES = 5  # state and its own inputs -> rates and event indicators, among the outputs
     EVENT = 6  # state -> state after what an event changes, if anything
-    FLANKS = 7  # state after a step -> the outputs of this group, see `groups`
-    BEARINGS = 8  # likewise
-    CHECK = 9  # OK if the data can be used; `parameters` are the lengths of data and work, and
+    SHOW = 7  # state after a step -> the outputs of the groups whose sum is `step`, see `Group`
+    CHECK = 8  # OK if the data can be used; `parameters` are the lengths of data and work, and
     # `inputs` how many options each parameter has; see `kind`
+
+
+class Group(IntEnum):
+    """Outputs that SHOW writes alone, as `model.h` counts; those of RATES by DERIVATIVES too."""
+
+    RATES = 2
+    FLANKS = 4
+    BEARINGS = 8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,9 +118,8 @@ class NativeModel:
     motion : frozenset of str
         Outputs that cost next to nothing. With any, STEP writes no outputs: MOTION writes these and
         OUTPUTS all of them, when the host reads one.
-    groups : mapping of Operation to frozenset of str
-        Outputs that FLANKS or BEARINGS write alone after a step, and those that
-        DERIVATIVES writes besides rates and event indicators.
+    groups : mapping of Group to frozenset of str
+        Outputs of each group; of RATES those besides rates and event indicators.
     exchange : Exchange, optional
         Without it the FMU is for co-simulation only, and the entry is never asked for
         DERIVATIVES and EVENT.
@@ -131,7 +137,7 @@ class NativeModel:
     entry: Callable[..., int] | None = None
     c_code: Mapping[str, str] = field(default_factory=dict)
     motion: frozenset[str] = frozenset()
-    groups: Mapping[Operation, frozenset[str]] = field(default_factory=dict)
+    groups: Mapping[Group, frozenset[str]] = field(default_factory=dict)
     exchange: Exchange | None = None
     kind: str = ""
     any_sizes: bool = False

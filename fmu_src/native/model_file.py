@@ -9,7 +9,7 @@ from uuid import UUID
 
 import numpy as np
 
-from fmu_src.native.model import NativeModel, Operation
+from fmu_src.native.model import Group, NativeModel
 from fmu_src.native.sources import array_variables, sizes_of
 from fmu_src.variable import Variable
 
@@ -22,12 +22,7 @@ HEAD_SIZE = CHECKSUM_AT + 4
 # as the enumerations of `model.h` count
 _KINDS = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2}
 _CAUSALITIES = {"parameter": 0, "input": 1, "output": 2, "local": 2}
-_NOTHING, _OF_MOTION, _OF_RATES, _OF_OUTPUTS = 0, 1, 2, 16
-_BITS = {
-    Operation.DERIVATIVES: _OF_RATES,
-    Operation.FLANKS: 4,
-    Operation.BEARINGS: 8,
-}
+_NOTHING, _OF_MOTION, _OF_OUTPUTS = 0, 1, 16
 
 
 class _Words:
@@ -65,11 +60,11 @@ def _needs(variable: Variable, model: NativeModel) -> int:
         return _NOTHING
     if variable.name in model.motion:
         return _OF_MOTION
-    for operation, names in model.groups.items():
+    for group, names in model.groups.items():
         if variable.name in names:
-            return _BITS[operation]
+            return int(group)
     is_rate = model.exchange and (variable.rate_of or variable.name in model.exchange.indicators)
-    return _OF_RATES if is_rate else _OF_OUTPUTS
+    return int(Group.RATES) if is_rate else _OF_OUTPUTS
 
 
 def model_body(model: NativeModel) -> tuple[bytes, list[int]]:

@@ -16,7 +16,7 @@ from fmu_src.hypoid_axle import DEFINITION, definition_with_axle, definition_wit
 from fmu_src.native.axle_data import N_SIZES, DataSizes, data_ends
 from fmu_src.native.build import ENTRY
 from fmu_src.native.hypoid_axle import MODAL_WITHOUT_LOSS, PRINTED_FILM, REFUSALS, native_model
-from fmu_src.native.model import OK, Operation
+from fmu_src.native.model import OK, Group, Operation
 from fmu_src.native.parameter_map import KernelClasses, place_of_each
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
@@ -282,28 +282,37 @@ def test_film_models_of_ones_own_are_constants_and_change_the_films_as_in_python
     assert_outputs_agree(run, axle, 1e-9)  # as above
 
 
+def outputs_of(run, operation, step=0.0):
+    """What an operation writes."""
+    run.outputs[:] = np.nan
+    assert run(operation, step) == OK
+    written = zip(DEFINITION.output_names, run.outputs.tolist(), strict=True)
+    return {name: value for name, value in written if value == value}
+
+
 @pytest.mark.parametrize("films", ["formula", "solved"])
 def test_each_group_of_outputs_is_that_among_all_outputs(native, films):
     values = {"pinion_speed": 150.0, "film": films}
     if films == "solved":
         values["bearing_torque_loss"] = "solved_films"
+    pairs = [(a, b) for a in Group for b in Group if a < b]
+    sums = [(one,) for one in Group] + pairs + [tuple(Group)]
     run = native.instance(values, CURRENT)
     assert run(Operation.START) == OK
     for torque in (60.0, 90.0, -40.0):
         run.inputs[0] = torque
-        assert run.step(1e-3) == OK
-        of_all = dict(zip(DEFINITION.output_names, run.outputs.tolist(), strict=True))
+        assert run(Operation.STEP, 1e-3) == OK
+        after_step = [outputs_of(run, Operation.SHOW, sum(groups)) for groups in sums]
+        of_all = outputs_of(run, Operation.OUTPUTS)
         motion = run.motion()
         assert motion == {name: of_all[name] for name in motion}
         left = set(of_all) - set(motion)
-        for operation, names in native.model.groups.items():
-            run.outputs[:] = np.nan
-            assert run(operation) == OK
-            alone = dict(zip(DEFINITION.output_names, run.outputs.tolist(), strict=True))
-            written = {name for name, value in alone.items() if value == value}
-            assert {name: alone[name] for name in written} == {n: of_all[n] for n in written}
-            assert names <= written
-            left -= written
+        for groups, before in zip(sums, after_step, strict=True):
+            alone = outputs_of(run, Operation.SHOW, sum(groups))
+            assert alone == before == {name: of_all[name] for name in alone}
+            assert all(native.model.groups[one] <= set(alone) for one in groups)
+            left -= set(alone)
+        assert after_step[0] == outputs_of(run, Operation.DERIVATIVES)
         # films of rollers are dear where they are solved, and come with all outputs
         assert left == {*BEARING_FILMS, "bearing.share_outside"}
 

@@ -78,31 +78,22 @@ gl_status gl_take_inputs(gl_instance *instance)
     return GL_OK;
 }
 
-/* Operations that compute a group alone. */
-static const struct { int group, operation; } alone[] = {{GL_OF_MOTION, GL_MOTION},
-                                                         {GL_OF_FLANKS, GL_FLANKS},
-                                                         {GL_OF_BEARINGS, GL_BEARINGS},
-                                                         {GL_OF_RATES, GL_DERIVATIVES}};
-
-/* Does an operation that computes some of what is missing: a group alone, or all outputs where
-   that costs less. In model exchange powers of the motion are rates, which only the operation for
+/* Does an operation that computes some of what is missing: groups alone, as long as those suffice,
+   because all outputs may solve films of rollers. In model exchange powers of the motion are rates, which only the operation for
    all outputs computes. */
 static int64_t compute(gl_instance *instance, int missing, int *computed)
 {
     double inputs[GL_MOST_INPUTS] = {0.0}; /* those in the state count */
     int64_t operation = GL_WRITE_OUTPUTS;
-    int dear = GL_OF_FLANKS | GL_OF_BEARINGS | GL_OF_RATES;
-    int apart = instance->now.exchange ? missing == GL_OF_RATES
-                                       : !(missing & GL_OF_OUTPUTS) && (missing & dear) != dear;
     *computed = GL_ALL;
-    for (unsigned i = 0; apart && i < sizeof alone / sizeof *alone; i++) {
-        if (missing & alone[i].group) {
-            operation = alone[i].operation;
-            *computed = alone[i].group;
-            break;
-        }
+    if (missing == GL_OF_RATES) {
+        operation = GL_DERIVATIVES;
+        *computed = missing;
+    } else if (!instance->now.exchange && !(missing & GL_OF_OUTPUTS)) {
+        operation = missing & GL_OF_MOTION ? GL_MOTION : GL_SHOW;
+        *computed = missing & GL_OF_MOTION ? GL_OF_MOTION : missing;
     }
-    return gearlube_entry(operation, 0.0, instance->model->data, instance->parameters, inputs,
+    return gearlube_entry(operation, *computed, instance->model->data, instance->parameters, inputs,
                           instance->now.state, instance->work, instance->outputs);
 }
 

@@ -97,8 +97,7 @@ enum {
     GL_MOTION,
     GL_DERIVATIVES,
     GL_EVENT,
-    GL_FLANKS,
-    GL_BEARINGS,
+    GL_SHOW, /* of the groups whose bits, as in `needs`, `step` sums up */
     GL_CHECK /* only of an entry that takes data of any length: `parameters` are the lengths of data
                 and work and then gl_sizes, `inputs` how many options each parameter has */
 };

@@ -40,8 +40,8 @@ class AllElements(NamedTuple):
     """Kernels of these names of all elements, see `element.Kernels`, and one of the sizes.
 
     They take the state, the oil's, numbers and memory of the assembly and the plan, then what
-    those of an element take more; those of `expand` and `write` at last which elements: EVERY, or
-    a bit for each. That of the sizes takes the plan alone.
+    those of an element take more; that of `show` at last which elements, a bit for each. That of
+    the sizes takes the plan alone.
     """
 
     at_rest: Callable[..., None]
@@ -59,6 +59,7 @@ class AllElements(NamedTuple):
     add_forces: Callable[..., None]
     event: Callable[..., None]
     write: Callable[..., None]
+    show: Callable[..., None]
     exchange: Callable[..., None]
     check: Callable[..., float]  # least; of `interpreted` alone is it called
     sizes_of: Callable[[Offsets], Sizes]
@@ -70,7 +71,7 @@ _LINES = {
     "at_rest": ("", "{call}", "None"),
     "full_contact": ("", "{call}", "None"),
     "begin": ("", "{call}", "None"),
-    "expand": (", only", "{call}", "None"),
+    "expand": ("", "{call}", "None"),
     "each_step": (", h", "total += {call}", "total"),
     "after_part": (", h", "{call}", "None"),
     "after_step": (", h", "{call}", "None"),
@@ -81,14 +82,14 @@ _LINES = {
     "stored_energy": ("", "total += {call}", "total"),
     "add_forces": (", stage, ds", "{call}", "None"),
     "event": ("", "{call}", "None"),
-    "write": (", out, only", "{call}", "None"),
+    "write": (", out", "{call}", "None"),
+    "show": (", stage, out, only", "{call}", "None"),
     "exchange": (", out", "{call}", "None"),
     "check": ("", "total = min(total, {call})", "total"),
 }
 # of a row: what these take last
-_LAST = {"write": OUTPUT, "exchange": EXCHANGED, "check": N_KEPT}
-# of these, the elements whose bit is set in `only` are called: EVERY; all behind share the last one
-_CHOSEN, _LAST_BIT, EVERY = ("expand", "write"), 62, 2**63 - 1
+_LAST = {"write": OUTPUT, "show": OUTPUT, "exchange": EXCHANGED, "check": N_KEPT}
+_LAST_BIT = 62  # in `only`; all elements behind share it
 _BEGIN = {"time_to_jump": "math.inf", "check": "1.0"}
 
 
@@ -179,7 +180,7 @@ def generated(elements: Sequence[Listed], plan: Sequence[int]) -> AllElements:
             if hasattr(one.numbers, name):
                 line = source.call(name, i, one, calls[i], first[i].format(name))
                 source.given |= {f"p{i}": 1 << min(i, _LAST_BIT)}
-                test = f"if only & p{i}: " if name in _CHOSEN else ""
+                test = f"if only & p{i}: " if name == "show" else ""
                 source.lines.append(f"        {test}{line}")
         source.end(name)
     sizes = Sizes(*plan[:FIRST_ROW])
@@ -216,7 +217,7 @@ def interpreted(kinds: Sequence[Listed]) -> AllElements:
             first = f"row[{_LAST.get(name, 0)}]"
             line = source.call(name, i, kinds[i], calls[i], first)
             test = "if" if i == having[0] else "elif"
-            if name in _CHOSEN:
+            if name == "show":
                 line = f"if only & (1 << min(i, {_LAST_BIT})): {line}"
             source.lines += [f"            {test} kind == q{i}:", f"                {line}"]
         source.lines.append(f"            at += {AT} + row[{N_PLACES}]")

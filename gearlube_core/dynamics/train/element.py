@@ -118,7 +118,22 @@ class Kernels(Protocol):
     ) -> None:
         """Write the element's outputs into `out` from place `first` on.
 
-        `stored_energy` of this state has been computed before.
+        Rates and `stored_energy` of this state have been computed before.
+        """
+
+    def show(
+        self,
+        at: Any,
+        memory: Array,
+        s: Array,
+        oil: LubricantState,
+        stage: int,
+        out: Array,
+        first: int,
+    ) -> None:
+        """Write those outputs that take no rates, without `expand` and `add_forces` before.
+
+        `stage` is what `add_forces` would take. A host that reads these alone waits for no others.
         """
 
     def exchange(

@@ -11,11 +11,13 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array, Offsets
-from gearlube_core.dynamics.train.drivers import EVERY, AllElements
+from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import AFTER_STEP, BODY_STATES, COORDINATES, N_COORDINATES
 from gearlube_core.dynamics.train.outputs import MOVING, TURNING, named_of
 from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import LubricantState
@@ -102,12 +104,17 @@ def event_indicators(elements: Sequence[Element], integrated: int) -> tuple[Indi
     return tuple(found)
 
 
+@inside
+def stage_of(s: Array, sizes: Sizes) -> int:
+    """Return the stage of a state by itself, see `Kernels.add_forces`."""
+    return AFTER_STEP if s[sizes.states - 1] > 0.0 else 0
+
+
 def now_kernel(elements: AllElements, rates: Callable[..., None]) -> Callable[..., None]:
     """Return the kernel of the rates of a state in which elements keep what they keep.
 
     It writes the rates of all integrated states into `work`, behind them what `Kernels.exchange`
-    gives; the state stays as it is. `work` has room for a state behind that. Unless it is asked for
-    EVERY element, the others serve no rates.
+    gives; the state stays as it is. `work` has room for a state behind that.
     """
     sizes_of, each_step = elements.sizes_of, elements.each_step
     expand, exchange = elements.expand, elements.exchange
@@ -119,19 +126,16 @@ def now_kernel(elements: AllElements, rates: Callable[..., None]) -> Callable[..
         numbers: Array,
         memory: Array,
         plan: Offsets,
-        which: int,
         work: Array,
     ) -> None:
         sizes = sizes_of(plan)
         n, n_state, exchanged = sizes.integrated, sizes.states, sizes.exchanged
         slope, begun = part(work, 0, n), part(work, n + exchanged, n_state)
-        if which == EVERY:
-            for i in range(n_state):
-                begun[i] = s[i]
-            each_step(begun, oil, numbers, memory, plan, 0.0)  # changes what is kept
-        expand(s, oil, numbers, memory, plan, which)
-        stage = AFTER_STEP if s[n_state - 1] > 0.0 else 0
-        rates(s, oil, numbers, memory, plan, stage, slope)
+        for i in range(n_state):
+            begun[i] = s[i]
+        each_step(begun, oil, numbers, memory, plan, 0.0)  # changes what is kept
+        expand(s, oil, numbers, memory, plan)
+        rates(s, oil, numbers, memory, plan, stage_of(s, sizes), slope)
         exchange(s, oil, numbers, memory, plan, part(work, n, exchanged))
 
     return now

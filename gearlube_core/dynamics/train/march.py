@@ -14,10 +14,15 @@ from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.mean_power import LEAST_WINDOW
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.dynamics.stepped_model import TOO_FAR_WORDS, TOO_FAST_WORDS, too_many_steps_words
-from gearlube_core.dynamics.train.drivers import EVERY, AllElements
+from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, W
-from gearlube_core.dynamics.train.exchange import now_kernel
-from gearlube_core.dynamics.train.outputs import outputs_kernel, write_work_size
+from gearlube_core.dynamics.train.exchange import now_kernel, stage_of
+from gearlube_core.dynamics.train.outputs import (
+    energy_at,
+    of_elements_at,
+    outputs_kernel,
+    write_work_size,
+)
 from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.dynamics.train.rest import rest_kernels
 from gearlube_core.dynamics.train.rest_search import OK, rest_work_size
@@ -63,13 +68,14 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     RENEW
         What elements keep is found again for this state.
     SHOW
-        What WRITE writes of the elements whose bits are set in `size` alone; accelerations,
-        rates and indicators are then not those of the state.
+        Of what WRITE writes, outputs of elements whose bits are set in `size`: those that take no
+        rates, see `Kernels.show`. The stored energy too if `least_rate` is above 0. Returns OK.
     ENERGY, WRITE
         The energy [J]; WRITE writes what EXCHANGE does and then the outputs into `work` before.
     EXCHANGE
         Rates of all integrated states into `work`, then rates of levels and event indicators of
-        each element; returns the status of the state, and only writes where it is OK.
+        each element, and what SHOW writes if `size` is above 0; returns the status of the state,
+        and only writes where it is OK.
     EVENT
         The state is changed as between two steps, where anything is due; returns as EXCHANGE does.
     ADVANCE
@@ -91,7 +97,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     after_part, after_step = of_all.after_part, of_all.after_step
     add_forces, event, stored_energy = of_all.add_forces, of_all.event, of_all.stored_energy
     step_rate, stiffening = of_all.step_rate, of_all.stiffening
-    time_to_jump = of_all.time_to_jump
+    time_to_jump, show = of_all.time_to_jump, of_all.show
 
     @inside
     def forces(
@@ -257,7 +263,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     def renew(s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets) -> None:
         begin(s, oil, numbers, memory, plan)
         each_step(s, oil, numbers, memory, plan, 0.0)
-        expand(s, oil, numbers, memory, plan, EVERY)
+        expand(s, oil, numbers, memory, plan)
 
     start, stiffness = rest_kernels(of_all, renew, rates, forces)
     now = now_kernel(of_all, rates)
@@ -293,21 +299,29 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
             return 0.0
         if operation in (EXCHANGE, EVENT):
             status = status_of(s, plan)
-            if status == OK:
-                begin(s, oil, numbers, memory, plan)
-                if operation == EVENT:
-                    event(s, oil, numbers, memory, plan)
-                    finish(s, oil, numbers, memory, plan)
-                else:
-                    now(s, oil, numbers, memory, plan, EVERY, work)
-            return float(status)
+            if status != OK:
+                return float(status)
         begin(s, oil, numbers, memory, plan)
+        if operation == EVENT:
+            event(s, oil, numbers, memory, plan)
+            finish(s, oil, numbers, memory, plan)
+            return float(OK)
         if operation == ADVANCE:
             return float(advance(s, size, oil, numbers, memory, plan, least_rate, work))
+        if operation == EXCHANGE:
+            now(s, oil, numbers, memory, plan, work)
+        sizes = sizes_of(plan)
+        of_elements, shows = of_elements_at(numbers, sizes), operation in (EXCHANGE, SHOW)
+        if shows and size > 0.0:
+            out = part(work, of_elements, sizes.outputs)
+            show(s, oil, numbers, memory, plan, stage_of(s, sizes), out, int(size))
+        if shows and (size <= 0.0 or least_rate <= 0.0):
+            return float(OK)
         stored = kinetic_energy(s, numbers, plan) + stored_energy(s, oil, numbers, memory, plan)
-        if operation in (WRITE, SHOW):
-            which = EVERY if operation == WRITE else int(size)
-            write_all(s, oil, numbers, memory, plan, which, stored, work)
-        return stored
+        if operation == WRITE:
+            write_all(s, oil, numbers, memory, plan, stored, work)
+        elif shows:
+            work[energy_at(of_elements, sizes)] = stored
+        return float(OK) if shows else stored
 
     return operate

@@ -18,6 +18,7 @@ from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import LubricantState
@@ -158,6 +159,23 @@ def write_state(s: Array, slope: Array, numbers: Array, sizes: Sizes, work: Arra
     return of_elements
 
 
+@kernel
+def of_elements_at(numbers: Array, sizes: Sizes) -> int:
+    """Return the place of the first output of an element, as `write_state` does."""
+    k = outputs_at(sizes) + len(TURNING) * sizes.bodies
+    for body in range(sizes.bodies):
+        for i in range(N_COORDINATES - 1):
+            if numbers[sizes.first_mobility + N_COORDINATES * body + i] > 0.0:
+                k += 1
+    return k
+
+
+@inside
+def energy_at(of_elements: int, sizes: Sizes) -> int:
+    """Return the place of the stored energy, the last output."""
+    return of_elements + sizes.outputs + 2 * sizes.energies + 1
+
+
 def outputs_kernel(elements: AllElements, now: Callable[..., None]) -> Callable[..., None]:
     """Return the kernel that writes what `now` gives and then the outputs into `work`.
 
@@ -173,14 +191,13 @@ def outputs_kernel(elements: AllElements, now: Callable[..., None]) -> Callable[
         numbers: Array,
         memory: Array,
         plan: Offsets,
-        which: int,
         stored: float,
         work: Array,
     ) -> None:
-        now(s, oil, numbers, memory, plan, which, work)
+        now(s, oil, numbers, memory, plan, work)
         sizes = sizes_of(plan)
         k = write_state(s, part(work, 0, sizes.integrated), numbers, sizes, work)
-        write(s, oil, numbers, memory, plan, part(work, k, sizes.outputs), which)
-        work[k + sizes.outputs + 2 * sizes.energies + 1] = stored
+        write(s, oil, numbers, memory, plan, part(work, k, sizes.outputs))
+        work[energy_at(k, sizes)] = stored
 
     return write_all

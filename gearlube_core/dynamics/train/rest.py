@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from gearlube_core.arrays import Array, Offsets
-from gearlube_core.dynamics.train.drivers import EVERY, AllElements
+from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import (
     BODY_STATES,
     N_COORDINATES,
@@ -121,7 +121,7 @@ def rest_kernels(
     def unbalanced(u: Array, problem: Any, out: Array) -> None:
         s, oil, numbers, memory, plan, room, work = problem
         displace(u, s, room, work)
-        expand(s, oil, numbers, memory, plan, EVERY)
+        expand(s, oil, numbers, memory, plan)
         forces(s, oil, numbers, memory, plan, 0, work)
         for i in range(u.size):
             out[i] = work[int(work[room.places + i]) + RATE]

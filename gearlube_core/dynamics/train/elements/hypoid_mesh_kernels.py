@@ -78,7 +78,12 @@ from gearlube_core.dynamics.train.elements.hypoid_mesh_places import (
     table_in,
     torque_of,
 )
-from gearlube_core.dynamics.train.elements.mesh_outputs import OWN, MeshValues, write_mesh
+from gearlube_core.dynamics.train.elements.mesh_outputs import (
+    FRICTION,
+    OWN,
+    MeshValues,
+    write_mesh,
+)
 from gearlube_core.friction.flank_film import N_FLANK_MODEL
 from gearlube_core.friction.flank_law import FlankLaw, takes_film_model
 from gearlube_core.kernels.array_part import part
@@ -269,64 +274,40 @@ class HypoidMeshKernels(NamedTuple):
         return math.sqrt(now_in(at, memory).series[K_M] / before) if before > 0.0 else 1.0
 
     @kernel
+    def show(
+        self,
+        at: Any,
+        memory: Array,
+        s: Array,
+        oil: LubricantState,
+        stage: int,
+        out: Array,
+        first: int,
+    ) -> None:
+        """See `Kernels.show`: all but the power lost in friction."""
+        _show(self, at, memory, s, oil, EXACT if stage == 0 else BETWEEN_NODES, out, first)
+
+    @kernel
     def write(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
     ) -> None:
         """See `Kernels.write`."""
-        now, m, x = now_in(at, memory), mesh_motion(at, s), s[at[AT_X]]
-        mesh = mesh_force(m, now.series, now.n_orders, self.mesh)
-        at_film = friction_at(at) + N_FRICTION + N_CHANNELS
-        channels, friction = part(memory, at_film - N_CHANNELS, N_CHANNELS), friction_in(at, memory)
-        flanks = first + OWN + 1
-        found = write_flanks(
-            m,
-            mesh.force,
-            now.window,
-            now.n_nodes,
-            oil.temperature,
-            oil,
-            self,  # type: ignore[arg-type]  # it has the fields of the axle that are read
-            now.film_model,
-            memory[ASKED],
-            part(friction, FILMS, N_FILMS),
-            flanks,
-            flanks + _BOUNDS,
-            channels,
-            out,
-        )
+        _show(self, at, memory, s, oil, memory[ASKED], out, first)
+        now, friction = now_in(at, memory), friction_in(at, memory)
         lost = flank_sum(
-            m,
-            mesh.force,
+            mesh_motion(at, s),
+            out[first + OWN],
             now.window,
             now.n_nodes,
             oil,
             self,  # type: ignore[arg-type]
             0.0,  # as in the rates of this state, which come before
             friction,
-            channels,
+            part(memory, friction_at(at) + N_FRICTION, N_CHANNELS),
             now.film_model,
         )
-        thinnest = math.inf
-        for pair in range(PAIRS):
-            here = flanks + pair * N_FLANK_QUANTITIES
-            if out[here + LOAD] > 0.0:
-                thinnest = min(thinnest, out[here + FILM_THICKNESS])
-        values = MeshValues(
-            x,
-            mesh.stiffness,
-            1.0 if -self.mesh.backlash < x < 0.0 else 0.0,
-            1.0 if x <= -self.mesh.backlash else 0.0,
-            self.mesh.z_p * s[at[0] + W] / (2.0 * math.pi),
-            s[at[AT_KEPT] + KEPT_LOAD],
-            lost.viscous_power + lost.boundary_power,
-            friction[BOUND_POWER],
-            thinnest if thinnest < math.inf else 0.0,
-            found.outside,
-        )
-        torque = max(abs(s[at[AT_KEPT] + KEPT_LOAD]), abs(mesh.force) * now.series[R_P])
-        torque = -torque if s[at[AT_KEPT] + KEPT_SIDE] < 0.0 else torque
-        write_mesh(values, torque, found, self.ranges, first, out)
-        out[first + OWN] = mesh.force
+        out[first + FRICTION] = lost.viscous_power + lost.boundary_power
+        out[first + FRICTION + 1] = friction[BOUND_POWER]
 
     @kernel
     def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
@@ -350,3 +331,57 @@ def _follow(self: HypoidMeshKernels, at: Any, memory: Array, s: Array) -> None:
         )
         if other != s[side]:
             s[at[AT_X]], s[side], memory[OF_SIDE] = x, other, other
+
+
+@kernel
+def _show(
+    self: HypoidMeshKernels,
+    at: Any,
+    memory: Array,
+    s: Array,
+    oil: LubricantState,
+    asked: float,
+    out: Array,
+    first: int,
+) -> None:
+    """Write all outputs but the power lost in friction; `asked`: how a film model is asked."""
+    now, m, x = now_in(at, memory), mesh_motion(at, s), s[at[AT_X]]
+    mesh = mesh_force(m, now.series, now.n_orders, self.mesh)
+    flanks = first + OWN + 1
+    found = write_flanks(
+        m,
+        mesh.force,
+        now.window,
+        now.n_nodes,
+        oil.temperature,
+        oil,
+        self,  # type: ignore[arg-type]  # it has the fields of the axle that are read
+        now.film_model,
+        asked,
+        part(friction_in(at, memory), FILMS, N_FILMS),
+        flanks,
+        flanks + _BOUNDS,
+        part(memory, friction_at(at) + N_FRICTION, N_CHANNELS),
+        out,
+    )
+    thinnest = math.inf
+    for pair in range(PAIRS):
+        here = flanks + pair * N_FLANK_QUANTITIES
+        if out[here + LOAD] > 0.0:
+            thinnest = min(thinnest, out[here + FILM_THICKNESS])
+    values = MeshValues(
+        x,
+        mesh.stiffness,
+        1.0 if -self.mesh.backlash < x < 0.0 else 0.0,
+        1.0 if x <= -self.mesh.backlash else 0.0,
+        self.mesh.z_p * s[at[0] + W] / (2.0 * math.pi),
+        s[at[AT_KEPT] + KEPT_LOAD],
+        0.0,
+        0.0,
+        thinnest if thinnest < math.inf else 0.0,
+        found.outside,
+    )
+    torque = max(abs(s[at[AT_KEPT] + KEPT_LOAD]), abs(mesh.force) * now.series[R_P])
+    torque = -torque if s[at[AT_KEPT] + KEPT_SIDE] < 0.0 else torque
+    write_mesh(values, torque, found, self.ranges, first, out)
+    out[first + OWN] = mesh.force

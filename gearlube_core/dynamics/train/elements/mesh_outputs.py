@@ -51,6 +51,9 @@ class MeshValues(NamedTuple):
     share_outside: float
 
 
+FRICTION = MeshValues._fields.index("friction")
+
+
 @kernel
 def write_mesh(
     values: MeshValues, torque: float, found: Any, limits: RangeLimits, first: int, out: Array

@@ -11,7 +11,6 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     N_EXPANSION,
-    NO_RACEWAYS,
     Bearing,
     RollerFilms,
     ShaftBearings,
@@ -60,9 +59,9 @@ from gearlube_core.oil.lubricant import LubricantState
 # film model
 _KEPT, _AXES, _FILM = 5, 6, 9
 # places in the memory behind the forces: drag of the present step [N.m], its bound [W], 1 where
-# films of outputs are those that are kept, 1 where they are found at all, work space of single
-# rollers, of their nodes, the film model
-_DRAG, _DOUBT, _ASKED, _ALL, _ROLLERS = range(N_FORCES, N_FORCES + 5)
+# films of outputs are those that are kept, work space of single rollers, of their nodes, the film
+# model
+_DRAG, _DOUBT, _ASKED, _ROLLERS = range(N_FORCES, N_FORCES + 4)
 _NODES = _ROLLERS + ROLLERS_MAX
 _MEMORY = _NODES + N_ROLLER_NODES
 _OWN = 4  # outputs of both bearings together
@@ -94,7 +93,6 @@ class _OpposedBearings(NamedTuple):
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         forget_forces(part(memory, 0, N_FORCES))
-        memory[_ALL] = 0.0  # until `each_step`, which forces alone do not ask for
 
     @kernel
     def expand(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -104,7 +102,6 @@ class _OpposedBearings(NamedTuple):
     @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         m = _motion(at, s)
-        memory[_ALL] = 1.0
         if h > 0.0:  # else `expand` follows
             f_ref, forces = _frequency(self, m), part(memory, 0, N_FORCES)
             follow_forces(self.bearings, m, f_ref, oil, h, self.reach, forces)
@@ -162,22 +159,28 @@ class _OpposedBearings(NamedTuple):
             f_a,
         )
         out[first + 3] = memory[_DRAG]
-        found = NO_RACEWAYS
-        if memory[_ALL] > 0.0:
-            found = _raceways(self, m, at, memory, s, oil)
+        found = _raceways(self, m, at, memory, s, oil)
         out[first + _OWN] = found.load
         out[first + _OWN + 1] = found.load_outside / found.load if found.load > 0.0 else 0.0
-        rollers = part(memory, _ROLLERS, ROLLERS_MAX)
-        for k in range(2):
-            here = first + _SOLVED + k * len(OF_ONE)
-            one = bearing_loads(self.bearings, m, _frequency(self, m), oil, 1.0 - 2.0 * k, rollers)
-            out[here + at[_AXES]], out[here + at[_AXES + 1]] = one[0], one[1]
-            out[here + at[_AXES + 2]] = one[2]
-            out[here + 3], out[here + 4] = one[4], one[5]
-            out[here + 5] = found.first_film if k == 0 else found.second_film
-            out[here + 6] = found.first_bound if k == 0 else found.second_bound
-            if k == 0:
-                out[first + _OWN + 2] = one[3]
+        _show(self, m, at, memory, oil, out, first)
+        film = first + _SOLVED + 5
+        out[film], out[film + 1] = found.first_film, found.first_bound
+        film += len(OF_ONE)
+        out[film], out[film + 1] = found.second_film, found.second_bound
+
+    @kernel
+    def show(
+        self,
+        at: Any,
+        memory: Array,
+        s: Array,
+        oil: LubricantState,
+        stage: int,
+        out: Array,
+        first: int,
+    ) -> None:
+        """See `Kernels.show`: forces on either bearing and loads of its rollers."""
+        _show(self, _motion(at, s), at, memory, oil, out, first)
 
     @kernel
     def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
@@ -187,6 +190,27 @@ class _OpposedBearings(NamedTuple):
         fits = fits and kept == N_FOLLOWED + (N_ROLLER_NODES if film > 0 else 0)
         fits = fits and memory.size == _MEMORY + film and fits_model(part(memory, _MEMORY, film))
         return 1.0 if fits else 0.0
+
+
+@kernel
+def _show(
+    self: _OpposedBearings,
+    m: ShaftMotion,
+    at: Any,
+    memory: Array,
+    oil: LubricantState,
+    out: Array,
+    first: int,
+) -> None:
+    rollers, f_ref = part(memory, _ROLLERS, ROLLERS_MAX), _frequency(self, m)
+    for k in range(2):
+        here = first + _SOLVED + k * len(OF_ONE)
+        one = bearing_loads(self.bearings, m, f_ref, oil, 1.0 - 2.0 * k, rollers)
+        out[here + at[_AXES]], out[here + at[_AXES + 1]] = one[0], one[1]
+        out[here + at[_AXES + 2]] = one[2]
+        out[here + 3], out[here + 4] = one[4], one[5]
+        if k == 0:
+            out[first + _OWN + 2] = one[3]
 
 
 @inside
