@@ -42,7 +42,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if not options.python:
         compile_for_any_machine()
-    from fmu_src.build import DEFINITIONS, build_models
+    from fmu_src.build import axle_definition, build_models, pair_definition
     from fmu_src.check import problems
     from fmu_src.documentation import update_page
     from fmu_src.native.build import FMI_VERSIONS, NativeOptions
@@ -64,8 +64,8 @@ def main(arguments: list[str] | None = None) -> int:
         ):
             _LOGGER.info("built %s (%d kB)", path, path.stat().st_size // 1024)
             found += problems(path) if options.check else []
-        for definition in DEFINITIONS if options.page else ():
-            update_page(options.page, definition)
+        for definition in (axle_definition, pair_definition) if options.page else ():
+            update_page(options.page, definition())
     except GearLubeError as error:
         _LOGGER.error("%s", error)
         return 2

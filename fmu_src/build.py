@@ -12,11 +12,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from drivetrain.axle_file.axle_file import AxleFile
-from drivetrain.axle_file.read_axle import table_file
-from drivetrain.driveline.parameters import DrivelineParameters
-from fmu_src import helical_pair, hypoid_axle
 from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
 from fmu_src.identity import IDENTITY_FILE, guid_of, identity_text, licence_texts, write_archive
@@ -25,9 +22,11 @@ from fmu_src.native.build import NativeOptions, build_native
 from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
 
+if TYPE_CHECKING:
+    from drivetrain.driveline.parameters import DrivelineParameters
+
 _LOGGER = logging.getLogger(__name__)
 MODELS = ("hypoid-axle", "helical-pair", "driveline")
-DEFINITIONS = (hypoid_axle.DEFINITION, helical_pair.DEFINITION)
 _HERE = Path(__file__).parent
 
 
@@ -197,8 +196,7 @@ def build_helical_pair(
     ...     build_helical_pair(folder).name
     'HelicalPair.fmu'
     """
-    definition = helical_pair.definition_with(gear, line_mesh)
-    return _build(definition, Path(out_dir))
+    return _build(pair_definition(gear, line_mesh), Path(out_dir))
 
 
 def build_models(
@@ -265,18 +263,21 @@ def build_models(
     if "hypoid-axle" in wanted:
         definitions.append(axle_definition(mesh_table, axle))
     if "helical-pair" in wanted:
-        definitions.append(helical_pair.definition_with(gear, line_mesh))
+        definitions.append(pair_definition(gear, line_mesh))
     if native is None:
         return [_build(definition, out_dir) for definition in definitions]
-    from fmu_src.native.driveline import driveline_model
-    from fmu_src.native.models import native_model
+    models = []
+    if definitions:
+        from fmu_src.native.models import native_model
 
-    models = [native_model(definition) for definition in definitions]
+        models += [native_model(definition) for definition in definitions]
     if train is not None:
         from fmu_src.native.train import train_model
 
         models.append(train_model(train))
     if "driveline" in wanted:
+        from fmu_src.native.driveline import driveline_model
+
         models.append(driveline_model(_car(axle)))
     return [path for one in models for path in build_native(one, out_dir, native)]
 
@@ -285,21 +286,40 @@ def _car(axle: str | Path | None) -> DrivelineParameters | None:
     """Return the car of an axle file."""
     if axle is None:
         return None
+    from fmu_src import hypoid_axle
+
     resources = _with_axle(axle).resources
     return hypoid_axle.car_axle_in(resources).driveline
 
 
 def _with_axle(axle: str | Path) -> Definition:
     """Return the definition with an axle file; its gear file is analysed where that is due."""
+    from drivetrain.axle_file.axle_file import AxleFile
+    from drivetrain.axle_file.read_axle import table_file
+    from fmu_src import hypoid_axle
+
     table = table_file(AxleFile.given(str(axle)), Path(axle).parent)
     return hypoid_axle.definition_with_axle(axle, table)
 
 
-def axle_definition(mesh_table: str | Path | None, axle: str | Path | None) -> Definition:
+def axle_definition(
+    mesh_table: str | Path | None = None, axle: str | Path | None = None
+) -> Definition:
     """Return the definition of HypoidAxle.fmu with a mesh table, an axle file or neither."""
+    from fmu_src import hypoid_axle
+
     if axle is not None:
         hypoid_axle.check_one_table(mesh_table)
         return _with_axle(axle)
     if mesh_table is None:
         return hypoid_axle.DEFINITION
     return hypoid_axle.definition_with_table(mesh_table)
+
+
+def pair_definition(
+    gear: str | Path | None = None, line_mesh: str | Path | None = None
+) -> Definition:
+    """Return the definition of HelicalPair.fmu, with a gear file and its line mesh if given."""
+    from fmu_src import helical_pair
+
+    return helical_pair.definition_with(gear, line_mesh)

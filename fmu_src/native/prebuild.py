@@ -14,14 +14,13 @@ from fmu_src.native.build_target import compile_for_any_machine
 def main() -> None:
     """Build the libraries of all platforms, and remove those of other versions."""
     compile_for_any_machine()
-    from fmu_src.build import axle_definition
-    from fmu_src.helical_pair import definition_with
+    from fmu_src.build import axle_definition, pair_definition
     from fmu_src.native.build import libraries, prebuilt_folder
     from fmu_src.native.kept import PREBUILT, keep_library
     from fmu_src.native.models import native_model
     from fmu_src.native.train import train_model
 
-    models = [native_model(axle_definition(None, None)), native_model(definition_with(None, None))]
+    models = [native_model(axle_definition()), native_model(pair_definition())]
     models.append(train_model("e_axle"))  # whose library is that of all trains
     made = {prebuilt_folder(one): libraries(one, report=_say) for one in models}
     shutil.rmtree(PREBUILT, ignore_errors=True)

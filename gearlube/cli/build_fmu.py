@@ -72,7 +72,6 @@ def build_fmu(
     if not python:
         compile_for_any_machine()
     from fmu_src.build import build_models
-    from fmu_src.hypoid_axle import check_one_table
     from fmu_src.native.build import FMI_VERSIONS, NativeOptions
     from fmu_src.native.platforms import PLATFORM_NAMES
     from gearlube.cli.axle_gears import bring_gears_up_to_date
@@ -98,6 +97,8 @@ def build_fmu(
             )
         with written_folder(out):
             if axle is not None:
+                from fmu_src.hypoid_axle import check_one_table
+
                 check_one_table(mesh_table)
             bring_gears_up_to_date(axle)
             paths = build_models(

@@ -5,15 +5,18 @@ from __future__ import annotations
 from importlib.resources import files
 from os.path import isfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.mesh_table.netcdf import dataset_from_bytes
 from gearlube_core.storage.atomic_file import write_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 FORMAT = 1
 SHIPPED_PREFIX = "line_mesh_"  # of the shipped files' names
@@ -31,6 +34,8 @@ _ATTRIBUTES = ("name", "source", "pinion_teeth", "gear_teeth", "base_pitch")
 
 def write_line_mesh(mesh: LineMesh, path: str | Path) -> Path:
     """Write `mesh` to a NetCDF file, atomically; return the path."""
+    import xarray as xr
+
     dims = {"torque": ("torque",), "phase": ("phase",), "station": ("station",)}
     dataset = xr.Dataset(
         {
