@@ -14,6 +14,7 @@ from gearlube_core.film_model.groups import FilmInlet, film_inlet, film_place
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film_at
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
+from gearlube_core.kernels.apart import apart
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import has_own_law
@@ -65,6 +66,30 @@ def flank_film_model(model: FilmModel) -> Array:
     return np.concatenate([model.copied_numbers(), np.full(N_FLANK_MODEL - _OIL, np.nan)])
 
 
+@apart
+def _keep_inlet(
+    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float, film_model: Array
+) -> None:
+    inlet = film_inlet(
+        solid.contact_modulus,
+        lubricant.eta0,
+        lubricant.alpha,
+        lubricant.beta,
+        lubricant.tau0,
+        0.0,
+        limiting_slope,
+        lubricant.temperature,
+        lubricant.conductivity,
+        lubricant.volume_heat,
+        solid.conductivity,
+        solid.density * solid.heat_capacity,
+    )
+    tuple_to_array(inlet, film_model[_INLET:])
+    oil = film_model[_OIL:_INLET]
+    tuple_to_array(lubricant[:_OIL_FLOATS], oil)
+    oil[_OIL_FLOATS] = limiting_slope
+
+
 @kernel
 def _inlet(
     lubricant: LubricantState, solid: SolidParameters, limiting_slope: float, film_model: Array
@@ -76,23 +101,7 @@ def _inlet(
     for i in range(_OIL_FLOATS):
         known = known and oil[i] == given[i]
     if not known:
-        inlet = film_inlet(
-            solid.contact_modulus,
-            lubricant.eta0,
-            lubricant.alpha,
-            lubricant.beta,
-            lubricant.tau0,
-            0.0,
-            limiting_slope,
-            lubricant.temperature,
-            lubricant.conductivity,
-            lubricant.volume_heat,
-            solid.conductivity,
-            solid.density * solid.heat_capacity,
-        )
-        tuple_to_array(inlet, film_model[_INLET:])
-        tuple_to_array(given, oil)
-        oil[_OIL_FLOATS] = limiting_slope
+        _keep_inlet(lubricant, solid, limiting_slope, film_model)
     return tuple_from_array(film_model[_INLET:], FilmInlet)
 
 
