@@ -28,7 +28,7 @@ from fmu_src.model_description import LOG_CATEGORIES
 from fmu_src.values import Snapshot, Values
 from fmu_src.variable import Variable
 from fmu_src.wrapper import HostThread, guarded, told_on_stderr, unload_before_libraries
-from gearlube_core.dynamics.stepped_model import MAX_STEP, STEP_ROUNDING
+from gearlube_core.dynamics.train.stepped_model import MAX_STEP, STEP_ROUNDING
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 
 EXCEEDED = "range.exceeded"  # output: 0 while all is within its range

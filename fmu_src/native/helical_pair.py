@@ -23,8 +23,6 @@ from gearlube_core.dynamics.helical_model.model import (
     NO_EQUILIBRIUM_CURE,
     NO_FREQUENCIES_WORDS,
     WORDS,
-    put_speed,
-    put_torques,
     state_status,
 )
 from gearlube_core.dynamics.helical_model.outputs import (
@@ -37,6 +35,7 @@ from gearlube_core.dynamics.helical_model.outputs import (
     SENSES,
     STATE_NAMES,
     STATE_PLACES,
+    TORQUES,
     write_derivatives,
     write_motion,
     write_pair,
@@ -50,6 +49,7 @@ from gearlube_core.dynamics.train.choice import generated_kernel
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
 from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, START, WRITE
 from gearlube_core.dynamics.train.rest_search import NO_REST
+from gearlube_core.dynamics.train.stepped_model import put_speed
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.flat_tuples import tuple_from_array
@@ -130,7 +130,7 @@ def _entry(made: Assembly) -> Callable[..., int]:
             return OK
         for i in range(N_STATE):
             trial[i] = 0.0 if operation == _START else own[i]
-        put_torques(wanted, trial)
+        trial[TORQUES], trial[TORQUES + 1] = wanted[0], wanted[1]
         temperature = wanted[2]
         if operation == _DERIVATIVES:
             status = int(
@@ -150,7 +150,7 @@ def _entry(made: Assembly) -> Callable[..., int]:
             )
             status = state_status(trial) if status == OK else status
         elif operation == _START:
-            put_speed(given[layout.SPEED], scratch)
+            put_speed(-given[layout.SPEED], scratch)
             per_period = given[layout.PER_HIGHEST_PERIOD]
             status = int(
                 operate(START, trial, temperature, numbers, memory, plan, per_period, 0.0, scratch)

@@ -51,7 +51,6 @@ from gearlube_core.dynamics.hypoid_axle.model import (
     NO_EQUILIBRIUM_CURE,
     NO_MODES_WORDS,
     STEP_REFUSALS,
-    put_start,
     state_status,
     take_speeds,
 )
@@ -71,6 +70,7 @@ from gearlube_core.dynamics.hypoid_mesh.parameters import (
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import AT_MEANS
 from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, SHOW, START, WRITE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST, OK
+from gearlube_core.dynamics.train.stepped_model import put_speed
 from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model
@@ -180,7 +180,8 @@ def _entry(
             for i in range(at.states):
                 trial[i] = 0.0
             speed = given_parameters[at_speed]
-            put_start(given, trial, scratch)
+            trial[PINION_TORQUE], trial[WHEEL_TORQUE] = given[0], given[1]
+            put_speed(0.0, scratch)  # shafts do not turn yet
             memory[AT_MEANS] = 1.0
             per_period = settings.steps_per_highest_period
             status = int(

@@ -14,7 +14,7 @@ import numpy as np
 from fmu_src.native.model import NativeModel
 from fmu_src.variable import Variable
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED
-from gearlube_core.dynamics.stepped_model import MAX_STEP
+from gearlube_core.dynamics.train.stepped_model import MAX_STEP
 
 _INDEX = re.compile(r"\[(\d+)\]")
 PLUMBING = Path(__file__).with_name("plumbing")

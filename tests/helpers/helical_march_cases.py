@@ -62,7 +62,7 @@ def started(
 def pair_data_of(model: HelicalPairModel) -> np.ndarray:
     """Constants, kept films and line mesh in the memory of the model's mesh, as they are."""
     packed = pack_march_mesh(model.parameters.mesh)
-    memory = model._train[1]
+    memory = model.assembly.memory
     return memory[pair_data_at(*packed.density.shape) : -1]
 
 

@@ -2,57 +2,35 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.arrays import Array, Offsets
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_model.outputs import (
-    N_STATE,
     OUTPUT_NAMES,
     PINION,
     PSI,
     RATES,
     SENSES,
     STATE_PLACES,
-    TORQUES,
     WHEEL,
     write_derivatives,
     write_pair,
 )
 from gearlube_core.dynamics.helical_model.pair import bearing_shares, helical_pair
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
-from gearlube_core.dynamics.stepped_model import (
-    TOO_FAR_WORDS,
-    TOO_FAST_WORDS,
-    Kernels,
+from gearlube_core.dynamics.train.assemble import assemble
+from gearlube_core.dynamics.train.element import RZ, W
+from gearlube_core.dynamics.train.march import NOT_FINITE, REFUSALS, START
+from gearlube_core.dynamics.train.stepped_model import (
     SteppedModel,
     TorqueLimits,
     Words,
-    too_many_steps_words,
+    put_speed,
+    shafts_status,
 )
-from gearlube_core.dynamics.train.assemble import assemble
-from gearlube_core.dynamics.train.choice import generated_kernel
-from gearlube_core.dynamics.train.element import RZ, W
-from gearlube_core.dynamics.train.march import (
-    ADVANCE,
-    DIVERGED,
-    EXCHANGE,
-    MAX_STEPS,
-    NOT_FINITE,
-    START,
-    STIFFNESS,
-    TOO_FAST,
-    TOO_MANY_STEPS,
-    WRITE,
-    work_size,
-)
-from gearlube_core.dynamics.train.rest_search import NO_REST, OK
-from gearlube_core.errors import ConvergenceError, StepError
+from gearlube_core.errors import ConvergenceError
 from gearlube_core.kernels.jit import kernel
 
 MAX_TORQUE = 1e5  # N.m on either shaft
@@ -62,17 +40,18 @@ NO_FREQUENCIES_WORDS = (
     "and damping nearer to those of gears"
 )
 WORDS = Words(
-    "pair",
-    "the mesh frequency",
-    {
+    name="pair",
+    resolved="the mesh frequency",
+    refusals={
+        **REFUSALS,
         NOT_FINITE: (
             "the state is no longer finite or the teeth have parted by more than 0.1 m. "
             "Reduce the torques"
         ),
-        TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
-        TOO_FAST: TOO_FAST_WORDS,
-        TOO_FAR: TOO_FAR_WORDS,
     },
+    forces="forces",
+    cure=f"{NO_EQUILIBRIUM_CURE}.",
+    no_modes=f"{NO_FREQUENCIES_WORDS}.",
 )
 # coordinates of a member, besides its rotation, that move
 FREE = {"twelve_dof": 5, "six_dof": 2}
@@ -96,80 +75,8 @@ def torque_limits(parameters: HelicalMarchParameters) -> TorqueLimits:
 @kernel
 def state_status(s: Array) -> int:
     """Return OK, or why a state is outside the model: NOT_FINITE, TOO_FAST or TOO_FAR."""
-    if not abs(s[PSI]) <= DIVERGED:
-        return NOT_FINITE
-    if not max(abs(s[PINION + W]), abs(s[WHEEL + W])) <= MAX_SPEED:
-        return TOO_FAST
     angle = max(abs(s[PINION + RZ]), abs(s[WHEEL + RZ]))
-    return OK if angle <= MAX_ANGLE else TOO_FAR
-
-
-@kernel
-def put_torques(inputs: Array, s: Array) -> None:
-    """Put the torques of pinion and wheel into the ports of a state."""
-    s[TORQUES] = inputs[0]
-    s[TORQUES + 1] = inputs[1]
-
-
-@kernel
-def put_speed(pinion_speed: float, work: Array) -> None:
-    """Write what START begins with: the wheel bears what the torques leave, and follows."""
-    work[0], work[1], work[2] = 1.0, -pinion_speed, math.nan
-
-
-@cache
-def _kernels(operate: Callable[..., float]) -> tuple[Callable[..., int], Callable[..., None]]:
-    """Return the kernels of a communication step and of the outputs over that of the train."""
-
-    @kernel
-    def write_outputs(
-        s: Array,
-        inputs: Array,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        free: int,
-        teeth: float,
-        bearings: Array,
-        work: Array,
-        out: Array,
-    ) -> None:
-        put_torques(inputs, s)
-        operate(WRITE, s, inputs[2], numbers, memory, plan, 0.0, 0.0, work)
-        write_pair(s, free, teeth, bearings, work, out)
-
-    @kernel
-    def step(
-        s: Array,
-        trial: Array,
-        h: float,
-        inputs: Array,
-        control: Array,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        free: int,
-        teeth: float,
-        bearings: Array,
-        work: Array,
-        out: Array,
-    ) -> int:
-        status = state_status(s)
-        if status != OK:
-            return status
-        for i in range(N_STATE):
-            trial[i] = s[i]
-        put_torques(inputs, trial)
-        rate = control[1] * control[2]
-        status = int(operate(ADVANCE, trial, inputs[2], numbers, memory, plan, h, rate, work))
-        status = state_status(trial) if status == OK else status
-        if status == OK:
-            for i in range(N_STATE):
-                s[i] = trial[i]
-            write_outputs(s, inputs, numbers, memory, plan, free, teeth, bearings, work, out)
-        return status
-
-    return step, write_outputs
+    return shafts_status(abs(s[PSI]), max(abs(s[PINION + W]), abs(s[WHEEL + W])), angle)
 
 
 class HelicalPairModel(SteppedModel[StepControl]):
@@ -211,11 +118,10 @@ class HelicalPairModel(SteppedModel[StepControl]):
     def __init__(self, parameters: HelicalMarchParameters) -> None:
         self.parameters = parameters
         made = assemble(*helical_pair(parameters), parameters.oil, kinds=())
-        self._operate = generated_kernel(made)
-        self._train = made.numbers, made.memory, made.plan
-        self._work = np.zeros(work_size(made.sizes))
+        of_pair = float(parameters.pair.pinion_teeth), bearing_shares(parameters)
+        self._of_pair = FREE[parameters.form], *of_pair
         super().__init__(
-            states=N_STATE,
+            made,
             output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0),
             oil=parameters.oil,
@@ -224,12 +130,11 @@ class HelicalPairModel(SteppedModel[StepControl]):
             words=WORDS,
         )
 
-    def _with_data(self) -> Kernels:
-        step, write_outputs = _kernels(self._operate)
-        given = self.parameters
-        of_pair = FREE[given.form], float(given.pair.pinion_teeth), bearing_shares(given)
-        data = (*self._train, *of_pair, self._work, self._outputs)
-        return Kernels(step, (self._control_values, *data), write_outputs, data)
+    _status = staticmethod(state_status)
+
+    @property
+    def _least_rate(self) -> float:
+        return float(self._control_values[1] * self._control_values[2])
 
     @property
     def continuous(self) -> Array:
@@ -252,11 +157,8 @@ class HelicalPairModel(SteppedModel[StepControl]):
         """
         s = self._state.copy()
         s[STATE_PLACES] = SENSES * continuous
-        status = int(self._call(EXCHANGE, s))
-        if status != OK:
-            raise StepError(f"these values are refused: {self._words.refusals[status]}.")
         found = np.zeros(len(OUTPUT_NAMES))
-        write_derivatives(self._work, found)
+        write_derivatives(self._exchanged(s), found)
         return found[RATES : RATES + len(STATE_PLACES)]
 
     def natural_frequencies(self) -> Array:
@@ -267,35 +169,23 @@ class HelicalPairModel(SteppedModel[StepControl]):
         ConvergenceError
             When they are not finite.
         """
-        m = int(self._call(STIFFNESS, self._state))
         try:
-            squares = np.linalg.eigvals(self._work[: m * m].reshape(m, m)).real
+            squares = np.linalg.eigvals(self._stiffness()).real
         except np.linalg.LinAlgError:
             raise ConvergenceError(f"{NO_FREQUENCIES_WORDS}.") from None
         # the lowest is the rotation of both members together
         return np.sqrt(np.maximum(np.sort(squares)[1:], 0.0)) / (2.0 * np.pi)
 
-    def _call(self, operation: int, s: Array, size: float = 0.0) -> float:
-        temperature = float(self._inputs[2])
-        return self._operate(operation, s, temperature, *self._train, size, 0.0, self._work)
+    def _start(self, speed: float) -> int:
+        """Find the equilibrium at mesh phase zero; the wheel turns in the ratio of the teeth."""
+        put_speed(-speed, self._work)  # the pinion turns about -z of the train
+        return int(self._call(START, self._state, float(self.parameters.steps_per_highest_period)))
 
-    def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
-        """Write the equilibrium at mesh phase zero; the gear turns in the ratio of the teeth."""
-        put_torques(self._inputs, self._state)
-        put_speed(float(speed), self._work)
-        per_period = float(self.parameters.steps_per_highest_period)
-        status = int(self._call(START, self._state, per_period))
-        if status == NO_REST:
-            raise ConvergenceError(
-                f"no static equilibrium at a pinion torque of {torque:g} N.m: forces are out "
-                f"by {self._work[1]:g} N. {NO_EQUILIBRIUM_CURE}."
-            )
-        if status != OK:
-            raise ConvergenceError(f"{NO_FREQUENCIES_WORDS}.")
-        self._rate = float(self._work[0])
-
-    def _step_control(self, torque: float, oil_temperature: float) -> StepControl:
+    def _step_control(self, rate: float) -> StepControl:
         """Tie the step to the highest mode with all lines in contact, loaded or not."""
         given = self.parameters
         per_period = float(given.steps_per_highest_period)
-        return StepControl(float(given.steps_per_mesh_period), per_period, self._rate / per_period)
+        return StepControl(float(given.steps_per_mesh_period), per_period, rate / per_period)
+
+    def _gather(self) -> None:
+        write_pair(self._state, *self._of_pair, self._work, self._outputs)

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
-
-import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.as_train import (
@@ -19,10 +16,8 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_P,
     PHI_G,
     PHI_P,
-    PINION_TORQUE,
     W_G,
     W_P,
-    WHEEL_TORQUE,
     X,
 )
 from gearlube_core.dynamics.hypoid_axle.train_outputs import gather_outputs, output_places
@@ -31,24 +26,17 @@ from gearlube_core.dynamics.hypoid_mesh.parameters import (
     MARCH_WITH_WARM_FLANKS,
     HypoidAxleParameters,
 )
-from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
-from gearlube_core.dynamics.stepped_model import Kernels, SteppedModel, TorqueLimits, Words
 from gearlube_core.dynamics.train.assemble import assemble
-from gearlube_core.dynamics.train.choice import generated_kernel
-from gearlube_core.dynamics.train.march import (
-    ADVANCE,
-    DIVERGED,
-    NOT_FINITE,
-    RATES,
-    REFUSALS,
-    RENEW,
-    START,
-    TOO_FAST,
-    WRITE,
-    work_size,
+from gearlube_core.dynamics.train.march import NOT_FINITE, REFUSALS, START
+from gearlube_core.dynamics.train.rest_search import OK
+from gearlube_core.dynamics.train.stepped_model import (
+    SteppedModel,
+    TorqueLimits,
+    Words,
+    put_speed,
+    shafts_status,
 )
-from gearlube_core.dynamics.train.rest_search import NO_MODES, OK
-from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
 
 MAX_TORQUE = 1e4  # N.m at the pinion: far beyond any car axle
@@ -65,7 +53,14 @@ STEP_REFUSALS = {
         "Reduce the torques or check for an unstable option (equations='as_printed')"
     ),
 }
-_WORDS = Words("axle", "the bearing modes", STEP_REFUSALS)
+_WORDS = Words(
+    name="axle",
+    resolved="the bearing modes",
+    refusals=STEP_REFUSALS,
+    forces="bearing forces",
+    cure=NO_EQUILIBRIUM_CURE,
+    no_modes=NO_MODES_WORDS,
+)
 
 
 class StepControl(NamedTuple):
@@ -84,22 +79,8 @@ def torque_limits(parameters: HypoidAxleParameters) -> TorqueLimits:
 @kernel
 def state_status(s: Array) -> int:
     """Return OK, or why a state is outside the model: NOT_FINITE, TOO_FAST or TOO_FAR."""
-    if not abs(s[X]) <= DIVERGED:
-        return NOT_FINITE
-    if not max(abs(s[W_P]), abs(s[W_G])) <= MAX_SPEED:
-        return TOO_FAST
     angle = max(abs(s[PHI_P]), abs(s[PHI_G]), abs(s[CAGE_P]), abs(s[CAGE_G]))
-    return OK if angle <= MAX_ANGLE else TOO_FAR
-
-
-@kernel
-def put_start(inputs: Array, s: Array, work: Array) -> None:
-    """Write what START begins with; the gear bears what the pinion's torque leaves.
-
-    Shafts do not turn yet: films of rollers build up from those at rest.
-    """
-    s[PINION_TORQUE], s[WHEEL_TORQUE] = inputs[0], inputs[1]
-    work[0], work[1], work[2] = 1.0, 0.0, math.nan
+    return shafts_status(abs(s[X]), max(abs(s[W_P]), abs(s[W_G])), angle)
 
 
 @kernel
@@ -149,11 +130,11 @@ class HypoidAxle(SteppedModel[StepControl]):
         self.parameters = parameters
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         bodies, self.elements = hypoid_axle(parameters)
-        made = self.assembly = assemble(bodies, self.elements, parameters.oil, kinds=())
-        self.operate = generated_kernel(made)
+        made = assemble(bodies, self.elements, parameters.oil, kinds=())
         self._at_rest = numbers_at_rest(self.elements, made, parameters.oil)
+        self._places = output_places(made)
         super().__init__(
-            states=made.sizes.states,
+            made,
             output_names=OUTPUT_NAMES,
             control=StepControl(1.0),
             oil=parameters.oil,
@@ -162,33 +143,11 @@ class HypoidAxle(SteppedModel[StepControl]):
             words=_WORDS,
         )
 
-    def _with_data(self) -> Kernels:
-        made = self.assembly
-        operate, work, places = self.operate, np.zeros(work_size(made.sizes)), output_places(made)
-        numbers, memory, plan = made.numbers, made.memory, made.plan
-        control, out = self._control_values, self._outputs
-        self._work = work
+    _status = staticmethod(state_status)
 
-        def write(s: Array, inputs: Array) -> None:
-            operate(WRITE, s, inputs[2], numbers, memory, plan, 0.0, 0.0, work)
-            gather_outputs(s, work, places, out)
-
-        def step(s: Array, trial: Array, h: float, inputs: Array) -> int:
-            status = state_status(s)
-            if status != OK:
-                return int(status)
-            trial[:] = s
-            trial[PINION_TORQUE], trial[WHEEL_TORQUE] = inputs[0], inputs[1]
-            rate = control[0]
-            status = int(operate(ADVANCE, trial, inputs[2], numbers, memory, plan, h, rate, work))
-            if status == OK:
-                status = state_status(trial)
-            if status == OK:
-                s[:] = trial
-                write(s, inputs)
-            return int(status)
-
-        return Kernels(step, (), write, ())
+    @property
+    def _least_rate(self) -> float:
+        return float(self._control_values[0])
 
     @property
     def highest_frequency(self) -> float:
@@ -205,33 +164,23 @@ class HypoidAxle(SteppedModel[StepControl]):
         state : ndarray of shape (N_ODE,)
             In the order of `state`, SI units.
         """
-        made, rates = self.assembly, np.zeros(self._work.size)
         full = self._state.copy()
         full[: state.size] = state
-        given = self._inputs[2], made.numbers, made.memory, made.plan, 0.0, 0.0, rates
-        self.operate(RENEW, full, *given)
-        self.operate(RATES, full, *given)
-        return rates[: made.sizes.integrated]
+        return self._rates(full)
 
-    def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
-        made, work, s = self.assembly, self._work, self._state
-        put_start(self._inputs, s, work)
-        memory = memory_of_means(made)
-        per_period = float(self.parameters.steps_per_highest_period)
-        status = int(
-            self.operate(
-                START, s, oil_temperature, self._at_rest, memory, made.plan, per_period, 0.0, work
-            )
-        )
-        if status == NO_MODES:
-            raise ConvergenceError(NO_MODES_WORDS)
-        if status != OK:
-            raise ConvergenceError(
-                f"no static equilibrium at a pinion torque of {torque:g} N.m: bearing forces are "
-                f"out by {work[1]:g} N. {NO_EQUILIBRIUM_CURE}"
-            )
+    def _start(self, speed: float) -> int:
+        """Find the equilibrium without losses at rest: films of rollers build up from there."""
+        made, s, work, given = self._made, self._state, self._work, self.parameters
+        put_speed(0.0, work)
+        per_period, memory = float(given.steps_per_highest_period), memory_of_means(made)
+        at_rest = self._temperature(), self._at_rest, memory, made.plan
+        status = int(self.operate(START, s, *at_rest, per_period, 0.0, work))
+        if status == OK:
+            take_speeds(s, speed, given.mesh.ratio, float(self._inputs[0]))
+        return status
 
-        take_speeds(s, float(speed), self.parameters.mesh.ratio, float(torque))
+    def _step_control(self, rate: float) -> StepControl:
+        return StepControl(rate)
 
-    def _step_control(self, torque: float, oil_temperature: float) -> StepControl:
-        return StepControl(float(self._work[0]))
+    def _gather(self) -> None:
+        gather_outputs(self._state, self._work, self._places, self._outputs)

@@ -13,7 +13,6 @@ from collections.abc import Callable
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.mean_power import LEAST_WINDOW
 from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
-from gearlube_core.dynamics.stepped_model import TOO_FAR_WORDS, TOO_FAST_WORDS, too_many_steps_words
 from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, W
 from gearlube_core.dynamics.train.exchange import now_kernel, stage_of
@@ -45,9 +44,18 @@ REFUSALS = {
     NOT_FINITE: (
         "the state is no longer finite, or a body has moved by more than 0.1 m. Reduce the torques"
     ),
-    TOO_MANY_STEPS: too_many_steps_words(MAX_STEPS),
-    TOO_FAST: TOO_FAST_WORDS,
-    TOO_FAR: TOO_FAR_WORDS,
+    TOO_MANY_STEPS: (
+        f"the step costs more than {MAX_STEPS} integrator steps. Shorten the communication step, "
+        "or take fewer solver.steps_per_highest_period and solver.steps_per_mesh_period"
+    ),
+    TOO_FAST: (
+        f"a shaft turns faster than {MAX_SPEED:g} rad/s, where the model has no meaning. "
+        "Reduce the torque, or load the wheel"
+    ),
+    TOO_FAR: (
+        f"an angle of a shaft or cage is beyond {MAX_ANGLE:g} rad, where rounding blurs the phase "
+        "of the mesh. Start again, or take whole turns of all shafts from the angles"
+    ),
 }
 
 

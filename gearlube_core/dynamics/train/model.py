@@ -4,41 +4,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
-from gearlube_core.dynamics.train.assemble import Assembly, assemble
+from gearlube_core.dynamics.train.assemble import assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
 from gearlube_core.dynamics.train.elements.port import Port
-from gearlube_core.dynamics.train.march import (
-    ADVANCE,
-    ENERGY,
-    EVENT,
-    EXCHANGE,
-    RATES,
-    REFUSALS,
-    RENEW,
-    START,
-    STIFFNESS,
-    WRITE,
-    work_size,
-)
+from gearlube_core.dynamics.train.march import ENERGY, EVENT, START, WRITE
+from gearlube_core.dynamics.train.marched import MarchedTrain
 from gearlube_core.dynamics.train.outputs import outputs_at
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.dynamics.train.rest import LEAST_RATE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK
-from gearlube_core.errors import ConvergenceError, ParameterError, StepError
+from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
 
 MOST_TORQUE = 1e7  # N.m, of a port
 
 
-class Train:
+class Train(MarchedTrain):
     """Bodies, and the elements that act on them, marched in time.
 
     Parameters
@@ -85,24 +74,24 @@ class Train:
         check_within("steps_per_highest_period", steps_per_highest_period, 6, 4096)
         self.bodies, self.elements, self.oil = tuple(bodies), tuple(elements), oil
         self.driver = driver
-        self._made = assemble(bodies, elements, oil)
-        self._operate = kernel_of(self._made, driver, [one.name for one in elements])
-        sizes = self._made.sizes
-        self._n, self._state, self._trial = sizes.integrated, *np.zeros((2, sizes.states))
-        self._work = np.zeros(work_size(sizes))
+        self.steps_per_highest_period = steps_per_highest_period
+        made = assemble(bodies, elements, oil)
+        operate = kernel_of(made, driver, [one.name for one in elements])
+        super().__init__(made, operate, np.array([math.nan, LEAST_RATE]))
         self._output_names = tuple(one.name for one in self._made.outputs)
-        self.steps_per_highest_period, self._least_rate = steps_per_highest_period, LEAST_RATE
-        self._temperature = math.nan
         ports = (one.name for one in elements if isinstance(one, Port))
         self._ports = {name: self._made.kept[name] for name in ports}
         self._continuous = np.array([one.place for one in self._made.continuous])
-        self._rates = np.array([one.rate for one in self._made.continuous])
+        self._rate_places = np.array([one.rate for one in self._made.continuous])
         self._events = np.array([one.place for one in self._made.events], dtype=int)
 
+    def _given(self) -> dict[str, Any]:
+        names = ("bodies", "elements", "oil", "steps_per_highest_period", "driver")
+        return {name: getattr(self, name) for name in names}
+
     @property
-    def assembly(self) -> Assembly:
-        """The train put together, for the kernels of its list."""
-        return self._made
+    def _least_rate(self) -> float:
+        return float(self._beside[1])
 
     @property
     def state_names(self) -> tuple[str, ...]:
@@ -130,18 +119,16 @@ class Train:
         ConvergenceError
             No static equilibrium is found.
         """
-        wanted, before = self._wanted(speeds), self._temperature
-        self._take(torques, oil_temperature)
-        trial, work = self._trial, self._work
+        wanted, trial, work = self._wanted(speeds), self._trial, self._work
         trial[:] = 0.0
-        self._put(torques, trial)
+        self._put(torques, oil_temperature)
         work[: wanted.size] = wanted
-        status = int(self._call(START, trial, work, float(self.steps_per_highest_period)))
+        per_period, temperature = float(self.steps_per_highest_period), float(oil_temperature)
+        status = int(self._call(START, trial, per_period, temperature=temperature))
         if status != OK:
-            self._temperature = before
             self._refuse(status, speeds)
-        self._state, self._trial = trial, self._state
-        self._least_rate = float(work[0])
+        self._state[:] = trial
+        self._beside[:] = temperature, work[0]
 
     def step(self, h: float, torques: Mapping[str, float], oil_temperature: float) -> None:
         """Advance by `h` [s] under constant torques [N.m] and oil temperature [K].
@@ -154,16 +141,11 @@ class Train:
             The step cannot be made; the train is then as before.
         """
         check_within("step size", h, 1e-9, 0.1, "s")
-        self._check_started()
-        before, trial, temperature = self._state, self._trial, self._temperature
-        self._take(torques, oil_temperature)
-        trial[:] = before
-        self._put(torques, trial)
-        status = int(self._call(ADVANCE, trial, self._work, h))
-        if status != OK:
-            self._temperature = temperature
-            raise StepError(f"step of {h:g} s refused: {REFUSALS[status]}.")
-        self._state, self._trial = trial, before
+        self._temperature()
+        self._trial[:] = self._state
+        self._put(torques, oil_temperature)
+        self._march(h, float(oil_temperature))
+        self._beside[0] = oil_temperature
 
     def outputs(self) -> dict[str, float]:
         """Return all outputs in the present state, SI units, by name, see `output_records`.
@@ -176,7 +158,7 @@ class Train:
 
     def written(self) -> tuple[Array, Array]:
         """Return the state and what WRITE of `train_kernel` leaves, for kernels of outputs."""
-        self._call(WRITE, self._state, self._work)
+        self._call(WRITE, self._state)
         return self._state, self._work
 
     def exceeded(self) -> dict[str, str]:
@@ -205,7 +187,7 @@ class Train:
     @property
     def energy(self) -> float:
         """Kinetic and elastic energy of the train [J]."""
-        return self._call(ENERGY, self._state, self._work)
+        return self._call(ENERGY, self._state)
 
     @property
     def work(self) -> float:
@@ -219,10 +201,7 @@ class Train:
 
     def rates(self) -> Array:
         """Return d/dt of the integrated states, in the order of `state_names`, exact."""
-        found, s = np.zeros(self._n), self._state.copy()
-        self._call(RENEW, s, found)
-        self._call(RATES, s, found)
-        return found
+        return self._rates(self._state)
 
     @property
     def continuous_names(self) -> tuple[str, ...]:
@@ -249,16 +228,14 @@ class Train:
         StepError
             The values are not finite or beyond what the model has a meaning for.
         """
-        found = self._exchanged(continuous)
-        return found[self._rates]
+        return self._exchanged(self._at(continuous))[self._rate_places]
 
     def indicators(self, continuous: Array) -> Array:
         """Return what changes its sign where `event` has to be called.
 
         The arguments and errors are those of `derivative`; `assembly.events` has names and words.
         """
-        found = self._exchanged(continuous)
-        return found[self._events]
+        return self._exchanged(self._at(continuous))[self._events]
 
     def event(self, continuous: Array) -> Array:
         """Go on from these values with what an event changes there; return them as they now are.
@@ -267,7 +244,7 @@ class Train:
         times in a mesh period and gears change flanks. Errors as in `derivative`.
         """
         s = self._at(continuous)
-        self._accept(self._call(EVENT, s, self._work))
+        self._accept(self._call(EVENT, s))
         self._state[:] = s
         return self.continuous
 
@@ -282,28 +259,6 @@ class Train:
         s[self._continuous] = continuous
         return s
 
-    def _exchanged(self, continuous: Array) -> Array:
-        self._accept(self._call(EXCHANGE, self._at(continuous), self._work))
-        return self._work[: outputs_at(self._made.sizes)].copy()
-
-    def _accept(self, status: float) -> None:
-        if status != OK:
-            raise StepError(f"these values are refused: {REFUSALS[int(status)]}.")
-
-    def get_state(self) -> Array:
-        """Return everything that the future depends on."""
-        return np.concatenate([self._state, [self._temperature, self._least_rate]])
-
-    def set_state(self, state: Array) -> None:
-        """Continue from what `get_state` returned; bit-exact."""
-        if state.shape != (self._state.size + 2,) or not np.all(np.isfinite(state)):
-            raise StepError(
-                f"a state of this train has {self._state.size + 2} finite numbers, got shape "
-                f"{state.shape}. Use an array from get_state of the same train."
-            )
-        self._state[:] = state[:-2]
-        self._temperature, self._least_rate = (float(one) for one in state[-2:])
-
     def modes(self) -> tuple[Array, Array]:
         """Return undamped natural frequencies [Hz] about the present state, rising, and shapes.
 
@@ -313,28 +268,17 @@ class Train:
             Frequencies, shape (m,), rigid rotations as 0; shapes, (free coordinates, m), each of
             modal mass 1 kg.
         """
-        m = int(self._call(STIFFNESS, self._state, self._work))
-        matrix = self._work[: m * m].reshape(m, m).copy()
         mobility = np.concatenate([body.mobility for body in self.bodies])
         mobility = mobility[mobility > 0.0]
-        squares, shapes = np.linalg.eig(matrix)
+        squares, shapes = np.linalg.eig(self._stiffness())
         order = np.argsort(squares.real)
         shapes = shapes[:, order].real
         shapes /= np.sqrt((shapes**2 / mobility[:, None]).sum(axis=0))
         frequencies = np.sqrt(np.maximum(squares.real[order], 0.0)) / (2.0 * np.pi)
         return frequencies, shapes
 
-    def _call(self, operation: int, s: Array, work: Array, size: float = 0.0) -> float:
-        self._check_started()
-        made = self._made
-        given = self._temperature, made.numbers, made.memory, made.plan
-        return self._operate(operation, s, *given, size, self._least_rate, work)
-
-    def _check_started(self) -> None:
-        if math.isnan(self._temperature):
-            raise StepError("this train has no state yet. Call initialise or set_state first.")
-
-    def _take(self, torques: Mapping[str, float], oil_temperature: float) -> None:
+    def _put(self, torques: Mapping[str, float], oil_temperature: float) -> None:
+        """Check the inputs, and put the torques into the trial."""
         missing = sorted(set(self._ports) ^ set(torques))
         if missing:
             raise ParameterError(
@@ -344,11 +288,8 @@ class Train:
         for name, torque in torques.items():
             check_within(f"torque of {name}", torque, -MOST_TORQUE, MOST_TORQUE, "N.m")
         self.oil.check_temperature(oil_temperature, "oil_temperature")
-        self._temperature = float(oil_temperature)
-
-    def _put(self, torques: Mapping[str, float], state: Array) -> None:
         for name, torque in torques.items():
-            state[self._ports[name]] = torque
+            self._trial[self._ports[name]] = torque
 
     def _wanted(self, speeds: Mapping[str, float]) -> Array:
         """Return what START takes: the body that bears the rest, then the speed of each or NaN."""

@@ -1,9 +1,10 @@
-"""Base class of time-stepped gear models: checked inputs, steps, saved and restored states."""
+"""Base class of gear models that are trains with two shafts: checked inputs, steps, outputs."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+import math
+from abc import abstractmethod
+from collections.abc import Mapping
 from difflib import get_close_matches
 from typing import Any, Generic, NamedTuple, TypeVar
 
@@ -16,12 +17,19 @@ from gearlube_core.dynamics.ranges import (
     MAX_ANGLE,
     MAX_SPEED,
     RANGE_EXCEEDED,
+    TOO_FAR,
     TORQUE_MARGIN,
     Range,
     left_ranges,
 )
+from gearlube_core.dynamics.train.assemble import Assembly
+from gearlube_core.dynamics.train.choice import generated_kernel
+from gearlube_core.dynamics.train.march import DIVERGED, NOT_FINITE, TOO_FAST, WRITE
+from gearlube_core.dynamics.train.marched import MarchedTrain
+from gearlube_core.dynamics.train.rest_search import NO_MODES, OK
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import Lubricant
 
 Control = TypeVar("Control", bound=tuple[float, ...])  # a NamedTuple of floats
@@ -30,45 +38,26 @@ MAX_STEP = 0.1  # s, communication step
 # of MAX_STEP: a host's step is a difference of times, rounded at late times
 STEP_ROUNDING = 1e-3
 _N_INPUTS = 3
-TOO_FAR_WORDS = (
-    f"an angle of a shaft or cage is beyond {MAX_ANGLE:g} rad, where rounding blurs the phase of "
-    "the mesh. Start again, or take whole turns of all shafts from the angles"
-)
-TOO_FAST_WORDS = (
-    f"a shaft turns faster than {MAX_SPEED:g} rad/s, where the model has no meaning. "
-    "Reduce the torque, or load the wheel"
-)
 
 
-def too_many_steps_words(most: int) -> str:
-    """Return why a step is refused that costs more than `most` integrator steps."""
-    return (
-        f"the step costs more than {most} integrator steps. Shorten the communication step, or "
-        "take fewer solver.steps_per_highest_period and solver.steps_per_mesh_period"
-    )
+@kernel
+def shafts_status(distance: float, speed: float, angle: float) -> int:
+    """Return OK, or why a state is outside the model: NOT_FINITE, TOO_FAST or TOO_FAR.
+
+    Arguments are of the greatest magnitude: of the coordinate of the mesh [m], the speeds of shafts
+    [rad/s], the angles of shafts and cages [rad].
+    """
+    if not distance <= DIVERGED:
+        return NOT_FINITE
+    if not speed <= MAX_SPEED:
+        return TOO_FAST
+    return OK if angle <= MAX_ANGLE else TOO_FAR
 
 
-_OK = 0  # status of a kernel that made its step
-
-
-def _copied(
-    of: Callable[[Any], SteppedModel[Any]], parameters: Any, state: Array
-) -> SteppedModel[Any]:
-    """Return the model of these parameters in a state."""
-    model = of(parameters)
-    model._take(state)
-    if model._inputs[-1] > 0.0:  # an oil temperature: it has been started
-        model._write_outputs()
-    return model
-
-
-class Kernels(NamedTuple):
-    """Compiled functions of a model, and what they take behind state and inputs."""
-
-    step: Callable[..., int]  # (state, trial, h, inputs, *step_data)
-    step_data: tuple[Any, ...]
-    write_outputs: Callable[..., None]  # (state, inputs, *output_data)
-    output_data: tuple[Any, ...]
+@kernel
+def put_speed(pinion_speed: float, work: Array) -> None:
+    """Write what START begins with: the wheel bears what the torques leave, and follows."""
+    work[0], work[1], work[2] = 1.0, pinion_speed, math.nan
 
 
 class Words(NamedTuple):
@@ -77,6 +66,9 @@ class Words(NamedTuple):
     name: str  # "axle"
     resolved: str  # what a communication step of 1e-4 s resolves
     refusals: Mapping[int, str]  # why a step was refused, by status
+    forces: str  # which are out where there is no static equilibrium
+    cure: str  # of that
+    no_modes: str  # why natural frequencies were not found
 
 
 class TorqueLimits(NamedTuple):
@@ -113,13 +105,13 @@ class TorqueLimits(NamedTuple):
         return cls(max(low, -pinion), min(high, pinion), min(max(-low, high) * ratio, wheel), cure)
 
 
-class SteppedModel(ABC, Generic[Control]):
-    """A model with two shafts that is advanced by communication steps.
+class SteppedModel(MarchedTrain, Generic[Control]):
+    """A train with two shafts that is advanced by communication steps.
 
     Parameters
     ----------
-    states
-        How many there are.
+    made : Assembly
+        Its first two ports, whose torques stand behind the integrated states, are the inputs.
     output_names
         Of the outputs, in their order.
     control
@@ -135,11 +127,12 @@ class SteppedModel(ABC, Generic[Control]):
     """
 
     parameters: Any  # the one argument of the models
+    _origin, _temperature_at = "release", 2
 
     def __init__(
         self,
+        made: Assembly,
         *,
-        states: int,
         output_names: tuple[str, ...],
         control: Control,
         oil: Lubricant,
@@ -147,38 +140,36 @@ class SteppedModel(ABC, Generic[Control]):
         ranges: tuple[Range, ...],
         words: Words,
     ) -> None:
-        self._state = np.zeros(states)
-        self._trial = np.zeros(states)
+        beside = np.concatenate([np.zeros(_N_INPUTS), flatten(control)])
+        super().__init__(made, generated_kernel(made), beside)
+        # torques of pinion and wheel [N.m], oil temperature [K]: of the last step
+        self._inputs, self._control_values = beside[:_N_INPUTS], beside[_N_INPUTS:]
+        self._first_port = made.sizes.integrated
         self.output_names = output_names
         self._outputs = np.zeros(len(output_names))
-        # torques of pinion and wheel [N.m], oil temperature [K]: of the last step, of one tried
-        self._inputs, self._trial_inputs = np.zeros(_N_INPUTS), np.zeros(_N_INPUTS)
         self._control_type = type(control)
-        self._control_values = flatten(control)
         self._oil, self._oil_range = oil, (oil.temperature_low, oil.temperature_high)
-        self._torque_limits, self._words = torque_limits, words
-        self._ranges = ranges
-        self._kernels = self._with_data()
+        self._torque_limits, self._words, self._ranges = torque_limits, words, ranges
+        self._name, self._refusals = f"the {words.name}", words.refusals
         self.outputs: Array = self._outputs.view()
         self.outputs.flags.writeable = False
         self.state_view: Array = self._state.view()
         self.state_view.flags.writeable = False
 
-    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
-        """Let a copy, also one out of a pickle, be a model of its own in the same state."""
-        return _copied, (type(self), self.parameters, self.get_state())
+    @abstractmethod
+    def _start(self, speed: float) -> int:
+        """Put the state, of zeros and torques, into equilibrium by START; return its status."""
 
     @abstractmethod
-    def _with_data(self) -> Kernels:
-        """Return the kernels, what they take made of what the base class has."""
+    def _step_control(self, rate: float) -> Control:
+        """Return what the integrator step is tied to, from the least rate that START has found."""
 
     @abstractmethod
-    def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
-        """Write the static equilibrium at the pinion's speed and torque into the state of zeros."""
+    def _gather(self) -> None:
+        """Write the outputs from what WRITE has left."""
 
-    @abstractmethod
-    def _step_control(self, torque: float, oil_temperature: float) -> Control:
-        """Return what the integrator step is tied to about the present equilibrium."""
+    def _given(self) -> dict[str, Any]:
+        return {"parameters": self.parameters}
 
     @property
     def step_control(self) -> Control:
@@ -216,12 +207,18 @@ class SteppedModel(ABC, Generic[Control]):
         before = self.get_state()
         self._state[:] = 0.0
         self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
-        try:
-            self._rest(pinion_speed, pinion_torque, oil_temperature)
-            self._control_values[:] = self._step_control(pinion_torque, oil_temperature)
-        except ConvergenceError:
-            self._take(before)
-            raise
+        self._put_torques(self._state, pinion_torque, wheel_torque)
+        status = self._start(float(pinion_speed))
+        if status != OK:
+            self._take_state(before)
+            words = self._words
+            raise ConvergenceError(
+                words.no_modes
+                if status == NO_MODES
+                else f"no static equilibrium at a pinion torque of {pinion_torque:g} N.m: "
+                f"{words.forces} are out by {self._work[1]:g} N. {words.cure}"
+            )
+        self._control_values[:] = self._step_control(float(self._work[0]))
         self._write_outputs()
 
     def step(
@@ -243,14 +240,12 @@ class SteppedModel(ABC, Generic[Control]):
                 f"A communication step of about 1e-4 s resolves {self._words.resolved}."
             )
         self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
-        inputs, kernels = self._trial_inputs, self._kernels
-        inputs[0] = pinion_torque
-        inputs[1] = wheel_torque
-        inputs[2] = oil_temperature
-        status = kernels.step(self._state, self._trial, h, inputs, *kernels.step_data)
-        if status != _OK:
-            raise StepError(f"step of {h:g} s refused: {self._words.refusals[status]}.")
-        self._inputs, self._trial_inputs = inputs, self._inputs
+        self._trial[:] = self._state
+        self._put_torques(self._trial, pinion_torque, wheel_torque)
+        self._march(h, float(oil_temperature))
+        inputs = self._inputs
+        inputs[0], inputs[1], inputs[2] = pinion_torque, wheel_torque, oil_temperature
+        self._write_outputs()
 
     def output(self, name: str) -> float:
         """Return one output by its name, an entry of `output_names`; units as in docs/fmu.md.
@@ -279,40 +274,19 @@ class SteppedModel(ABC, Generic[Control]):
         left += [one for one in shares if self.output(one.output) > one.high]
         return {one.output: one.sentence(self.output(one.output)) for one in left}
 
-    def get_state(self) -> Array:
-        """Return everything that the future depends on: states, inputs, step control."""
-        return np.concatenate([self._state, self._inputs, self._control_values])
-
-    def set_state(self, state: Array) -> None:
-        """Continue from what `get_state` returned; bit-exact.
-
-        Raises
-        ------
-        StepError
-            When the array has the wrong length or holds a NaN; the model is then as before.
-        """
-        values = np.asarray(state, dtype=np.float64)
-        at_control = self._state.size + _N_INPUTS
-        size = at_control + self._control_values.size
-        if values.shape != (size,) or not np.all(np.isfinite(values)):
-            raise StepError(
-                f"a state of the {self._words.name} has {size} finite numbers, got shape "
-                f"{values.shape}. Use an array from get_state of the same release."
-            )
-        control = self._control_type(*values[at_control:].tolist())
+    def _check_state(self, values: Array) -> None:
+        super()._check_state(values)
+        control = self._control_type(*values[self._state.size + _N_INPUTS :].tolist())
         if min(control) <= 0.0:
             raise StepError(
-                f"a state of the {self._words.name} must have step control values above 0, got "
+                f"a state of {self._name} must have step control values above 0, got "
                 f"{control}. Use an array from get_state after initialise."
             )
-        self._take(values)
-        self._write_outputs()
 
-    def _take(self, values: Array) -> None:
-        at_control = self._state.size + _N_INPUTS
-        self._state[:] = values[: self._state.size]
-        self._inputs[:] = values[self._state.size : at_control]
-        self._control_values[:] = values[at_control:]
+    def _take_state(self, values: Array) -> None:
+        super()._take_state(values)
+        if self._temperature() > 0.0:  # the model has been started
+            self._write_outputs()
 
     def _check_inputs(self, pinion_torque: float, wheel_torque: float, oil: float) -> None:
         (least, most, wheel, cure), (low, high) = self._torque_limits, self._oil_range
@@ -322,5 +296,10 @@ class SteppedModel(ABC, Generic[Control]):
         check_within("wheel.torque", wheel_torque, -wheel, wheel, "N.m", cure)
         self._oil.check_temperature(oil, "oil.temperature")
 
+    def _put_torques(self, s: Array, pinion: float, wheel: float) -> None:
+        at = self._first_port
+        s[at], s[at + 1] = pinion, wheel
+
     def _write_outputs(self) -> None:
-        self._kernels.write_outputs(self._state, self._inputs, *self._kernels.output_data)
+        self._call(WRITE, self._state)
+        self._gather()
