@@ -44,6 +44,11 @@ from gearlube_core.dynamics.train.elements.opposed_bearings import (
     OpposedBearings as OpposedBearings,
 )
 from gearlube_core.dynamics.train.elements.roller_bearing import RollerBearing as RollerBearing
+from gearlube_core.dynamics.train.elements.ball_bearing import BallBearing as BallBearing
+from gearlube_core.dynamics.train.elements.cylindrical_bearing import (
+    CylindricalBearing as CylindricalBearing,
+)
+from gearlube_core.bearings.bearing_under_load import bearing_under_load as bearing_under_load
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfShaft
 from gearlube_core.dynamics.train.elements.drag import Seal as Seal
 from gearlube_core.dynamics.train.elements.drag import Churning as Churning

@@ -124,6 +124,8 @@ READERS: Mapping[Any, _Reader[Any]] = {
 OF_THE_TRAIN = ("steps_per_highest_period",)  # fields that elements have from their train
 _WORDS = {
     "body": "Body on which it acts",
+    "housing": "Body that carries the outer ring; left out: the ground",
+    "tilt_arm": "Where a tilt moves the inner groove along the axis",
     "pinion": "Body that carries the pinion",
     "gear": "Body that carries the gear",
     "first": "One of the two bodies",

@@ -17,6 +17,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_mm": "mm",
     "_mm_per_rad": "mm/rad",
     "_um": "um",
+    "_us": "us",
     "_deg": "deg",
     "_mrad": "mrad",
     "_degc": "degC",
@@ -53,6 +54,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
 _SLIPS: dict[str, tuple[tuple[str, float], ...]] = {
     "mm": (("m", 1e3), ("um", 1e-3), ("inch", 25.4), ("nm", 1e-6)),
     "um": (("mm", 1e3), ("m", 1e6), ("nm", 1e-3)),
+    "us": (("ms", 1e3), ("s", 1e6), ("ns", 1e-3)),
     "kg": (("t", 1e3), ("g", 1e-3)),
     "l": (("m3", 1e3), ("ml", 1e-3)),
     "kg.m2": (("kg.mm2", 1e-6), ("kg.cm2", 1e-4), ("g.m2", 1e-3)),
@@ -86,6 +88,7 @@ _SLIPS: dict[str, tuple[tuple[str, float], ...]] = {
 _POWERS = {
     "mm": -3,
     "um": -6,
+    "us": -6,
     "kg.mm2": -6,
     "l": -3,
     "kN": 3,

@@ -46,6 +46,7 @@ class AllElements(NamedTuple):
 
     at_rest: Callable[..., None]
     full_contact: Callable[..., None]
+    ease: Callable[..., float]  # sum
     begin: Callable[..., None]
     expand: Callable[..., None]
     each_step: Callable[..., float]  # sum
@@ -70,6 +71,7 @@ _GIVEN = "s, oil, numbers, memory, plan"
 _LINES = {
     "at_rest": ("", "{call}", "None"),
     "full_contact": ("", "{call}", "None"),
+    "ease": (", share", "total += {call}", "total"),
     "begin": ("", "{call}", "None"),
     "expand": ("", "{call}", "None"),
     "each_step": (", h", "total += {call}", "total"),

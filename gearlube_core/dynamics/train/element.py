@@ -72,6 +72,13 @@ class Kernels(Protocol):
         The modes there decide the length of steps. Without it those at rest do.
         """
 
+    def ease(self, at: Any, memory: Array, s: Array, oil: LubricantState, share: float) -> float:
+        """Add a share of a usual stiffness to forces that have gaps; return 1, or 0 for none.
+
+        The search of the rest begins with such forces and ends with a share of 0, and the modes
+        that decide the length of steps are those with a share of 1.
+        """
+
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         """Make ready for a communication step."""
 

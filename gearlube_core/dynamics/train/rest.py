@@ -42,6 +42,7 @@ from gearlube_core.oil.lubricant import LubricantState
 
 LEAST_RATE = 1e3  # integrator steps a second, of a train without a mode that vibrates
 _DIFFERENCE = 1e-8  # m and rad, of coordinates in a linearisation
+_EASINGS = 9  # of gaps: a bearing that carries 1 mN is found at the edge of its clearance
 _PASSES = 4  # friction of films depends on the loads, weakly
 
 
@@ -54,6 +55,7 @@ def rest_kernels(
     """Return the kernels of START and STIFFNESS of a list, see `train_kernel`."""
     sizes_of, expand = elements.sizes_of, elements.expand
     at_rest, full_contact = elements.at_rest, elements.full_contact
+    ease = elements.ease
 
     @kernel
     def relate(
@@ -165,7 +167,10 @@ def rest_kernels(
         find_scales(m, room, work)
         moves, scales = part(work, room.moves, m), part(work, room.scales, m)
         problem = (s, oil, numbers, memory, plan, room, work)
-        for _ in range(_PASSES):
+        easings = _EASINGS if ease(s, oil, numbers, memory, plan, 0.0) > 0.0 else 0
+        for k in range(easings + _PASSES):
+            share = 0.1**k if k < easings else 0.0
+            ease(s, oil, numbers, memory, plan, share)
             keep(s, oil, numbers, memory, plan, room, work)
             renew(s, oil, numbers, memory, plan)
             begin_search(s, m, room, work)
@@ -232,7 +237,9 @@ def rest_kernels(
             for k in range(room.own):
                 work[room.held + k] = s[room.first + k]
             full_contact(s, oil, numbers, memory, plan)
+            ease(s, oil, numbers, memory, plan, 1.0)
             m = stiffness(s, oil, numbers, memory, plan, room, work)
+            ease(s, oil, numbers, memory, plan, 0.0)
             for k in range(room.own):
                 s[room.first + k] = work[room.held + k]
             matrix = part(work, room.solver, m * m)
