@@ -49,6 +49,9 @@ from gearlube_core.dynamics.train.elements.cylindrical_bearing import (
     CylindricalBearing as CylindricalBearing,
 )
 from gearlube_core.bearings.bearing_under_load import bearing_under_load as bearing_under_load
+from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh as GearMesh
+from gearlube_core.dynamics.train.elements.joint import Joint as Joint
+from gearlube_core.dynamics.train.elements.orbit import Orbit as Orbit
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfShaft
 from gearlube_core.dynamics.train.elements.drag import Seal as Seal
 from gearlube_core.dynamics.train.elements.drag import Churning as Churning

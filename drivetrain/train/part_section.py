@@ -133,8 +133,13 @@ _WORDS = {
     "held": "Coordinates that do not move, among x, y, z, rx, ry, rz",
     "torque_of": "Port whose torque chooses the level of the mesh's table; left out: the torque "
     "of the mesh itself",
-    "drives_forward": "Whether the pinion drives about +z; else about -z",
-    "right_hand": "Whether the pinion's teeth are right-handed",
+    "drives_forward": "Whether the pinion, or gear 1, drives about +z; else about -z",
+    "right_hand": "Whether the teeth of the pinion, or of gear 1, are right-handed",
+    "ring": "Whether gear 2 is internal",
+    "carrier": "Body with which the pitch point, or the body, turns around the axis",
+    "stiffness_waves": "Cosine and sine of each harmonic of the stiffness over its mean, in turn",
+    "gap": "Unloaded gap [m] of each station from low z or the apex on, or one row for all: a "
+    "number, or numbers at equal distances over a mesh cycle",
     "torque_loss": "Law of the drag, named as model.bearing_torque_loss of an axle file",
     "axes": "Places of the two radial axes and the axial one among x, y, z, counted from 0",
     "cage_moment": "Whether the shaft carries the moment that loaded rollers exert on their cage",

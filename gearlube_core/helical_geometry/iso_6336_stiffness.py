@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from gearlube_core.checks import check_positive, check_within
-from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.helical_geometry.pair import HelicalPair, Shifts
 
 _PER_MM_UM = 1e9  # N/m2 in 1 N/(mm um)
 _STEEL_MODULUS = 206e9  # Pa
@@ -108,15 +108,13 @@ def iso_stiffness(
         check_within(f"modulus of the {name}", value, 1e9, 1e12, "Pa", "Steel has 2.06e11 Pa.")
     x1, x2 = pair.profile_shifts
     z_n1, z_n2 = virtual_teeth(pair)
-    terms = (1.0, 1.0 / z_n1, 1.0 / z_n2, x1, x1 / z_n1, x2, x2 / z_n2, x1**2, x2**2)
-    flexibility = sum(c * term for c, term in zip(_C, terms, strict=True))
+    theoretical = _theoretical((z_n1, z_n2), (x1, x2))
     depths = rack_dedendum_of(pair) if rack_dedendum is None else (rack_dedendum, rack_dedendum)
     for depth in depths:
         check_within("rack_dedendum", depth, 0.8, 2.0, "", "Usual are 1.2 to 1.4 normal modules.")
     angle = 1.0 - 0.02 * (20.0 - math.degrees(pair.normal_pressure_angle))
     basic_rack = (1.0 + 0.5 * (1.2 - 0.5 * (depths[0] + depths[1]))) * angle
     material = 2.0 * modulus[0] * modulus[1] / (modulus[0] + modulus[1]) / _STEEL_MODULUS
-    theoretical = _PER_MM_UM / flexibility
     single = theoretical * _C_M * blank_factor * basic_rack * math.cos(pair.helix_angle) * material
     single *= min(1.0, line_load / _LOW_LOAD) ** 0.25
     mesh = (0.75 * pair.transverse_contact_ratio + 0.25) * single
@@ -141,6 +139,53 @@ def iso_stiffness(
         profile_shift=(x1, x2),
         outside=tuple(text for holds, text in limits if not holds),
     )
+
+
+def _theoretical(teeth: Shifts, shifts: Shifts) -> float:
+    """Return c'_th [N/m2] of virtual spur gears."""
+    (z_n1, z_n2), (x1, x2) = teeth, shifts
+    terms = (1.0, 1.0 / z_n1, 1.0 / z_n2, x1, x1 / z_n1, x2, x2 / z_n2, x1**2, x2**2)
+    return _PER_MM_UM / sum(c * term for c, term in zip(_C, terms, strict=True))
+
+
+def mesh_stiffness_of_teeth(
+    teeth: tuple[float, float],
+    normal_pressure_angle: float,
+    helix_angle: float,
+    contact_ratio: float,
+) -> float:
+    """Return the mean mesh stiffness per face width [N/m2], normal to the teeth, of few numbers.
+
+    Solid steel gears without profile shift, basic rack with a dedendum of 1.2 modules, at least
+    100 N/mm.
+
+    Parameters
+    ----------
+    teeth
+        z1, z2 [-]; infinite for a ring, as [iso_6336_1] counts it, over cos(cone angle) of a bevel
+        gear.
+    normal_pressure_angle, helix_angle
+        [rad]
+    contact_ratio
+        epsilon_alpha [-].
+
+    Notes
+    -----
+    Source: [iso_6336_1 9.3], see `iso_stiffness`. Both turned by 1/cos2(beta_b) from the line of
+    action to the normal, see `stiffness_density`.
+
+    Examples
+    --------
+    >>> round(1e-9 * mesh_stiffness_of_teeth((20.0, 40.0), math.radians(20.0), 0.0, 1.635), 2)
+    19.22
+    """
+    sin_b = math.sin(helix_angle) * math.cos(normal_pressure_angle)
+    cos_b2 = 1.0 - sin_b * sin_b  # of the base helix angle
+    divisor = cos_b2 * math.cos(helix_angle)
+    rack = 1.0 - 0.02 * (20.0 - math.degrees(normal_pressure_angle))
+    theoretical = _theoretical((teeth[0] / divisor, teeth[1] / divisor), (0.0, 0.0))
+    single = theoretical * _C_M * rack * math.cos(helix_angle)
+    return (0.75 * contact_ratio + 0.25) * single / cos_b2
 
 
 def stiffness_density(mesh_stiffness: float, pair: HelicalPair) -> float:

@@ -151,6 +151,8 @@ def si_value(key: str, value: Any) -> Any:
 
 def to_si(unit: str, value: Any) -> Any:
     """Return a value in a unit of a file in SI units."""
+    if value is None:
+        return None
     if isinstance(value, tuple | list):
         return tuple(to_si(unit, one) for one in value)
     if unit == "deg":
@@ -167,6 +169,8 @@ def field_value(key: str, value: Any) -> Any:
 
 def from_si(unit: str, value: Any) -> Any:
     """Return a value in SI units in a unit of a file; the inverse of `to_si`."""
+    if value is None:
+        return None
     if isinstance(value, tuple | list):
         return tuple(from_si(unit, one) for one in value)
     if unit == "deg":

@@ -81,9 +81,11 @@ def assemble(
     ------
     ParameterError
         Two bodies or elements have one name, or an element names one that is not there, or one
-        body twice.
+        body twice, or does not fit the others.
     """
     _check_names(bodies, elements)
+    for one in elements:
+        one.fits(bodies, elements)
     names = [f"{body.name}.{one}" for body in bodies for one in _MOTIONS]
     of_body = {body.name: BODY_STATES * i for i, body in enumerate(bodies)}
     own, works, kept = {}, {}, {}

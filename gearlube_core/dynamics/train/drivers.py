@@ -58,6 +58,7 @@ class AllElements(NamedTuple):
     time_to_jump: Callable[..., float]  # least
     stored_energy: Callable[..., float]  # sum
     add_forces: Callable[..., None]
+    after_forces: Callable[..., None]
     event: Callable[..., None]
     write: Callable[..., None]
     show: Callable[..., None]
@@ -83,6 +84,7 @@ _LINES = {
     "time_to_jump": (", h", "total = min(total, {call})", "total"),
     "stored_energy": ("", "total += {call}", "total"),
     "add_forces": (", stage, ds", "{call}", "None"),
+    "after_forces": (", stage, ds", "{call}", "None"),
     "event": ("", "{call}", "None"),
     "write": (", out", "{call}", "None"),
     "show": (", stage, out, only", "{call}", "None"),
@@ -92,6 +94,7 @@ _LINES = {
 # of a row: what these take last
 _LAST = {"write": OUTPUT, "show": OUTPUT, "exchange": EXCHANGED, "check": N_KEPT}
 _LAST_BIT = 62  # in `only`; all elements behind share it
+_INSIDE = ("add_forces", "after_forces")  # of each stage
 _BEGIN = {"time_to_jump": "math.inf", "check": "1.0"}
 
 
@@ -123,7 +126,7 @@ class _Source:
     def begin(self, name: str) -> None:
         """Begin the kernel of a name."""
         self.lines += [
-            "    @inside" if name == "add_forces" else "    @kernel",
+            "    @inside" if name in _INSIDE else "    @kernel",
             f"    def all_{name}({_GIVEN}{_LINES[name][0]}):",
             f"        total = {_BEGIN.get(name, '0.0')}",
         ]

@@ -59,6 +59,11 @@ class Kernels(Protocol):
             AFTER_STEP for one that a step has left, as the next one begins.
         """
 
+    def after_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
+        """Change accelerations that follow from others, which stand in the rates of the bodies."""
+
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         """Write about what own states are at rest, and what is kept between steps.
 

@@ -103,7 +103,8 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     sizes_of, begin, expand = of_all.sizes_of, of_all.begin, of_all.expand
     each_step, finish = of_all.each_step, of_all.finish
     after_part, after_step = of_all.after_part, of_all.after_step
-    add_forces, event, stored_energy = of_all.add_forces, of_all.event, of_all.stored_energy
+    add_forces, after_forces = of_all.add_forces, of_all.after_forces
+    event, stored_energy = of_all.event, of_all.stored_energy
     step_rate, stiffening = of_all.step_rate, of_all.stiffening
     time_to_jump, show = of_all.time_to_jump, of_all.show
 
@@ -144,6 +145,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
             for i in range(N_COORDINATES):
                 ds[at + i] = s[at + RATE + i]
                 ds[at + RATE + i] *= numbers[mobility + i]
+        after_forces(s, oil, numbers, memory, plan, stage, ds)
 
     @kernel
     def rk4_step(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Any, ClassVar
@@ -126,6 +127,9 @@ class Element(ABC):
     def memory(self) -> Array:
         """Return what the kernels take as `memory`: a new array."""
         return NO_NUMBERS
+
+    def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:  # noqa: B027
+        """Raise ParameterError where the element does not fit the others of its train."""
 
     def ranges(self) -> tuple[Range, ...]:
         """Return ranges of outputs, which are named without the element."""

@@ -1,0 +1,270 @@
+"""Springs and dampers between two bodies: bearings on a housing, on a carrier, between shafts."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
+from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE, coupling_limit
+from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
+from gearlube_core.dynamics.train.elements.orbit import check_place
+from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.helical_geometry.gear_body import COUPLING, POSITION, STIFFNESS, TILTING
+from gearlube_core.kernels.inlining import inside
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number, Output, check_fields, constants_of
+from gearlube_core.oil.lubricant import LubricantState
+
+_DAMPING = Number("N.s/m", 0.0, 1e11)
+_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e12)
+_ERROR = Number("m", -1e-2, 1e-2, "20 um is 2e-5 m.", shown="um")
+_ARM = POSITION._replace(shown="mm")
+_ROUNDED_UP = 1.0 + 1e-12
+
+
+def _worded(number: Number, text: str, shown: str = "") -> Number:
+    return number._replace(text=text, shown=shown or number.shown)
+
+
+class _Bend(NamedTuple):
+    """Displacements and tilts between both bodies in the joint's axes, or their rates."""
+
+    x: float
+    y: float
+    z: float
+    rx: float
+    ry: float
+
+
+class _Bent(NamedTuple):
+    cos: float
+    sin: float
+    one: _Bend  # of the first body in the joint's axes
+    two: _Bend  # of the second one
+    moved: _Bend
+    rate: _Bend
+    force: _Bend  # on the first body
+
+
+class JointKernels(NamedTuple):
+    """Constants of a joint, and its kernels: see `element.Kernels`."""
+
+    radius: float  # [m]
+    azimuth: float  # [rad]
+    arm_1: float  # [m]
+    arm_2: float
+    error_x: float  # [m]
+    error_y: float
+    K_xx: float  # [N/m]
+    K_yy: float
+    K_zz: float
+    K_ax: float  # [N.m/rad]
+    K_ay: float
+    K_x_ay: float  # [N/rad]
+    K_y_ax: float
+    c_x: float  # [N s/m]
+    c_y: float
+    c_z: float
+    c_ax: float  # [N.m s/rad]
+    c_ay: float
+
+    @inside
+    def add_forces(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+    ) -> None:
+        """See `Kernels.add_forces`."""
+        b = _bent(self, at, s)
+        f, one, two = b.force, b.one, b.two
+        m_x, m_y = f.rx - self.arm_1 * f.y, f.ry + self.arm_1 * f.x
+        v = at[0] + RATE
+        ds[v] += b.cos * f.x - b.sin * f.y
+        ds[v + 1] += b.sin * f.x + b.cos * f.y
+        ds[v + 2] += f.z
+        ds[v + 3] += b.cos * m_x - b.sin * m_y
+        ds[v + 4] += b.sin * m_x + b.cos * m_y
+        n_x = self.arm_2 * f.y - f.rx
+        n_y = self.radius * f.z - self.arm_2 * f.x - f.ry
+        v = at[1] + RATE
+        ds[v] -= b.cos * f.x - b.sin * f.y
+        ds[v + 1] -= b.sin * f.x + b.cos * f.y
+        ds[v + 2] -= f.z
+        ds[v + 3] += b.cos * n_x - b.sin * n_y
+        ds[v + 4] += b.sin * n_x + b.cos * n_y
+        # at last: its axes turn with the second body, which moves them against the displacements
+        ds[v + RZ] -= (
+            self.radius * f.y
+            + ((one.x - two.x) * f.y - (one.y - two.y) * f.x)
+            + (one.rx * m_y - one.ry * m_x + two.rx * n_y - two.ry * n_x)
+        )
+        r = b.rate
+        power = self.c_x * r.x * r.x + self.c_y * r.y * r.y + self.c_z * r.z * r.z
+        ds[at[2]] += power + self.c_ax * r.rx * r.rx + self.c_ay * r.ry * r.ry
+
+    @kernel
+    def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
+        """See `Kernels.stored_energy`."""
+        d = _bent(self, at, s).moved
+        elastic = self.K_xx * d.x * d.x + self.K_yy * d.y * d.y + self.K_zz * d.z * d.z
+        elastic += self.K_ax * d.rx * d.rx + self.K_ay * d.ry * d.ry
+        return 0.5 * elastic + (self.K_x_ay * d.x * d.ry + self.K_y_ax * d.y * d.rx)
+
+    @kernel
+    def write(
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
+    ) -> None:
+        """See `Kernels.write`."""
+        force = _bent(self, at, s).force
+        for i in range(len(force)):
+            out[first + i] = force[i]
+
+
+@inside
+def _seen(s: Array, u: int, cos: float, sin: float) -> _Bend:
+    return _Bend(
+        cos * s[u] + sin * s[u + 1],
+        cos * s[u + 1] - sin * s[u],
+        s[u + 2],
+        cos * s[u + 3] + sin * s[u + 4],
+        cos * s[u + 4] - sin * s[u + 3],
+    )
+
+
+@inside
+def _rates(s: Array, v: int, u: _Bend, cos: float, sin: float, turning: float) -> _Bend:
+    """Return the rates of what `_seen` gives."""
+    seen = _seen(s, v, cos, sin)
+    return _Bend(
+        seen.x + turning * u.y,
+        seen.y - turning * u.x,
+        seen.z,
+        seen.rx + turning * u.ry,
+        seen.ry - turning * u.rx,
+    )
+
+
+@inside
+def _between(self: JointKernels, one: _Bend, two: _Bend) -> _Bend:
+    return _Bend(
+        one.x + self.arm_1 * one.ry - two.x - self.arm_2 * two.ry,
+        one.y - self.arm_1 * one.rx - two.y + self.arm_2 * two.rx,
+        one.z - two.z + self.radius * two.ry,
+        one.rx - two.rx,
+        one.ry - two.ry,
+    )
+
+
+@kernel
+def _bent(self: JointKernels, at: Any, s: Array) -> _Bent:
+    angle, turning = self.azimuth + s[at[1] + RZ], s[at[1] + W]
+    cos, sin = math.cos(angle), math.sin(angle)
+    one, two = _seen(s, at[0], cos, sin), _seen(s, at[1], cos, sin)
+    d = _between(self, one, two)
+    d = _Bend(d.x - self.error_x, d.y - self.error_y, d.z, d.rx, d.ry)
+    r = _between(
+        self,
+        _rates(s, at[0] + RATE, one, cos, sin, turning),
+        _rates(s, at[1] + RATE, two, cos, sin, turning),
+    )
+    force = _Bend(
+        -(self.K_xx * d.x + self.K_x_ay * d.ry + self.c_x * r.x),
+        -(self.K_yy * d.y + self.K_y_ax * d.rx + self.c_y * r.y),
+        -(self.K_zz * d.z + self.c_z * r.z),
+        -(self.K_ax * d.rx + self.K_y_ax * d.y + self.c_ax * r.rx),
+        -(self.K_ay * d.ry + self.K_x_ay * d.x + self.c_ay * r.ry),
+    )
+    return _Bent(cos, sin, one, two, d, r, force)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Joint(Element):
+    """Linear springs and dampers between a point of one body and one of another.
+
+    Its axes are fixed in the second body and turn with it: x at `azimuth`, z along the shafts.
+
+    Parameters
+    ----------
+    name, first, second : str
+        Of the joint, and of the bodies; `second` may be `ground`. The joint stands on the axis of
+        the first one.
+    radius, azimuth : float
+        Of the joint on the second body: from its axis [m], and from x towards y [rad]. A first body
+        off the axis orbits with the second one, see `Orbit`.
+    arm_1, arm_2 : float
+        Of the joint along z, from the centre of each body [m].
+    error_x, error_y : float
+        Place of the joint on the second body, off its nominal one, in the joint's axes [m].
+    K_xx, K_yy, K_zz, K_ax, K_ay : float
+        Stiffness along and about the joint's axes [N/m], [N.m/rad].
+    K_x_ay, K_y_ax : float
+        Symmetric coupling of x with tilting about y, and of y with tilting about x [N/rad].
+    c_x, c_y, c_z, c_ax, c_ay : float
+        Dampers [N s/m], [N.m s/rad].
+
+    Examples
+    --------
+    >>> pin = Joint(name="pin", first="planet", second="carrier", radius=0.1, K_xx=1e8, K_yy=1e8)
+    >>> pin.numbers().radius
+    0.1
+    """
+
+    name: str
+    first: str
+    second: str
+    radius: Annotated[
+        float, Number("m", 0.0, 10.0, text="From the axis of the second body", shown="mm")
+    ] = 0.0
+    azimuth: Annotated[
+        float,
+        Number(
+            "rad", -2.0 * math.pi, 2.0 * math.pi, text="Of its x axis, from x towards y",
+            shown="deg",
+        ),
+    ] = 0.0  # fmt: skip
+    arm_1: Annotated[float, _worded(_ARM, "Along z, from the centre of the first body")] = 0.0
+    arm_2: Annotated[float, _worded(_ARM, "Along z, from the centre of the second body")] = 0.0
+    error_x: Annotated[float, _worded(_ERROR, "Place error on the second body along x")] = 0.0
+    error_y: Annotated[float, _worded(_ERROR, "Place error on the second body along y")] = 0.0
+    K_xx: Annotated[float, _worded(STIFFNESS, "Stiffness along x", "N/um")] = 0.0
+    K_yy: Annotated[float, _worded(STIFFNESS, "Stiffness along y", "N/um")] = 0.0
+    K_zz: Annotated[float, _worded(STIFFNESS, "Stiffness along z", "N/um")] = 0.0
+    K_ax: Annotated[float, _worded(TILTING, "Stiffness against tilting about x")] = 0.0
+    K_ay: Annotated[float, _worded(TILTING, "Stiffness against tilting about y")] = 0.0
+    K_x_ay: Annotated[float, _worded(COUPLING, "Force along x per tilt about y", "kN/rad")] = 0.0
+    K_y_ax: Annotated[float, _worded(COUPLING, "Force along y per tilt about x", "kN/rad")] = 0.0
+    c_x: Annotated[float, _worded(_DAMPING, "Damper along x")] = 0.0
+    c_y: Annotated[float, _worded(_DAMPING, "Damper along y")] = 0.0
+    c_z: Annotated[float, _worded(_DAMPING, "Damper along z")] = 0.0
+    c_ax: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about x")] = 0.0
+    c_ay: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about y")] = 0.0
+    kind: ClassVar = "joint"
+    interpreted: ClassVar = (Listed(JointKernels, (), 3),)
+    on: ClassVar = ("first", "second")
+    losses: ClassVar = ("bearing_damping",)
+    outputs: ClassVar = (
+        *(Output(f"force.{c}", "N", f"force on the first body along {c}", 1e3) for c in "xyz"),
+        *(Output(f"moment.{c}", "N.m", f"moment on the first body about {c}", 10.0) for c in "xy"),
+    )
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        for coupling, direct, tilting in (
+            ("K_x_ay", self.K_xx, self.K_ay),
+            ("K_y_ax", self.K_yy, self.K_ax),
+        ):
+            limit = coupling_limit(direct, tilting) * _ROUNDED_UP
+            value = getattr(self, coupling)
+            check_within(coupling, value, -limit, limit, "N/rad", COUPLING_CURE)
+
+    def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
+        """Raise ParameterError where the first body is not carried at this place."""
+        there = cmath.rect(self.radius, self.azimuth)
+        check_place(elements, self.name, self.first, self.second, there)
+
+    def numbers(self) -> JointKernels:
+        """Return the constants of the kernels."""
+        return constants_of(JointKernels, self)
