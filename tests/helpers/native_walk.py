@@ -37,11 +37,13 @@ from fmu_src.native.driveline import driveline_model
 from fmu_src.native.model import NativeModel
 from fmu_src.native.models import native_model
 from fmu_src.native.platforms import PLATFORMS, platform_of_this_machine
+from fmu_src.native.train import train_model
 from tests.helpers.fmu_cases import CASES, Case
 from tests.helpers.native_exchange_walk import FINITE, REALS, ExchangeWalk
 from tests.helpers.native_fmus import native_fmus
 from tests.helpers.native_library import DISCARD, ERROR, OK, NativeInstance, NativeLibrary
 from tests.helpers.small_native_builds import unpacked
+from tests.helpers.small_trains import GEARS_ON_ROLLERS
 from tests.helpers.watching_library import (
     COMPILER,
     NO_COMPILER,
@@ -50,9 +52,19 @@ from tests.helpers.watching_library import (
 )
 
 ROOT = Path(__file__).parents[2]
+
+
+def _gears_on_rollers() -> NativeModel:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "train.toml"
+        path.write_text(GEARS_ON_ROLLERS)
+        return train_model(path)
+
+
 MODELS: dict[str, Callable[[], NativeModel]] = {
     **{case.name: lambda case=case: native_model(case.definition) for case in CASES},  # type: ignore[misc]
     "Driveline": driveline_model,
+    "Train": _gears_on_rollers,
 }
 LONGEST = 1.0  # s of one call
 _KINDS = ("Real", "Integer", "Enumeration", "Boolean")

@@ -60,6 +60,73 @@ body = "load"
 torque_n_m = {BRAKE}
 """
 
+_ROLLERS = """
+[elements.{body}_{name}]
+kind = "roller_bearing"
+body = "{body}"
+arm_mm = {side}60.0
+side = {side}1
+torque_loss = "solved_films"
+[elements.{body}_{name}.bearing]
+preload_n = 2500.0
+"""
+# a pair in roller bearings that tilts: all films solved, oil churned
+GEARS_ON_ROLLERS = """
+name = "gears on rollers"
+
+[oil]
+name = "mohammadpour_2015"
+
+[start]
+speed_rpm = { pinion = -1500.0 }
+torque_n_m = { input = 120.0, output = 150.0 }
+
+[bodies.pinion]
+mass_kg = 6.0
+inertia_kg_m2 = 0.02
+polar_inertia_kg_m2 = 0.02
+
+[bodies.gear]
+mass_kg = 12.0
+inertia_kg_m2 = 0.06
+polar_inertia_kg_m2 = 0.08
+
+[elements.input]
+kind = "port"
+body = "pinion"
+sign = -1.0
+
+[elements.output]
+kind = "port"
+body = "gear"
+sign = -1.0
+
+[elements.mesh]
+kind = "helical_mesh"
+pinion = "pinion"
+gear = "gear"
+gear_file = "he_2007"
+film = "solved"
+
+[elements.churning]
+kind = "churning"
+body = "gear"
+law = "changenet_velex_2007"
+ring_diameter_mm = 165.0
+ring_width_mm = 30.0
+immersion_mm = 40.0
+oil_volume_l = 1.2
+
+[elements.seal]
+kind = "seal"
+body = "pinion"
+torque_n_m = 0.15
+""" + "".join(
+    _ROLLERS.format(body=body, name=name, side=side)
+    for body in ("pinion", "gear")
+    for name, side in (("left", "-"), ("right", ""))
+)
+
 PAIR = helical_march_parameters(HelicalGearFile.named("he_2007"))
 PLANE, RATIO = PAIR.pair.plane, PAIR.pair.ratio
 OIL = Lubricant.named("mohammadpour_2015")
