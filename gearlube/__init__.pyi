@@ -35,6 +35,10 @@ from gearlube_core.dynamics.helical_model.model import HelicalPairModel as Helic
 # -- Trains of bodies and elements
 from gearlube_core.dynamics.train.model import Train as Train
 from gearlube_core.dynamics.train.part import Body as TrainBody
+from gearlube_core.dynamics.train.shaft import Shaft as Shaft
+from gearlube_core.shafts.section import ShaftDisc as ShaftDisc
+from gearlube_core.shafts.section import ShaftMaterial as ShaftMaterial
+from gearlube_core.shafts.section import ShaftSection as ShaftSection
 from gearlube_core.dynamics.train.part import Element as TrainElement
 from gearlube_core.dynamics.train.elements.port import Port as Port
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh as HelicalMesh

@@ -1,17 +1,28 @@
 """The section of a body or an element in a train file: its fields are those of its dataclass.
 
 A `Number` becomes a field with its unit, limits and text; a text, a choice, a list or a truth value
-stays what it is. A part that is read from other files, such as the gears of a mesh, has a section
-of its own in READERS.
+stays what it is. A dataclass of numbers, or a list of them, becomes a section of its own. A part
+that is read from other files, such as the gears of a mesh, has one in READERS.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, fields, replace
+from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Generic, Literal, TypeVar, get_type_hints
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    Generic,
+    Literal,
+    NamedTuple,
+    TypeVar,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from pydantic import Field, ValidationError, create_model
 
@@ -26,6 +37,7 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
 )
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import ROLLER, FilmModel
@@ -34,11 +46,11 @@ from gearlube_core.input_file.field_notes import Declared, field_notes, sentence
 from gearlube_core.input_file.field_units import attribute_of, field_value, si_value, unit_ending
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh, read_line_mesh
-from gearlube_core.number import numbers_of
+from gearlube_core.number import Number, numbers_of
 
 Text = Annotated[str, Field(min_length=1)]
 _Value = TypeVar("_Value")
-_Part = TypeVar("_Part", Body, Element)
+_Part = TypeVar("_Part", Body, Shaft, Element)
 
 
 class HelicalGears(Section):
@@ -121,6 +133,7 @@ READERS: Mapping[Any, _Reader[Any]] = {
     FilmModel | None: _Reader(RollerFilmModel, RollerFilmModel.read),
     Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
 }
+BODIES: Mapping[str, Any] = {"rigid": Body, "shaft": Shaft}
 OF_THE_TRAIN = ("steps_per_highest_period",)  # fields that elements have from their train
 _WORDS = {
     "body": "Body on which it acts",
@@ -144,11 +157,36 @@ _WORDS = {
     "axes": "Places of the two radial axes and the axial one among x, y, z, counted from 0",
     "cage_moment": "Whether the shaft carries the moment that loaded rollers exert on their cage",
     "law": "Law of the churning loss",
+    "sections": "Cylinders from end to end; where two overlap they add up",
+    "discs": "Rigid masses on it",
+    "nodes": "Bearings and gears by name, and where along z they are; elements name them BODY.NODE",
+    "material": "Elastic material; steel by default",
+    "gyroscopic": "Whether gyroscopic moments act",
 }
+
+
+class _Nested(NamedTuple):
+    """A field that is a dataclass of numbers, a tuple of them, or named numbers."""
+
+    kind: Any
+    many: bool
+    number: Number | None  # of each of the named ones
+
+
+def _nested(hint: Any) -> _Nested | None:
+    of = get_args(hint)
+    if get_origin(hint) is Mapping:
+        marks = [one for one in getattr(of[1], "__metadata__", ()) if isinstance(one, Number)]
+        return _Nested(None, many=True, number=marks[0]) if marks else None
+    kind = of[0] if of[1:] == (Ellipsis,) else hint
+    if is_dataclass(kind) and hint not in READERS and numbers_of(kind):  # type: ignore[arg-type]
+        return _Nested(kind, many=kind is not hint, number=None)
+    return None
 
 
 def _section_of(kind: Any) -> type[Section]:
     hints: dict[str, Any] = get_type_hints(kind)
+    whole: dict[str, Any] = get_type_hints(kind, include_extras=True)
     numbers = numbers_of(kind)
     model: dict[str, Any] = {}
     base: type[Section] = Section
@@ -164,6 +202,22 @@ def _section_of(kind: Any) -> type[Section]:
                 given["default"] = field_value(key, default)
             declared: Any = Annotated[hint, Declared(kind, key, name)]
             model[key] = declared, Field(description=number.text, **given)
+        elif nested := _nested(whole[name]):
+            text, own = _WORDS[name], nested.number
+            if own is not None:
+                model[name + unit_ending(own.shown or own.unit)] = (
+                    dict[str, Annotated[float, Field(allow_inf_nan=False)]],
+                    Field(description=text),
+                )
+                continue
+            section: Any = section_of(nested.kind)
+            optional = default is not MISSING or field.default_factory is not MISSING
+            given = {"default": [] if nested.many else None} if optional else {}
+            if nested.many:
+                section = list[section]
+            elif optional:
+                section = section | None
+            model[name] = section, Field(description=text, **given)
         elif hint in READERS and not READERS[hint].nested:
             base = READERS[hint].section
         elif hint in READERS:
@@ -175,6 +229,10 @@ def _section_of(kind: Any) -> type[Section]:
             model[name] = hint, Field(description=text, **given)
     if issubclass(kind, Element):
         model["kind"] = Literal[kind.kind], Field(description="Kind of the element")
+    elif kind in BODIES.values():
+        named = next(name for name, one in BODIES.items() if one is kind)
+        given = {"default": named} if kind is Body else {}
+        model["kind"] = Literal[named], Field(description="Kind of the body", **given)
     return create_model(kind.__name__, __base__=base, **model)
 
 
@@ -194,24 +252,36 @@ def read_part(
     except ValidationError as reason:
         notes = field_notes(section)
         return None, [f"{head}.{sentence(error, notes)}" for error in reason.errors()]
-    hints, numbers = get_type_hints(kind), numbers_of(kind)
-    keys = {attribute_of(key): key for key in section.model_fields}
-    found: dict[str, Any] = {"name": name}
     try:
-        for field in fields(kind):
-            reader = READERS.get(hints[field.name])
-            key = keys.get(field.name, field.name)
-            if field.name in numbers:
-                found[field.name] = si_value(key, getattr(given, key))
-            elif reader is not None:
-                found[field.name] = reader.read(getattr(given, key) if reader.nested else given)
-            elif field.name in of_train:
-                found[field.name] = of_train[field.name]
-            elif field.name != "name":
-                found[field.name] = getattr(given, key)
-        return kind(**found), []
+        return _built(kind, given, {"name": name, **of_train}), []
     except GearLubeError as reason:
         return None, [f"{head}: {reason}"]
+
+
+def _built(kind: Any, given: Section, known: Mapping[str, Any]) -> Any:
+    """Return the dataclass of a section; fields that are `known` stand in no file."""
+    hints, numbers = get_type_hints(kind), numbers_of(kind)
+    whole = get_type_hints(kind, include_extras=True)
+    keys = {attribute_of(key): key for key in type(given).model_fields}
+    found: dict[str, Any] = {}
+    for field in fields(kind):
+        name = field.name
+        reader, key = READERS.get(hints[name]), keys.get(name, name)
+        value: Any = getattr(given, key, None)
+        if name in numbers:
+            found[name] = si_value(key, value)
+        elif nested := _nested(whole[name]):
+            if nested.number is not None:
+                found[name] = {one: si_value(key, number) for one, number in value.items()}
+            elif nested.many:
+                found[name] = tuple(_built(nested.kind, one, {}) for one in value)
+            elif value is not None:
+                found[name] = _built(nested.kind, value, {})
+        elif reader is not None:
+            found[name] = reader.read(value if reader.nested else given)
+        else:
+            found[name] = known.get(name, value)
+    return kind(**found)
 
 
 def files_in(kind: type[Element]) -> tuple[str, ...]:

@@ -9,13 +9,14 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
-from drivetrain.train.part_section import OF_THE_TRAIN, files_in, read_part
+from drivetrain.train.part_section import BODIES, OF_THE_TRAIN, files_in, read_part
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.choice import Driver
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.model import MOST_TORQUE, Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
+from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.oil.oil_file import Temperature, read_oil
@@ -148,7 +149,7 @@ class TrainFile(InputFile):
                 found += [f"elements.{name}.{key}" for key in files_in(known[kind])]
         return tuple(found)
 
-    def _parts(self) -> tuple[list[Body], list[Element], list[str]]:
+    def _parts(self) -> tuple[list[Body | Shaft], list[Element], list[str]]:
         """Return bodies and elements, and what is wrong with them, in sentences."""
         wrong = [
             f"{section}.{name[:_SHOWN]} must have a name of letters, digits and _, at most 63, "
@@ -165,7 +166,21 @@ class TrainFile(InputFile):
         bodies, elements = [], []
         of_train = {name: getattr(self, name) for name in OF_THE_TRAIN}
         for name, given in self.bodies.items():
-            body, problems = read_part(Body, name, given, f"bodies.{name}", of_train)
+            kind = given.get("kind", "rigid")
+            if not isinstance(kind, str) or kind not in BODIES:
+                wrong.append(
+                    f"bodies.{name}.kind must be one of {', '.join(BODIES)}, got "
+                    f"{str(kind)[:_SHOWN]!r}."
+                )
+                continue
+            body, problems = read_part(BODIES[kind], name, given, f"bodies.{name}", of_train)
+            if isinstance(body, Shaft):
+                problems += [
+                    f"bodies.{name}.nodes: {node[:_SHOWN]!r} must be a name of letters, digits and "
+                    "_, at most 63."
+                    for node in body.nodes
+                    if not _NAME.fullmatch(node)
+                ]
             wrong += problems
             bodies += [body] if body else []
         for name, given in self.elements.items():

@@ -165,7 +165,8 @@ def _entry(operate: Callable[..., float], check: Callable[..., int]) -> Callable
 def _motion(train: Train) -> dict[str, int]:
     """Return the outputs that stand in the state as they are, with their places."""
     found = {one.record.name: one.place for one in train.assembly.continuous}
-    for i, body in enumerate(train.bodies):  # of one that does not turn too
+    sizes = train.assembly.sizes
+    for i, body in enumerate(train.bodies[: sizes.shown + sizes.nodes]):  # held ones too
         first = BODY_STATES * i
         found |= {f"{body.name}.angle": first + RZ, f"{body.name}.speed": first + W}
     return found

@@ -213,3 +213,45 @@ def test_paths_count_from_the_folder_of_the_file(tmp_path):
     path.write_text(TEXT.replace('"he_2007"', '"gears.toml"', 1))
     stage = TrainFile.from_toml(path).case().train.elements[3]
     assert stage.parameters.pair.ratio == pytest.approx(1.24)
+
+
+SHAFT = """
+kind = "shaft"
+nodes_mm = { left = 0.0, gear = 60.0 }
+sections = [{ start_mm = 0.0, end_mm = 120.0, outer_diameter_mm = 30.0 }]
+material = { E_gpa = 210.0, G_gpa = 80.0 }
+"""
+
+
+def test_a_body_may_be_an_elastic_shaft_with_nodes():
+    rigid = """
+mass_kg = 3.0
+inertia_kg_m2 = 0.004
+polar_inertia_kg_m2 = 0.02
+"""
+    text = TrainFile.shipped_text("e_axle")
+    assert text.count(rigid) == 1
+    text = text.replace(rigid, SHAFT).replace('pinion = "motor"', 'pinion = "motor.gear"')
+    train = TrainFile.from_data(tomllib.loads(text), "file").case().train
+    names = [body.name for body in train.bodies]
+    assert names[0] == "motor"
+    assert {"motor.left", "motor.gear", "motor.modes_1"} <= set(names)
+    mass = np.pi / 4.0 * 0.03**2 * 0.12 * 7850.0
+    assert 1.0 / train.bodies[0].mobility[0] == pytest.approx(mass, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("gear = 60.0", "gear = 160.0", "node gear of motor must lie on the shaft, 0 to 0.12 m"),
+        ("outer_diameter_mm = 30.0", "outer_diameter_mm = -3.0", "outer_diameter"),
+        ("end_mm = 120.0, ", "", "bodies.motor.sections"),
+        ("left = 0.0", '"le.ft" = 0.0', "without a point"),
+        ('kind = "shaft"', 'kind = "axle"', "bodies.motor.kind must be one of rigid, shaft"),
+    ],
+)
+def test_a_wrong_shaft_is_refused_by_name(old: str, new: str, words: str):
+    data = tomllib.loads(TrainFile.shipped_text("e_axle"))
+    data["bodies"]["motor"] = tomllib.loads(SHAFT.replace(old, new))
+    with pytest.raises(ParameterError, match=words):
+        TrainFile.from_data(data, "file")

@@ -36,7 +36,7 @@ _NO_LOSS = 1e-9  # W, rounding
 _SHOWN = 0.1  # last part of the run, of which the transmission errors are drawn
 _DTE, _LOSS = ".dte", ".power_loss"
 _LIMITS = (
-    "Shafts are rigid bodies, and bearings stand on ground, not on a housing.",
+    "Bodies are rigid but for those of the kind shaft; bearings stand on ground, not on a housing.",
     "The run begins at a static equilibrium with the friction of its first moment; what swings at "
     "first is the passage to the steady motion. Numbers are those of the second half of the run.",
 )

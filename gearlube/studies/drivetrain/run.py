@@ -13,6 +13,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.train.element import N_COORDINATES
 from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.part import Hidden, Node
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
 
@@ -108,7 +109,7 @@ def run_drivetrain(
                 {"units": "1", "long_name": "share of the body in the kinetic energy"},
             ),
         },
-        coords={"time": time, "body": [body.name for body in train.bodies]},
+        coords={"time": time, "body": _names(train)},
         attrs={
             "name": case.name,
             "imbalance": _imbalance(train, before),
@@ -128,11 +129,17 @@ def mode_shares(train: Train) -> tuple[Array, Array]:
     frequency, shapes = train.modes()
     vibrates = frequency > _RIGID
     mobility = np.concatenate([body.mobility for body in train.bodies])
-    body_of = np.arange(mobility.size) // N_COORDINATES
+    # modal coordinates have the name of their body before a point
+    owners = np.repeat([body.name.partition(".")[0] for body in train.bodies], N_COORDINATES)
     free = mobility > 0.0
     energy = shapes**2 / mobility[free][:, None]
-    share = np.array([energy[body_of[free] == i].sum(axis=0) for i in range(len(train.bodies))])
+    share = np.array([energy[owners[free] == name].sum(axis=0) for name in _names(train)])
     return frequency[vibrates], share.T[vibrates]
+
+
+def _names(train: Train) -> list[str]:
+    """Return the names of all bodies but nodes, modes and the ground."""
+    return [body.name for body in train.bodies if not isinstance(body, Node | Hidden)]
 
 
 def _imbalance(train: Train, before: float) -> float:

@@ -9,7 +9,7 @@ digits.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -22,7 +22,14 @@ from gearlube_core.dynamics.train.exchange import (
     event_indicators,
 )
 from gearlube_core.dynamics.train.outputs import train_outputs
-from gearlube_core.dynamics.train.part import Body, Element, shipped_kinds
+from gearlube_core.dynamics.train.part import (
+    GROUND,
+    Body,
+    Element,
+    Hidden,
+    Node,
+    shipped_kinds,
+)
 from gearlube_core.dynamics.train.plan import (
     AT,
     N_MEMORY,
@@ -44,6 +51,8 @@ _MOTIONS = (*COORDINATES, *(f"{one}.rate" for one in COORDINATES))
 class Assembly(NamedTuple):
     """A train put together."""
 
+    bodies: tuple[Body, ...]  # those of the list, nodes, then those without outputs
+    elements: tuple[Element, ...]
     listed: tuple[Listed, ...]
     laws: OilLaws  # of an oil with laws of its own
     sizes: Sizes
@@ -61,8 +70,37 @@ class Assembly(NamedTuple):
     events: tuple[Indicator, ...]
 
 
+class Bodies(Protocol):
+    """What a list has as a body: a rigid one, or one that stands for several."""
+
+    @property
+    def name(self) -> str:
+        """Name of the body."""
+
+    def members(self) -> tuple[list[Body], list[Element]]:
+        """Return what stands for it in the train."""
+
+
+def _expanded(
+    bodies: Sequence[Bodies], elements: Sequence[Element]
+) -> tuple[tuple[Body, ...], tuple[Element, ...]]:
+    """Return all bodies and elements in their order: carriers of nodes first."""
+    all_bodies, carriers = list[Body](), list[Element]()
+    for one in bodies:
+        members, own = one.members()
+        all_bodies += members
+        carriers += own
+    everything = [*carriers, *elements]
+    named = {getattr(one, field) for one in everything for field in one.on}
+    if GROUND in named - {one.name for one in all_bodies}:
+        all_bodies.append(Hidden.ground())
+    all_bodies.sort(key=lambda one: 2 * isinstance(one, Hidden) + isinstance(one, Node))
+    everything.sort(key=lambda one: not one.carries)
+    return tuple(all_bodies), tuple(everything)
+
+
 def assemble(
-    bodies: Sequence[Body],
+    bodies: Sequence[Bodies],
     elements: Sequence[Element],
     oil: Lubricant,
     kinds: Sequence[Listed] | None = None,
@@ -83,6 +121,7 @@ def assemble(
         Two bodies or elements have one name, or an element names one that is not there, or one
         body twice, or does not fit the others.
     """
+    bodies, elements = _expanded(bodies, elements)
     _check_names(bodies, elements)
     for one in elements:
         one.fits(bodies, elements)
@@ -140,9 +179,13 @@ def assemble(
     laws = (*oil.own_laws(), FORMULA_LAWS)[0]
     own_states = sum(len(one.states) for one in elements)
     energies = len(works) + len(losses) + len(bounds)
+    outputs = train_outputs(bodies, elements, works, losses, bounds)
     sizes = Sizes(
         elements=len(elements),
+        carriers=sum(one.carries for one in elements),
         bodies=len(bodies),
+        shown=sum(not isinstance(one, Node | Hidden) for one in bodies),
+        nodes=sum(isinstance(one, Node) for one in bodies),
         own=own_states,
         first_mobility=at_number,
         integrated=len(names),
@@ -153,9 +196,11 @@ def assemble(
         losses=len(losses),
         energies=energies,
         exchanged=at_exchanged,
+        written=len(outputs),
     )
-    outputs = train_outputs(bodies, elements, works, losses, bounds)
     return Assembly(
+        bodies,
+        elements,
         tuple(listed),
         laws,
         sizes,

@@ -15,6 +15,7 @@ import numpy as np
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES
+from gearlube_core.dynamics.train.outputs import count_outputs
 from gearlube_core.dynamics.train.part import Element, shipped_elements
 from gearlube_core.dynamics.train.plan import (
     AT,
@@ -54,11 +55,12 @@ class _Counts(NamedTuple):
     floats: int
     outputs: int
     exchanged: int
+    carries: int  # 1 if it carries nodes; its first sizes are nodes and bodies of modes
 
 
 (
     _BODIES, _STATES, _ANGLES, _WORKS, _LOSSES, _BOUNDS, _KEEPS, _BESIDE, _PLACES, _FLOATS, _OUTS,
-    _EXCHANGED,
+    _EXCHANGED, _CARRIES,
 ) = range(len(_Counts._fields))  # fmt: skip
 
 
@@ -78,6 +80,7 @@ def _counts() -> Offsets:
             floats=count_floats(kind.numbers, *kind.variants),
             outputs=len(one.outputs),
             exchanged=len(one.levels) + len(one.events),
+            carries=int(one.carries),
         )
         for one, kind in shipped_elements()
     ]
@@ -122,9 +125,13 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
         state = BODY_STATES * sizes.bodies
         angle, work, kept = state + sizes.own, first_loss - sizes.works, sizes.integrated
         number, place, output, exchanged = _OIL, 0, 0, 0
+        node = BODY_STATES * sizes.shown
+        mode = node + BODY_STATES * sizes.nodes
+        ground = BODY_STATES * (sizes.bodies - 1)  # where there is one
         at, fits = FIRST_ROW, True
-        for _ in range(sizes.elements):
+        for i in range(sizes.elements):
             kind = plan[at + KIND]
+            fits = fits and counts[kind, _CARRIES] == (1 if i < sizes.carriers else 0)
             fits = fits and plan[at + NUMBER] == number and plan[at + MEMORY] == place
             fits = fits and plan[at + OUTPUT] == output and plan[at + EXCHANGED] == exchanged
             number += counts[kind, _FLOATS]
@@ -163,8 +170,17 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
             for _ in range(counts[kind, _BESIDE]):
                 fits = fits and (plan[p] == 0 or sizes.integrated <= plan[p] < sizes.kept)
                 p += 1
+            if counts[kind, _CARRIES] == 1:
+                nodes, modes, first = BODY_STATES * plan[p], BODY_STATES * plan[p + 1], at + AT
+                fits = fits and plan[first] < BODY_STATES * sizes.shown
+                fits = fits and plan[first + 1] == node
+                fits = fits and plan[first + 2] == (mode if modes > 0 else ground)
+                node += nodes
+                mode += modes
             kept += plan[at + N_KEPT]
             at += AT + counts[kind, _PLACES]
+        fits = fits and node == BODY_STATES * (sizes.shown + sizes.nodes)
+        fits = fits and mode in (ground, ground + BODY_STATES)
         fits = fits and number == sizes.first_mobility and place < memory.size
         fits = fits and numbers.size == number + N_COORDINATES * sizes.bodies
         return fits and kept == sizes.kept and sizes.states == kept + sizes.energies + 1
@@ -178,11 +194,13 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
                 return False
         sizes = sizes_of(plan)
         fits = 1 <= sizes.bodies <= _MOST_BODIES and sizes.elements <= plan.size
+        fits = fits and 1 <= sizes.shown <= sizes.bodies - sizes.nodes
         fits = fits and totals_fit(plan, sizes) and rows_fit(numbers, memory, plan, sizes)
         if not (fits and all_finite(numbers, 0, numbers.size)):
             return False
         for i in range(sizes.first_mobility, numbers.size):
             fits = fits and numbers[i] >= 0.0
+        fits = fits and sizes.written == count_outputs(numbers, sizes)
         return fits and check(numbers, oil, numbers, memory, plan) > 0.0
 
     return is_train

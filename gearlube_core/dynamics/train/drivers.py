@@ -44,6 +44,8 @@ class AllElements(NamedTuple):
     the sizes takes the plan alone.
     """
 
+    spread: Callable[..., None]  # of the carriers alone, as the next one
+    collect: Callable[..., None]
     at_rest: Callable[..., None]
     full_contact: Callable[..., None]
     ease: Callable[..., float]  # sum
@@ -70,6 +72,8 @@ class AllElements(NamedTuple):
 _GIVEN = "s, oil, numbers, memory, plan"
 # what kernels take more, a line for each element, what they return
 _LINES = {
+    "spread": ("", "{call}", "None"),
+    "collect": (", ds", "{call}", "None"),
     "at_rest": ("", "{call}", "None"),
     "full_contact": ("", "{call}", "None"),
     "ease": (", share", "total += {call}", "total"),
@@ -94,7 +98,8 @@ _LINES = {
 # of a row: what these take last
 _LAST = {"write": OUTPUT, "show": OUTPUT, "exchange": EXCHANGED, "check": N_KEPT}
 _LAST_BIT = 62  # in `only`; all elements behind share it
-_INSIDE = ("add_forces", "after_forces")  # of each stage
+_OF_CARRIERS = ("spread", "collect")
+_INSIDE = ("add_forces", "after_forces", *_OF_CARRIERS)  # of each stage
 _BEGIN = {"time_to_jump": "math.inf", "check": "1.0"}
 
 
@@ -211,9 +216,10 @@ def interpreted(kinds: Sequence[Listed]) -> AllElements:
         calls.append(f"{constants}, places(plan, at + {AT}, n{i}), {memory}")
     for name in _LINES:
         source.begin(name)
+        loop = "carriers" if name in _OF_CARRIERS else "elements"
         source.lines += [
             f"        at = {FIRST_ROW}",
-            "        for i in range(rows_of(plan).elements):",
+            f"        for i in range(rows_of(plan).{loop}):",
             f"            row = places(plan, at, {AT})",
             f"            kind = row[{KIND}]",
         ]

@@ -64,6 +64,15 @@ class Kernels(Protocol):
     ) -> None:
         """Change accelerations that follow from others, which stand in the rates of the bodies."""
 
+    def spread(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """Write the motion of nodes, which follow from other states, before forces are added.
+
+        Elements with this kernel stand first in the list, see `Element.carries`.
+        """
+
+    def collect(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
+        """Pass on what all elements have added to nodes."""
+
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         """Write about what own states are at rest, and what is kept between steps.
 

@@ -105,6 +105,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     after_part, after_step = of_all.after_part, of_all.after_step
     add_forces, after_forces = of_all.add_forces, of_all.after_forces
     event, stored_energy = of_all.event, of_all.stored_energy
+    spread, collect = of_all.spread, of_all.collect
     step_rate, stiffening = of_all.step_rate, of_all.stiffening
     time_to_jump, show = of_all.time_to_jump, of_all.show
 
@@ -120,7 +121,9 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     ) -> None:
         for i in range(sizes_of(plan).integrated):
             ds[i] = 0.0
+        spread(s, oil, numbers, memory, plan)
         add_forces(s, oil, numbers, memory, plan, stage, ds)
+        collect(s, oil, numbers, memory, plan, ds)
 
     @kernel
     def rates(
@@ -138,7 +141,9 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         sizes = sizes_of(plan)
         for i in range(sizes.integrated):  # as in `forces`, which would count all arrays once more
             ds[i] = 0.0
+        spread(s, oil, numbers, memory, plan)
         add_forces(s, oil, numbers, memory, plan, stage, ds)
+        collect(s, oil, numbers, memory, plan, ds)
         for body in range(sizes.bodies):
             at = BODY_STATES * body
             mobility = sizes.first_mobility + N_COORDINATES * body
@@ -179,6 +184,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         rates(s, oil, numbers, memory, plan, 4, slope)
         for i in range(n):
             s[i] = begin[i] + h / 6.0 * (total[i] + slope[i])
+        spread(s, oil, numbers, memory, plan)
 
     @kernel
     def status_of(s: Array, plan: Offsets) -> int:
@@ -271,6 +277,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
 
     @kernel
     def renew(s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets) -> None:
+        spread(s, oil, numbers, memory, plan)
         begin(s, oil, numbers, memory, plan)
         each_step(s, oil, numbers, memory, plan, 0.0)
         expand(s, oil, numbers, memory, plan)
@@ -311,6 +318,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
             status = status_of(s, plan)
             if status != OK:
                 return float(status)
+            spread(s, oil, numbers, memory, plan)
         begin(s, oil, numbers, memory, plan)
         if operation == EVENT:
             event(s, oil, numbers, memory, plan)
@@ -321,7 +329,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         if operation == EXCHANGE:
             now(s, oil, numbers, memory, plan, work)
         sizes = sizes_of(plan)
-        of_elements, shows = of_elements_at(numbers, sizes), operation in (EXCHANGE, SHOW)
+        of_elements, shows = of_elements_at(sizes), operation in (EXCHANGE, SHOW)
         if shows and size > 0.0:
             out = part(work, of_elements, sizes.outputs)
             show(s, oil, numbers, memory, plan, stage_of(s, sizes), out, int(size))

@@ -11,13 +11,13 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
-from gearlube_core.dynamics.train.assemble import assemble
+from gearlube_core.dynamics.train.assemble import Bodies, assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import ENERGY, EVENT, START, WRITE
 from gearlube_core.dynamics.train.marched import MarchedTrain
 from gearlube_core.dynamics.train.outputs import outputs_at
-from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.part import Element
 from gearlube_core.dynamics.train.rest import LEAST_RATE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK
 from gearlube_core.errors import ConvergenceError, ParameterError
@@ -32,7 +32,7 @@ class Train(MarchedTrain):
 
     Parameters
     ----------
-    bodies : sequence of Body
+    bodies : sequence of Body, Shaft
     elements : sequence of Element
         Their order is the order of sums, so that another order changes the last digits.
     oil : Lubricant
@@ -64,7 +64,7 @@ class Train(MarchedTrain):
 
     def __init__(
         self,
-        bodies: Sequence[Body],
+        bodies: Sequence[Bodies],
         elements: Sequence[Element],
         oil: Lubricant,
         *,
@@ -72,11 +72,11 @@ class Train(MarchedTrain):
         driver: Driver = "automatic",
     ) -> None:
         check_within("steps_per_highest_period", steps_per_highest_period, 6, 4096)
-        self.bodies, self.elements, self.oil = tuple(bodies), tuple(elements), oil
+        made = assemble(bodies, elements, oil)
+        self.bodies, self.elements, self.oil = made.bodies, made.elements, oil
         self.driver = driver
         self.steps_per_highest_period = steps_per_highest_period
-        made = assemble(bodies, elements, oil)
-        operate = kernel_of(made, driver, [one.name for one in elements])
+        operate = kernel_of(made, driver, [one.name for one in self.elements])
         super().__init__(made, operate, np.array([math.nan, LEAST_RATE]))
         self._output_names = tuple(one.name for one in self._made.outputs)
         ports = (one.name for one in elements if isinstance(one, Port))

@@ -14,7 +14,7 @@ from gearlube_core.dynamics.train.element import (
     RZ,
     W,
 )
-from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.part import Body, Element, Hidden, Node
 from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.array_part import part
@@ -36,7 +36,7 @@ MOVING = {
     **{f"r{c}": Output(f"tilt.{c}", "rad", f"tilt about {c}", 1e-5) for c in "xy"},
 }
 
-_OF_BODY = len(TURNING) + len(MOVING)
+OF_NODE = (*TURNING[:2], *MOVING.values())
 
 
 def train_outputs(
@@ -61,6 +61,11 @@ def train_outputs(
     """
     made = []
     for body in bodies:
+        if isinstance(body, Hidden):
+            continue
+        if isinstance(body, Node):
+            made += [named_of(body.name, one) for one in OF_NODE]
+            continue
         moving = (one for name, one in MOVING.items() if name not in body.held)
         made += [named_of(body.name, one) for one in (*TURNING, *moving)]
     made += [named_of(one.name, output) for one in elements for output in one.outputs]
@@ -113,9 +118,18 @@ def outputs_at(sizes: Sizes) -> int:
 @kernel
 def write_work_size(sizes: Sizes) -> int:
     """Return the length of `work` for the kernel of `outputs_kernel`."""
-    of_bodies = _OF_BODY * sizes.bodies
-    outputs = of_bodies + sizes.outputs + 2 * sizes.energies + 2
-    return outputs_at(sizes) + max(outputs, sizes.states)
+    return outputs_at(sizes) + max(sizes.written, sizes.states)
+
+
+@kernel
+def count_outputs(numbers: Array, sizes: Sizes) -> int:
+    """Return how many outputs these numbers and sizes give."""
+    count = len(TURNING) * sizes.shown + len(OF_NODE) * sizes.nodes
+    for body in range(sizes.shown):
+        for i in range(N_COORDINATES - 1):
+            mobility = numbers[sizes.first_mobility + N_COORDINATES * body + i]
+            count += 1 if mobility > 0.0 else 0
+    return count + sizes.outputs + 2 * sizes.energies + 2
 
 
 @kernel
@@ -128,7 +142,7 @@ def write_state(s: Array, slope: Array, numbers: Array, sizes: Sizes, work: Arra
     first_mobility, works, energies = sizes.first_mobility, sizes.works, sizes.energies
     n, n_state, n_kept = sizes.integrated, sizes.states, sizes.kept
     first, k = n - energies, outputs_at(sizes)
-    for body in range(sizes.bodies):
+    for body in range(sizes.shown):
         u = BODY_STATES * body
         work[k], work[k + 1], work[k + 2] = s[u + RZ], s[u + W], slope[u + RATE + RZ]
         k += 3
@@ -136,6 +150,13 @@ def write_state(s: Array, slope: Array, numbers: Array, sizes: Sizes, work: Arra
             if numbers[first_mobility + N_COORDINATES * body + i] > 0.0:
                 work[k] = s[u + i]
                 k += 1
+    for node in range(sizes.shown, sizes.shown + sizes.nodes):
+        u = BODY_STATES * node
+        work[k], work[k + 1] = s[u + RZ], s[u + W]
+        k += 2
+        for i in range(N_COORDINATES - 1):
+            work[k] = s[u + i]
+            k += 1
     of_elements = k
     k += sizes.outputs
     duration = s[n_state - 1]
@@ -159,15 +180,10 @@ def write_state(s: Array, slope: Array, numbers: Array, sizes: Sizes, work: Arra
     return of_elements
 
 
-@kernel
-def of_elements_at(numbers: Array, sizes: Sizes) -> int:
+@inside
+def of_elements_at(sizes: Sizes) -> int:
     """Return the place of the first output of an element, as `write_state` does."""
-    k = outputs_at(sizes) + len(TURNING) * sizes.bodies
-    for body in range(sizes.bodies):
-        for i in range(N_COORDINATES - 1):
-            if numbers[sizes.first_mobility + N_COORDINATES * body + i] > 0.0:
-                k += 1
-    return k
+    return outputs_at(sizes) + sizes.written - (sizes.outputs + 2 * sizes.energies + 2)
 
 
 @inside

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Annotated, Any, ClassVar
 
@@ -19,12 +19,16 @@ from gearlube_core.number import Output, check_fields
 from gearlube_core.part import Kind
 
 NO_NUMBERS: Array = np.empty(0)
+GROUND = "ground"  # a body of every train whose elements name it: it stays where it is
 ELEMENTS: Kind[Any] = Kind(
     what="element",
     group="gearlube.elements",
     package="gearlube_core.dynamics.train.elements",
     files="*",
 )
+
+# elements that carry the nodes of a body, which a user lists as that body
+CARRIERS: Kind[Any] = replace(ELEMENTS, what="carrier of nodes", parts={})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,12 +73,60 @@ class Body:
         held = tuple(one for one in COORDINATES if one != "rz")
         return cls(name=name, mass=1.0, inertia=1.0, polar_inertia=polar_inertia, held=held)
 
+    def members(self) -> tuple[list[Body], list[Element]]:
+        """Return what stands for it in the train: itself."""
+        return [self], []
+
     @property
     def mobility(self) -> Array:
         """Acceleration per force or moment of each coordinate, 0 where held, shape (6,)."""
         resisting = (*3 * (self.mass,), *2 * (self.inertia,), self.polar_inertia)
         pairs = zip(COORDINATES, resisting, strict=True)
         return np.array([0.0 if name in self.held else 1.0 / one for name, one in pairs])
+
+
+class Node(Body):
+    """A place on a body, on which elements act as on a body: its motion follows from the body's.
+
+    Examples
+    --------
+    >>> Node.of("rotor", "gear").name
+    'rotor.gear'
+    """
+
+    __slots__ = ()
+
+    @classmethod
+    def of(cls, body: str, place: str) -> Node:
+        """Return a node of a body."""
+        held: Any = COORDINATES
+        return cls(name=f"{body}.{place}", mass=1.0, inertia=1.0, polar_inertia=1.0, held=held)
+
+
+class Hidden(Body):
+    """A body without outputs: the ground, or the modal coordinates of a flexible body.
+
+    Examples
+    --------
+    >>> Hidden.ground().name
+    'ground'
+    """
+
+    __slots__ = ()
+
+    @classmethod
+    def ground(cls) -> Hidden:
+        """Return the ground."""
+        held: Any = COORDINATES
+        return cls(name=GROUND, mass=1.0, inertia=1.0, polar_inertia=1.0, held=held)
+
+    @classmethod
+    def modes(cls, name: str, mass: float, held: tuple[str, ...]) -> Hidden:
+        """Return modal coordinates of one modal mass [kg], in metres; `held` ones are left out.
+
+        The last coordinate, which turns on, can be none.
+        """
+        return cls(name=name, mass=mass, inertia=mass, polar_inertia=1.0, held=held)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,11 +158,12 @@ class Element(ABC):
     ] = ()  # outputs that are the first numbers kept, see `exchange`
     events: ClassVar[tuple[Output, ...]] = ()  # what changes its sign where `event` has to do
 
+    carries: ClassVar[bool] = False  # whether it moves nodes: one of CARRIERS
     interpreted: ClassVar[tuple[Listed, ...]] = ()  # what of it ships, see `shipped_kinds`
 
     def __init_subclass__(cls) -> None:
         if kind := cls.__dict__.get("kind"):
-            ELEMENTS.add(cls, kind)
+            (CARRIERS if cls.carries else ELEMENTS).add(cls, kind)
 
     @abstractmethod
     def numbers(self) -> tuple[Any, ...]:
@@ -148,7 +201,8 @@ def shipped_elements() -> tuple[tuple[type[Element], Listed], ...]:
     own, see `drivers.interpreted`.
     """
     # by name: the order of registration is that of imports
-    ours = [one for _, one in sorted(ELEMENTS.known().items()) if ELEMENTS.is_ours(one)]
+    known = {**ELEMENTS.known(), **CARRIERS.known()}
+    ours = [one for _, one in sorted(known.items()) if ELEMENTS.is_ours(one)]
     return tuple((one, kind) for one in ours for kind in one.interpreted)
 
 

@@ -27,7 +27,10 @@ class Sizes(NamedTuple):
     """Sizes of a train, whole numbers."""
 
     elements: int
-    bodies: int
+    carriers: int  # of them, the first ones, which have nodes
+    bodies: int  # shown ones, nodes, then those without outputs
+    shown: int
+    nodes: int
     own: int  # states of elements, behind those of the bodies
     first_mobility: int  # among the numbers
     integrated: int
@@ -38,6 +41,7 @@ class Sizes(NamedTuple):
     losses: int  # of them, behind those put in; then bounds of losses
     energies: int
     exchanged: int  # rates of levels and event indicators of the elements
+    written: int  # outputs of the train
 
 
 FIRST_ROW = len(Sizes._fields)
@@ -57,7 +61,24 @@ def pack_plan(sizes: Sizes, rows: Sequence[Sequence[int]]) -> Offsets:
 def sizes_of(plan: Offsets) -> Sizes:
     """Return the sizes of the train of a plan."""
     n = places(plan, 0, FIRST_ROW)
-    return Sizes(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11])
+    return Sizes(
+        n[0],
+        n[1],
+        n[2],
+        n[3],
+        n[4],
+        n[5],
+        n[6],
+        n[7],
+        n[8],
+        n[9],
+        n[10],
+        n[11],
+        n[12],
+        n[13],
+        n[14],
+        n[15],
+    )
 
 
 def places(plan: Offsets, first: int, count: int) -> Any:

@@ -53,7 +53,7 @@ def rest_kernels(
     forces: Callable[..., None],
 ) -> tuple[Callable[..., int], Callable[..., int]]:
     """Return the kernels of START and STIFFNESS of a list, see `train_kernel`."""
-    sizes_of, expand = elements.sizes_of, elements.expand
+    sizes_of, spread, expand = elements.sizes_of, elements.spread, elements.expand
     at_rest, full_contact = elements.at_rest, elements.full_contact
     ease = elements.ease
 
@@ -123,6 +123,7 @@ def rest_kernels(
     def unbalanced(u: Array, problem: Any, out: Array) -> None:
         s, oil, numbers, memory, plan, room, work = problem
         displace(u, s, room, work)
+        spread(s, oil, numbers, memory, plan)
         expand(s, oil, numbers, memory, plan)
         forces(s, oil, numbers, memory, plan, 0, work)
         for i in range(u.size):

@@ -1,0 +1,140 @@
+"""A shaft as a body of a train: rigid, or an elastic beam, with nodes where elements act."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import numpy as np
+
+from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes, free_slots, mode_bodies
+from gearlube_core.dynamics.train.part import GROUND, Body, Element, Hidden, Node
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO, POSITION
+from gearlube_core.number import Number, check_fields
+from gearlube_core.shafts.beam import shaft_beam
+from gearlube_core.shafts.free_modes import ShaftMotion, shaft_motion
+from gearlube_core.shafts.section import ShaftDisc, ShaftMaterial, ShaftSection
+
+_LIMIT = Number(
+    "Hz", 0.0, 1e6, text="Modes up to this frequency move; 0: the shaft is rigid", shown="kHz"
+)
+_LONGEST = Number("m", 0.0, 10.0, text="Longest element of the beam; 0: a quarter of the least "
+                  "outer diameter", shown="mm")  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Shaft:
+    """A shaft along z: its rigid motion about its centre of mass, and its modes.
+
+    Elements act on it by its name, at the centre of mass, or on a node of it: `rotor.gear` is the
+    node `gear` of the shaft `rotor`.
+
+    Parameters
+    ----------
+    name : str
+    sections : sequence of ShaftSection
+        Cylinders along z. They must meet; where they overlap they add up, as a hub on its shaft.
+    nodes : mapping
+        Places of bearings and gears along z [m], by name.
+    discs : sequence of ShaftDisc
+        Rigid masses on it.
+    material : ShaftMaterial
+    highest_frequency : float
+        Modes of the free shaft up to this one move [Hz]; all others give their static flexibility.
+        0: the shaft is rigid.
+    damping_ratio : float
+        Of its modes [-].
+    gyroscopic : bool
+        Whether gyroscopic moments act.
+    longest_element : float
+        Of the beam [m]; 0: a quarter of the least outer diameter.
+
+    Raises
+    ------
+    ParameterError
+        A number is out of range, sections leave a gap, or a node lies off the shaft.
+
+    Notes
+    -----
+    Beams are those of Timoshenko [nelson_1980]. Both bending planes are alike. Nodes take part in
+    tilts and twists; the flexibility that modes above the limit give is that against forces and
+    torques, not against tilting moments.
+
+    Examples
+    --------
+    >>> tube = ShaftSection(start=0.0, end=0.3, outer_diameter=0.04, inner_diameter=0.01)
+    >>> rotor = Shaft(name="rotor", sections=[tube], nodes={"left": 0.02, "gear": 0.25})
+    >>> [one.name for one in rotor.members()[0]][:3]
+    ['rotor', 'rotor.left', 'rotor.gear']
+    """
+
+    name: str
+    sections: tuple[ShaftSection, ...]
+    nodes: Mapping[str, Annotated[float, POSITION._replace(shown="mm")]]
+    discs: tuple[ShaftDisc, ...] = ()
+    material: ShaftMaterial = field(default_factory=ShaftMaterial)
+    highest_frequency: Annotated[float, _LIMIT] = 1e4
+    damping_ratio: Annotated[float, DAMPING_RATIO] = 0.01
+    gyroscopic: bool = True
+    longest_element: Annotated[float, _LONGEST] = 0.0
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if not self.sections:
+            raise ParameterError(f"sections of {self.name} must have at least one, got none.")
+        if not self.nodes:
+            raise ParameterError(
+                f"nodes of {self.name} must name at least one place of a bearing or gear, got none."
+            )
+        ordered = sorted(self.sections, key=lambda one: one.start)
+        end = ordered[0].start
+        for one in ordered:
+            if one.start > end + 1e-9:
+                raise ParameterError(
+                    f"sections of {self.name} must meet, got a gap from {end:g} to {one.start:g} m."
+                )
+            end = max(end, one.end)
+        for node in self.nodes:
+            if "." in node:
+                raise ParameterError(
+                    f"nodes of {self.name} must have names without a point, got {node!r}."
+                )
+        places = {f"node {name}": place for name, place in self.nodes.items()}
+        places |= {f"disc {i + 1}": one.position for i, one in enumerate(self.discs)}
+        for what, place in places.items():
+            if not ordered[0].start - 1e-9 <= place <= end + 1e-9:
+                raise ParameterError(
+                    f"{what} of {self.name} must lie on the shaft, {ordered[0].start:g} to "
+                    f"{end:g} m, got {place:g} m."
+                )
+
+    def motion(self) -> ShaftMotion:
+        """Return its mass and inertia, and its modes at the nodes."""
+        places = list(self.nodes.values())
+        longest = self.longest_element or 0.25 * min(one.outer_diameter for one in self.sections)
+        beam = shaft_beam(self.sections, self.discs, places, self.material, longest)
+        return shaft_motion(beam, np.array(places), self.highest_frequency)
+
+    def members(self) -> tuple[list[Body], list[Element]]:
+        """Return its rigid body, nodes and modes, and the element that carries them."""
+        own = self.motion()
+        nodes = [Node.of(self.name, place) for place in self.nodes]
+        modes = [
+            Hidden.modes(f"{self.name}.modes_{i + 1}", own.mass, free_slots(own, i))
+            for i in range(mode_bodies(own))
+        ]
+        body = Body(
+            name=self.name, mass=own.mass, inertia=own.inertia, polar_inertia=own.polar_inertia
+        )
+        carrier = CarriedNodes(
+            name=f"{self.name}.nodes",
+            body=self.name,
+            nodes=nodes[0].name,
+            modes=modes[0].name if modes else GROUND,
+            motion=own,
+            damping_ratio=self.damping_ratio,
+            gyroscopic=self.gyroscopic,
+        )
+        return [body, *nodes, *modes], [carrier]

@@ -1,0 +1,1 @@
+"""Shafts as beams: from sections and discs to rigid motion and modes."""
