@@ -17,13 +17,14 @@ from gearlube_core.bearings.ring_loads import (
     add_stiffness,
 )
 from gearlube_core.contact.hertz import LARGEST_OVER_MEAN, line_mean_pressure
-from gearlube_core.kernels.inlining import inside
+from gearlube_core.kernels.inlining import inlined, inside, summing
 from gearlube_core.kernels.jit import kernel
 
 PROFILE = 0.00035  # of the logarithmic profile, over the roller diameter [iso_16281]
 _LAMINA = 35948.0  # N mm^-(10/9) mm^-(8/9), inner race - steel roller - outer race [iso_16281]
 _MM = 1e-3  # m
 _UNIT = 1e-8  # m, of approaches under the ninth root: good from 1e-12 m to 1.8 mm
+_ROOT_OF_UNIT = _UNIT ** (1.0 / 9.0)
 
 
 class CylinderRings(NamedTuple):
@@ -54,7 +55,7 @@ class CylinderRings(NamedTuple):
         Source: [iso_16281].
         """
         m, count = motion, int(self.n_elements)
-        f_x = f_y = m_x = m_y = lost = energy = largest = loaded = high = 0.0
+        f_x = f_y = m_x = m_y = lost = energy = largest = loaded = deepest = 0.0
         width = self.length / max(1, gaps.size)
         cos_c, sin_c = math.cos(m.cage_angle), math.sin(m.cage_angle)
         for i in range(count):
@@ -65,33 +66,25 @@ class CylinderRings(NamedTuple):
                 continue
             rate = m.v_x * c + m.v_y * s + m.cage_speed * (m.y * c - m.x * s)
             turning = m.w_y * c - m.w_x * s - m.cage_speed * (m.ry * s + m.rx * c)
-            on_roller = elastic = tilting = 0.0
-            for k in range(gaps.size):
-                at = (k + 0.5) * width - 0.5 * self.length
-                d = radial + at * slope - gaps[k]
-                q, stiffness = _lamina(self.stiffness, d)
-                here = rate + at * turning
-                damper = damping_time * stiffness
-                load = q + damper * here
-                on_roller += load
-                tilting += load * at
-                elastic += q
-                lost += damper * here * here
-                energy += 9.0 / 19.0 * q * max(d, 0.0)
-                high = max(high, q)
-            f_x -= on_roller * c
-            f_y -= on_roller * s
+            one = _sums(radial, slope, width, self.stiffness, gaps)
+            resisting = damping_time * (one.k_0 * rate + one.k_1 * turning)
+            tilting = one.moment + damping_time * (one.k_1 * rate + one.k_2 * turning)
+            f_x -= (one.load + resisting) * c
+            f_y -= (one.load + resisting) * s
             m_x += tilting * s
             m_y -= tilting * c
-            largest = max(largest, elastic)
-            loaded += 1.0 if elastic > 0.0 else 0.0
+            lost += resisting * rate + (tilting - one.moment) * turning
+            energy += one.energy
+            largest = max(largest, one.load)
+            loaded += 1.0 if one.load > 0.0 else 0.0
+            deepest = max(deepest, _deepest(radial, slope, width, gaps))
         over, sense = _against_rib(self, m.z)
         f_z = 0.0
         if over > 0.0:
             f_z = -self.flange * (over * sense + damping_time * m.v_z)
             lost += damping_time * self.flange * m.v_z * m.v_z
             energy += 0.5 * self.flange * over * over
-        line = high / width
+        line = _lamina(self.stiffness, deepest)[0] / width
         return RingLoads(f_x, f_y, f_z, m_x, m_y, lost, energy, largest, loaded, 0.0, line)
 
     @kernel
@@ -106,10 +99,11 @@ class CylinderRings(NamedTuple):
             c = COS_TABLE[count, i] * cos_c - SIN_TABLE[count, i] * sin_c
             s = SIN_TABLE[count, i] * cos_c + COS_TABLE[count, i] * sin_c
             radial, slope = m.x * c + m.y * s, m.ry * c - m.rx * s
-            for k in range(gaps.size):
-                at = (k + 0.5) * width - 0.5 * self.length
-                _, stiffness = _lamina(self.stiffness, radial + at * slope - gaps[k])
-                add_stiffness(out, stiffness, (c, s, 0.0, -at * s, at * c))
+            one = _sums(radial, slope, width, self.stiffness, gaps)
+            middle = one.k_1 / one.k_0 if one.k_0 > 0.0 else 0.0  # of the line of contact
+            add_stiffness(out, one.k_0, (c, s, 0.0, -middle * s, middle * c))
+            about = one.k_2 - one.k_1 * middle
+            add_stiffness(out, about, (0.0, 0.0, 0.0, -s, c))
         over, _ = _against_rib(self, m.z)
         add_stiffness(out, self.flange if over > 0.0 else 0.0, (0.0, 0.0, 1.0, 0.0, 0.0))
 
@@ -124,12 +118,59 @@ class CylinderRings(NamedTuple):
         out[first] = loads.high
 
 
-@inside
+class _Roller(NamedTuple):
+    """Sums over the laminae of a roller, t along it."""
+
+    load: float  # q [N]
+    moment: float  # q t [N.m]
+    energy: float  # [J]
+    k_0: float  # k [N/m]
+    k_1: float  # k t [N]
+    k_2: float  # k t^2 [N.m]
+
+
+@inlined
 def _lamina(c_s: float, d: float) -> tuple[float, float]:
     """Return load and tangent stiffness of a lamina, both 0 where it is apart."""
-    x = min(max(d / _UNIT, ROOT_MIN), ROOT_MAX)
-    root = c_s * _UNIT ** (1.0 / 9.0) * ninth_root(x) if d > 0.0 else 0.0
-    return root * max(d, 0.0), 10.0 / 9.0 * root
+    x = d * (1.0 / _UNIT)
+    x = ROOT_MIN if x < ROOT_MIN else x
+    x = ROOT_MAX if x > ROOT_MAX else x
+    root = c_s * _ROOT_OF_UNIT * ninth_root(x)
+    root = root if d > 0.0 else 0.0
+    return root * d, 10.0 / 9.0 * root
+
+
+@summing
+def _sums(radial: float, slope: float, width: float, c_s: float, gaps: Array) -> _Roller:
+    """Return the sums of a roller whose races approach by `radial` in its middle."""
+    load = moment = energy = k_0 = k_1 = k_2 = 0.0
+    middle = 0.5 * (gaps.size - 1)
+    for k in range(gaps.size):
+        t = (k - middle) * width
+        d = radial + t * slope - gaps[k]
+        q, stiffness = _lamina(c_s, d)
+        load += q
+        moment += q * t
+        energy += q * d
+        k_0 += stiffness
+        k_1 += stiffness * t
+        k_2 += stiffness * t * t
+    return _Roller(load, moment, 9.0 / 19.0 * energy, k_0, k_1, k_2)
+
+
+@kernel
+def _deepest(radial: float, slope: float, width: float, gaps: Array) -> float:
+    """Return the largest approach of a lamina, from the middle on uphill: gaps are convex."""
+    middle, sense = 0.5 * (gaps.size - 1), 1 if slope > 0.0 else -1
+    k = (gaps.size - (0 if sense > 0 else 1)) // 2  # of two laminae in the middle the uphill one
+    found = -math.inf
+    while 0 <= k < gaps.size:
+        d = radial + (k - middle) * width * slope - gaps[k]
+        if not d > found:
+            break
+        found = d
+        k += sense
+    return max(found, 0.0)
 
 
 @inside
@@ -194,7 +235,7 @@ def cylinder_rings(
         side=float(side),
         pressure=pressure,
         cage_ratio=0.5 * (1.0 - roller_diameter / pitch_diameter),
-        spring=0.3 * n_rollers * laminae * stiffness**0.9 * load**0.1,
+        spring=0.15 * n_rollers * laminae * stiffness**0.9 * load**0.1,
     )
     share = (2.0 * np.arange(laminae) + 1.0) / laminae - 1.0  # 2 t/L
     return rings, 0.5 * clearance - 2.0 * profile * roller_diameter * np.log1p(-share * share)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -239,3 +240,16 @@ def test_loads_that_nothing_bears_are_refused():
         under(ROLLERS, 100, 0, gaps=GAPS)
     with pytest.raises(ParameterError, match="F_y must be finite"):
         under(ROLLERS, 100, math.nan, 0, 0, 0, gaps=GAPS)
+
+
+@each("slope, laminae", product([0.0, 1e-5, -3e-4, 2e-3, -2e-3], [1, 2, 30, 31]))
+def test_largest_load_per_length_is_that_of_the_deepest_lamina(slope, laminae):
+    """Of one tilted roller at x, against all its laminae."""
+    rings, gaps = cylinder_rings(6, 9e-3, 43.5e-3, 13.6e-3, STEEL, laminae=laminae, clearance=1e-5)
+    x = 8e-6 if abs(slope) < 1e-3 else 2e-6  # the larger tilts leave the middle apart
+    found = rings.ring_loads(moved((x, 0.0, 0.0, 0.0, slope)), 0.0, gaps)
+    t = ((np.arange(laminae) + 0.5) / laminae - 0.5) * 13.6e-3
+    d = np.array([c * (x + t * slope) - gaps for c in (1.0, 0.5, -0.5, -1.0)])
+    q = rings.stiffness * np.maximum(0.0, d) ** (10 / 9)
+    assert found.high == pytest.approx(q.max() * laminae / 13.6e-3, rel=1e-9)
+    assert found.largest == pytest.approx(q.sum(axis=1).max(), rel=1e-9)
