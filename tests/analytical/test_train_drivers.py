@@ -9,6 +9,9 @@ from drivetrain.train.train_file import TrainFile
 from gearlube_core.dynamics.helical_model.pair import helical_pair
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.train.choice import generated_kernel, interpreted_kernel, kernel_of
+from gearlube_core.dynamics.train.element import COORDINATES
+from gearlube_core.dynamics.train.elements.ball_bearing import BallBearing
+from gearlube_core.dynamics.train.elements.cylindrical_bearing import CylindricalBearing
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.port import Port
@@ -52,9 +55,11 @@ def assert_equal_bits(train: Train, speeds: dict[str, float], torques: dict[str,
 
 
 def test_both_drivers_give_equal_bits():
-    """The same element stands twice, so that its rows differ."""
+    """The same element stands twice, so that its rows differ; two kinds share their kernels."""
     bodies = [Body.spinning("engine", 0.2), Body.spinning("wheel", 2.0)]
     bodies.append(Body(name="gear", mass=3.0, inertia=0.01, polar_inertia=0.02))
+    bodies.append(Body(name="frame", mass=1.0, inertia=1.0, polar_inertia=1.0, held=COORDINATES))
+    common = {"body": "gear", "housing": "frame", "pitch_diameter": 0.05, "f0": 2.0, "f1": 3e-4}
     elements: list[Element] = [
         Port(name="motor", body="engine"),
         HalfShaft(name="input", first="engine", second="gear", stiffness=2e4, damping=1.0),
@@ -66,6 +71,10 @@ def test_both_drivers_give_equal_bits():
         HalfShaft(name="output", first="gear", second="wheel", stiffness=1e4, damping=2.0),
         Port(name="road", body="wheel", sign=-1.0),
         Seal(name="hub", body="wheel", torque=0.1),
+        BallBearing(name="balls", n_balls=8, ball_diameter=0.01, inner_groove=0.52,
+                    outer_groove=0.53, arm=-0.02, housing_z=-0.01, offset=5e-6, **common),
+        CylindricalBearing(name="rollers", n_rollers=12, roller_diameter=0.01, roller_length=0.01,
+                           arm=0.02, housing_z=0.02, clearance=-4e-6, damping_time=1e-5, **common),
     ]  # fmt: skip
     train = Train(bodies, elements, OIL)
     assert_equal_bits(train, {"engine": 100.0}, {"motor": 40.0, "road": 35.0})

@@ -12,8 +12,11 @@ from dataclasses import fields, replace
 import numpy as np
 
 from gearlube_core.bearings import roller_loads, shaft_expansion, standalone, tapered_roller_kernels
+from gearlube_core.bearings.ball_rings import ball_rings
 from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.cylinder_rings import cylinder_rings
 from gearlube_core.bearings.losses import catalogue, laws, physical_loss, race_rolling
+from gearlube_core.bearings.ring_loads import RingMotion
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
@@ -237,11 +240,27 @@ def bearing_entries(record):
         record.call(f"energy {i}", shaft_expansion.shaft_bearing_energy, *motion[:3], 0.3, 145.0,
                     *oil, p)  # fmt: skip
     record.call("drag", catalogue.drag_torque, 150.0, 2500.0, 0.0, 19e-6, p)
+    ring_entries(record, generator)
     state, states, loads = np.array([1e-6, 0, 0, 1e-3, 0, 0]), np.zeros((5, 6)), np.zeros((5, 12))
     rotor = standalone.Rotor(50.0, 1500.0, 209.0, 159.0, *oil, p)
     record.call("rotor", standalone.rotor_history, state, 1e-5, 2, rotor, states, loads,
                 np.zeros((5, 6)), written=[states, loads])  # fmt: skip
     loss_entries(record)
+
+
+def ring_entries(record, generator):
+    """Loads and stiffness between the rings of a ball and of a cylindrical roller bearing."""
+    sizes, modulus = (7, 11.5e-3, 43.5e-3), 1.15e11
+    rollers, gaps = cylinder_rings(*sizes, 13.6e-3, modulus, laminae=7, flange=1e8)
+    balls = ball_rings(*sizes, 0.52, 0.53, modulus)
+    for name, rings in {"balls": balls, "rollers": rollers}.items():
+        for i in range(6):
+            u, v = generator.normal(size=5) * 1e-5, generator.normal(size=5) * 1e-3
+            motion = RingMotion(*u.tolist(), *v.tolist(), generator.uniform(0, 6), 60.0)
+            out = np.zeros(25)
+            record.call(f"{name} {i}", type(rings).ring_loads, rings, motion, 1e-5, gaps)
+            stiffness = type(rings).ring_stiffness
+            record.call(f"{name} K {i}", stiffness, rings, motion, gaps, out, written=[out])
 
 
 def loss_entries(record):
