@@ -184,6 +184,14 @@ def _nested(hint: Any) -> _Nested | None:
     return None
 
 
+def _of_lists(hint: Any) -> Any:
+    """Return the annotation of a field whose tuples are lists in a file."""
+    if get_origin(hint) is not tuple:
+        return hint
+    inner = tuple(_of_lists(one) for one in get_args(hint))
+    return Annotated[tuple[inner], Field(strict=False)]  # type: ignore[valid-type]
+
+
 def _section_of(kind: Any) -> type[Section]:
     hints: dict[str, Any] = get_type_hints(kind)
     whole: dict[str, Any] = get_type_hints(kind, include_extras=True)
@@ -224,9 +232,7 @@ def _section_of(kind: Any) -> type[Section]:
             model[name] = READERS[hint].section, Field(description="See the axle file")
         else:
             text = _WORDS.get(name, f"Body: {name}")
-            if "tuple" in str(hint):
-                given["strict"] = False
-            model[name] = hint, Field(description=text, **given)
+            model[name] = _of_lists(hint), Field(description=text, **given)
     if issubclass(kind, Element):
         model["kind"] = Literal[kind.kind], Field(description="Kind of the element")
     elif kind in BODIES.values():

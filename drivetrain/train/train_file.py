@@ -89,7 +89,7 @@ class TrainFile(InputFile):
     Examples
     --------
     >>> TrainFile.shipped()
-    ('e_axle', 'hypoid_axle')
+    ('e_axle', 'hypoid_axle', 'planetary')
     >>> axle = TrainFile.named("e_axle").case().start()
     >>> round(axle.state("motor.rz.rate"), 1)  # rad/s
     -314.1

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,11 +16,16 @@ from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
+from gearlube_core.dynamics.train.gear_geometry import fitting_angle, split_delay
+from gearlube_core.dynamics.train.gear_pair import GearPair
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body
-from tests.helpers.planetary_sets import FIXED, KELVIN, OIL, helical_set
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness
+from gearlube_core.helical_geometry.pair import HelicalPair
+from tests.helpers.each import each
+from tests.helpers.planetary_sets import KELVIN, OIL, helical_set
 
-GROUND = Body(name="ground", mass=1.0, inertia=1.0, polar_inertia=1.0, held=FIXED)
 WAVES = (0.12, 0.05, 0.0, -0.04)
 ROWS = tuple(
     tuple(1e-6 * (1.0 + math.sin(k + 0.9 * i) + 0.3 * i) for k in range(5)) for i in range(3)
@@ -33,7 +40,6 @@ def pair(**given: Any) -> Train:
     fields = {"teeth_1": 20, "teeth_2": 31, "normal_module": 3e-3, "face_width": 0.03,
               "stiffness": 4e8, "backlash": 1e-4, "right_hand": True} | given  # fmt: skip
     bodies = [
-        GROUND,
         Body(name="pinion", mass=1.0, inertia=1e-3, polar_inertia=2e-3),
         Body(name="wheel", mass=3.0, inertia=4e-3, polar_inertia=7e-3),
     ]
@@ -139,7 +145,7 @@ def turning_momentum(train: Train) -> float:
     """
     total, angle, w = 0.0, train.state("carrier.rz"), train.state("carrier.rz.rate")
     orbits = {one.body: one for one in train.elements if isinstance(one, Orbit)}
-    for body in train.bodies[1:]:
+    for body in train.bodies:
 
         def plane(one: str, other: str, body: Body = body) -> complex:
             return complex(train.state(f"{body.name}.{one}"), train.state(f"{body.name}.{other}"))
@@ -161,3 +167,173 @@ def test_angular_momentum_of_a_planetary_set():
     outside = sum(SET_LOADS.values()) - train.outputs()["ring twist.torque"]
     # differences of some kg m2/s over 2e-8 s, to the last digits
     assert along_flow(train, turning_momentum, h=1e-8) == pytest.approx(outside, rel=1e-6)
+
+
+@pytest.mark.parametrize("extra", [{}, {"friction": 0.0, "damping": 0.0}])
+def test_energy_balance_of_a_march_whose_flanks_part(extra: dict[str, float]):
+    """Gaps of 20 um under a light load: no contact in most of the time, at the usual steps."""
+    rows = tuple(tuple(8.0 * one for one in row) for row in ROWS)
+    train = pair(**(ROUGH | {"helix_angle": 0.3, "gap": rows} | extra))
+    load = {"load": 3.0}
+    train.initialise({"pinion": 60.0}, load, KELVIN)
+    before, apart = train.energy, 0.0
+    for _ in range(500):
+        train.step(1e-4, load, KELVIN)
+        apart += train.outputs()["mesh.separated"]
+    assert 250 < apart < 500
+    missing = train.work - sum(train.lost.values()) - (train.energy - before)
+    assert abs(missing) < 1e-6 * abs(train.work)
+
+
+def test_tilt_moves_the_load_along_the_face():
+    """Linear load along the face: F_i = k/n (d + M z_i) at a tilt of the pinion alone."""
+    train = pair(stations=9, azimuth=0.5)
+    train.initialise({"pinion": 10.0}, {"load": 900.0}, KELVIN)
+    flat, state = train.outputs(), train.get_state()
+    assert flat["mesh.share.low"] == pytest.approx(1.0, abs=1e-9)
+    tilt, normal = 4e-5, 0.5 + math.pi / 2.0 - math.radians(20.0)
+    for name, share in (("rx", -math.sin(normal)), ("ry", math.cos(normal))):
+        state[train.state_names.index(f"pinion.{name}")] += share * tilt
+    train.set_state(state)
+    found = train.outputs()
+    assert found["mesh.tilt"] == pytest.approx(tilt, rel=1e-9)
+    end = tilt * 4.0 / 9.0 * 0.03 * 4e8 / flat["mesh.load"]  # of the outer station's place
+    assert found["mesh.share.high"] == pytest.approx(1.0 + end, rel=1e-9)
+    assert found["mesh.share.low"] == pytest.approx(1.0 - end, rel=1e-9)
+
+
+def test_coast_flanks_push_along_their_own_normal_across_the_backlash():
+    fields = {"helix_angle": 0.4, "backlash": 8e-5}
+    found = {}
+    for torque in (90.0, -90.0):
+        train = pair(**fields)
+        train.initialise({"pinion": 10.0}, {"load": torque}, KELVIN)
+        found[torque] = train.outputs()
+    drive, coast = found[90.0], found[-90.0]
+    assert (drive["mesh.coast_contact"], coast["mesh.coast_contact"]) == (0.0, 1.0)
+    assert coast["mesh.load"] == pytest.approx(-drive["mesh.load"], rel=1e-9)
+    # the azimuth is 0: tangential and axial force turn around, the one that parts the gears stays
+    for along, sign in (("x", 1.0), ("y", -1.0), ("z", -1.0)):
+        one = coast[f"mesh.force.{along}"]
+        assert one == pytest.approx(sign * drive[f"mesh.force.{along}"], rel=1e-9)
+    # both rest apart by the whole gap, and pressed by the load on either side
+    pressed = 2.0 * drive["mesh.load"] / 4e8
+    assert drive["mesh.dte"] - coast["mesh.dte"] > 8e-5 + 0.99 * pressed
+
+
+def relative_stiffness(train: Train, mesh: str, turned: float) -> float:
+    """Return the stiffness with gear 1 turned by an angle [rad], over its mean."""
+    state, body = train.get_state(), next(one for one in train.elements if one.name == mesh).first
+    moved = state.copy()
+    moved[train.state_names.index(f"{body}.rz")] += turned
+    train.set_state(moved)
+    found = train.outputs()[f"{mesh}.stiffness"]
+    train.set_state(state)
+    return found / next(one for one in train.elements if one.name == mesh).stiffness - 1.0
+
+
+def test_meshes_of_a_set_follow_each_other_as_their_azimuths_say():
+    """Sun meshes by z_s psi/2 pi, and ring meshes of planets whose teeth fit the sun, likewise."""
+    wave = 0.1
+    train = helical_set(3, mesh={"stiffness_waves": (wave, 0.0)}, keyed=True)
+    train.initialise({"carrier": 1.0}, SET_LOADS, KELVIN)
+    for n in range(3):
+        azimuth = 2.0 * math.pi * n / 3.0
+        # the flank of the sun's tooth at the start, half a tooth ahead, and its way to the planet
+        cycle = 0.25 - 30 * azimuth / (2.0 * math.pi)
+        found = relative_stiffness(train, f"p{n + 1} sun", 0.0)
+        assert found == pytest.approx(wave * math.cos(2.0 * math.pi * cycle), abs=1e-9)
+        # a gear that turns by the delay has the next mesh where the first one was
+        delay = split_delay(30, 0.0, azimuth)
+        turned = relative_stiffness(train, f"p{n + 1} sun", 2.0 * math.pi * delay / 30)
+        assert turned == pytest.approx(relative_stiffness(train, "p1 sun", 0.0), abs=1e-9)
+        # even planets: ring meshes half a cycle after those of the sun, turning about -z
+        ring = relative_stiffness(train, f"p{n + 1} ring", 0.0)
+        planet = fitting_angle(30, 30, 0.0, azimuth)
+        cycle = -30 * (planet - azimuth) / (2.0 * math.pi) + 0.25
+        assert ring == pytest.approx(wave * math.cos(2.0 * math.pi * cycle), abs=1e-9)
+
+
+def listed(change: str) -> Train:
+    """Return a helical set with one thing wrong."""
+    train = helical_set(3)
+    parts = {one.name: one for one in train.elements}
+    bodies = {one.name: one for one in train.bodies}
+    name, field, value = {
+        "place": ("p2 orbit", "radius", 0.0640),
+        "azimuth": ("p2 pin", "azimuth", 2.0),
+        "module": ("p2 ring", "normal_module", 2.5e-3),
+        "hand": ("p2 sun", "right_hand", False),
+        "mass": ("p2 orbit", "mass", 0.8),
+        "teeth": ("p2 sun", "teeth_1", 31),
+        "held": ("p2", "held", ("y",)),
+    }[change]
+    if name in parts:
+        parts[name] = replace(parts[name], **{field: value})
+    else:
+        bodies[name] = replace(bodies[name], **{field: value})
+    return Train(list(bodies.values()), list(parts.values()), OIL)
+
+
+@each("change, words", [
+    ("place", "p2 pin needs the axis of p2 at x, y = -31.9253, 55.2963 mm from that of carrier, "
+              "got -32, 55.4256 mm by the orbits on carrier"),
+    ("azimuth", "p2 pin needs the axis of p2 at x, y = -26.5713, 58.0592 mm from that of"),
+    ("module", "the gear of ring with 90 teeth must have one normal_module, got 0.002 in p1 ring "
+               "and 0.0025 in p2 ring. Correct one"),
+    ("hand", "the gear of sun with 30 teeth must have one hand, got both, in p1 sun and p2 sun"),
+    ("mass", "mass of p2 orbit must be that of p2, 0.7 kg, got 0.8 kg."),
+    ("teeth", "planets p1 and p2 must stand a multiple of 2.97521 deg apart"),
+    ("held", "p2 must be free along x and y, since carrier carries it, but holds y. Fix it to"),
+])  # fmt: skip
+def test_gears_of_a_train_that_do_not_fit_each_other_are_refused(change: str, words: str):
+    with pytest.raises(ParameterError, match=re.escape(words)):
+        listed(change)
+
+
+def test_planets_between_teeth_that_do_not_fit_are_refused():
+    """30 and 90 teeth take planets at multiples of 3 deg."""
+    with pytest.raises(ParameterError, match=re.escape(
+        "planets p1 and p2 must stand a multiple of 3 deg apart, 360 deg over the 30 + 90 teeth of "
+        "sun and ring, got 51.4286 deg: their teeth do not fit."
+    )):  # fmt: skip
+        helical_set(7)
+
+
+@each("change, words", [
+    ({"ring": True, "teeth_2": 20}, "teeth_2 of mesh, a ring, must be above the 20 teeth of gear"),
+    ({"ring": True, "cone_angle_1": 0.3}, "mesh must not have ring beside cone angles"),
+    ({"centre_distance": 0.07}, "centre_distance must be near 76.5 mm, that of these teeth, and"),
+    ({"stiffness_waves": (0.1,)}, "stiffness_waves of mesh must have a cosine and a sine of each"),
+    ({"stiffness_waves": (0.9, 0.9)}, "sum of stiffness_waves of mesh must be within 0 to 0.95"),
+    ({"gap": ((0.0,), (0.0,)), "stations": 3}, "gap of mesh must have one row, or one for each"),
+    ({"gap": ((5.0,),)}, "gap of mesh must be within -0.01 to 0.01 m, got 5"),
+    ({"helix_angle_2": 0.3, "stations": 3}, "mesh has axes that are not parallel, or offset, for "
+                                            "which more than one station"),
+    ({"normal_module": 3.0}, "normal_module must be within 0.0001 to 1 m, got 3"),
+])  # fmt: skip
+def test_meshes_that_cannot_be_are_refused(change: dict[str, Any], words: str):
+    with pytest.raises(ParameterError, match=re.escape(words)):
+        pair(**change)
+
+
+def test_default_stiffness_is_that_of_iso_6336_for_the_same_gears():
+    """Against the fit for a whole pair, with a basic rack of 1.2 modules and no profile shift."""
+    module, helix = 3e-3, math.radians(15.0)
+    transverse = module / math.cos(helix)
+    reference = 0.5 * transverse * 24, 0.5 * transverse * 47
+    whole = HelicalPair(
+        name="pair", pinion_teeth=24, gear_teeth=47, normal_module=module,
+        normal_pressure_angle=math.radians(20.0), helix_angle=helix, face_width=0.03,
+        centre_distance=sum(reference), pinion_tip_radius=reference[0] + module,
+        gear_tip_radius=reference[1] + module, pinion_root_radius=reference[0] - 1.2 * module,
+        gear_root_radius=reference[1] - 1.2 * module,
+    )  # fmt: skip
+    few = GearPair(
+        name="pair", teeth_1=24, teeth_2=47, normal_module=module, helix_angle=helix,
+        face_width=0.03,
+    )  # fmt: skip
+    assert few.contact_ratio == pytest.approx(whole.transverse_contact_ratio, rel=1e-12)
+    along = iso_stiffness(whole, line_load=2e5, rack_dedendum=1.2).mesh
+    wanted = 0.03 * along / math.cos(whole.base_helix_angle) ** 2
+    assert few.iso_stiffness == pytest.approx(wanted, rel=1e-12)

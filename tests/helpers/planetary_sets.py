@@ -12,13 +12,13 @@ from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.joint import Joint
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
+from gearlube_core.dynamics.train.gear_geometry import fitting_angle
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.oil.lubricant import Lubricant
 
 OIL = Lubricant.named("mohammadpour_2015")
 KELVIN = 333.15
-FIXED = ("x", "y", "z", "rx", "ry", "rz")
 FLAT = ("z", "rx", "ry")  # held by bodies that move in a plane
 
 
@@ -35,12 +35,14 @@ def planetary(
     held: Sequence[str] = (),
     more: Sequence[Element] = (),
     mesh: Mapping[str, Any] | None = None,
+    keyed: bool = False,
 ) -> Train:
     """Return sun, ring, carrier and equal planets at equal distances.
 
     `gears` has the fields that both meshes share, `stiffness` those of sun and ring mesh, `twists`
     stiffness against ground about z. `supports` of the planet are its pins, `errors` their place
-    errors along the orbit, one for each planet.
+    errors along the orbit, one for each planet. `keyed` planets have their teeth between those of
+    the sun.
     """
     z_s, z_p = gears["teeth"]
     shared = {name: value for name, value in gears.items() if name != "teeth"}
@@ -48,9 +50,8 @@ def planetary(
     radius = 0.5 * (z_s + z_p) * gears["normal_module"] / math.cos(gears.get("helix_angle", 0.0))
     hand = gears.get("right_hand", False)
     shared.pop("right_hand", None)
-    ground = Body(name="ground", mass=1.0, inertia=1.0, polar_inertia=1.0, held=FIXED)
     central = [bodies[name] for name in ("sun", "ring", "carrier")]
-    found: list[Body] = [ground, *central]
+    found: list[Body] = [*central]
     parts: list[Element] = [
         Joint(name=f"{one.name} bearing", first=one.name, second="ground", **supports[one.name])
         for one in central
@@ -67,6 +68,7 @@ def planetary(
             Body(name=name, mass=body.mass, inertia=body.inertia,
                  polar_inertia=body.polar_inertia, held=body.held)
         )  # fmt: skip
+        tooth = fitting_angle(z_s, z_p, 0.0, azimuth) if keyed else 0.0
         error = errors[n] if errors else 0.0
         parts += [
             Orbit(name=f"{name} orbit", body=name, carrier="carrier", mass=body.mass,
@@ -77,7 +79,8 @@ def planetary(
                      azimuth=azimuth, stiffness=stiffness[0], right_hand=hand, **shared),
             GearMesh(name=f"{name} ring", first=name, second="ring", teeth_1=z_p,
                      teeth_2=z_s + 2 * z_p, azimuth=azimuth, ring=True, drives_forward=False,
-                     stiffness=stiffness[1], right_hand=not hand, **shared),
+                     stiffness=stiffness[1], right_hand=not hand,
+                     **({"keyed_angle": tooth} | shared)),
         ]  # fmt: skip
     return Train(found, [*parts, *more], OIL, driver=driver)
 
@@ -116,9 +119,17 @@ COOLEY_PARKER_2012 = FlatSet(
 
 
 def flat_set(
-    planets: int, given: FlatSet = LIN_PARKER_1999, *, held: Sequence[str] = (), **more: Any
+    planets: int,
+    given: FlatSet = LIN_PARKER_1999,
+    *,
+    held: Sequence[str] = (),
+    damper: float = 0.0,
+    **more: Any,
 ) -> Train:
-    """Return a set with so many planets; the carrier holds the coordinates `held` too."""
+    """Return a set with so many planets; the carrier holds the coordinates `held` too.
+
+    `damper` is that of all supports and pins along x and y [N s/m].
+    """
     cos = math.cos(given.pressure_angle)
     base = {"sun": 1.0, "planet": 1.0, "ring": 3.0, "carrier": 2.0 / cos}
     base = {name: share * given.sun_radius for name, share in base.items()}
@@ -132,7 +143,10 @@ def flat_set(
         "normal_module": given.sun_radius / cos / 15.0,
         "normal_pressure_angle": given.pressure_angle,
     }
-    supports = {name: {"K_xx": k, "K_yy": k} for name, k in given.supports.items()}
+    supports = {
+        name: {"K_xx": k, "K_yy": k, "c_x": damper, "c_y": damper}
+        for name, k in given.supports.items()
+    }
     twists = {name: k * base[name] ** 2 for name, k in given.twists.items()}
     return planetary(planets, bodies, gears, (given.mesh, given.mesh), supports, twists, **more)
 

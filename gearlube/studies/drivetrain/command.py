@@ -18,7 +18,8 @@ def drivetrain(
     file: Annotated[
         str,
         typer.Argument(
-            help="Train file (.toml), or the name of a shipped one: e_axle, hypoid_axle.",
+            help="Train file (.toml), or the name of a shipped one: e_axle, hypoid_axle, "
+            "planetary.",
             metavar="TRAIN",
         ),
     ] = "e_axle",

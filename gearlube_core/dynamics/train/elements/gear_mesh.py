@@ -24,7 +24,7 @@ from gearlube_core.dynamics.train.gear_geometry import (
     planets_fit,
 )
 from gearlube_core.dynamics.train.gear_pair import AZIMUTH, GearPair, worded
-from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.part import GROUND, Body, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import BACKLASH
 from gearlube_core.number import Number, Output
@@ -94,7 +94,7 @@ class GearMesh(GearPair, Element):
     name: str
     first: str
     second: str
-    carrier: str = "ground"
+    carrier: str = GROUND
     stations: Annotated[int, Number("1", 1, 99, text="Stations across the face")] = 1
     stiffness: Annotated[
         float | None,
@@ -160,7 +160,7 @@ class GearMesh(GearPair, Element):
             for one in row:
                 check_within(f"gap of {self.name}", one, -1e-2, 1e-2, "m", "100 um is 1e-4 m.")
         for wrong, what in (
-            (self.carrier != "ground" and not self.parallel, "a carrier"),
+            (self.carrier != GROUND and not self.parallel, "a carrier"),
             (self.stations > 1 and self.offset, "more than one station"),
         ):
             if wrong:
@@ -223,7 +223,7 @@ class GearMesh(GearPair, Element):
         ]
         for other, mine, its in shared:
             self._check_shared(other, mine, its)
-        if self.carrier != "ground":
+        if self.carrier != GROUND:
             check_distance(elements, self.name, self.first, self.second, self.carrier, self.centres)
         planets = [self, *(other for other in others if self._beside(other))]
         if self.ring and len(planets) > 1:

@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
-from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.part import Body, Element, Node
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import MASS
 from gearlube_core.kernels.inlining import inside
@@ -114,7 +114,14 @@ class Orbit(Element):
 
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         """Raise ParameterError where the body cannot move, or has another mass."""
-        body = next(one for one in bodies if one.name == self.body)
+        body, carrier = (
+            next(one for one in bodies if one.name == name) for name in (self.body, self.carrier)
+        )
+        if isinstance(body, Node) or isinstance(carrier, Node):
+            raise ParameterError(
+                f"{self.name} must have rigid bodies, got a node of a shaft among {self.body} and "
+                f"{self.carrier}. Fix a rigid body to the node by a stiff Joint and HalfShaft."
+            )
         if not math.isclose(body.mass, self.mass, rel_tol=1e-9):
             raise ParameterError(
                 f"mass of {self.name} must be that of {self.body}, {body.mass:g} kg, got "
