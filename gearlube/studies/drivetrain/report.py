@@ -110,7 +110,7 @@ def _mode_figure(dataset: xr.Dataset) -> Any:
             ax.barh(range(len(frequency)), share, left=left, label=str(body), **look)
             left += share
         ax.set_yticks(range(len(frequency)), [f"{one:.4g} Hz" for one in frequency])
-        ax.invert_yaxis()
+        ax.set_ylim(len(frequency) - 0.5, -0.5)
         ax.set(xlabel="share in the kinetic energy [-]", xlim=(0.0, 1.0))
         figure.legend(ncols=min(5, dataset.sizes["body"]), loc="outside lower center")
     return figure

@@ -12,6 +12,7 @@ from drivetrain.train.train_file import TrainCase
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.train.element import N_COORDINATES
+from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Hidden, Node
 from gearlube_core.progress import Progress, no_progress
@@ -124,10 +125,12 @@ def run_drivetrain(
 def mode_shares(train: Train) -> tuple[Array, Array]:
     """Return the frequencies of the modes that vibrate [Hz] and the bodies' shares in each.
 
+    Modes above the highest frequency of an elastic shaft are left out: they are none of the shaft.
     Shares are those in the kinetic energy, shape (modes, bodies).
     """
     frequency, shapes = train.modes()
-    vibrates = frequency > _RIGID
+    limits = [one.highest_frequency for one in train.elements if isinstance(one, CarriedNodes)]
+    vibrates = (frequency > _RIGID) & (frequency <= min(filter(None, limits), default=math.inf))
     mobility = np.concatenate([body.mobility for body in train.bodies])
     # modal coordinates have the name of their body before a point
     owners = np.repeat([body.name.partition(".")[0] for body in train.bodies], N_COORDINATES)

@@ -17,9 +17,7 @@ from gearlube_core.shafts.beam import shaft_beam
 from gearlube_core.shafts.free_modes import ShaftMotion, shaft_motion
 from gearlube_core.shafts.section import ShaftDisc, ShaftMaterial, ShaftSection
 
-_LIMIT = Number(
-    "Hz", 0.0, 1e6, text="Modes up to this frequency move; 0: the shaft is rigid", shown="kHz"
-)
+_LIMIT = Number("Hz", 0.0, 1e6, text="Modes up to this frequency move; 0: the shaft is rigid")
 _LONGEST = Number("m", 0.0, 10.0, text="Longest element of the beam; 0: a quarter of the least "
                   "outer diameter", shown="mm")  # fmt: skip
 
@@ -134,6 +132,7 @@ class Shaft:
             nodes=nodes[0].name,
             modes=modes[0].name if modes else GROUND,
             motion=own,
+            highest_frequency=self.highest_frequency,
             damping_ratio=self.damping_ratio,
             gyroscopic=self.gyroscopic,
         )

@@ -157,6 +157,8 @@ class CarriedNodes(Element):
     name, body, nodes, modes : str
         Of itself, of the rigid body, its first node and the first body of modes.
     motion : ShaftMotion
+    highest_frequency : float
+        Modes of the train above it are not those of the shaft [Hz]; 0: the shaft is rigid.
     damping_ratio : float
         Of all modes [-].
     gyroscopic : bool
@@ -173,6 +175,7 @@ class CarriedNodes(Element):
     nodes: str
     modes: str
     motion: ShaftMotion
+    highest_frequency: float
     damping_ratio: float
     gyroscopic: bool
     kind: ClassVar = "carried_nodes"
