@@ -89,11 +89,7 @@ class TrainFile(InputFile):
     Examples
     --------
     >>> TrainFile.shipped()
-<<<<<<< HEAD
-    ('e_axle', 'hypoid_axle', 'planetary')
-=======
-    ('e_axle', 'e_axle_elastic', 'hypoid_axle')
->>>>>>> f4628fb8 (A two-stage e-axle on elastic shafts ships as a train file; its modes and forces are those of another model to all digits)
+    ('e_axle', 'e_axle_elastic', 'hypoid_axle', 'planetary')
     >>> axle = TrainFile.named("e_axle").case().start()
     >>> round(axle.state("motor.rz.rate"), 1)  # rad/s
     -314.1

@@ -18,13 +18,8 @@ def drivetrain(
     file: Annotated[
         str,
         typer.Argument(
-<<<<<<< HEAD
-            help="Train file (.toml), or the name of a shipped one: e_axle, hypoid_axle, "
-            "planetary.",
-=======
             help="Train file (.toml), or the name of a shipped one, such as e_axle or "
             "e_axle_elastic.",
->>>>>>> f4628fb8 (A two-stage e-axle on elastic shafts ships as a train file; its modes and forces are those of another model to all digits)
             metavar="TRAIN",
         ),
     ] = "e_axle",
