@@ -198,7 +198,8 @@ def _section_of(kind: Any) -> type[Section]:
     numbers = numbers_of(kind)
     model: dict[str, Any] = {}
     base: type[Section] = Section
-    for field in fields(kind):
+    bodies = getattr(kind, "on", ())
+    for field in sorted(fields(kind), key=lambda one: one.name not in bodies):
         name, hint, default = field.name, hints[field.name], field.default
         given: dict[str, Any] = {} if default is MISSING else {"default": default}
         if name in ("name", *OF_THE_TRAIN):

@@ -98,3 +98,18 @@ def test_shipped_planetary_stage_turns_and_carries_as_its_teeth_count():
     after = train.outputs()
     assert after["sun.speed"] == pytest.approx(found["sun.speed"], rel=1e-3)
     assert 0.985 < after["efficiency"] < 0.997
+
+
+def test_an_undamped_set_starts_turning_without_a_swing():
+    """Deflections turn with the carrier from the start; what is left is w^2 u, of second order."""
+    train = flat_set(3, mesh=WIDE)
+    loads = {"sun torque": 100.0, "ring torque": 0.0, "carrier torque": -400.0}
+    train.initialise({"carrier": 200.0}, loads, KELVIN)
+    found = []
+    for _ in range(50):
+        train.step(2e-4, loads, KELVIN)
+        outputs = train.outputs()
+        found.append([outputs["p1 pin.force.x"], outputs["p1 pin.force.y"], outputs["p1 sun.load"]])
+    swing = np.ptp(found, axis=0) / np.abs(np.mean(found, axis=0))
+    # deflections are 2e-4 of the circle's radius, speeds a twentieth of the lowest frequency
+    assert swing.max() < 2e-3

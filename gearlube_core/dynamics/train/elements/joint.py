@@ -9,26 +9,19 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_within
-from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE, coupling_limit
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.elements.orbit import check_place
+from gearlube_core.dynamics.train.elements.spring_support import Springs
+from gearlube_core.dynamics.train.gear_pair import worded
 from gearlube_core.dynamics.train.part import Body, Element
-from gearlube_core.helical_geometry.gear_body import COUPLING, POSITION, STIFFNESS, TILTING
+from gearlube_core.helical_geometry.gear_body import POSITION
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
-_DAMPING = Number("N.s/m", 0.0, 1e11)
-_TILT_DAMPING = Number("N.m.s/rad", 0.0, 1e12)
 _ERROR = Number("m", -1e-2, 1e-2, "20 um is 2e-5 m.", shown="um")
 _ARM = POSITION._replace(shown="mm")
-_ROUNDED_UP = 1.0 + 1e-12
-
-
-def _worded(number: Number, text: str, shown: str = "") -> Number:
-    return number._replace(text=text, shown=shown or number.shown)
 
 
 class _Bend(NamedTuple):
@@ -180,8 +173,8 @@ def _bent(self: JointKernels, at: Any, s: Array) -> _Bent:
     return _Bent(cos, sin, one, two, d, r, force)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Joint(Element):
+@dataclass(frozen=True, kw_only=True)
+class Joint(Springs, Element):
     """Linear springs and dampers between a point of one body and one of another.
 
     Its axes are fixed in the second body and turn with it: x at `azimuth`, z along the shafts.
@@ -225,22 +218,10 @@ class Joint(Element):
             shown="deg",
         ),
     ] = 0.0  # fmt: skip
-    arm_1: Annotated[float, _worded(_ARM, "Along z, from the centre of the first body")] = 0.0
-    arm_2: Annotated[float, _worded(_ARM, "Along z, from the centre of the second body")] = 0.0
-    error_x: Annotated[float, _worded(_ERROR, "Place error on the second body along x")] = 0.0
-    error_y: Annotated[float, _worded(_ERROR, "Place error on the second body along y")] = 0.0
-    K_xx: Annotated[float, _worded(STIFFNESS, "Stiffness along x", "N/um")] = 0.0
-    K_yy: Annotated[float, _worded(STIFFNESS, "Stiffness along y", "N/um")] = 0.0
-    K_zz: Annotated[float, _worded(STIFFNESS, "Stiffness along z", "N/um")] = 0.0
-    K_ax: Annotated[float, _worded(TILTING, "Stiffness against tilting about x")] = 0.0
-    K_ay: Annotated[float, _worded(TILTING, "Stiffness against tilting about y")] = 0.0
-    K_x_ay: Annotated[float, _worded(COUPLING, "Force along x per tilt about y", "kN/rad")] = 0.0
-    K_y_ax: Annotated[float, _worded(COUPLING, "Force along y per tilt about x", "kN/rad")] = 0.0
-    c_x: Annotated[float, _worded(_DAMPING, "Damper along x")] = 0.0
-    c_y: Annotated[float, _worded(_DAMPING, "Damper along y")] = 0.0
-    c_z: Annotated[float, _worded(_DAMPING, "Damper along z")] = 0.0
-    c_ax: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about x")] = 0.0
-    c_ay: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about y")] = 0.0
+    arm_1: Annotated[float, worded(_ARM, "Along z, from the centre of the first body")] = 0.0
+    arm_2: Annotated[float, worded(_ARM, "Along z, from the centre of the second body")] = 0.0
+    error_x: Annotated[float, worded(_ERROR, "Place error on the second body along x")] = 0.0
+    error_y: Annotated[float, worded(_ERROR, "Place error on the second body along y")] = 0.0
     kind: ClassVar = "joint"
     interpreted: ClassVar = (Listed(JointKernels, (), 3),)
     on: ClassVar = ("first", "second")
@@ -252,13 +233,7 @@ class Joint(Element):
 
     def __post_init__(self) -> None:
         check_fields(self)
-        for coupling, direct, tilting in (
-            ("K_x_ay", self.K_xx, self.K_ay),
-            ("K_y_ax", self.K_yy, self.K_ax),
-        ):
-            limit = coupling_limit(direct, tilting) * _ROUNDED_UP
-            value = getattr(self, coupling)
-            check_within(coupling, value, -limit, limit, "N/rad", COUPLING_CURE)
+        self.check_couplings()
 
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         """Raise ParameterError where the first body is not carried at this place."""

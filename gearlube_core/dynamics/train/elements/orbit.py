@@ -10,6 +10,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
+from gearlube_core.dynamics.train.gear_pair import AZIMUTH, worded
 from gearlube_core.dynamics.train.part import Body, Element, Node
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import MASS
@@ -27,6 +28,12 @@ class OrbitKernels(NamedTuple):
     mass: float  # [kg]
     radius: float  # [m]
     azimuth: float  # [rad]
+
+    @kernel
+    def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        """See `Kernels.at_rest`; the deflection turns with the carrier."""
+        u, w = at[0], s[at[1] + W]
+        s[u + RATE], s[u + RATE + 1] = -w * s[u + 1], w * s[u]
 
     @inside
     def add_forces(
@@ -97,13 +104,7 @@ class Orbit(Element):
     carrier: str
     mass: Annotated[float, MASS._replace(text="Mass of the body")]
     radius: Annotated[float, Number("m", 1e-3, 10.0, text="Radius of the circle", shown="mm")]
-    azimuth: Annotated[
-        float,
-        Number(
-            "rad", -2.0 * math.pi, 2.0 * math.pi, text="Of the body at the start, x towards y",
-            shown="deg",
-        ),
-    ] = 0.0  # fmt: skip
+    azimuth: Annotated[float, worded(AZIMUTH, "Of the body at the start, from x towards y")] = 0.0
     kind: ClassVar = "orbit"
     interpreted: ClassVar = (Listed(OrbitKernels, (), 2),)
     on: ClassVar = ("body", "carrier")

@@ -84,8 +84,36 @@ class SpringKernels(NamedTuple):
         out[first + 4] = -(self.K_ay * a_y + self.K_x_ay * x + self.c_ay * s[v + 4])
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SpringSupport(Element):
+@dataclass(frozen=True, kw_only=True)
+class Springs:
+    """Stiffness and dampers of a support along and about its axes."""
+
+    K_xx: Annotated[float, _worded(_STIFFNESS, "Stiffness along x", "N/um")] = 0.0
+    K_yy: Annotated[float, _worded(_STIFFNESS, "Stiffness along y", "N/um")] = 0.0
+    K_zz: Annotated[float, _worded(_STIFFNESS, "Stiffness along z", "N/um")] = 0.0
+    K_ax: Annotated[float, _worded(_TILTING, "Stiffness against tilting about x")] = 0.0
+    K_ay: Annotated[float, _worded(_TILTING, "Stiffness against tilting about y")] = 0.0
+    K_x_ay: Annotated[float, _worded(_COUPLING, "Force along x per tilt about y", "kN/rad")] = 0.0
+    K_y_ax: Annotated[float, _worded(_COUPLING, "Force along y per tilt about x", "kN/rad")] = 0.0
+    c_x: Annotated[float, _worded(_DAMPING, "Damper along x")] = 0.0
+    c_y: Annotated[float, _worded(_DAMPING, "Damper along y")] = 0.0
+    c_z: Annotated[float, _worded(_DAMPING, "Damper along z")] = 0.0
+    c_ax: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about x")] = 0.0
+    c_ay: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about y")] = 0.0
+
+    def check_couplings(self) -> None:
+        """Raise ParameterError where a coupling is too large for the springs beside it."""
+        for coupling, direct, tilting in (
+            ("K_x_ay", self.K_xx, self.K_ay),
+            ("K_y_ax", self.K_yy, self.K_ax),
+        ):
+            # of one bearing alone the coupling is as large as this, to rounding
+            limit, cure = coupling_limit(direct, tilting) * _ROUNDED_UP, COUPLING_CURE
+            check_within(coupling, getattr(self, coupling), -limit, limit, "N/rad", cure)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpringSupport(Springs, Element):
     """Linear springs and dampers of all bearings of a body together, against the ground.
 
     Parameters
@@ -115,18 +143,6 @@ class SpringSupport(Element):
     body: str
     kind: ClassVar = "spring_support"
     interpreted: ClassVar = (Listed(SpringKernels, (), 2),)
-    K_xx: Annotated[float, _worded(_STIFFNESS, "Stiffness along x", "N/um")] = 0.0
-    K_yy: Annotated[float, _worded(_STIFFNESS, "Stiffness along y", "N/um")] = 0.0
-    K_zz: Annotated[float, _worded(_STIFFNESS, "Stiffness along z", "N/um")] = 0.0
-    K_ax: Annotated[float, _worded(_TILTING, "Stiffness against tilting about x")] = 0.0
-    K_ay: Annotated[float, _worded(_TILTING, "Stiffness against tilting about y")] = 0.0
-    K_x_ay: Annotated[float, _worded(_COUPLING, "Force along x per tilt about y", "kN/rad")] = 0.0
-    K_y_ax: Annotated[float, _worded(_COUPLING, "Force along y per tilt about x", "kN/rad")] = 0.0
-    c_x: Annotated[float, _worded(_DAMPING, "Damper along x")] = 0.0
-    c_y: Annotated[float, _worded(_DAMPING, "Damper along y")] = 0.0
-    c_z: Annotated[float, _worded(_DAMPING, "Damper along z")] = 0.0
-    c_ax: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about x")] = 0.0
-    c_ay: Annotated[float, _worded(_TILT_DAMPING, "Damper against tilting about y")] = 0.0
     on: ClassVar = ("body",)
     losses: ClassVar = ("bearing_damping",)
     outputs: ClassVar = (
@@ -136,13 +152,7 @@ class SpringSupport(Element):
 
     def __post_init__(self) -> None:
         check_fields(self)
-        for coupling, direct, tilting in (
-            ("K_x_ay", self.K_xx, self.K_ay),
-            ("K_y_ax", self.K_yy, self.K_ax),
-        ):
-            # of one bearing alone the coupling is as large as this, to rounding
-            limit, cure = coupling_limit(direct, tilting) * _ROUNDED_UP, COUPLING_CURE
-            check_within(coupling, getattr(self, coupling), -limit, limit, "N/rad", cure)
+        self.check_couplings()
 
     def numbers(self) -> SpringKernels:
         """Return the constants of the kernels."""
