@@ -126,6 +126,29 @@ def test_thrust_of_spiral_bevel_pinions(sense: float, axial: float, radial: floa
     assert -on_pinion[0] / tangential == pytest.approx(radial, abs=1e-6)
 
 
+def test_thrust_of_both_hypoid_gears():
+    """The same formula with cone and spiral angle of each member; the drive flank pushes the gear.
+
+    Tangential forces are as the cosines of the spiral angles.
+    """
+    pair = PAIRS["hypoid"]
+    points = pair.pitch_points()
+    spiral = CONES.pinion_spiral_angle, CONES.gear_spiral_angle
+    cone = CONES.pinion_pitch_angle, CONES.gear_pitch_angle
+    # a left hand that drives about +z: -1; a right hand, driven, about -z: +1
+    for k, (sign, hand) in enumerate(((-1.0, -1.0), (1.0, 1.0))):
+        force, place = sign * points[k].drive, points[k].place
+        outwards = place * (1.0, 1.0, 0.0) / np.hypot(*place[:2])
+        around = np.cross([0.0, 0.0, 1.0], outwards)
+        tangential = abs(force @ around)
+        assert tangential == pytest.approx(math.cos(TWENTY) * math.cos(spiral[k]), rel=1e-12)
+        lean, slope = math.tan(TWENTY) / math.cos(spiral[k]), hand * math.tan(spiral[k])
+        axial = lean * math.sin(cone[k]) + slope * math.cos(cone[k])
+        radial = lean * math.cos(cone[k]) - slope * math.sin(cone[k])
+        assert force[2] / tangential == pytest.approx(axial, rel=1e-9)
+        assert -(force @ outwards) / tangential == pytest.approx(radial, rel=1e-9)
+
+
 def test_thrust_of_helical_gears_is_tangent_of_the_helix_angle():
     on_first = -PAIRS["helical"].pitch_points()[0].drive
     across = on_first - on_first[2] * np.array([0.0, 0.0, 1.0])

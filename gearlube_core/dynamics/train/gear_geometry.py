@@ -137,7 +137,8 @@ def working_pitch(
 
     Examples
     --------
-    >>> found = working_pitch(19, 17, 0.045, 0.349066, 0.0, 0.863)  # of the NREL 5 MW gearbox
+    >>> # of the gearbox of [nejad_2016]
+    >>> found = working_pitch(19, 17, 0.045, 0.349066, 0.0, 0.863)
     >>> round(float(np.degrees(found.pressure_angle)), 3), round(found.first_radius, 6)
     (28.118, 0.455472)
     """
@@ -218,7 +219,8 @@ def fitting_angle(
 def split_delay(teeth: int, first_azimuth: float, second_azimuth: float) -> float:
     """Return by how many mesh cycles a gear's second mesh follows its first one, 0 to 1.
 
-    The gear turns about +z and drives both, or is driven by both.
+    The gear turns about +z and drives both, or is driven by both. With a sun these are the phases
+    of its planets, [parker_lin_2004].
 
     Examples
     --------
@@ -261,6 +263,7 @@ def excited_modes(sun_teeth: int, planets: int, harmonic: int) -> str:
     """Return which modes a harmonic of the mesh excites in a set of equal planets, equally spaced.
 
     "rotational", "translational" or "planet": (l z_s) mod N is 0, 1 or N - 1, or another number.
+    Source: [parker_lin_2004].
 
     Examples
     --------

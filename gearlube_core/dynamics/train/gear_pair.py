@@ -68,7 +68,8 @@ class GearPair:
 
     Notes
     -----
-    Mean cone angles and spiral angles of both gears fix shaft angle and offset of hypoid gears.
+    Directions, hand and azimuth: docs/conventions.md. Mean cone angles and spiral angles of both
+    gears fix shaft angle and offset of hypoid gears.
 
     Examples
     --------

@@ -10,10 +10,10 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
-from gearlube_core.dynamics.train.elements.orbit import check_place
+from gearlube_core.dynamics.train.elements.orbit import centre_of, check_place
 from gearlube_core.dynamics.train.elements.spring_support import Springs
 from gearlube_core.dynamics.train.gear_pair import worded
-from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.part import Body, Element, Node
 from gearlube_core.helical_geometry.gear_body import POSITION
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -186,7 +186,7 @@ class Joint(Springs, Element):
         the first one.
     radius, azimuth : float
         Of the joint on the second body: from its axis [m], and from x towards y [rad]. A first body
-        off the axis orbits with the second one, see `Orbit`.
+        off the axis orbits with the second one, see `Orbit`, unless that holds rz, as housings do.
     arm_1, arm_2 : float
         Of the joint along z, from the centre of each body [m].
     error_x, error_y : float
@@ -238,6 +238,10 @@ class Joint(Springs, Element):
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         """Raise ParameterError where the first body is not carried at this place."""
         there = cmath.rect(self.radius, self.azimuth)
+        second = next(one for one in bodies if one.name == self.second)
+        stands = "rz" in second.held and not isinstance(second, Node)  # nodes turn with their body
+        if stands and centre_of(elements, self.first, self.second) == 0.0:
+            return
         check_place(elements, self.name, self.first, self.second, there)
 
     def numbers(self) -> JointKernels:

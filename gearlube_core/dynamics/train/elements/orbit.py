@@ -92,6 +92,11 @@ class Orbit(Element):
     azimuth : float
         Of the body at the start, from x towards y [rad].
 
+    Notes
+    -----
+    In axes that turn with the carrier this gives the gyroscopic and centripetal terms of
+    [lin_parker_1999] and [cooley_parker_2012], whose frequencies the tests have.
+
     Examples
     --------
     >>> orbit = Orbit(name="orbit", body="planet", carrier="carrier", mass=0.7, radius=0.1)
