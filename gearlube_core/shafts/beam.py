@@ -145,7 +145,7 @@ def shaft_beam(
     >>> shaft = [ShaftSection(start=0.0, end=1.0, outer_diameter=0.05)]
     >>> beam = shaft_beam(shaft, [], [0.5], ShaftMaterial(), 0.1)
     >>> beam.places.size, round(float(beam.axial_mass.sum()), 3)  # kg
-    (11, 15.335)
+    (11, 15.413)
     """
     marks = sorted(
         [

@@ -17,8 +17,10 @@ import scipy.linalg
 from gearlube_core.arrays import Array
 from gearlube_core.shafts.beam import Beam
 
+_PLANE = 2  # rigid motions in a plane: it shifts and tilts
 _RESIDUAL_RATIO = 1.5  # frequency of the remaining shapes over the limit
-_RESIDUAL_SHARE = 1e-6  # of the largest elastic flexibility; shapes with less are left out
+# of the largest elastic flexibility; shapes with less are left out: of bending, of all others
+_RESIDUAL_SHARES = (1e-5, 1e-3)
 
 
 class Modes(NamedTuple):
@@ -77,7 +79,7 @@ def shaft_motion(beam: Beam, nodes: Array, highest_frequency: float) -> ShaftMot
     >>> motion = shaft_motion(beam, np.array([0.0, 1.0]), 2e3)
     >>> first = math.sqrt(motion.bending.stiffness[0] / motion.mass) / (2.0 * math.pi)
     >>> round(first, 1)  # Hz, free at both ends
-    227.2
+    226.5
     """
     at = np.argmin(abs(beam.places[:, None] - nodes[None, :]), axis=0)
     n, bending = beam.places.size, beam.bending
@@ -89,7 +91,7 @@ def shaft_motion(beam: Beam, nodes: Array, highest_frequency: float) -> ShaftMot
     centre = float(along @ bending.mass @ turned) / mass
     turned[::2] -= centre
     ones = np.ones(n)
-    bends = _kept(bending.stiffness, bending.mass, 2 * at, 2, highest_frequency)
+    bends = _kept(bending.stiffness, bending.mass, 2 * at, _PLANE, highest_frequency)
     scale = math.sqrt(mass)
     of_tilts = np.column_stack([turned, scale * bends.shapes])
     axial = _kept(beam.axial_stiffness, beam.axial_mass, at, 1, highest_frequency)
@@ -130,7 +132,7 @@ def _kept(
     elastic = ((shapes[loaded] ** 2) / squares).sum(axis=1)
     found, ways = np.linalg.eigh(flexibility)
     largest = elastic.max() if elastic.size else 0.0
-    chosen = found > _RESIDUAL_SHARE * largest
+    chosen = found > _RESIDUAL_SHARES[0 if rigid == _PLANE else 1] * largest
     moved = ((at_nodes / above).T @ ways[:, chosen]) / np.sqrt(found[chosen])  # of stiffness 1
     own = 1.0 / (moved**2).sum(axis=0)
     lowered = np.minimum(own, _RESIDUAL_RATIO**2 * limit)

@@ -134,7 +134,9 @@ def test_static_deflection_under_a_load_does_not_depend_on_the_modes_kept(limit:
     for pin in (0, 2):
         stiffness += 1e16 * np.outer(shapes[:, pin], shapes[:, pin])
     found = shapes[:, 1] @ np.linalg.solve(stiffness, shapes[:, 1])
-    assert found == pytest.approx(exact, rel=1e-5)  # shapes below 1e-6 of the largest are left out
+    assert found == pytest.approx(
+        exact, rel=1e-3
+    )  # shapes that give less than 1e-3 of it are left out
 
 
 @pytest.mark.parametrize("rpm", [10_000.0, 40_000.0])

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes, free_slots, mode_bodies
+from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes, mode_bodies
 from gearlube_core.dynamics.train.part import GROUND, Body, Element, Hidden, Node
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO, POSITION
@@ -120,8 +120,8 @@ class Shaft:
         own = self.motion()
         nodes = [Node.of(self.name, place) for place in self.nodes]
         modes = [
-            Hidden.modes(f"{self.name}.modes_{i + 1}", own.mass, free_slots(own, i))
-            for i in range(mode_bodies(own))
+            Hidden.modes(f"{self.name}.modes_{i + 1}", own.mass, held)
+            for i, held in enumerate(mode_bodies(own))
         ]
         body = Body(
             name=self.name, mass=own.mass, inertia=own.inertia, polar_inertia=own.polar_inertia

@@ -25,29 +25,31 @@ from gearlube_core.shafts.free_modes import ShaftMotion
 
 _MOST = 1000  # nodes, or bodies of modes
 # sizes at the end of `at`, behind the body, its first node, the first body of modes and the loss
-_LOST, _NODES, _BODIES = range(3, 6)
-# a body of modes holds two bending modes, each towards x and then y, and an axial or torsional one
-_PAIRS, _SINGLE = 2, 4
-# of it at a node: deflection and slope of both pairs, deflection and twist of the single mode
-_SHAPES = 6
-# of it: stiffness and damping of both pairs and the single mode
-_HOLDING = 6
+_LOST, _NODES, _BODIES, _BENT = range(3, 7)
+# the first bodies of modes hold two bending modes, each towards x and then y, and an axial or
+# torsional one; those behind them five axial or torsional ones
+_PAIRS, _SINGLE, _SINGLES = 2, 4, 5
+# of both at a node: deflection and slope of bending modes, deflection and twist of single ones
+_SHAPES, _STRAIGHT = 2 * _PAIRS + 2, 2 * _SINGLES
+# of both: stiffness, then damping of each
+_HOLDING, _HOLDING_STRAIGHT = 2 * (_PAIRS + 1), 2 * _SINGLES
 
 
 class _Shaft(NamedTuple):
     gyroscopic: float  # 1: with gyroscopic moments, 0: without
+    bent: float  # as among the sizes: a damaged file has another one
 
     @kernel
     def spread(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
-        nodes, bodies = at[_NODES], at[_BODIES]
+        nodes, row = at[_NODES], _row(at)
         for d in (0, RATE):
             b = at[0] + d
             for i in range(nodes):
-                arm, m = memory[i], nodes + _SHAPES * bodies * i
+                arm, m = memory[i], nodes + row * i
                 x, y, z = s[b] + arm * s[b + 4], s[b + 1] - arm * s[b + 3], s[b + 2]
                 rx, ry, rz = s[b + 3], s[b + 4], s[b + 5]
                 q = at[2] + d
-                for _ in range(bodies):
+                for _ in range(at[_BENT]):
                     for k in range(_PAIRS):
                         u, slope = memory[m + 2 * k], memory[m + 2 * k + 1]
                         x += u * s[q + 2 * k]
@@ -58,6 +60,12 @@ class _Shaft(NamedTuple):
                     rz += memory[m + 5] * s[q + _SINGLE]
                     m += _SHAPES
                     q += BODY_STATES
+                for _ in range(at[_BODIES] - at[_BENT]):
+                    for k in range(_SINGLES):
+                        z += memory[m + 2 * k] * s[q + k]
+                        rz += memory[m + 2 * k + 1] * s[q + k]
+                    m += _STRAIGHT
+                    q += BODY_STATES
                 n = at[1] + BODY_STATES * i + d
                 s[n], s[n + 1], s[n + 2] = x, y, z
                 s[n + 3], s[n + 4], s[n + 5] = rx, ry, rz
@@ -66,14 +74,21 @@ class _Shaft(NamedTuple):
     def add_forces(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
     ) -> None:
-        body, bodies, power = at[0], at[_BODIES], 0.0
+        body, bent, power = at[0], at[_BENT], 0.0
         m, q = _holding(at), at[2]
-        for _ in range(bodies):
+        for _ in range(bent):
             for k in range(_SINGLE + 1):
                 damping = memory[m + 3 + k // 2] * s[q + RATE + k]
                 ds[q + RATE + k] -= memory[m + k // 2] * s[q + k] + damping
                 power += damping * s[q + RATE + k]
             m += _HOLDING
+            q += BODY_STATES
+        for _ in range(at[_BODIES] - bent):
+            for k in range(_SINGLES):
+                damping = memory[m + _SINGLES + k] * s[q + RATE + k]
+                ds[q + RATE + k] -= memory[m + k] * s[q + k] + damping
+                power += damping * s[q + RATE + k]
+            m += _HOLDING_STRAIGHT
             q += BODY_STATES
         ds[at[_LOST]] += power
         if self.gyroscopic == 0.0:
@@ -83,9 +98,9 @@ class _Shaft(NamedTuple):
         ds[body + RATE + 4] -= turning * from_y
         ds[body + RATE + 3] -= turning * from_x
         q = at[2] + RATE
-        for _ in range(bodies):
+        for _ in range(bent):
             for k in range(_PAIRS):
-                m += 1 + _PAIRS * bodies
+                m += 1 + _PAIRS * bent
                 from_x, from_y = _tilting(at, memory, s, m)
                 ds[q + 2 * k] -= turning * from_y
                 ds[q + 2 * k + 1] += turning * from_x
@@ -93,14 +108,14 @@ class _Shaft(NamedTuple):
 
     @kernel
     def collect(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
-        nodes, bodies = at[_NODES], at[_BODIES]
+        nodes, row = at[_NODES], _row(at)
         for i in range(nodes):
-            f, m = at[1] + BODY_STATES * i + RATE, nodes + _SHAPES * bodies * i
+            f, m = at[1] + BODY_STATES * i + RATE, nodes + row * i
             f_x, f_y, f_z = ds[f], ds[f + 1], ds[f + 2]
             m_x, m_y, m_z = ds[f + 3], ds[f + 4], ds[f + 5]
             add_wrench(ds, at[0], memory[i], (f_x, f_y, f_z), (m_x, m_y, m_z))
             q = at[2] + RATE
-            for _ in range(bodies):
+            for _ in range(at[_BENT]):
                 for k in range(_PAIRS):
                     u, slope = memory[m + 2 * k], memory[m + 2 * k + 1]
                     ds[q + 2 * k] += u * f_x + slope * m_y
@@ -108,30 +123,48 @@ class _Shaft(NamedTuple):
                 ds[q + _SINGLE] += memory[m + 4] * f_z + memory[m + 5] * m_z
                 m += _SHAPES
                 q += BODY_STATES
+            for _ in range(at[_BODIES] - at[_BENT]):
+                for k in range(_SINGLES):
+                    ds[q + k] += memory[m + 2 * k] * f_z + memory[m + 2 * k + 1] * m_z
+                m += _STRAIGHT
+                q += BODY_STATES
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
         m, q, twice = _holding(at), at[2], 0.0
-        for _ in range(at[_BODIES]):
+        for _ in range(at[_BENT]):
             for k in range(_SINGLE + 1):
                 twice += memory[m + k // 2] * s[q + k] * s[q + k]
             m += _HOLDING
+            q += BODY_STATES
+        for _ in range(at[_BODIES] - at[_BENT]):
+            for k in range(_SINGLES):
+                twice += memory[m + k] * s[q + k] * s[q + k]
+            m += _HOLDING_STRAIGHT
             q += BODY_STATES
         return 0.5 * twice
 
     @kernel
     def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
-        if not (1 <= at[_NODES] <= _MOST and at[_BODIES] <= _MOST):
+        if not (1 <= at[_NODES] <= _MOST and at[_BENT] <= at[_BODIES] <= _MOST):
             return 0.0
-        end = _holding(at) + _HOLDING * at[_BODIES] + (1 + _PAIRS * at[_BODIES]) ** 2
-        fits = memory.size == end and kept == 0
+        straight = at[_BODIES] - at[_BENT]
+        end = _holding(at) + _HOLDING * at[_BENT] + _HOLDING_STRAIGHT * straight
+        end += (1 + _PAIRS * at[_BENT]) ** 2
+        fits = memory.size == end and kept == 0 and self.bent == float(at[_BENT])
         return 1.0 if fits and all_finite(memory, 0, memory.size) else 0.0
+
+
+@inside
+def _row(at: Any) -> int:
+    """Return how many numbers the shapes at a node have."""
+    return _SHAPES * at[_BENT] + _STRAIGHT * (at[_BODIES] - at[_BENT])
 
 
 @inside
 def _holding(at: Any) -> int:
     """Return where stiffness and damping of the modes begin; behind them couples the rotation."""
-    return at[_NODES] + _SHAPES * at[_NODES] * at[_BODIES]
+    return at[_NODES] + at[_NODES] * _row(at)
 
 
 @inside
@@ -139,7 +172,7 @@ def _tilting(at: Any, memory: Array, s: Array, row: int) -> tuple[float, float]:
     """Return a row of the gyroscopic coupling times the rates of tilts and bending modes."""
     from_x, from_y = memory[row] * s[at[0] + RATE + 4], -memory[row] * s[at[0] + RATE + 3]
     row, q = row + 1, at[2] + RATE
-    for _ in range(at[_BODIES]):
+    for _ in range(at[_BENT]):
         for k in range(_PAIRS):
             from_x += memory[row + k] * s[q + 2 * k]
             from_y += memory[row + k] * s[q + 2 * k + 1]
@@ -180,68 +213,72 @@ class CarriedNodes(Element):
     gyroscopic: bool
     kind: ClassVar = "carried_nodes"
     carries: ClassVar = True
-    interpreted: ClassVar = (Listed(_Shaft, (), 6),)
+    interpreted: ClassVar = (Listed(_Shaft, (), 7),)
     on: ClassVar = ("body", "nodes", "modes")
     losses: ClassVar = ("shaft_damping",)
 
     def numbers(self) -> _Shaft:
         """Return the constants of the kernels."""
-        return _Shaft(float(self.gyroscopic))
+        return _Shaft(float(self.gyroscopic), float(_bent(self.motion)))
 
     def sizes(self) -> tuple[int, ...]:
-        """Return how many nodes and bodies of modes there are."""
-        return self.motion.arms.size, mode_bodies(self.motion)
+        """Return how many nodes, bodies of modes, and those of bending modes there are."""
+        return self.motion.arms.size, len(mode_bodies(self.motion)), _bent(self.motion)
 
     def memory(self) -> Array:
         """Return arms and shapes at the nodes, then what holds the modes, gyroscopic coupling."""
-        own = self.motion
-        bodies, pairs = mode_bodies(own), own.bending.stiffness.size
-        twisting, axial = own.torsion.stiffness.size, own.axial.stiffness.size
-        shapes = np.zeros((own.arms.size, bodies, _SHAPES))
-        holding = np.zeros((bodies, _HOLDING))
-        for k in range(pairs):
-            body, place = divmod(k, _PAIRS)
-            shapes[:, body, 2 * place] = own.bending.deflection[k]
-            shapes[:, body, 2 * place + 1] = own.bending.slope[k]
-            holding[body, place] = own.bending.stiffness[k]
-        shapes[:, :axial, 4] = own.axial.deflection.T
-        shapes[:, axial : axial + twisting, 5] = own.torsion.deflection.T
-        holding[: axial + twisting, 2] = [*own.axial.stiffness, *own.torsion.stiffness]
-        holding[:, 3:] = 2.0 * self.damping_ratio * np.sqrt(holding[:, :3] * own.mass)
-        turning = np.zeros((1 + _PAIRS * bodies,) * 2)
+        own, bent = self.motion, _bent(self.motion)
+        straight, pairs = len(mode_bodies(own)) - bent, own.bending.stiffness.size
+        nodes, axial = own.arms.size, own.axial.stiffness.size
+        shapes = np.zeros((nodes, 2, _PAIRS * bent))
+        shapes[:, 0, :pairs] = own.bending.deflection.T
+        shapes[:, 1, :pairs] = own.bending.slope.T
+        single = np.zeros((nodes, bent + _SINGLES * straight, 2))
+        single[:, :axial, 0] = own.axial.deflection.T
+        single[:, axial : axial + own.torsion.stiffness.size, 1] = own.torsion.deflection.T
+        of_bent = shapes.transpose(0, 2, 1).reshape(nodes, bent, 2 * _PAIRS)
+        rows = np.concatenate([of_bent, single[:, :bent]], axis=2).reshape(nodes, -1)
+        rows = np.hstack([rows, single[:, bent:].reshape(nodes, -1)])
+        held = np.zeros(_PAIRS * bent)
+        held[:pairs] = own.bending.stiffness
+        alone = np.zeros(bent + _SINGLES * straight)
+        both = [*own.axial.stiffness, *own.torsion.stiffness]
+        alone[: len(both)] = both
+        of_bent = np.column_stack([held.reshape(bent, _PAIRS), alone[:bent]])
+        holding = [
+            np.hstack([one, 2.0 * self.damping_ratio * np.sqrt(one * own.mass)]).ravel()
+            for one in (of_bent, alone[bent:].reshape(straight, _SINGLES))
+        ]
+        turning = np.zeros((1 + _PAIRS * bent,) * 2)
         turning[: 1 + pairs, : 1 + pairs] = own.gyroscopic
-        return np.concatenate([own.arms, shapes.ravel(), holding.ravel(), turning.ravel()])
+        return np.concatenate([own.arms, rows.ravel(), *holding, turning.ravel()])
 
 
-def mode_bodies(motion: ShaftMotion) -> int:
-    """Return how many bodies hold the modes of a shaft.
-
-    Examples
-    --------
-    >>> from gearlube_core.dynamics.train.shaft import Shaft
-    >>> from gearlube_core.shafts.section import ShaftSection
-    >>> tube = ShaftSection(start=0.0, end=0.3, outer_diameter=0.04)
-    >>> rigid = Shaft(name="rotor", sections=[tube], nodes={"gear": 0.1}, highest_frequency=0.0)
-    >>> mode_bodies(rigid.motion())
-    0
-    """
-    single = motion.axial.stiffness.size + motion.torsion.stiffness.size
-    return max(-(-motion.bending.stiffness.size // _PAIRS), single)
+def _bent(motion: ShaftMotion) -> int:
+    """Return how many bodies hold bending modes."""
+    return -(-motion.bending.stiffness.size // _PAIRS)
 
 
-def free_slots(motion: ShaftMotion, body: int) -> tuple[str, ...]:
-    """Return the coordinates of a body of modes that stand for no mode of the shaft.
+def mode_bodies(motion: ShaftMotion) -> list[tuple[str, ...]]:
+    """Return the bodies that hold the modes of a shaft: the coordinates that each leaves out.
 
     Examples
     --------
     >>> from gearlube_core.dynamics.train.shaft import Shaft
     >>> from gearlube_core.shafts.section import ShaftSection
     >>> tube = ShaftSection(start=0.0, end=0.3, outer_diameter=0.04)
-    >>> rotor = Shaft(name="rotor", sections=[tube], nodes={"gear": 0.1}, highest_frequency=3e3)
-    >>> free_slots(rotor.motion(), 0)
-    ('rz',)
+    >>> shaft = {"name": "rotor", "sections": [tube], "nodes": {"gear": 0.1}}
+    >>> mode_bodies(Shaft(**shaft, highest_frequency=0.0).motion())
+    []
+    >>> mode_bodies(Shaft(**shaft, highest_frequency=3e3).motion())
+    [('rz',), ('y', 'z', 'rx', 'ry', 'rz')]
     """
-    pairs = min(_PAIRS, max(0, motion.bending.stiffness.size - _PAIRS * body))
+    pairs, bent = motion.bending.stiffness.size, _bent(motion)
     single = motion.axial.stiffness.size + motion.torsion.stiffness.size
-    used = {*range(2 * pairs), *((_SINGLE,) if body < single else ())}
-    return tuple(one for i, one in enumerate(COORDINATES) if i not in used)
+    used = [
+        {*range(2 * min(_PAIRS, pairs - _PAIRS * i)), *((_SINGLE,) if i < single else ())}
+        for i in range(bent)
+    ]
+    rest = range(bent, single, _SINGLES)
+    used += [set(range(min(_SINGLES, single - first))) for first in rest]
+    return [tuple(one for i, one in enumerate(COORDINATES) if i not in own) for own in used]
