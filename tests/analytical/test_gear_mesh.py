@@ -337,3 +337,30 @@ def test_default_stiffness_is_that_of_iso_6336_for_the_same_gears():
     along = iso_stiffness(whole, line_load=2e5, rack_dedendum=1.2).mesh
     wanted = 0.03 * along / math.cos(whole.base_helix_angle) ** 2
     assert few.iso_stiffness == pytest.approx(wanted, rel=1e-12)
+
+
+def split(azimuth: float, second: float = 0.0) -> Train:
+    """Return a pinion that drives a wheel by two idlers; the last mesh stands at an azimuth."""
+    few = {"normal_module": 3e-3, "face_width": 0.03, "backlash": 1e-4}
+    small, large = {"teeth_1": 20, "teeth_2": 30, **few}, {"teeth_1": 30, "teeth_2": 40, **few}
+    names = ("pinion", "upper", "lower", "wheel")
+    bodies = [Body(name=one, mass=1.0, inertia=1e-3, polar_inertia=2e-3) for one in names]
+    turn = math.radians(60.0)
+    parts = [
+        GearMesh(name="a", first="pinion", second="upper", azimuth=turn, **small),
+        GearMesh(name="b", first="upper", second="wheel", azimuth=second, **large),
+        GearMesh(name="c", first="pinion", second="lower", azimuth=-turn, **small),
+        GearMesh(name="d", first="lower", second="wheel", azimuth=azimuth, **large),
+    ]
+    return Train(bodies, parts, OIL)
+
+
+def test_a_split_drive_whose_last_gears_do_not_touch_is_refused():
+    """Centres of 75 and 105 mm: the wheel is level with the pinion where sines are as 75 to 105."""
+    level = math.asin(math.sin(math.radians(60.0)) * 75.0 / 105.0)
+    split(level, -level)
+    with pytest.raises(ParameterError, match=re.escape(
+        "d needs the axis of wheel at x, y = 105, 0 mm from that of lower, but the other meshes "
+        "and shafts between them put it at 82.5"
+    )):  # fmt: skip
+        split(0.0, -level)

@@ -118,3 +118,17 @@ def test_planet_modes_do_not_depend_on_the_number_of_planets():
         found = frequencies(flat_set(planets))
         for one in PLANET_MODES:
             assert np.count_nonzero(abs(found - one) < 0.1) == planets - 3
+
+
+def test_shapes_are_motions_in_space_of_modal_mass_one():
+    """Modes of unlike frequencies have no kinetic energy in common, planets going around or not."""
+    train = flat_set(3)
+    found = frequencies(train)
+    masses = np.concatenate([1.0 / body.mobility[body.mobility > 0.0] for body in train.bodies
+                             if body.mobility.any()])  # fmt: skip
+    shapes = train.modes()[1]
+    products = shapes.T @ (masses[:, None] * shapes)
+    np.testing.assert_allclose(np.diag(products), 1.0, rtol=1e-12)
+    unlike = abs(found[:, None] - found) > 1.0
+    # loads and differences leave some 1e-5 of the stiffness
+    assert abs(products[unlike]).max() < 1e-3

@@ -14,6 +14,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from gearlube_core.arrays import Array, Offsets
+from gearlube_core.dynamics.train.axes import check_axes
 from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, Listed
 from gearlube_core.dynamics.train.exchange import (
     Continuous,
@@ -125,6 +126,7 @@ def assemble(
     _check_names(bodies, elements)
     for one in elements:
         one.fits(bodies, elements)
+    check_axes(bodies, elements)
     names = [f"{body.name}.{one}" for body in bodies for one in _MOTIONS]
     of_body = {body.name: BODY_STATES * i for i, body in enumerate(bodies)}
     own, works, kept = {}, {}, {}

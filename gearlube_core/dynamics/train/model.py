@@ -8,11 +8,13 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.assemble import Bodies, assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
+from gearlube_core.dynamics.train.element import COORDINATES
+from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import ENERGY, EVENT, START, WRITE
 from gearlube_core.dynamics.train.marched import MarchedTrain
@@ -266,16 +268,29 @@ class Train(MarchedTrain):
         -------
         tuple of ndarray
             Frequencies, shape (m,), rigid rotations as 0; shapes, (free coordinates, m), each of
-            modal mass 1 kg.
+            modal mass 1 kg. A body on an `Orbit` has its motion in space, with its carrier.
         """
         mobility = np.concatenate([body.mobility for body in self.bodies])
-        mobility = mobility[mobility > 0.0]
         squares, shapes = np.linalg.eig(self._stiffness())
         order = np.argsort(squares.real)
-        shapes = shapes[:, order].real
+        shapes = self._in_space(shapes[:, order].real, mobility > 0.0)
+        mobility = mobility[mobility > 0.0]
         shapes /= np.sqrt((shapes**2 / mobility[:, None]).sum(axis=0))
         frequencies = np.sqrt(np.maximum(squares.real[order], 0.0)) / (2.0 * np.pi)
         return frequencies, shapes
+
+    def _in_space(self, shapes: Array, free: Flags) -> Array:
+        """Return shapes of the free coordinates with the turning of carriers in those carried."""
+        names = [f"{body.name}.{one}" for body in self.bodies for one in COORDINATES]
+        row = {name: i for i, name in enumerate(np.array(names)[free])}
+        whole = shapes.copy()
+        for one in self.elements:
+            if isinstance(one, Orbit) and f"{one.carrier}.rz" in row:
+                turned = one.radius * shapes[row[f"{one.carrier}.rz"]]
+                angle = one.azimuth + self.state(f"{one.carrier}.rz")
+                whole[row[f"{one.body}.x"]] -= math.sin(angle) * turned
+                whole[row[f"{one.body}.y"]] += math.cos(angle) * turned
+        return whole
 
     def _put(self, torques: Mapping[str, float], oil_temperature: float) -> None:
         """Check the inputs, and put the torques into the trial."""

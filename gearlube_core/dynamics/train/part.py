@@ -184,6 +184,13 @@ class Element(ABC):
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:  # noqa: B027
         """Raise ParameterError where the element does not fit the others of its train."""
 
+    def between_axes(self) -> tuple[str, str, complex] | None:
+        """Return two bodies, and where the second one's axis stands from the first's, x + i y [m].
+
+        None where the element does not fix it.
+        """
+        return None
+
     def ranges(self) -> tuple[Range, ...]:
         """Return ranges of outputs, which are named without the element."""
         return ()

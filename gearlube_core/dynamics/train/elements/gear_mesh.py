@@ -207,6 +207,12 @@ class GearMesh(GearPair, Element):
         rows = self.gap if len(self.gap) == n else n * (self.gap or ((0.0,),))
         return np.concatenate([places, stiffness, *(_series(row, waves) for row in rows)])
 
+    def between_axes(self) -> tuple[str, str, complex] | None:
+        """Return the bodies of gears on parallel axes that stand, and where gear 2 is."""
+        if self.carrier != GROUND or not self.parallel:
+            return None
+        return self.first, self.second, self.centres
+
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         """Raise ParameterError where gears of the train do not fit each other.
 

@@ -93,6 +93,10 @@ class HalfShaft(Element):
     def __post_init__(self) -> None:
         check_fields(self)
 
+    def between_axes(self) -> tuple[str, str, complex]:
+        """Return both bodies, which have one axis."""
+        return self.first, self.second, 0.0j
+
     def numbers(self) -> _HalfShaft:
         """Return the constants of the kernels."""
         return _HalfShaft(float(self.stiffness), float(self.damping))

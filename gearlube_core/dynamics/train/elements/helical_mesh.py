@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
@@ -141,6 +142,11 @@ class HelicalMesh(Element):
         packed = pack_march_mesh(self.parameters.mesh)
         table = packed.torque, packed.density.ravel(), packed.offset.ravel()
         return np.concatenate([np.zeros(TABLE), *table, self._pair_data()])
+
+    def between_axes(self) -> tuple[str, str, complex]:
+        """Return both bodies, and where the gear is."""
+        pair = self.parameters.pair
+        return self.pinion, self.gear, cmath.rect(pair.centre_distance, self.angle)
 
     def ranges(self) -> tuple[Range, ...]:
         """Return the ranges of line mesh, oil and formulas, and that of solved films."""
