@@ -57,6 +57,7 @@ from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh as GearMesh
 from gearlube_core.dynamics.train.elements.joint import Joint as Joint
 from gearlube_core.dynamics.train.elements.orbit import Orbit as Orbit
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft as HalfShaft
+from gearlube_core.dynamics.train.elements.differential import Differential as Differential
 from gearlube_core.dynamics.train.elements.drag import Seal as Seal
 from gearlube_core.dynamics.train.elements.drag import Churning as Churning
 from gearlube_core.dynamics.helical_model.pair import helical_pair as helical_pair_train

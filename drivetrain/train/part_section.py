@@ -143,6 +143,9 @@ _WORDS = {
     "gear": "Body that carries the gear",
     "first": "One of the two bodies",
     "second": "The other one",
+    "case": "Body of the case",
+    "left": "Body of one side: a side gear, or a wheel",
+    "right": "Body of the other side",
     "held": "Coordinates that do not move, among x, y, z, rx, ry, rz",
     "torque_of": "Port whose torque chooses the level of the mesh's table; left out: the torque "
     "of the mesh itself",

@@ -44,8 +44,8 @@ class StartSection(Section):
         "all others follow"
     )
     torque_n_m: dict[str, float] = Field(
-        description="Torques of the ports by their names; those left out are 0. The first body "
-        "with a speed bears what they leave"
+        description="Torques of the ports by their names; those left out are 0. The first bodies "
+        "with a speed bear what they leave, as many as can turn independently"
     )
 
 

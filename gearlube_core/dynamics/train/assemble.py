@@ -155,7 +155,7 @@ def assemble(
     listed, rows, shapes = list[Listed](), [], []
     at_number, at_memory, at_output, at_exchanged = numbers[0].size, 0, 0, 0
     for one in elements:
-        constants, room = one.numbers(), one.memory()
+        constants, room = one.numbers(), one.memory_among(bodies)
         beside = [getattr(one, field) for field in one.beside]
         at = (
             *(of_body[getattr(one, field)] for field in one.on),

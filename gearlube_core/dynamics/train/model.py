@@ -110,7 +110,8 @@ class Train(MarchedTrain):
         speeds : mapping
             Speed about z of as many bodies as can turn independently [rad/s]; all others follow.
         torques : mapping
-            Of every port [N.m]. The first body of `speeds` bears what they leave.
+            Of every port [N.m]. The first bodies of `speeds` bear what they leave, as many as can
+            turn independently.
         oil_temperature : float
             [K]
 

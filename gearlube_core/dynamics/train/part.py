@@ -181,6 +181,10 @@ class Element(ABC):
         """Return what the kernels take as `memory`: a new array."""
         return NO_NUMBERS
 
+    def memory_among(self, bodies: Sequence[Body]) -> Array:
+        """Return `memory` where it depends on the bodies of the train."""
+        return self.memory()
+
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:  # noqa: B027
         """Raise ParameterError where the element does not fit the others of its train."""
 

@@ -15,7 +15,6 @@ from gearlube_core.dynamics.train.element import (
     BODY_STATES,
     N_COORDINATES,
     RATE,
-    RZ,
 )
 from gearlube_core.dynamics.train.rest_search import (
     NO_MODES,
@@ -24,6 +23,7 @@ from gearlube_core.dynamics.train.rest_search import (
     begin_search,
     copy,
     displace,
+    find_bearing,
     find_loads,
     find_own,
     find_places,
@@ -155,9 +155,8 @@ def rest_kernels(
         status, number, turnings = find_speeds(s, numbers, room, work)
         if status != OK:
             return status, number, 0
-        # where nothing turns freely, as on a shaft locked at one end, torques balance by themselves
-        without = BODY_STATES * bearing + RZ if turnings > 0 else -1
-        m = find_places(numbers, without, room, work)
+        find_bearing(numbers, bearing, turnings, room, work)
+        m = find_places(numbers, True, room, work)
         keep(s, oil, numbers, memory, plan, room, work)
         renew(s, oil, numbers, memory, plan)
         rates(s, oil, numbers, memory, plan, 0, part(work, 0, room.before))
@@ -194,7 +193,7 @@ def rest_kernels(
         slope, moved = part(work, 0, room.before), part(work, room.moved, n_state)
         copy(s, moved)
         relate(moved, oil, numbers, memory, plan, room, work)
-        m = find_places(numbers, -1, room, work)
+        m = find_places(numbers, False, room, work)
         matrix = part(work, room.solver, m * m)
         copy(s, moved)
         renew(moved, oil, numbers, memory, plan)

@@ -137,13 +137,17 @@ def turns(place: float) -> bool:
 
 
 @kernel
-def find_places(numbers: Array, without: int, room: Room, work: Array) -> int:
-    """Write the places of the free coordinates and what relates them; return how many there are."""
+def find_places(numbers: Array, balanced: bool, room: Room, work: Array) -> int:
+    """Write the places of the free coordinates and what relates them; return how many there are.
+
+    Where torques are to be balanced, rotations of bodies that bear them are left out.
+    """
     m = 0
     for body in range(room.bodies):
+        bears = balanced and not math.isnan(work[room.wanted + body])
         for i in range(N_COORDINATES):
             place = BODY_STATES * body + i
-            if _mobility(numbers, place, room) > 0.0 and place != without:
+            if _mobility(numbers, place, room) > 0.0 and not (bears and i == RZ):
                 work[room.places + m] = place
                 m += 1
     for i in range(m):
@@ -221,6 +225,47 @@ def find_speeds(s: Array, numbers: Array, room: Room, work: Array) -> tuple[int,
             most = max(most, abs(one))
         apart = max(apart, abs(total) / most if most > 0.0 else 0.0)
     return OK if apart <= _SAME_SPEED * largest else APART, apart, turnings
+
+
+@kernel
+def find_bearing(numbers: Array, bearing: int, turnings: int, room: Room, work: Array) -> None:
+    """Leave numbers only in the wanted speeds of bodies that bear what torques leave.
+
+    They are as many as bodies can turn independently, `bearing` the first; none where nothing turns
+    freely, as on a shaft locked at one end: torques balance there by themselves. `find_speeds` has
+    been before.
+    """
+    bodies, own, q = room.bodies, room.own, room.vector
+    wanted, turning = part(work, room.wanted, q), part(work, room.turning, q)
+    right, found, bears = (
+        part(work, room.right, q),
+        part(work, room.found, q),
+        part(work, room.guess, q),
+    )
+    count = 0
+    for body in range(bodies):
+        bears[body] = 1.0 if body == bearing and turnings == 1 else 0.0
+        count += 1 if _mobility(numbers, BODY_STATES * body + RZ, room) > 0.0 else 0
+    matrix, solver = part(work, room.solver, q * q), part(work, room.solver + q * q, count * count)
+    left = turnings if turnings > 1 else 0
+    for i in range(bodies + 1):
+        one = bearing if i == 0 else i - 1
+        if left == 0 or bears[one] > 0.0 or (i > 0 and math.isnan(wanted[one])):
+            continue
+        bears[one], rows = 1.0, own
+        relate_turning(count, room, work)
+        for body in range(bodies):
+            if bears[body] > 0.0:
+                right[rows] = 0.0
+                for j in range(count):
+                    matrix[rows * count + j] = 1.0 if int(turning[j]) == body else 0.0
+                rows += 1
+        free = least_squares(matrix, rows, count, right, found, solver)
+        if free == left:  # its speed follows from the others
+            bears[one] = 0.0
+        left = free
+    for body in range(bodies):
+        wanted[body] = 0.0 if bears[body] > 0.0 else math.nan
 
 
 @kernel

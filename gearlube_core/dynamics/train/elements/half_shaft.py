@@ -1,4 +1,4 @@
-"""Torsion spring and damper between two bodies that turn about one axis."""
+"""Torsion spring and damper between two bodies that turn about one axis, with play in a spline."""
 
 from __future__ import annotations
 
@@ -10,20 +10,29 @@ from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Number, Output, check_fields
+from gearlube_core.number import Number, Output, check_fields, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
 _STILL = 1e-9  # rad
+_TOUCH = 1e-6  # rad, deflection at which a spline with play surely touches
 
 
 class _HalfShaft(NamedTuple):
     stiffness: float  # [N.m/rad]
     damping: float  # [N.m s/rad]
+    backlash: float  # [rad]
 
     @kernel
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         twist = s[at[2]] / self.stiffness
+        if twist < 0.0:
+            twist -= self.backlash
         s[at[2]] = twist if twist != 0.0 else _STILL
+
+    @kernel
+    def full_contact(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
+        if self.backlash > 0.0 and abs(_deflection(self, s[at[2]])) < _TOUCH:
+            s[at[2]] = _TOUCH
 
     @inside
     def add_forces(
@@ -31,15 +40,18 @@ class _HalfShaft(NamedTuple):
     ) -> None:
         first, second, twist, lost = at
         rate = s[first + W] - s[second + W]
-        torque = self.stiffness * s[twist] + self.damping * rate
+        torque = _torque(self, s[twist], rate)
         ds[first + RATE + RZ] -= torque
         ds[second + RATE + RZ] += torque
         ds[twist] = rate
-        ds[lost] += self.damping * rate * rate
+        if self.backlash == 0.0:
+            ds[lost] += self.damping * rate * rate
+        else:
+            ds[lost] += (torque - self.stiffness * _deflection(self, s[twist])) * rate
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
-        twist = s[at[2]]
+        twist = _deflection(self, s[at[2]])
         return 0.5 * self.stiffness * twist * twist
 
     @kernel
@@ -52,12 +64,31 @@ class _HalfShaft(NamedTuple):
         out: Array,
         first: int,
     ) -> None:
-        out[first] = self.stiffness * s[at[2]] + self.damping * (s[at[0] + W] - s[at[1] + W])
+        out[first] = _torque(self, s[at[2]], s[at[0] + W] - s[at[1] + W])
+
+
+@inside
+def _deflection(self: _HalfShaft, twist: float) -> float:
+    """Return the twist [rad] without the play, which reaches from 0 to minus the backlash."""
+    if self.backlash == 0.0 or twist > 0.0:
+        return twist
+    return min(twist + self.backlash, 0.0)
+
+
+@inside
+def _torque(self: _HalfShaft, twist: float, rate: float) -> float:
+    deflection = _deflection(self, twist)
+    torque = self.stiffness * deflection + self.damping * rate
+    if self.backlash == 0.0:
+        return torque
+    if deflection == 0.0:
+        return 0.0
+    return max(torque, 0.0) if deflection > 0.0 else min(torque, 0.0)  # flanks do not pull
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HalfShaft(Element):
-    """Torsion between two bodies of one axis, such as a differential and a wheel.
+    """Torsion between two bodies of one axis, such as a differential and a wheel, or a spline.
 
     Parameters
     ----------
@@ -66,6 +97,10 @@ class HalfShaft(Element):
         [N.m/rad], 1 to 1e9.
     damping : float
         [N.m s/rad], 0 to 1e6.
+    backlash : float
+        Play of the splines on the way, the whole gap; in it neither spring nor damper act [rad].
+        At the start those flanks touch which turn the second body about +z, unless the torque is
+        the other way.
 
     Examples
     --------
@@ -80,6 +115,9 @@ class HalfShaft(Element):
     stiffness: Annotated[float, Number("N.m/rad", 1.0, 1e9, text="Torque per twist")]
     damping: Annotated[
         float, Number("N.m.s/rad", 0.0, 1e6, text="Torque per difference of the speeds")
+    ] = 0.0
+    backlash: Annotated[
+        float, Number("rad", 0.0, 0.5, text="Play of its splines, the whole gap", shown="deg")
     ] = 0.0
     kind: ClassVar = "half_shaft"
     interpreted: ClassVar = (Listed(_HalfShaft, (), 4),)
@@ -99,4 +137,4 @@ class HalfShaft(Element):
 
     def numbers(self) -> _HalfShaft:
         """Return the constants of the kernels."""
-        return _HalfShaft(float(self.stiffness), float(self.damping))
+        return constants_of(_HalfShaft, self)
