@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -163,10 +164,13 @@ def test_forces_on_body_and_housing_have_no_sum_and_no_moment(make):
         for at, size in ((0, 8e-6), (12, 8e-6), (6, 1e-3), (18, 1e-3)):
             state[at : at + 3] = size * chance.normal(size=3)
             state[at + 3 : at + 6] = 10.0 * size * chance.normal(size=3)
-        state[11] = SPEED
+        state[11], state[23] = SPEED, -12.0
         state[24:26] = chance.uniform(0.0, 6.0, 2)  # cages
         free.set_state(state)
         on_shaft, on_case = wrench(free, 0), wrench(free, 1)
+        cages = [one.rings()[0].cage_ratio for one in bearings]
+        wanted = [one * SPEED + (1.0 - one) * state[23] for one in cages]
+        np.testing.assert_allclose(free.rates()[24:26], wanted, rtol=1e-12)
         np.testing.assert_allclose(on_case[:3], -on_shaft[:3], rtol=1e-12, atol=1e-9)
         moments = on_shaft[3:] + on_case[3:] + np.cross(OFFSET, on_case[:3])
         assert np.abs(on_shaft[:3]).max() > 100.0
@@ -190,6 +194,7 @@ def test_energy_of_a_march_is_kept(make):
     bearings = [make(name) for name in PLACES]
     state = at_rest(shaft_on(bearings)).get_state()
     state[6:8] = 5e-3, -8e-3  # m/s
+    state[23] = 20.0  # rad/s of the case
     train = shaft_on(bearings, case=FREE)
     train.set_state(state)
     begun = train.energy - train.work + sum(train.lost.values())
@@ -199,6 +204,42 @@ def test_energy_of_a_march_is_kept(make):
     passed = abs(train.work) + sum(abs(one) for one in train.lost.values())
     assert train.lost["bearing_damping"] > 1e-5
     assert abs(left) < 1e-6 * passed
+
+
+@each("force, clearance", product([1e-2, 1.0, 30.0], [1e-5, 5e-5]))
+def test_a_light_shaft_rests_at_the_edge_of_its_clearance(force, clearance):
+    """A force across, off the middle: both bearings carry their share, to the search's 1e-6 N."""
+    bearings = [ball(name, clearance=clearance, damping_time=0.0) for name in PLACES]
+    out = at_rest(shaft_on(bearings, force=(0.6 * force, 0.8 * force, 0.0))).outputs()
+    for name, share in (("left", 0.3), ("right", 0.7)):  # 20 mm off, bearings 100 mm apart
+        found = math.hypot(out[f"{name}.force.x"], out[f"{name}.force.y"])
+        # balls that touch at the edge carry a moment of the tilt, 1e-4 of the force's
+        assert found == pytest.approx(share * force, rel=1e-3, abs=2e-6)
+
+
+def test_one_bearing_alone_carries_a_moment():
+    """A body that hangs on a single bearing tilts through its clearance."""
+    train = at_rest(shaft_on([ball("left", arm=0.0, housing_z=0.0)], force=(200.0, 0.0, 50.0)))
+    out = train.outputs()
+    assert out["left.moment.y"] == pytest.approx(-200.0 * 0.02, rel=1e-5)
+    assert out["left.tilt"] > 1e-3
+
+
+def test_a_shaft_that_rests_without_load_may_be_thrown_about():
+    """Steps are as short as loaded balls ask for: balls that bounce keep its energy to 1e-3."""
+    train = at_rest(
+        shaft_on([ball(name, f0=0.0, f1=0.0) for name in PLACES], force=(0.0, 0.0, 0.0))
+    )
+    state = train.get_state()
+    state[6:9] = 0.03, -0.02, 0.01  # m/s
+    train.set_state(state)
+    begun = train.energy
+    thrown = 0.5 * SHAFT.mass * (0.03**2 + 0.02**2 + 0.01**2)
+    for _ in range(20):
+        train.step(1e-3, {"drive": 0.0}, KELVIN)
+    lost = train.lost["bearing_damping"]
+    assert lost > 0.1 * thrown
+    assert train.energy + lost == pytest.approx(begun, abs=1e-3 * thrown)
 
 
 def test_drag_acts_between_body_and_housing_as_palmgren_has_it():

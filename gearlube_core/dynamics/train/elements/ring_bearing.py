@@ -13,7 +13,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.catalogue import drag_torque
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.ring_loads import (
-    N_RING,
     RingLoads,
     RingMotion,
     Rings,
@@ -37,7 +36,7 @@ from gearlube_core.oil.lubricant import LubricantState
 # places in the memory: drag of the present step [N.m], spring of a search of the rest [N/m], gaps
 # of the laminae of a roller
 _DRAG, _SPRING, _GAPS = range(3)
-_TILTING = 0.0125  # stiffness against tilt over the radial one times the squared diameter, about
+_MOMENT = RingLoads._fields.index("m_x")
 _STEPS_PER_PASS = 16.0  # integrator steps from one element to the next, at least
 _PLACE = Number("m", -10.0, 10.0, shown="mm")
 N_ELEMENTS = Number("1", 3, ROLLERS_MAX)
@@ -167,14 +166,8 @@ def _loads(
     m, k = _motion(self, at, s), memory[_SPRING]
     found = ring_loads(self.rings, m, self.damping_time, _gaps(memory))
     if k > 0.0:
-        tilting = _TILTING * k * self.mean_diameter * self.mean_diameter
         found = RingLoads(
-            found.f_x - k * m.x,
-            found.f_y - k * m.y,
-            found.f_z - k * m.z,
-            found.m_x - tilting * m.rx,
-            found.m_y - tilting * m.ry,
-            *found[N_RING:],
+            found.f_x - k * m.x, found.f_y - k * m.y, found.f_z - k * m.z, *found[_MOMENT:]
         )
     return m, found
 
