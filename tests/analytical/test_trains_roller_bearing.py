@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.roller_bearing import RollerBearing
@@ -59,9 +61,10 @@ def test_two_of_them_at_one_place_are_the_opposed_pair() -> None:
         moves, rates = chance.uniform(-4e-6, 4e-6, 3), chance.uniform(-1e-3, 1e-3, 3)
         cage = chance.uniform(0.0, 1.0)
         found = []
-        for train, cages in ((opposed, 1), (single, 2)):
+        for train in (opposed, single):
             state = train.get_state()
-            state[:3], state[6:9], state[12 : 12 + cages] = moves, rates, cage
+            cages = [i for i, name in enumerate(train.state_names) if name.endswith(".cage")]
+            state[:3], state[6:9], state[cages] = moves, rates, cage
             train.set_state(state)
             at = train.rates()
             heat = at[train.state_names.index("energy.bearing_damping")]
@@ -126,6 +129,44 @@ def test_what_swings_in_them_is_stored_or_lost(law: str, allowed: float) -> None
     assert abs(missing) < allowed * (start - rest)
     assert train.lost["bearing_damping"] > 0.0
     assert (train.lost["bearing_torque"] > 0.0) == (law != "none")
+
+
+def test_the_housing_bears_what_the_shaft_does() -> None:
+    """Forces and moments on both have no sum, about one point; drag and rollers on cages too."""
+    rotor_body = Body(name="rotor", mass=MASS, inertia=INERTIA, polar_inertia=0.01)
+    case = Body(name="case", mass=20.0, inertia=0.5, polar_inertia=0.5)
+    offset = np.array([0.03, -0.04, 0.02])  # of the case's centre from the rotor's
+    singles = [
+        RollerBearing(name=name, body="rotor", housing="case", bearing=BEARING, arm=place,
+                      side=side, torque_loss="palmgren", housing_x=-offset[0],
+                      housing_y=-offset[1], housing_z=place - offset[2])
+        for name, place, side in (("first", ARM, 1), ("second", -ARM, -1))
+    ]  # fmt: skip
+    elements = [Port(name="drive", body="rotor"), *singles]
+    held, train = (
+        Train([rotor_body, one], elements, OIL) for one in (replace(case, held=COORDINATES), case)
+    )
+    held.initialise({"rotor": SPEED}, {"drive": 0.0}, KELVIN)
+    state, chance = held.get_state(), np.random.default_rng(2)
+    for at, size in ((0, 4e-6), (6, 1e-3), (12, 4e-6), (18, 1e-3)):
+        state[at : at + 3] = size * chance.normal(size=3)
+        state[at + 3 : at + 5] = 10.0 * size * chance.normal(size=2)
+    train.set_state(state)
+    rates, out = train.rates(), train.outputs()
+    on_rotor = rates[6:12] * [*3 * (MASS,), *2 * (INERTIA,), 0.01]
+    on_case = rates[18:24] * [*3 * (20.0,), *3 * (0.5,)]
+    assert np.abs(on_rotor[:3]).max() > 100.0
+    np.testing.assert_allclose(on_case[:3], -on_rotor[:3], rtol=1e-12)
+    moments = on_rotor[3:] + on_case[3:] + np.cross(offset, on_case[:3])
+    np.testing.assert_allclose(moments[:2], 0.0, atol=1e-9)
+    # about z forces stand apart by displacements, which rollers on the cages make up for
+    left = moments[2]
+    for one in singles:
+        seat = [one.housing_x, one.housing_y, one.housing_z]
+        apart = state[:3] + np.cross(state[3:6], [0.0, 0.0, one.arm])
+        apart = apart - state[12:15] - np.cross(state[15:18], seat)
+        left += np.cross(apart, [out[f"{one.name}.force.{c}"] for c in "xyz"])[2]
+    assert abs(left) < 1e-9
 
 
 def test_at_rest_each_bears_the_preload(tilting: Train) -> None:

@@ -23,9 +23,19 @@ from gearlube_core.bearings.ring_loads import (
 )
 from gearlube_core.contact.solid import YOUNGS_MODULUS
 from gearlube_core.dynamics.ranges import HERTZ_LIMIT, Range
-from gearlube_core.dynamics.train.element import RATE, W, add_wrench
+from gearlube_core.dynamics.train.element import RATE, W
 from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES
-from gearlube_core.dynamics.train.part import Element
+from gearlube_core.dynamics.train.elements.seat import (
+    ARM,
+    SEAT,
+    HousingX,
+    HousingY,
+    HousingZ,
+    Seat,
+    add_to_both,
+    between,
+)
+from gearlube_core.dynamics.train.part import GROUND, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.checked_numbers import all_finite, is_whole
@@ -38,7 +48,6 @@ from gearlube_core.oil.lubricant import LubricantState
 _DRAG, _SPRING, _GAPS = range(3)
 _MOMENT = RingLoads._fields.index("m_x")
 _STEPS_PER_PASS = 16.0  # integrator steps from one element to the next, at least
-_PLACE = Number("m", -10.0, 10.0, shown="mm")
 N_ELEMENTS = Number("1", 3, ROLLERS_MAX)
 DIAMETER = Number("m", 1e-3, 2.0, "11.5 mm is 0.0115 m.", shown="mm")
 OUTPUTS = (
@@ -55,10 +64,7 @@ OUTPUTS = (
 class RingBearingNumbers(NamedTuple):
     """Constants of a bearing in a train, and its kernels: see `element.Kernels`."""
 
-    arm: float  # of its middle along z from the centre of the body [m]
-    housing_x: float  # of its middle from the centre of the housing [m]
-    housing_y: float
-    housing_z: float
+    seat: Seat
     damping_time: float  # [s]
     mean_diameter: float  # of the drag [m]
     axial_factor: float  # load of the drag over the axial load [-]
@@ -90,12 +96,8 @@ class RingBearingNumbers(NamedTuple):
         body, housing, cage, damping, drag = at
         m, found = _loads(self, at, memory, s)
         on_cage, ratio, torque = moment_on_cage(m, found), self.rings.cage_ratio, memory[_DRAG]
-        f_x, f_y, f_z, p_x, p_y = found.f_x, found.f_y, found.f_z, self.housing_x, self.housing_y
-        turning = ratio * on_cage - torque
-        add_wrench(ds, body, self.arm, (f_x, f_y, f_z), (found.m_x, found.m_y, turning))
-        turning = (1.0 - ratio) * on_cage + torque
-        moment = -found.m_x - p_y * f_z, -found.m_y + p_x * f_z, turning + p_y * f_x - p_x * f_y
-        add_wrench(ds, housing, self.housing_z, (-f_x, -f_y, -f_z), moment)
+        force, moment = (found.f_x, found.f_y, found.f_z), (found.m_x, found.m_y, -torque)
+        add_to_both(ds, self.seat, body, housing, force, moment, on_cage, ratio)
         ds[cage] = m.cage_speed
         ds[damping] += found.lost
         ds[drag] += torque * (s[body + W] - s[housing + W])
@@ -140,23 +142,11 @@ def _gaps(memory: Array) -> Array:
 @kernel
 def _motion(self: RingBearingNumbers, at: Any, s: Array) -> RingMotion:
     """Return the motion of the body in its housing in the middle of the bearing."""
-    u, g, v, w = at[0], at[1], at[0] + RATE, at[1] + RATE
-    arm, p_x, p_y, p_z = self.arm, self.housing_x, self.housing_y, self.housing_z
-    ratio = self.rings.cage_ratio
-    return RingMotion(
-        s[u] + arm * s[u + 4] - (s[g] + p_z * s[g + 4] - p_y * s[g + 5]),
-        s[u + 1] - arm * s[u + 3] - (s[g + 1] - p_z * s[g + 3] + p_x * s[g + 5]),
-        s[u + 2] - (s[g + 2] + p_y * s[g + 3] - p_x * s[g + 4]),
-        s[u + 3] - s[g + 3],
-        s[u + 4] - s[g + 4],
-        s[v] + arm * s[v + 4] - (s[w] + p_z * s[w + 4] - p_y * s[w + 5]),
-        s[v + 1] - arm * s[v + 3] - (s[w + 1] - p_z * s[w + 3] + p_x * s[w + 5]),
-        s[v + 2] - (s[w + 2] + p_y * s[w + 3] - p_x * s[w + 4]),
-        s[v + 3] - s[w + 3],
-        s[v + 4] - s[w + 4],
-        s[at[2]],
-        ratio * s[u + W] + (1.0 - ratio) * s[g + W],
-    )
+    u, g, ratio = at[0], at[1], self.rings.cage_ratio
+    x, y, z, rx, ry = between(self.seat, u, g, s)
+    v_x, v_y, v_z, w_x, w_y = between(self.seat, u + RATE, g + RATE, s)
+    turning = ratio * s[u + W] + (1.0 - ratio) * s[g + W]
+    return RingMotion(x, y, z, rx, ry, v_x, v_y, v_z, w_x, w_y, s[at[2]], turning)
 
 
 @kernel
@@ -178,15 +168,13 @@ class RingBearing(Element):
 
     name: str
     body: str
-    housing: str = "ground"
+    housing: str = GROUND
     arm: Annotated[
-        float, _PLACE._replace(text="Middle of the bearing along z from the centre of the body")
+        float, ARM._replace(text="Middle of the bearing along z from the centre of the body")
     ] = 0.0
-    housing_x: Annotated[
-        float, _PLACE._replace(text="Middle of the bearing along x from the centre of the housing")
-    ] = 0.0
-    housing_y: Annotated[float, _PLACE._replace(text="Likewise along y")] = 0.0
-    housing_z: Annotated[float, _PLACE._replace(text="Likewise along z")] = 0.0
+    housing_x: HousingX = 0.0
+    housing_y: HousingY = 0.0
+    housing_z: HousingZ = 0.0
     pitch_diameter: Annotated[
         float, DIAMETER._replace(text="Diameter of the circle of the elements' centres")
     ]
@@ -238,10 +226,7 @@ class RingBearing(Element):
     def numbers(self) -> RingBearingNumbers:
         """Return the constants of the kernels."""
         return RingBearingNumbers(
-            float(self.arm),
-            float(self.housing_x),
-            float(self.housing_y),
-            float(self.housing_z),
+            Seat(*(float(getattr(self, one)) for one in SEAT)),
             float(self.damping_time),
             float(self.pitch_diameter),
             float(self.axial_factor),

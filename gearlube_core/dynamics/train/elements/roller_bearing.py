@@ -38,10 +38,20 @@ from gearlube_core.bearings.roller_nodes import N_ROLLER_NODES, solved_raceway_d
 from gearlube_core.bearings.shaft_expansion import bearing_energy
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters, rib_drag
 from gearlube_core.checks import check_option
-from gearlube_core.dynamics.train.element import RATE, Listed, W, add_wrench
+from gearlube_core.dynamics.train.element import RATE, Listed, W
 from gearlube_core.dynamics.train.elements.checks import fits_model, fits_rollers
 from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES, OF_ONE
-from gearlube_core.dynamics.train.part import Element
+from gearlube_core.dynamics.train.elements.seat import (
+    ARM,
+    SEAT,
+    HousingX,
+    HousingY,
+    HousingZ,
+    Seat,
+    add_to_both,
+    between,
+)
+from gearlube_core.dynamics.train.part import GROUND, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.kernels.array_part import part
@@ -50,7 +60,8 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields
 from gearlube_core.oil.lubricant import LubricantState
 
-_KEPT, _FILM = 5, 6  # places of `at` behind body and energies: what is kept, size of the film model
+# places of `at` behind body, housing, cage and energies: what is kept, size of the film model
+_KEPT, _FILM = 6, 7
 # places in the memory: drag of the present step [N.m], its bound [W], work space of rollers and of
 # their nodes, the film model
 _DRAG, _DOUBT, _ROLLERS = range(3)
@@ -94,7 +105,7 @@ class _Rollers(NamedTuple):
 
 class _RollerBearing(NamedTuple):
     side: float  # +1: a displacement along +z loads it, -1: along -z
-    arm: float  # of its middle along z from the centre of the body [m]
+    seat: Seat
     law: float  # place in TORQUE_LOSSES
     orders: float  # of the reference frequency of the hysteresis, over that of rotation
     least_frequency: float  # [Hz]
@@ -128,15 +139,16 @@ class _RollerBearing(NamedTuple):
     def add_forces(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
     ) -> None:
-        body, cage, damping, drag = at[0], at[1], at[2], at[3]
+        body, housing, cage, damping, drag = at[0], at[1], at[2], at[3], at[4]
         m = _motion(self, at, s)
         f_1, f_2, f_a, lost = _forces(self, m, oil)
-        turning = self.bearings.cage_ratio * cage_torque(m.r1, m.r2, f_1, f_2) - memory[_DRAG]
-        add_wrench(ds, body, self.arm, (f_1, f_2, f_a), (0.0, 0.0, turning))
-        ds[cage] = self.bearings.cage_ratio * m.speed
+        on_cage, ratio = cage_torque(m.r1, m.r2, f_1, f_2), self.bearings.cage_ratio
+        force, moment = (f_1, f_2, f_a), (0.0, 0.0, -memory[_DRAG])
+        add_to_both(ds, self.seat, body, housing, force, moment, on_cage, ratio)
+        ds[cage] = ratio * m.speed + s[housing + W]
         ds[damping] += lost
         ds[drag] += memory[_DRAG] * m.speed
-        ds[at[4]] += memory[_DOUBT]
+        ds[at[5]] += memory[_DOUBT]
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
@@ -197,18 +209,11 @@ def _nodes(at: Any) -> int:
 
 @kernel
 def _motion(self: _RollerBearing, at: Any, s: Array) -> ShaftMotion:
-    """Return the motion of the shaft in the middle of the bearing."""
-    u, v = at[0], at[0] + RATE
-    return ShaftMotion(
-        s[u] + self.arm * s[u + 4],
-        s[u + 1] - self.arm * s[u + 3],
-        s[u + 2],
-        s[v] + self.arm * s[v + 4],
-        s[v + 1] - self.arm * s[v + 3],
-        s[v + 2],
-        s[at[1]],
-        s[u + W],
-    )
+    """Return the motion of the shaft against its housing in the middle of the bearing."""
+    u, g = at[0], at[1]
+    x, y, z, _, _ = between(self.seat, u, g, s)
+    v_x, v_y, v_z, _, _ = between(self.seat, u + RATE, g + RATE, s)
+    return ShaftMotion(x, y, z, v_x, v_y, v_z, s[at[2]], s[u + W] - s[g + W])
 
 
 @inside
@@ -225,18 +230,21 @@ def _forces(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RollerBearing(Element):
-    """One tapered roller bearing on a shaft along z; two of them carry a tilting shaft.
+    """One tapered roller bearing of a shaft along z in its housing; two carry a tilting shaft.
 
     Every roller is summed at every stage of a step, so that it costs more than `OpposedBearings`.
 
     Parameters
     ----------
-    name, body : str
+    name, body, housing : str
+        The housing is "ground" or another body.
     bearing : TaperedRollerBearing
         Its preload holds with another one mounted against it.
     arm : float
         Where the lines of its roller forces meet the axis, along z from the centre of the body
         [m], -10 to 10.
+    housing_x, housing_y, housing_z : float
+        The same place from the centre of the housing [m].
     side : int
         +1 where a displacement of the shaft along +z loads it, -1 where one along -z does.
     torque_loss : str
@@ -266,11 +274,15 @@ class RollerBearing(Element):
     name: str
     body: str
     bearing: Bearing
+    housing: str = GROUND
     arm: Annotated[
         float,
-        Number("m", -10.0, 10.0, text="Where the roller forces meet the axis, along z from the "
-               "centre of the body", shown="mm"),
+        ARM._replace(text="Where the roller forces meet the axis, along z from the centre of the "
+                     "body"),
     ] = 0.0  # fmt: skip
+    housing_x: HousingX = 0.0
+    housing_y: HousingY = 0.0
+    housing_z: HousingZ = 0.0
     side: Annotated[
         int,
         Number("1", -1, 1, text="1: a displacement along +z loads it, -1: one along -z"),
@@ -284,8 +296,8 @@ class RollerBearing(Element):
         float, Number("Hz", 1.0, 1e4, text="Lower clamp of the frequency of these cycles")
     ] = 50.0
     kind: ClassVar = "roller_bearing"
-    interpreted: ClassVar = (Listed(_RollerBearing, (), 7),)
-    on: ClassVar = ("body",)
+    interpreted: ClassVar = (Listed(_RollerBearing, (), 8),)
+    on: ClassVar = ("body", "housing")
     angles: ClassVar = ("cage",)
     losses: ClassVar = ("bearing_damping", "bearing_torque")
     bounds: ClassVar = ("bearing_bound",)
@@ -312,7 +324,7 @@ class RollerBearing(Element):
         bearings: Any = self.bearing.parameters()
         return _RollerBearing(
             float(self.side),
-            float(self.arm),
+            Seat(*(float(getattr(self, one)) for one in SEAT)),
             float(TORQUE_LOSSES.index(_LOADED.get(self.torque_loss, self.torque_loss))),
             float(self.orders),
             float(self.least_frequency),
