@@ -14,12 +14,12 @@ from docs.measured.make import lines_rows
 from docs.page import Page
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
-from drivetrain.train.part_section import section_of
+from drivetrain.train.part_section import BODIES, section_of
 from drivetrain.train.train_file import TrainFile
 from fmu_src.axle_arguments import start_arguments
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.bearings.bearing_file import BearingFile
-from gearlube_core.dynamics.train.part import ELEMENTS, Body
+from gearlube_core.dynamics.train.part import ELEMENTS
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.case.rough_case import RoughCase
@@ -177,11 +177,12 @@ def _oils(page: Page) -> None:
 
 
 def _train_parts() -> dict[str, FieldNote]:
-    """Return the fields of a body and of all kinds of elements."""
+    """Return the fields of all kinds of bodies and elements."""
+    bodies = {f"bodies.NAME.{kind}": one for kind, one in BODIES.items()}
     shipped = {f"elements.NAME.{kind}": one for kind, one in ELEMENTS.known().items()}
     return {
         f"{section}.{name}": note
-        for section, kind in ({"bodies.NAME": Body} | shipped).items()
+        for section, kind in (bodies | shipped).items()
         for name, note in field_notes(section_of(kind)).items()
         if name != "kind"
     }

@@ -39,6 +39,10 @@ from gearlube_core.dynamics.train.shaft import Shaft as Shaft
 from gearlube_core.shafts.section import ShaftDisc as ShaftDisc
 from gearlube_core.shafts.section import ShaftMaterial as ShaftMaterial
 from gearlube_core.shafts.section import ShaftSection as ShaftSection
+from gearlube_core.dynamics.train.housing import Housing as Housing
+from gearlube_core.housings.model_files import read_reduced_model as read_reduced_model
+from gearlube_core.housings.reduced_model import InterfaceNode as InterfaceNode
+from gearlube_core.housings.reduced_model import ReducedModel as ReducedModel
 from gearlube_core.dynamics.train.part import Element as TrainElement
 from gearlube_core.dynamics.train.elements.port import Port as Port
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh as HelicalMesh

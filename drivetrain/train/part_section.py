@@ -36,12 +36,15 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
     HelicalMarchParameters,
 )
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import ROLLER, FilmModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.housings.model_files import read_reduced_model
+from gearlube_core.housings.reduced_model import Length, Mass, ReducedModel
 from gearlube_core.input_file.field_notes import Declared, field_notes, sentence
 from gearlube_core.input_file.field_units import attribute_of, field_value, si_value, unit_ending
 from gearlube_core.input_file.input_file import Section
@@ -50,7 +53,7 @@ from gearlube_core.number import Number, numbers_of
 
 Text = Annotated[str, Field(min_length=1)]
 _Value = TypeVar("_Value")
-_Part = TypeVar("_Part", Body, Shaft, Element)
+_Part = TypeVar("_Part", Body, Shaft, Housing, Element)
 
 
 class HelicalGears(Section):
@@ -115,6 +118,33 @@ class RollerFilmModel(Section):
         return chosen_model(self.film_model, ROLLER, "film_model")
 
 
+class HousingModel(Section):
+    """Reduced model of a housing."""
+
+    files: ClassVar[tuple[str, ...]] = ("model_file", "mass_file", "damping_file", "node_table")
+
+    model_file: Text = Field(
+        description="Reduced model: arrays (.npz), a punch file of Nastran (.pch), a substructure "
+        "of Abaqus (.mtx), or the stiffness alone as a Matrix Market file (.mtx)"
+    )
+    mass_file: Text | None = Field(
+        default=None, description="Mass, where model_file has the stiffness alone"
+    )
+    damping_file: Text | None = Field(default=None, description="Damping, likewise")
+    node_table: Text | None = Field(
+        default=None,
+        description="Table of nodes (.csv): node, name, x, y, z; not for .npz",
+    )
+    length_unit: Length = Field(default="m", description="Of matrices and node_table")
+    mass_unit: Mass = Field(
+        default="kg", description="Of matrices; t where the stiffness is in N/mm"
+    )
+
+    def read(self) -> ReducedModel:
+        """Return the model."""
+        return read_reduced_model(**{key: getattr(self, key) for key in HousingModel.model_fields})
+
+
 @dataclass(frozen=True)
 class _Reader(Generic[_Value]):
     """How a field that is a part is read.
@@ -130,10 +160,11 @@ class _Reader(Generic[_Value]):
 READERS: Mapping[Any, _Reader[Any]] = {
     HelicalMarchParameters: _Reader(HelicalGears, HelicalGears.read),
     HypoidAxleParameters: _Reader(HypoidGears, HypoidGears.read),
+    ReducedModel: _Reader(HousingModel, HousingModel.read),
     FilmModel | None: _Reader(RollerFilmModel, RollerFilmModel.read),
     Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
 }
-BODIES: Mapping[str, Any] = {"rigid": Body, "shaft": Shaft}
+BODIES: Mapping[str, Any] = {"rigid": Body, "shaft": Shaft, "housing": Housing}
 OF_THE_TRAIN = ("steps_per_highest_period",)  # fields that elements have from their train
 _WORDS = {
     "body": "Body on which it acts",
@@ -165,6 +196,8 @@ _WORDS = {
     "nodes": "Bearings and gears by name, and where along z they are; elements name them BODY.NODE",
     "material": "Elastic material; steel by default",
     "gyroscopic": "Whether gyroscopic moments act",
+    "free": "Whether the model floats and needs mounts; false: it is fixed somewhere",
+    "model_axes": "Axes of the model along x, y, z of the train, such as -z for the opposite one",
 }
 
 
@@ -294,6 +327,6 @@ def _built(kind: Any, given: Section, known: Mapping[str, Any]) -> Any:
     return kind(**found)
 
 
-def files_in(kind: type[Element]) -> tuple[str, ...]:
-    """Return the fields of an element that name files."""
+def files_in(kind: type[Any]) -> tuple[str, ...]:
+    """Return the fields of a body or an element that name files."""
     return getattr(section_of(kind), "files", ())

@@ -14,6 +14,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.choice import Driver
 from gearlube_core.dynamics.train.elements.port import Port
+from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.model import MOST_TORQUE, Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
 from gearlube_core.dynamics.train.shaft import Shaft
@@ -141,15 +142,17 @@ class TrainFile(InputFile):
 
     @classmethod
     def file_fields(cls, data: Mapping[str, Any]) -> tuple[str, ...]:
-        """Return the dotted fields that name a file, those of the elements too."""
-        found, elements, known = list(cls.files), data.get("elements"), ELEMENTS.known()
-        for name, given in elements.items() if isinstance(elements, dict) else ():
-            kind = given.get("kind") if isinstance(given, dict) else None
-            if isinstance(kind, str) and kind in known and "." not in name:
-                found += [f"elements.{name}.{key}" for key in files_in(known[kind])]
+        """Return the dotted fields that name a file, those of the bodies and elements too."""
+        found = list(cls.files)
+        for section, known in (("bodies", BODIES), ("elements", ELEMENTS.known())):
+            parts = data.get(section)
+            for name, given in parts.items() if isinstance(parts, dict) else ():
+                kind = given.get("kind") if isinstance(given, dict) else None
+                if isinstance(kind, str) and kind in known and "." not in name:
+                    found += [f"{section}.{name}.{key}" for key in files_in(known[kind])]
         return tuple(found)
 
-    def _parts(self) -> tuple[list[Body | Shaft], list[Element], list[str]]:
+    def _parts(self) -> tuple[list[Body | Shaft | Housing], list[Element], list[str]]:
         """Return bodies and elements, and what is wrong with them, in sentences."""
         wrong = [
             f"{section}.{name[:_SHOWN]} must have a name of letters, digits and _, at most 63, "
@@ -174,7 +177,7 @@ class TrainFile(InputFile):
                 )
                 continue
             body, problems = read_part(BODIES[kind], name, given, f"bodies.{name}", of_train)
-            if isinstance(body, Shaft):
+            if isinstance(body, Shaft | Housing):
                 problems += [
                     f"bodies.{name}.nodes: {node[:_SHOWN]!r} must be a name of letters, digits and "
                     "_, at most 63."

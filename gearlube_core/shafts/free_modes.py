@@ -52,7 +52,7 @@ class ShaftMotion(NamedTuple):
     gyroscopic: Array
 
 
-class _Shapes(NamedTuple):
+class Shapes(NamedTuple):
     """Squares of frequencies, whole shapes of modal mass 1, (coordinates, modes)."""
 
     squares: Array
@@ -111,30 +111,63 @@ def shaft_motion(beam: Beam, nodes: Array, highest_frequency: float) -> ShaftMot
     )
 
 
-def _along(kept: _Shapes, at: Array, mass: float) -> Modes:
+def _along(kept: Shapes, at: Array, mass: float) -> Modes:
     shapes = math.sqrt(mass) * kept.shapes[at].T
     return Modes(mass * kept.squares, shapes, np.zeros_like(shapes))
 
 
 def _kept(
     stiffness: Array, mass: Array, loaded: Array, rigid: int, highest_frequency: float
-) -> _Shapes:
+) -> Shapes:
     """Return modes below the limit with the shapes of the remaining flexibility."""
     if highest_frequency == 0.0:
-        return _Shapes(np.zeros(0), np.zeros((mass.shape[0], 0)))
+        return Shapes(np.zeros(0), np.zeros((mass.shape[0], 0)))
     squares, shapes = scipy.linalg.eigh(stiffness, mass)
     squares, shapes = squares[rigid:], shapes[:, rigid:]
+    share = _RESIDUAL_SHARES[0 if rigid == _PLANE else 1]
+    return kept_shapes(squares, shapes, shapes[loaded], highest_frequency, share)
+
+
+def kept_shapes(
+    squares: Array,
+    shapes: Array,
+    loaded: Array,
+    highest_frequency: float,
+    share: float,
+) -> Shapes:
+    """Return elastic modes below a limit with the shapes of the remaining flexibility.
+
+    Parameters
+    ----------
+    squares : ndarray of shape (m,)
+        Of the frequencies of all elastic modes [rad2/s2].
+    shapes : ndarray of shape (coordinates, m)
+        Of modal mass 1.
+    loaded : ndarray of shape (loads, m)
+        How far each mode moves where loads act, in the loads' direction; any scale of a load.
+    highest_frequency : float
+        The limit [Hz].
+    share : float
+        Of the largest elastic flexibility [-]; remaining shapes with less are left out.
+
+    Examples
+    --------
+    >>> squares, unit = np.array([1.0, 1e6]), np.eye(2)
+    >>> kept = kept_shapes(squares, unit, np.ones((1, 2)), 1.0, 1e-9)
+    >>> bool(np.isclose((kept.shapes.sum(axis=0) ** 2 / kept.squares).sum(), 1.0 + 1e-6))
+    True
+    """
     limit = (2.0 * math.pi * highest_frequency) ** 2
     below = squares <= limit
     above, rest = squares[~below], shapes[:, ~below]
-    at_nodes = rest[loaded]
+    at_nodes = loaded[:, ~below]
     flexibility = (at_nodes / above) @ at_nodes.T
-    elastic = ((shapes[loaded] ** 2) / squares).sum(axis=1)
+    elastic = ((loaded**2) / squares).sum(axis=1)
     found, ways = np.linalg.eigh(flexibility)
     largest = elastic.max() if elastic.size else 0.0
-    chosen = found > _RESIDUAL_SHARES[0 if rigid == _PLANE else 1] * largest
+    chosen = found > share * largest
     moved = ((at_nodes / above).T @ ways[:, chosen]) / np.sqrt(found[chosen])  # of stiffness 1
     own = 1.0 / (moved**2).sum(axis=0)
     lowered = np.minimum(own, _RESIDUAL_RATIO**2 * limit)
     residual = (rest @ moved) * np.sqrt(lowered)
-    return _Shapes(np.append(squares[below], lowered), np.hstack([shapes[:, below], residual]))
+    return Shapes(np.append(squares[below], lowered), np.hstack([shapes[:, below], residual]))

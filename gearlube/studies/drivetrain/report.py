@@ -36,7 +36,8 @@ _NO_LOSS = 1e-9  # W, rounding
 _SHOWN = 0.1  # last part of the run, of which the transmission errors are drawn
 _DTE, _LOSS = ".dte", ".power_loss"
 _LIMITS = (
-    "Bodies are rigid but for those of the kind shaft; bearings stand on ground, not on a housing.",
+    "Bodies are rigid but for those of the kinds shaft and housing; bearings that name no housing "
+    "stand on ground.",
     "The run begins at a static equilibrium with the friction of its first moment; what swings at "
     "first is the passage to the steady motion. Numbers are those of the second half of the run.",
 )
@@ -180,10 +181,15 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     return found
 
 
+def _turning(dataset: xr.Dataset) -> list[str]:
+    """Return the bodies that turn: all but housings."""
+    return [str(body) for body in dataset["body"].values if f"{body}.speed" in dataset]
+
+
 def _drift(dataset: xr.Dataset) -> list[Finding]:
     """Return a warning if the torques drive the train away from its speed."""
     name = max(
-        dataset["body"].values.tolist(),
+        _turning(dataset),
         key=lambda body: float(abs(dataset[f"{body}.speed"][-1] - dataset[f"{body}.speed"][0])),
     )
     first, last = (float(rads_to_rpm(dataset[f"{name}.speed"].values[i])) for i in (0, -1))
@@ -203,8 +209,8 @@ def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input
     """Return the report of a run."""
     half, lost = settled(dataset), losses(dataset)
     speeds = [
-        (str(body), float(rads_to_rpm(half[f"{body}.speed"].values.mean())))
-        for body in dataset["body"].values
+        (body, float(rads_to_rpm(half[f"{body}.speed"].values.mean())))
+        for body in _turning(dataset)
     ]
     modes: list[Sequence[Cell]] = [
         [float(frequency), str(dataset["body"].values[np.argmax(share)]), float(share.max())]

@@ -12,9 +12,10 @@ from drivetrain.train.train_file import TrainCase
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.train.element import N_COORDINATES
+from gearlube_core.dynamics.train.elements.housing_motion import CarriedInterface
 from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes
 from gearlube_core.dynamics.train.model import Train
-from gearlube_core.dynamics.train.part import Hidden, Node
+from gearlube_core.dynamics.train.part import GROUND
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
 
@@ -125,11 +126,12 @@ def run_drivetrain(
 def mode_shares(train: Train) -> tuple[Array, Array]:
     """Return the frequencies of the modes that vibrate [Hz] and the bodies' shares in each.
 
-    Modes above the highest frequency of an elastic shaft are left out: they are none of the shaft.
+    Modes above the highest frequency of an elastic body are left out: they are none of the body.
     Shares are those in the kinetic energy, shape (modes, bodies).
     """
     frequency, shapes = train.modes()
-    limits = [one.highest_frequency for one in train.elements if isinstance(one, CarriedNodes)]
+    elastic = CarriedNodes | CarriedInterface
+    limits = [one.highest_frequency for one in train.elements if isinstance(one, elastic)]
     vibrates = (frequency > _RIGID) & (frequency <= min(filter(None, limits), default=math.inf))
     mobility = np.concatenate([body.mobility for body in train.bodies])
     # modal coordinates have the name of their body before a point
@@ -141,8 +143,9 @@ def mode_shares(train: Train) -> tuple[Array, Array]:
 
 
 def _names(train: Train) -> list[str]:
-    """Return the names of all bodies but nodes, modes and the ground."""
-    return [body.name for body in train.bodies if not isinstance(body, Node | Hidden)]
+    """Return the names of all bodies as they are listed, without the ground."""
+    owners = (body.name.partition(".")[0] for body in train.bodies)
+    return [one for one in dict.fromkeys(owners) if one != GROUND]
 
 
 def _imbalance(train: Train, before: float) -> float:

@@ -55,7 +55,8 @@ class _Counts(NamedTuple):
     floats: int
     outputs: int
     exchanged: int
-    carries: int  # 1 if it carries nodes; its first sizes are nodes and bodies of modes
+    # 1 if it carries nodes: its last bodies and its first sizes are of nodes and of modes
+    carries: int
 
 
 (
@@ -171,10 +172,12 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
                 fits = fits and (plan[p] == 0 or sizes.integrated <= plan[p] < sizes.kept)
                 p += 1
             if counts[kind, _CARRIES] == 1:
-                nodes, modes, first = BODY_STATES * plan[p], BODY_STATES * plan[p + 1], at + AT
-                fits = fits and plan[first] < BODY_STATES * sizes.shown
-                fits = fits and plan[first + 1] == node
-                fits = fits and plan[first + 2] == (mode if modes > 0 else ground)
+                nodes, modes = BODY_STATES * plan[p], BODY_STATES * plan[p + 1]
+                first = at + AT + counts[kind, _BODIES] - 2
+                if first > at + AT:
+                    fits = fits and plan[at + AT] < BODY_STATES * sizes.shown
+                fits = fits and plan[first] == node
+                fits = fits and plan[first + 1] == (mode if modes > 0 else ground)
                 node += nodes
                 mode += modes
             kept += plan[at + N_KEPT]

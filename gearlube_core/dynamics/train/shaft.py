@@ -74,7 +74,9 @@ class Shaft:
     discs: tuple[ShaftDisc, ...] = ()
     material: ShaftMaterial = field(default_factory=ShaftMaterial)
     highest_frequency: Annotated[float, _LIMIT] = 1e4
-    damping_ratio: Annotated[float, DAMPING_RATIO] = 0.01
+    damping_ratio: Annotated[float, DAMPING_RATIO._replace(text="Damping ratio of its modes")] = (
+        0.01
+    )
     gyroscopic: bool = True
     longest_element: Annotated[float, _LONGEST] = 0.0
 

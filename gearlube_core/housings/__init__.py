@@ -1,0 +1,1 @@
+"""Housings from finite elements: reduced models, their files and modes."""
