@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gearlube_core.dynamics.helical_model.pair import helical_pair
 from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
+from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
@@ -25,6 +27,7 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness
 from gearlube_core.helical_geometry.pair import HelicalPair
 from tests.helpers.each import each
 from tests.helpers.planetary_sets import KELVIN, OIL, helical_set
+from tests.helpers.small_trains import PAIR
 
 WAVES = (0.12, 0.05, 0.0, -0.04)
 ROWS = tuple(
@@ -364,3 +367,21 @@ def test_a_split_drive_whose_last_gears_do_not_touch_is_refused():
         "and shafts between them put it at 82.5"
     )):  # fmt: skip
         split(0.0, -level)
+
+
+def test_force_is_that_of_the_helical_mesh_of_the_same_gears():
+    """Gears of He et al. 2007 without friction, by both elements: load and direction at rest."""
+    given = replace(PAIR, friction="off")
+    train = Train(*helical_pair(given), OIL)
+    train.initialise({"wheel": 84.4}, {"input": 226.0, "output": 280.0}, KELVIN)
+    found, gears = train.outputs(), given.pair
+    (mesh,) = (one for one in train.elements if isinstance(one, HelicalMesh))
+    few = GearPair(
+        name="he_2007", teeth_1=gears.pinion_teeth, teeth_2=gears.gear_teeth,
+        normal_module=gears.normal_module, normal_pressure_angle=gears.normal_pressure_angle,
+        helix_angle=gears.helix_angle, centre_distance=gears.centre_distance,
+        face_width=gears.face_width, azimuth=mesh.angle, drives_forward=False,
+    )  # fmt: skip
+    load = found[f"{mesh.name}.load"]
+    force = [found[f"{mesh.name}.force.{one}"] for one in "xyz"]
+    np.testing.assert_allclose(force, -load * few.pitch_points()[0].drive, atol=1e-9 * load)

@@ -13,6 +13,13 @@ from typing import Any, NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, W
 from gearlube_core.dynamics.train.elements.checks import MOST
+from gearlube_core.dynamics.train.elements.turned_moves import (
+    Moves,
+    add_turned,
+    swept,
+    turned_moves,
+    turned_rates,
+)
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -48,17 +55,6 @@ class Member(NamedTuple):
     drive: Line
     coast: Line
     sliding: Line
-
-
-class Moves(NamedTuple):
-    """Displacements and angles of a body, or their rates; of angles about z, the rates alone."""
-
-    x: float
-    y: float
-    z: float
-    rx: float
-    ry: float
-    rz: float
 
 
 class FlankLoad(NamedTuple):
@@ -133,23 +129,12 @@ class GearMeshKernels(NamedTuple):
         """See `Kernels.add_forces`."""
         act = mesh_act(self, at, memory, s)
         turning = _turning(self, act)
-        on_carrier = -turning
-        for which in range(2):
-            member = self.first if which == 0 else self.second
-            u = act.one if which == 0 else act.two
-            sense = -1.0 if which == 0 else 1.0
-            w = _wrench(member, act, sense)
-            v = at[which] + RATE
-            ds[v] += act.cos * w.x - act.sin * w.y
-            ds[v + 1] += act.sin * w.x + act.cos * w.y
-            ds[v + 2] += w.z
-            ds[v + 3] += act.cos * w.rx - act.sin * w.ry
-            ds[v + 4] += act.sin * w.rx + act.cos * w.ry
-            ds[v + RZ] += w.rz
-            # its lines turn with the carrier, which moves them against the displacements
-            on_carrier -= u.x * w.y - u.y * w.x + u.rx * w.ry - u.ry * w.rx
+        one, two = _wrench(self.first, act, -1.0), _wrench(self.second, act, 1.0)
+        add_turned(ds, at[0], one, act.cos, act.sin)
+        add_turned(ds, at[1], two, act.cos, act.sin)
         ds[at[0] + RATE + RZ] += turning
-        ds[at[2] + RATE + RZ] += on_carrier
+        # its lines turn with the carrier, which moves them against the displacements
+        ds[at[2] + RATE + RZ] -= turning + swept(act.one, one) + swept(act.two, two)
         ds[at[_ROTATION]] = act.closing
         ds[at[_FRICTION]] += act.friction
         ds[at[_DAMPING]] += act.drive.heat + act.coast.heat
@@ -271,32 +256,6 @@ def _wrench(member: Member, act: Act, sense: float) -> Moves:
 
 
 @inside
-def _seen(s: Array, u: int, cos: float, sin: float) -> Moves:
-    return Moves(
-        cos * s[u] + sin * s[u + 1],
-        cos * s[u + 1] - sin * s[u],
-        s[u + 2],
-        cos * s[u + 3] + sin * s[u + 4],
-        cos * s[u + 4] - sin * s[u + 3],
-        0.0,
-    )
-
-
-@inside
-def _rates(s: Array, v: int, u: Moves, cos: float, sin: float, turning: float) -> Moves:
-    """Return the rates of what `_seen` gives."""
-    seen = _seen(s, v, cos, sin)
-    return Moves(
-        seen.x + turning * u.y,
-        seen.y - turning * u.x,
-        seen.z,
-        seen.rx + turning * u.ry,
-        seen.ry - turning * u.rx,
-        s[v + RZ] - turning,
-    )
-
-
-@inside
 def _wave(memory: Array, first: int, waves: int, cos: float, sin: float) -> tuple[float, float]:
     """Return a periodic series without its mean, and its change with the angle."""
     value = change = 0.0
@@ -360,9 +319,9 @@ def mesh_act(self: GearMeshKernels, at: Any, memory: Array, s: Array) -> Act:
     w_c, cos, sin = s[carrier + W], 1.0, 0.0
     if s[carrier + RZ] != 0.0:
         cos, sin = math.cos(s[carrier + RZ]), math.sin(s[carrier + RZ])
-    u_1, u_2 = _seen(s, one, cos, sin), _seen(s, two, cos, sin)
-    v_1 = _rates(s, one + RATE, u_1, cos, sin, w_c)
-    v_2 = _rates(s, two + RATE, u_2, cos, sin, w_c)
+    u_1, u_2 = turned_moves(s, one, cos, sin), turned_moves(s, two, cos, sin)
+    v_1 = turned_rates(s, one, u_1, cos, sin, w_c)
+    v_2 = turned_rates(s, two, u_2, cos, sin, w_c)
     a, b = self.first, self.second
     rotation, gain = s[at[_ROTATION]], self.face_gain
     closing = a.drive.h_z * v_1.rz - b.drive.h_z * v_2.rz

@@ -12,6 +12,13 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.elements.orbit import centre_of, check_place
 from gearlube_core.dynamics.train.elements.spring_support import Springs
+from gearlube_core.dynamics.train.elements.turned_moves import (
+    Moves,
+    add_turned,
+    swept,
+    turned_moves,
+    turned_rates,
+)
 from gearlube_core.dynamics.train.gear_pair import worded
 from gearlube_core.dynamics.train.part import Body, Element, Node
 from gearlube_core.helical_geometry.gear_body import POSITION
@@ -24,24 +31,16 @@ _ERROR = Number("m", -1e-2, 1e-2, "20 um is 2e-5 m.", shown="um")
 _ARM = POSITION._replace(shown="mm")
 
 
-class _Bend(NamedTuple):
-    """Displacements and tilts between both bodies in the joint's axes, or their rates."""
-
-    x: float
-    y: float
-    z: float
-    rx: float
-    ry: float
-
-
 class _Bent(NamedTuple):
+    """All in the joint's axes."""
+
     cos: float
     sin: float
-    one: _Bend  # of the first body in the joint's axes
-    two: _Bend  # of the second one
-    moved: _Bend
-    rate: _Bend
-    force: _Bend  # on the first body
+    one: Moves  # of the first body
+    two: Moves  # of the second one
+    moved: Moves  # between both in the joint
+    rate: Moves
+    force: Moves  # on the first body in the joint
 
 
 class JointKernels(NamedTuple):
@@ -72,28 +71,14 @@ class JointKernels(NamedTuple):
     ) -> None:
         """See `Kernels.add_forces`."""
         b = _bent(self, at, s)
-        f, one, two = b.force, b.one, b.two
-        m_x, m_y = f.rx - self.arm_1 * f.y, f.ry + self.arm_1 * f.x
-        v = at[0] + RATE
-        ds[v] += b.cos * f.x - b.sin * f.y
-        ds[v + 1] += b.sin * f.x + b.cos * f.y
-        ds[v + 2] += f.z
-        ds[v + 3] += b.cos * m_x - b.sin * m_y
-        ds[v + 4] += b.sin * m_x + b.cos * m_y
-        n_x = self.arm_2 * f.y - f.rx
-        n_y = self.radius * f.z - self.arm_2 * f.x - f.ry
-        v = at[1] + RATE
-        ds[v] -= b.cos * f.x - b.sin * f.y
-        ds[v + 1] -= b.sin * f.x + b.cos * f.y
-        ds[v + 2] -= f.z
-        ds[v + 3] += b.cos * n_x - b.sin * n_y
-        ds[v + 4] += b.sin * n_x + b.cos * n_y
-        # at last: its axes turn with the second body, which moves them against the displacements
-        ds[v + RZ] -= (
-            self.radius * f.y
-            + ((one.x - two.x) * f.y - (one.y - two.y) * f.x)
-            + (one.rx * m_y - one.ry * m_x + two.rx * n_y - two.ry * n_x)
-        )
+        f, arm_1, arm_2 = b.force, self.arm_1, self.arm_2
+        one = Moves(f.x, f.y, f.z, f.rx - arm_1 * f.y, f.ry + arm_1 * f.x, 0.0)
+        about_y = self.radius * f.z - arm_2 * f.x - f.ry
+        two = Moves(-f.x, -f.y, -f.z, arm_2 * f.y - f.rx, about_y, -self.radius * f.y)
+        add_turned(ds, at[0], one, b.cos, b.sin)
+        add_turned(ds, at[1], two, b.cos, b.sin)
+        # its axes turn with the second body, which moves them against the displacements
+        ds[at[1] + RATE + RZ] -= swept(b.one, one) + swept(b.two, two)
         r = b.rate
         power = self.c_x * r.x * r.x + self.c_y * r.y * r.y + self.c_z * r.z * r.z
         ds[at[2]] += power + self.c_ax * r.rx * r.rx + self.c_ay * r.ry * r.ry
@@ -112,42 +97,19 @@ class JointKernels(NamedTuple):
     ) -> None:
         """See `Kernels.write`."""
         force = _bent(self, at, s).force
-        for i in range(len(force)):
+        for i in range(5):
             out[first + i] = force[i]
 
 
 @inside
-def _seen(s: Array, u: int, cos: float, sin: float) -> _Bend:
-    return _Bend(
-        cos * s[u] + sin * s[u + 1],
-        cos * s[u + 1] - sin * s[u],
-        s[u + 2],
-        cos * s[u + 3] + sin * s[u + 4],
-        cos * s[u + 4] - sin * s[u + 3],
-    )
-
-
-@inside
-def _rates(s: Array, v: int, u: _Bend, cos: float, sin: float, turning: float) -> _Bend:
-    """Return the rates of what `_seen` gives."""
-    seen = _seen(s, v, cos, sin)
-    return _Bend(
-        seen.x + turning * u.y,
-        seen.y - turning * u.x,
-        seen.z,
-        seen.rx + turning * u.ry,
-        seen.ry - turning * u.rx,
-    )
-
-
-@inside
-def _between(self: JointKernels, one: _Bend, two: _Bend) -> _Bend:
-    return _Bend(
+def _between(self: JointKernels, one: Moves, two: Moves) -> Moves:
+    return Moves(
         one.x + self.arm_1 * one.ry - two.x - self.arm_2 * two.ry,
         one.y - self.arm_1 * one.rx - two.y + self.arm_2 * two.rx,
         one.z - two.z + self.radius * two.ry,
         one.rx - two.rx,
         one.ry - two.ry,
+        0.0,
     )
 
 
@@ -155,20 +117,21 @@ def _between(self: JointKernels, one: _Bend, two: _Bend) -> _Bend:
 def _bent(self: JointKernels, at: Any, s: Array) -> _Bent:
     angle, turning = self.azimuth + s[at[1] + RZ], s[at[1] + W]
     cos, sin = math.cos(angle), math.sin(angle)
-    one, two = _seen(s, at[0], cos, sin), _seen(s, at[1], cos, sin)
+    one, two = turned_moves(s, at[0], cos, sin), turned_moves(s, at[1], cos, sin)
     d = _between(self, one, two)
-    d = _Bend(d.x - self.error_x, d.y - self.error_y, d.z, d.rx, d.ry)
+    d = Moves(d.x - self.error_x, d.y - self.error_y, d.z, d.rx, d.ry, 0.0)
     r = _between(
         self,
-        _rates(s, at[0] + RATE, one, cos, sin, turning),
-        _rates(s, at[1] + RATE, two, cos, sin, turning),
+        turned_rates(s, at[0], one, cos, sin, turning),
+        turned_rates(s, at[1], two, cos, sin, turning),
     )
-    force = _Bend(
+    force = Moves(
         -(self.K_xx * d.x + self.K_x_ay * d.ry + self.c_x * r.x),
         -(self.K_yy * d.y + self.K_y_ax * d.rx + self.c_y * r.y),
         -(self.K_zz * d.z + self.c_z * r.z),
         -(self.K_ax * d.rx + self.K_y_ax * d.y + self.c_ax * r.rx),
         -(self.K_ay * d.ry + self.K_x_ay * d.x + self.c_ay * r.ry),
+        0.0,
     )
     return _Bent(cos, sin, one, two, d, r, force)
 
