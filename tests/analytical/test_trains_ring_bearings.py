@@ -16,8 +16,10 @@ from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.ring_bearing import RingBearing
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body
+from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.shafts.section import ShaftSection
 from tests.helpers.constant_force import ConstantForce
 from tests.helpers.each import each
 
@@ -215,6 +217,26 @@ def test_a_light_shaft_rests_at_the_edge_of_its_clearance(force, clearance):
         found = math.hypot(out[f"{name}.force.x"], out[f"{name}.force.y"])
         # balls that touch at the edge carry a moment of the tilt, 1e-4 of the force's
         assert found == pytest.approx(share * force, rel=1e-3, abs=2e-6)
+
+
+def test_nodes_of_a_shaft_that_bends_rest_in_bearings_on_the_ground():
+    """Two bearings share a force as its lever arms do; the shaft bends between them as a beam."""
+    tube = ShaftSection(start=0.0, end=0.2, outer_diameter=0.02)
+    nodes = {"left": 0.0, "middle": 0.1, "right": 0.2}
+    rotor = Shaft(name="rotor", sections=[tube], nodes=nodes)
+    given = {"housing": "ground", "arm": 0.0, "housing_z": 0.0, "damping_time": 0.0}
+    bearings = [ball(one, body=f"rotor.{one}", **given) for one in PLACES]
+    pull = ConstantForce(name="pull", body="rotor.middle", force=(400.0, 0.0, 0.0))
+    elements = [Port(name="drive", body="rotor.left"), *bearings, pull]
+    train = Train([rotor], elements, OIL, driver="generated")
+    train.initialise({"rotor": SPEED}, {"drive": 0.0}, KELVIN)
+    out = train.outputs()
+    for name in PLACES:
+        assert out[f"{name}.force.x"] == pytest.approx(-200.0, rel=1e-6)
+    bent = out["rotor.middle.displacement.x"] - out["rotor.left.displacement.x"]
+    inertia = math.pi * 0.02**4 / 64.0
+    # F L^3/(48 E I) of a slender beam; shear adds 2 %, bearings that resist a tilt take off as much
+    assert bent == pytest.approx(400.0 * 0.2**3 / (48.0 * 2.06e11 * inertia), rel=0.05)
 
 
 def test_one_bearing_alone_carries_a_moment():

@@ -11,6 +11,7 @@ import pytest
 
 from drivetrain.train.part_section import section_of
 from drivetrain.train.train_file import TrainFile
+from fmu_src.model_description import UNITS
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle
 from gearlube_core.dynamics.train.elements.drag import Churning
@@ -255,3 +256,14 @@ def test_a_wrong_shaft_is_refused_by_name(old: str, new: str, words: str):
     data["bodies"]["motor"] = tomllib.loads(SHAFT.replace(old, new))
     with pytest.raises(ParameterError, match=words):
         TrainFile.from_data(data, "file")
+
+
+def test_fmus_know_the_units_in_which_elements_show_their_outputs():
+    """A display unit that the model description does not declare makes the FMU invalid."""
+    wrong = [
+        f"{kind}: {one.name} in {one.shown}"
+        for kind, element in ELEMENTS.known().items()
+        for one in (*element.outputs, *element.states)
+        if one.shown and one.shown not in {shown.name for shown in UNITS[one.unit].display}
+    ]
+    assert not wrong

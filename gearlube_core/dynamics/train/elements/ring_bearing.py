@@ -57,7 +57,7 @@ OUTPUTS = (
     Output("load_max", "N", "largest load of an element", 1e3),
     Output("loaded", "1", "number of elements under load", 10.0),
     Output("pressure", "Pa", "largest Hertz pressure on the inner ring", 1e9, "GPa"),
-    Output("tilt", "rad", "tilt of the body in its housing", 1e-4, "mrad"),
+    Output("tilt", "rad", "tilt of the body in its housing", 1e-4),
 )
 
 
