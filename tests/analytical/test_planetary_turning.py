@@ -8,7 +8,8 @@ import pytest
 from drivetrain.train.train_file import TrainFile
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.model import Train
-from tests.helpers.planetary_sets import KELVIN, flat_set
+from gearlube_core.errors import ParameterError
+from tests.helpers.planetary_sets import KELVIN, LIN_PARKER_1999, flat_set
 
 WIDE = {"backlash": 5e-3}  # planets move outwards by more than usual gaps
 
@@ -113,3 +114,18 @@ def test_an_undamped_set_starts_turning_without_a_swing():
     swing = np.ptp(found, axis=0) / np.abs(np.mean(found, axis=0))
     # deflections are 2e-4 of the circle's radius, speeds a twentieth of the lowest frequency
     assert swing.max() < 2e-3
+
+
+def test_a_power_split_has_two_speeds_and_shares_its_torques():
+    """Sun, ring and carrier all free: Willis' speeds, torques as 1 to 3 to -4."""
+    train = flat_set(3, LIN_PARKER_1999._replace(twists={}), mesh=WIDE)
+    loads = {"sun torque": 100.0, "ring torque": 0.0, "carrier torque": 0.0}
+    train.initialise({"carrier": 10.0, "ring": -3.0}, loads, KELVIN)
+    found = train.outputs()
+    # 30 w_s + 90 w_r = 120 w_c
+    assert found["sun.speed"] == pytest.approx((120.0 * 10.0 + 90.0 * 3.0) / 30.0, rel=1e-9)
+    for n in (1, 2, 3):
+        for mesh in ("sun", "ring"):
+            assert found[f"p{n} {mesh}.load"] == pytest.approx(100.0 / 3.0 / 38.7e-3, rel=1e-6)
+    with pytest.raises(ParameterError, match="which leave 1 free"):
+        train.initialise({"carrier": 10.0}, loads, KELVIN)

@@ -54,6 +54,7 @@ class Train(MarchedTrain):
     Examples
     --------
     >>> from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
+    >>> from gearlube_core.dynamics.train.part import Body
     >>> rotors = [Body.spinning("engine", 0.2), Body.spinning("wheel", 2.0)]
     >>> shaft = HalfShaft(name="shaft", first="engine", second="wheel", stiffness=1e4)
     >>> motor = Port(name="motor", body="engine")
