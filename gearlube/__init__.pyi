@@ -45,6 +45,9 @@ from gearlube_core.housings.reduced_model import InterfaceNode as InterfaceNode
 from gearlube_core.housings.reduced_model import ReducedModel as ReducedModel
 from gearlube_core.dynamics.train.part import Element as TrainElement
 from gearlube_core.dynamics.train.elements.port import Port as Port
+from gearlube_core.dynamics.train.elements.motor import Motor as Motor
+from gearlube_core.dynamics.train.ripple_table import RippleTable as RippleTable
+from gearlube_core.dynamics.train.ripple_table import skew_factor as skew_factor
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh as HelicalMesh
 from gearlube_core.dynamics.train.elements.hypoid_mesh import HypoidMesh as HypoidMesh
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport as SpringSupport

@@ -38,6 +38,7 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.ripple_table import RippleTable
 from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import GearLubeError
 from gearlube_core.film_model.chosen_model import chosen_model
@@ -157,11 +158,28 @@ class _Reader(Generic[_Value]):
     nested: bool = False
 
 
+class Ripple(Section):
+    """Torque ripple and pull of a motor."""
+
+    files: ClassVar[tuple[str, ...]] = ("ripple_table",)
+
+    ripple_table: Text | None = Field(
+        default=None,
+        description="Table (.csv) of ripple and pull by order, speed and torque, or the name of a "
+        "shipped one; left out: none",
+    )
+
+    def read(self) -> RippleTable | None:
+        """Return the table, or None."""
+        return None if self.ripple_table is None else RippleTable.given(self.ripple_table)
+
+
 READERS: Mapping[Any, _Reader[Any]] = {
     HelicalMarchParameters: _Reader(HelicalGears, HelicalGears.read),
     HypoidAxleParameters: _Reader(HypoidGears, HypoidGears.read),
     ReducedModel: _Reader(HousingModel, HousingModel.read),
     FilmModel | None: _Reader(RollerFilmModel, RollerFilmModel.read),
+    RippleTable | None: _Reader(Ripple, Ripple.read),
     Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
 }
 BODIES: Mapping[str, Any] = {"rigid": Body, "shaft": Shaft, "housing": Housing}
@@ -174,6 +192,7 @@ _WORDS = {
     "gear": "Body that carries the gear",
     "first": "One of the two bodies",
     "second": "The other one",
+    "stator": "Body that bears torque and pull the other way",
     "case": "Body of the case",
     "left": "Body of one side: a side gear, or a wheel",
     "right": "Body of the other side",

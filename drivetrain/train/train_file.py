@@ -90,7 +90,7 @@ class TrainFile(InputFile):
     Examples
     --------
     >>> TrainFile.shipped()
-    ('e_axle', 'e_axle_elastic', 'hypoid_axle', 'planetary')
+    ('e_axle', 'e_axle_elastic', 'e_axle_full', 'hypoid_axle', 'planetary')
     >>> axle = TrainFile.named("e_axle").case().start()
     >>> round(axle.state("motor.rz.rate"), 1)  # rad/s
     -314.1

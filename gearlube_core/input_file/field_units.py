@@ -12,6 +12,7 @@ from gearlube_core.units import ZERO_CELSIUS
 
 _UNITS = {  # of names' endings; the longest that fits counts
     "_rpm": "rpm",
+    "_rad_s": "rad/s",
     "_m_s": "m/s",
     "_hz": "Hz",
     "_mm": "mm",

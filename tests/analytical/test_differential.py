@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import tomllib
 
 import numpy as np
 import pytest
 
+from drivetrain.train.train_file import TrainFile
 from gearlube_core.dynamics.train.elements.differential import Differential
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.port import Port
@@ -170,3 +172,23 @@ def test_energy_balances_while_splines_rattle():
     assert crossed > 20
     out = train.work - sum(train.lost.values()) - (train.energy - before)
     assert abs(out) < 1e-5 * train.energy  # corners of the force, each within one step
+
+
+def test_the_shipped_axle_holds_its_curve_and_its_energy():
+    """Friction of the open differential: 10 N.m and 8 % of the torque of the case."""
+    data = tomllib.loads(TrainFile.shipped_text("e_axle_full")) | {"driver": "generated"}
+    case = TrainFile.from_data(data, "file").case()
+    train = case.start()
+    found = train.outputs()
+    left, right = found["differential.torque.left"], found["differential.torque.right"]
+    # but for 1 - tanh(10.5) = 2e-9
+    assert left - right == pytest.approx(10.0 + 0.08 * (left + right), rel=1e-8)
+    assert left - right == pytest.approx(645.2 - 540.4, rel=2e-3)  # as the file says
+    before, passed = train.energy, 0.0
+    for _ in range(50):
+        done = train.work
+        train.step(1e-3, case.torques, case.oil_temperature)
+        passed += abs(train.work - done)
+    assert train.outputs()["differential.slip"] == pytest.approx(-math.pi * 20.0 / 30.0, rel=0.05)
+    out = train.work - sum(train.lost.values()) - (train.energy - before)
+    assert abs(out) < 1e-6 * passed

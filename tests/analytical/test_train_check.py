@@ -51,7 +51,8 @@ def free_places(plan: np.ndarray) -> set[int]:
         one = shipped_elements()[plan[at + KIND]][0]
         first = at + AT
         found |= set(range(first, first + len(one.on)))
-        first += len(one.on) + len(one.states) + len(one.angles) + len(one.works)
+        own = len(one.states) + len(one.angles) + len(one.lags)
+        first += len(one.on) + own + len(one.works)
         lost = len(one.losses) + len(one.bounds)
         found |= set(range(first, first + lost))
         if one.beside:

@@ -134,8 +134,9 @@ def assemble(
         own[one.name] = [*range(len(names), len(names) + len(one.states))]
         names += [f"{one.name}.{state.name}" for state in one.states]
     for one in elements:
-        own[one.name] += range(len(names), len(names) + len(one.angles))
-        names += [f"{one.name}.{angle}" for angle in one.angles]
+        others = [*one.angles, *(lag.name for lag in one.lags)]
+        own[one.name] += range(len(names), len(names) + len(others))
+        names += [f"{one.name}.{other}" for other in others]
     for one in elements:
         for label in (f"{one.name}.{work}" for work in one.works):
             works[label] = len(names)

@@ -45,7 +45,7 @@ class _Counts(NamedTuple):
 
     bodies: int
     states: int
-    angles: int
+    angles: int  # and lags
     works: int
     losses: int
     bounds: int
@@ -71,7 +71,7 @@ def _counts() -> Offsets:
         _Counts(
             bodies=len(one.on),
             states=len(one.states),
-            angles=len(one.angles),
+            angles=len(one.angles) + len(one.lags),
             works=len(one.works),
             losses=len(one.losses),
             bounds=len(one.bounds),

@@ -76,11 +76,9 @@ def continuous_states(
                 if c not in body.held
             ]
     own = [named_of(one.name, state) for one in elements for state in one.states]
-    own += [
-        named_of(one.name, Output(f"{angle}.angle", "rad", f"angle of the {angle}"))
-        for one in elements
-        for angle in one.angles
-    ]
+    for one in elements:
+        turning = [Output(f"{c}.angle", "rad", f"angle of the {c}") for c in one.angles]
+        own += [named_of(one.name, other) for other in (*turning, *one.lags)]
     first = BODY_STATES * len(bodies)
     own += [shown[name] for name in names[first + len(own) :]]  # energies
     found += [Continuous(record, first + j, first + j) for j, record in enumerate(own)]

@@ -149,6 +149,7 @@ class Element(ABC):
     beside: ClassVar[tuple[str, ...]] = ()  # fields that name ports, or None
     states: ClassVar[tuple[Output, ...]] = ()  # own integrated states, steady in steady turning
     angles: ClassVar[tuple[str, ...]] = ()  # own integrated states that turn on
+    lags: ClassVar[tuple[Output, ...]] = ()  # those that `at_rest` writes, such as of a control
     works: ClassVar[tuple[str, ...]] = ()  # energies put into the train
     losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
     bounds: ClassVar[tuple[str, ...]] = ()  # bounds of losses by solved films, likewise

@@ -56,7 +56,7 @@ class Port(Element):
     ] = 1.0
     kind: ClassVar = "port"
     interpreted: ClassVar = (Listed(_Port, (), 3),)
-    on: ClassVar = ("body",)
+    on: ClassVar[tuple[str, ...]] = ("body",)
     works: ClassVar = ("work",)
 
     def __post_init__(self) -> None:
