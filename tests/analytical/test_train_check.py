@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 
 from drivetrain.train.train_file import TrainFile
-from gearlube_core.dynamics.train.assemble import Assembly
+from gearlube_core.dynamics.train.assemble import Assembly, assemble
 from gearlube_core.dynamics.train.check import check_kernel
 from gearlube_core.dynamics.train.drivers import interpreted
+from gearlube_core.dynamics.train.elements.joint import Joint
+from gearlube_core.dynamics.train.elements.port import Port
+from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.part import shipped_elements, shipped_kinds
 from gearlube_core.dynamics.train.plan import (
     AT,
@@ -22,15 +25,28 @@ from gearlube_core.dynamics.train.plan import (
     N_PLACES,
     NUMBER,
 )
+from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.shafts.section import ShaftSection
+from tests.helpers.frame_model import box_frame, reduced
 from tests.helpers.small_trains import OIL
 
-NAMES = TrainFile.shipped()
+HOUSED = "a shaft in a housing"
+NAMES = (*TrainFile.shipped(), HOUSED)
 
 
 @cache
 def assembled(name: str) -> Assembly:
-    return TrainFile.named(name).case().train.assembly
+    if name != HOUSED:
+        return TrainFile.named(name).case().train.assembly
+    tube = ShaftSection(start=0.0, end=0.3, outer_diameter=0.04)
+    shaft = Shaft(name="shaft", sections=(tube,), nodes={"low": 0.0, "high": 0.25})
+    case = Housing(name="case", model=reduced(box_frame(), modes=0), highest_frequency=1e3)
+    seats = [
+        Joint(name=one, first=f"shaft.{one}", second=f"case.a_{one}", K_xx=1e8)
+        for one in shaft.nodes
+    ]
+    return assemble([case, shaft], [*seats, Port(name="motor", body="shaft")], OIL)
 
 
 def is_train(made: Assembly, **changed: np.ndarray) -> bool:

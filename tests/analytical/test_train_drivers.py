@@ -14,13 +14,16 @@ from gearlube_core.dynamics.train.elements.ball_bearing import BallBearing
 from gearlube_core.dynamics.train.elements.cylindrical_bearing import CylindricalBearing
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
+from gearlube_core.dynamics.train.elements.joint import Joint
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
+from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.frame_model import MOUNTS, box_frame, reduced
 from tests.helpers.small_trains import OIL, two_rotors
 
 KELVIN = 333.15
@@ -59,6 +62,7 @@ def test_both_drivers_give_equal_bits():
     bodies = [Body.spinning("engine", 0.2), Body.spinning("wheel", 2.0)]
     bodies.append(Body(name="gear", mass=3.0, inertia=0.01, polar_inertia=0.02))
     bodies.append(Body(name="frame", mass=1.0, inertia=1.0, polar_inertia=1.0, held=COORDINATES))
+    case = Housing(name="case", model=reduced(box_frame(), modes=5), highest_frequency=1e3)
     common = {"body": "gear", "housing": "frame", "pitch_diameter": 0.05, "f0": 2.0, "f1": 3e-4}
     elements: list[Element] = [
         Port(name="motor", body="engine"),
@@ -75,8 +79,11 @@ def test_both_drivers_give_equal_bits():
                     outer_groove=0.53, arm=-0.02, housing_z=-0.01, offset=5e-6, **common),
         CylindricalBearing(name="rollers", n_rollers=12, roller_diameter=0.01, roller_length=0.01,
                            arm=0.02, housing_z=0.02, clearance=-4e-6, damping_time=1e-5, **common),
+        Joint(name="seat", first="gear", second="case.a_low", K_xx=1e8, K_yy=1e8, K_zz=1e7),
+        *(Joint(name=one, first=f"case.{one}", second="ground", K_xx=3e5, K_yy=4e5, K_zz=2e5)
+          for one in MOUNTS),
     ]  # fmt: skip
-    train = Train(bodies, elements, OIL)
+    train = Train([*bodies, case], elements, OIL)
     assert_equal_bits(train, {"engine": 100.0}, {"motor": 40.0, "road": 35.0})
 
 
