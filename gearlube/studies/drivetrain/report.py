@@ -25,6 +25,12 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
+from gearlube.studies.drivetrain.vibration import (
+    DAMPING_RATIO,
+    campbell_figure,
+    deflection,
+    response_figure,
+)
 from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import rads_to_rpm
 
@@ -134,6 +140,19 @@ _FIGURES = {
         "Undamped, about the state at the start, with the meshes in contact. A bar of one colour "
         "is a mode of one body on its bearings.",
     ),
+    "response": (
+        response_figure,
+        "Forces that a transmission error makes",
+        "Amplitude over that of a sinusoidal error of one mesh, with mean stiffness and "
+        f"{100.0 * DAMPING_RATIO:g} % damping of all modes; solid: meshes, others: bearings. "
+        "Flanks stay in contact.",
+    ),
+    "campbell": (
+        campbell_figure,
+        "Speeds at which meshes meet natural frequencies",
+        "Lines from the origin: a mesh and its second and third harmonic; grey: natural "
+        "frequencies; dotted: the speed of this run.",
+    ),
 }
 
 
@@ -143,6 +162,8 @@ def save_figures(dataset: xr.Dataset, folder: Path) -> dict[str, Path]:
     files = {}
     for name, (draw, *_) in _FIGURES.items():
         if name == "transmission_error" and not transmission_errors(dataset):
+            continue
+        if name in ("response", "campbell") and "response" not in dataset:
             continue
         files[name] = folder / f"{name}.png"
         write_figure(draw(dataset), files[name])
@@ -205,6 +226,39 @@ def _drift(dataset: xr.Dataset) -> list[Finding]:
     ]
 
 
+def _carried(dataset: xr.Dataset) -> list[Table]:
+    """Return the tables of what meshes and bearings carry at the start."""
+    meshes, bearings = deflection(dataset)
+    tables = []
+    if meshes:
+        tables.append(
+            Table(
+                title="Meshes under load",
+                columns=[
+                    Column("mesh"),
+                    Column("normal load", "N", 4),
+                    Column("misalignment", "µrad", 3),
+                    Column("load at low z", "", 3),
+                    Column("load at high z", "", 3),
+                ],
+                rows=meshes,
+                caption="At the start, with all shafts bent and bearings deflected; loads of the "
+                "ends of the face are those over their mean.",
+            )
+        )
+    if bearings:
+        columns = [Column("part"), Column("radial force", "N", 4), Column("axial force", "N", 4)]
+        tables.append(
+            Table(
+                title="Forces of bearings and supports",
+                columns=columns,
+                rows=bearings,
+                caption="At the start, on the shaft.",
+            )
+        )
+    return tables
+
+
 def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input]) -> Report:
     """Return the report of a run."""
     half, lost = settled(dataset), losses(dataset)
@@ -244,6 +298,7 @@ def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input
                 rows=speeds,
                 caption="Mean of the second half of the run, about +z.",
             ),
+            *_carried(dataset),
             Table(
                 title="Modes",
                 columns=[

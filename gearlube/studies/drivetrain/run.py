@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.train.train_file import TrainCase
+from gearlube.studies.drivetrain.vibration import mean_train, responses
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.train.element import N_COORDINATES
@@ -21,6 +22,7 @@ from gearlube_core.storage.atomic_file import write_dataset
 
 FILE = "drivetrain.nc"
 MOST_POINTS = 200_000
+MOST_FREQUENCY = 1e4  # Hz, of responses
 _PER_PERIOD, _USUAL_STEP = 24, 1e-4  # steps of a mesh period; without a mesh [s]
 _RIGID = 1.0  # Hz, below which a mode is a turning of the whole train
 
@@ -51,9 +53,10 @@ def run_drivetrain(
     -------
     xarray.Dataset
         The outputs over `time` [s], units in their attributes; `frequency` [Hz] over `mode` and
-        `share` [-] of each body in the kinetic energy of a mode. `exceeded` in the attributes has
-        a sentence for each range that was left, `imbalance` the share of the energy that has passed
-        through and is neither stored nor lost.
+        `share` [-] of each body in the kinetic energy of a mode; `response` [N/m], the forces of
+        meshes and bearings over the transmission error of each mesh. In the attributes `exceeded`
+        has a sentence for each range that was left, `imbalance` the share of the energy that has
+        passed through and is neither stored nor lost.
 
     Raises
     ------
@@ -87,7 +90,9 @@ def run_drivetrain(
         highest = max(map(abs, meshes), default=0.0)
         step = min(longest, max(shortest, 1.0 / max(_PER_PERIOD * highest, 1.0 / _USUAL_STEP)))
     before = train.energy
-    frequency, share = mode_shares(train)
+    mean = mean_train(case)
+    frequency, share = mode_shares(mean)
+    vibration = responses(mean, min(trusted_frequency(train), MOST_FREQUENCY))
     steps = math.ceil(duration / step - 1e-9)
     rows = np.empty((steps + 1, len(train.output_records)))
     rows[0] = list(train.outputs().values())
@@ -110,10 +115,12 @@ def run_drivetrain(
                 share,
                 {"units": "1", "long_name": "share of the body in the kinetic energy"},
             ),
-        },
+        }
+        | vibration,
         coords={"time": time, "body": _names(train)},
         attrs={
             "name": case.name,
+            "reference": next(iter(case.speeds)),
             "imbalance": _imbalance(train, before),
             "exceeded": "\n".join(exceeded.values()),
         },
@@ -130,9 +137,7 @@ def mode_shares(train: Train) -> tuple[Array, Array]:
     Shares are those in the kinetic energy, shape (modes, bodies).
     """
     frequency, shapes = train.modes()
-    elastic = CarriedNodes | CarriedInterface
-    limits = [one.highest_frequency for one in train.elements if isinstance(one, elastic)]
-    vibrates = (frequency > _RIGID) & (frequency <= min(filter(None, limits), default=math.inf))
+    vibrates = (frequency > _RIGID) & (frequency <= trusted_frequency(train))
     mobility = np.concatenate([body.mobility for body in train.bodies])
     # modal coordinates have the name of their body before a point
     owners = np.repeat([body.name.partition(".")[0] for body in train.bodies], N_COORDINATES)
@@ -140,6 +145,13 @@ def mode_shares(train: Train) -> tuple[Array, Array]:
     energy = shapes**2 / mobility[free][:, None]
     share = np.array([energy[owners[free] == name].sum(axis=0) for name in _names(train)])
     return frequency[vibrates], share.T[vibrates]
+
+
+def trusted_frequency(train: Train) -> float:
+    """Return the frequency up to which modes are those of all elastic bodies [Hz], or infinity."""
+    elastic = CarriedNodes | CarriedInterface
+    limits = [one.highest_frequency for one in train.elements if isinstance(one, elastic)]
+    return min(filter(None, limits), default=math.inf)
 
 
 def _names(train: Train) -> list[str]:
