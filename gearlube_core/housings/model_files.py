@@ -21,7 +21,7 @@ from gearlube_core.housings.reduced_model import (
     Mass,
     ReducedModel,
 )
-from gearlube_core.housings.text_formats import Label, Labelled, read_abaqus, read_dmig
+from gearlube_core.housings.text_formats import Label, Labelled, check_rows, read_abaqus, read_dmig
 from gearlube_core.storage.atomic_file import read_arrays
 
 _LARGEST = 500_000_000  # bytes of a text with matrices
@@ -177,6 +177,7 @@ def _read_labelled(field: str, path: str | Path, kind: str, table: dict[int, _Ro
 
 def _matrix_market(content: bytes) -> Array:
     try:
+        check_rows(scipy.io.mminfo(io.BytesIO(content))[0])
         found = scipy.io.mmread(io.BytesIO(content))
     except (ValueError, OverflowError) as reason:
         raise ParameterError(f"must be a Matrix Market file, got {reason}.") from None

@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array, Offsets
+from gearlube_core.checks import check_finite
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import check_fields
 
@@ -93,6 +94,9 @@ class ReducedModel:
                 raise ParameterError(
                     f"nodes must have names of their own without a point, got {name!r}."
                 )
+        for one in self.nodes:
+            for axis, value in zip("xyz", one[1:], strict=True):
+                check_finite(f"{axis} of {one.name or 'a node'}", value, self.length_unit)
         n = len(self.owner)
         if n == 0 or len(self.direction) != n:
             raise ParameterError(

@@ -20,6 +20,7 @@ _OF_DMIG = {
 _OF_ABAQUS = {"STIFFNESS": "K", "MASS": "M", "VISCOUS DAMPING": "C"}
 _BARE_EXPONENT = re.compile(r"(?<=[0-9.])([+-]\d+)$")
 _WHOLE = re.compile(r"[*\s,\d-]+")
+MOST_ROWS = 5000
 _SYMMETRIC, _SQUARE = 6, 1
 _REAL = (1, 2)  # single, double
 
@@ -41,6 +42,20 @@ def number(text: str) -> float:
     (1250.0, -2500.0, 7.0)
     """
     return float(_BARE_EXPONENT.sub(r"e\1", text.strip().upper().replace("D", "E")))
+
+
+def check_rows(count: int) -> None:
+    """Raise ParameterError where a matrix is too large to be a reduced one.
+
+    Examples
+    --------
+    >>> check_rows(120)
+    """
+    if not 1 <= count <= MOST_ROWS:
+        raise ParameterError(
+            f"matrices must have 1 to {MOST_ROWS} rows, got {count}. Reduce the model to the nodes "
+            "that carry something."
+        )
 
 
 def _cards(text: str) -> Iterator[list[str]]:
@@ -132,6 +147,7 @@ def read_dmig(text: str) -> Labelled:
                 "16 characters, or between commas."
             ) from None
     rows = tuple(sorted({label for own in entries.values() for pair in own for label in pair}))
+    check_rows(len(rows))
     at = {label: i for i, label in enumerate(rows)}
     matrices = {}
     for kind, own in entries.items():
@@ -211,6 +227,7 @@ def read_abaqus(text: str) -> Labelled:
     for i, node in enumerate(nodes):
         own = changes.get(i, own)
         rows += [(node, direction) for direction in own]
+    check_rows(len(rows))
     n, matrices = len(rows), {}
     for kind, values in triangles.items():
         if len(values) != n * (n + 1) // 2:

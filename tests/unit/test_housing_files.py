@@ -210,6 +210,8 @@ def with_matrix(what: str, factor: float, row: int = 0, column: int = 0) -> Redu
          "y of a_low must have one row, got a second one, 2"),
         (lambda: replace(MODEL, nodes=(InterfaceNode("a.b", 0.0, 0.0, 0.0), *MODEL.nodes[1:])),
          "names of their own without a point"),
+        (lambda: replace(MODEL, nodes=(InterfaceNode("a", 0.0, np.inf, 0.0), *MODEL.nodes[1:])),
+         "y of a must be"),
         (lambda: replace(MODEL, owner=MODEL.owner + 1), "row 43 must belong to a node, 0 to 7"),
     ],
 )  # fmt: skip
@@ -281,6 +283,7 @@ def test_damping_between_modes_is_told(caplog):
         ("large", "MAAX", "MXXX", "case.pch must have mass, got K, C"),
         ("free", "DMIG,KAAX,101,1,,101,1", "DMIG,KAAX,101,1,,101,x", "entry DMIG, KAAX, 101"),
         ("abaqus", "*MATRIX,TYPE=MASS", "*MATRIX,TYPE=MASS\n1.0", "must have 1431 numbers"),
+        ("matrix_market", "53 53", "530000 530000", "1 to 5000 rows, got 530000"),
         ("abaqus", "ELEMENT NODES", "NODES", "must list its nodes in a comment"),
         ("abaqus", "1, 2, 3, 4, 5, 6", "1, 2, three", "Abaqus line '1, 2, three'"),
     ],
