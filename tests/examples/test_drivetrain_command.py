@@ -9,7 +9,9 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
+from drivetrain.train.train_file import TrainFile
 from gearlube.command import app
+from gearlube.studies.drivetrain.layout import layout
 from gearlube.studies.drivetrain.report import findings, losses, transmission_errors
 from gearlube.studies.drivetrain.run import FILE
 from tests.helpers.small_trains import BRAKE, FIRST, SECOND, STIFFNESS, WITH_BRAKE
@@ -111,3 +113,19 @@ def test_the_shipped_axle_balances_its_energy(tmp_path: Path) -> None:
         # helical meshes lose 0.3 to 1.5 % each
         assert 0.97 < float(found["efficiency"][-1]) < 0.995
         assert found.sizes["mode"] == 19  # 20 free coordinates less the turning of the whole
+
+
+def test_the_picture_places_shafts_by_their_meshes() -> None:
+    """Distances are those of the teeth: m z / 2 cos b, added along the chain; a ring is coaxial."""
+    axle = layout(TrainFile.named("e_axle_elastic").case().train)
+    first = 3.0e-3 * (17 + 31) / (2.0 * math.cos(math.radians(28.0)))
+    second = 3.4e-3 * (17 + 74) / (2.0 * math.cos(math.radians(24.0)))
+    ways = [np.exp(1j * math.radians(angle)) for angle in (-40.0, 20.0)]
+    assert axle.centres["counter"] == pytest.approx(first * ways[0], rel=1e-9)
+    assert axle.centres["output"] == pytest.approx(first * ways[0] + second * ways[1], rel=1e-9)
+    assert len(axle.seats["input"]) == 3
+    stage = layout(TrainFile.named("planetary").case().train)
+    assert abs(stage.centres["ring"] - stage.centres["sun"]) < 1e-12
+    planets = [centre for name, centre in stage.centres.items() if name.startswith("planet")]
+    assert len(planets) == 3
+    assert sum(planets) == pytest.approx(0.0, abs=1e-9)

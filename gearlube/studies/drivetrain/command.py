@@ -56,15 +56,16 @@ def drivetrain(
         if step_us is not None:
             check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
         given = TrainFile.given(file)
+        case = given.case()
         with run.results() as progress:
             dataset = run_drivetrain(
-                given.case(),
+                case,
                 duration=1e-3 * duration_ms,
                 step=None if step_us is None else 1e-6 * step_us,
                 folder=out,
                 progress=progress,
             )
-            figures = save_figures(dataset, out / "figures")
+            figures = save_figures(dataset, case.train, out / "figures")
         table = empty_table("Power lost, mean of the second half", "kind", ">W")
         for name, power in losses(dataset).items():
             table.add_row(name.replace("_", " "), f"{power:.4g}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,12 +25,14 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
+from gearlube.studies.drivetrain.layout import layout, layout_figure
 from gearlube.studies.drivetrain.vibration import (
     DAMPING_RATIO,
     campbell_figure,
     deflection,
     response_figure,
 )
+from gearlube_core.dynamics.train.model import Train
 from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import rads_to_rpm
 
@@ -123,7 +125,13 @@ def _mode_figure(dataset: xr.Dataset) -> Any:
     return figure
 
 
-_FIGURES = {
+_FIGURES: Mapping[str, tuple[Callable[[Any], Any], str, str]] = {
+    "layout": (
+        layout_figure,
+        "Where shafts, gears and bearings are",
+        "Pitch circles of gears on parallel axes, dashed: rings. On the right the shafts are "
+        "unfolded, with what acts on their nodes.",
+    ),
     "transmission_error": (
         _motion_figure,
         "Transmission error of every mesh",
@@ -156,17 +164,20 @@ _FIGURES = {
 }
 
 
-def save_figures(dataset: xr.Dataset, folder: Path) -> dict[str, Path]:
-    """Draw every figure into `folder` as PNG; return the files by name."""
+def save_figures(dataset: xr.Dataset, train: Train, folder: Path) -> dict[str, Path]:
+    """Draw every figure of a run of a train into `folder` as PNG; return the files by name."""
+    found = layout(train)
     folder.mkdir(parents=True, exist_ok=True)
     files = {}
     for name, (draw, *_) in _FIGURES.items():
         if name == "transmission_error" and not transmission_errors(dataset):
             continue
+        if name == "layout" and not found.gears:
+            continue
         if name in ("response", "campbell") and "response" not in dataset:
             continue
         files[name] = folder / f"{name}.png"
-        write_figure(draw(dataset), files[name])
+        write_figure(draw(found if name == "layout" else dataset), files[name])
     return files
 
 

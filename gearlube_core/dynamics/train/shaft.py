@@ -137,5 +137,6 @@ class Shaft:
             highest_frequency=self.highest_frequency,
             damping_ratio=self.damping_ratio,
             gyroscopic=self.gyroscopic,
+            sections=tuple(self.sections),
         )
         return [body, *nodes, *modes], [carrier]

@@ -22,6 +22,7 @@ from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantState
 from gearlube_core.shafts.free_modes import ShaftMotion
+from gearlube_core.shafts.section import ShaftSection
 
 _MOST = 1000  # nodes, or bodies of modes
 # sizes at the end of `at`, behind the body, its first node, the first body of modes and the loss
@@ -196,6 +197,8 @@ class CarriedNodes(Element):
         Of all modes [-].
     gyroscopic : bool
         Whether moments of tilting that turns with the shaft act.
+    sections : tuple of ShaftSection
+        For pictures.
 
     Examples
     --------
@@ -211,6 +214,7 @@ class CarriedNodes(Element):
     highest_frequency: float
     damping_ratio: float
     gyroscopic: bool
+    sections: tuple[ShaftSection, ...] = ()
     kind: ClassVar = "carried_nodes"
     carries: ClassVar = True
     interpreted: ClassVar = (Listed(_Shaft, (), 7),)

@@ -1,0 +1,216 @@
+"""Picture of a drivetrain: where its shafts, gears and bearings are."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Any, NamedTuple
+
+from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
+from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
+from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
+from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes
+from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.part import GROUND
+
+_BEVEL = 1e-6  # rad, cone angle of a gear that has none
+_GAP = 0.02  # m, between shafts that are drawn one above the other
+
+
+class _Gear(NamedTuple):
+    mesh: str
+    body: str  # as listed
+    radius: float  # [m]
+    width: float
+    z: float  # of its middle, in the axis of its body
+    ring: bool
+
+
+class _Pair(NamedTuple):
+    first: _Gear
+    second: _Gear
+    way: complex  # from the centre of the first to that of the second one
+
+
+class Layout(NamedTuple):
+    """Axes of a drivetrain in the plane x + i y [m], by body, and what stands on them."""
+
+    centres: dict[str, complex]
+    gears: tuple[_Gear, ...]
+    sections: dict[str, tuple[tuple[float, float, float, float], ...]]  # start, end, radii
+    seats: dict[str, tuple[float, ...]]  # of what else acts on nodes
+    shifts: dict[str, float]  # of z between bodies, so that gears in mesh face each other
+
+
+def layout(train: Train) -> Layout:
+    """Return where the shafts of a train are: meshes place each from the one before.
+
+    The first body of the first mesh stands at the origin. Bevel gears and what no mesh, half shaft
+    or differential reaches are left out.
+
+    Examples
+    --------
+    >>> from drivetrain.train.train_file import TrainFile
+    >>> found = layout(TrainFile.named("e_axle_elastic").case().train)
+    >>> [f"{name} {1e3 * abs(centre):.1f}" for name, centre in found.centres.items()][:3]
+    ['input 0.0', 'counter 81.5', 'output 227.1']
+    """
+    carriers = [one for one in train.elements if isinstance(one, CarriedNodes)]
+    sections = {
+        one.body: tuple(
+            (part.start, part.end, 0.5 * part.inner_diameter, 0.5 * part.outer_diameter)
+            for part in one.sections
+        )
+        for one in carriers
+    }
+    along: dict[str, float] = {}
+    for one in carriers:
+        first = next(i for i, body in enumerate(train.bodies) if body.name == one.nodes)
+        names = [body.name for body in train.bodies[first : first + one.motion.arms.size]]
+        along |= dict(zip(names, (one.motion.arms + one.motion.centre).tolist(), strict=True))
+    pairs = [pair for one in train.elements if (pair := _pair(one, along))]
+    centres: dict[str, complex] = {}
+    shifts: dict[str, float] = {}
+    if pairs:
+        centres[pairs[0].first.body], shifts[pairs[0].first.body] = 0.0j, 0.0
+    together = [
+        (one.first.partition(".")[0], one.second.partition(".")[0])
+        for one in train.elements
+        if isinstance(one, HalfShaft)
+    ]
+    for _ in range(len(pairs) + len(together)):
+        for first_gear, second_gear, way in pairs:
+            for a, b, step in ((first_gear, second_gear, way), (second_gear, first_gear, -way)):
+                if a.body in centres and b.body not in centres:
+                    centres[b.body] = centres[a.body] + step
+                    shifts[b.body] = shifts[a.body] + a.z - b.z
+        for ends in together:
+            for here, there in (ends, ends[::-1]):
+                if here in centres and there not in centres:
+                    centres[there], shifts[there] = centres[here], shifts[here]
+    gears = tuple(gear for pair in pairs for gear in pair[:2] if gear.body in centres)
+    of_meshes = {one.name for one in train.elements if isinstance(one, GearMesh | HelicalMesh)}
+    seats: dict[str, list[float]] = {}
+    for element in train.elements:
+        if element.name in of_meshes or not {"force.x", "force.y"} & {
+            output.name for output in element.outputs
+        }:
+            continue
+        for field in element.on:
+            node = getattr(element, field)
+            body = node.partition(".")[0]
+            if node in along and body in centres and body != GROUND:
+                seats.setdefault(body, []).append(along[node])
+    return Layout(
+        centres,
+        gears,
+        {name: one for name, one in sections.items() if name in centres},
+        {name: tuple(one) for name, one in seats.items()},
+        shifts,
+    )
+
+
+def _pair(element: Any, along: dict[str, float]) -> _Pair | None:
+    """Return the gears of a mesh on parallel shafts, or None."""
+    if isinstance(element, GearMesh):
+        if max(element.cone_angle_1, element.cone_angle_2) > _BEVEL:
+            return None
+        radii, ring, width = element.radii, element.ring, element.face_width
+        on, angle = (element.first, element.second), element.azimuth
+        arms = element.arm_1, element.arm_2
+    elif isinstance(element, HelicalMesh):
+        plane, ring = element.parameters.pair.plane, False
+        # pitch radii over base radii: both gears have the working pressure angle
+        slope = math.hypot(plane.x_g, plane.r_bp + plane.r_bg) / (plane.r_bp + plane.r_bg)
+        radii = plane.r_bp * slope, plane.r_bg * slope
+        width, angle = plane.W, element.angle
+        on, arms = (element.pinion, element.gear), (element.pinion_arm, element.gear_arm)
+    else:
+        return None
+    first, second = (
+        _Gear(
+            element.name,
+            node.partition(".")[0],
+            radius,
+            width,
+            along.get(node, 0.0) + arm,
+            ring and i == 1,
+        )
+        for i, (node, radius, arm) in enumerate(zip(on, radii, arms, strict=True))
+    )
+    distance = first.radius - second.radius if ring else first.radius + second.radius
+    return _Pair(first, second, cmath.rect(distance, angle))
+
+
+def layout_figure(found: Layout) -> Any:
+    """Draw a drivetrain from its end, and unfolded along its shafts."""
+    turning = list(dict.fromkeys(gear.body for gear in found.gears))
+    colours = {name: SERIES[i % len(SERIES)] for i, name in enumerate(turning)}
+    with house_style():
+        figure = new_figure(7.2, 4.4)
+        end, side = figure.subplots(1, 2)
+        for gear in found.gears:
+            centre, colour = found.centres[gear.body], colours[gear.body]
+            place = 1e3 * centre.real, 1e3 * centre.imag
+            style = "--" if gear.ring else "-"
+            end.add_patch(
+                _circle(place, 1e3 * gear.radius, fill=False, edgecolor=colour, ls=style, lw=1.6)
+            )
+            end.plot(*place, "+", color=colour)
+        end.autoscale_view()
+        end.set(title="seen against z", xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
+        heights: dict[str, float] = {}
+        height = 0.0
+        for name in turning:
+            largest = max(gear.radius for gear in found.gears if gear.body == name)
+            height -= largest if heights else 0.0
+            heights[name] = height
+            height -= largest + _GAP
+        for name, y in heights.items():
+            shift, colour = found.shifts[name], colours[name]
+            for start, stop, inner, outer in found.sections.get(name, ()):
+                for sign in (1.0, -1.0):
+                    low = y + (inner if sign > 0.0 else -outer)
+                    side.add_patch(
+                        _box(start + shift, low, stop - start, outer - inner, facecolor=colour,
+                             alpha=0.35, edgecolor="none")
+                    )  # fmt: skip
+            named = set[float]()
+            for gear in found.gears:
+                if gear.body == name:
+                    side.add_patch(
+                        _box(gear.z + shift - 0.5 * gear.width, y - gear.radius, gear.width,
+                             2.0 * gear.radius, fill=False, edgecolor=colour, lw=1.6)
+                    )  # fmt: skip
+                    if gear.z in named:
+                        continue
+                    named.add(gear.z)
+                    side.annotate(
+                        gear.mesh.replace("_", " "),
+                        (1e3 * (gear.z + shift), 1e3 * (y + gear.radius)),
+                        fontsize=7,
+                        ha="center",
+                        va="bottom",
+                    )
+            for seat in found.seats.get(name, ()):
+                side.plot(1e3 * (seat + shift), 1e3 * y, "x", color="black", ms=7, mew=1.6)
+            side.plot([], [], color=colour, label=name.replace("_", " "))
+        if found.seats:
+            side.plot([], [], "x", color="black", ls="none", label="bearing or support")
+        side.autoscale_view()
+        side.set(title="shafts one above the other", xlabel="z [mm]", ylabel="mm")
+        figure.legend(ncols=4, loc="outside lower center")
+    return figure
+
+
+def _circle(place: tuple[float, float], radius: float, **look: Any) -> Any:
+    from matplotlib.patches import Circle
+
+    return Circle(place, radius, **look)
+
+
+def _box(x: float, y: float, width: float, height: float, **look: Any) -> Any:
+    from matplotlib.patches import Rectangle
+
+    return Rectangle((1e3 * x, 1e3 * y), 1e3 * width, 1e3 * height, **look)
