@@ -46,6 +46,7 @@ from gearlube_core.number import Output
 from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws
 from gearlube_core.oil.lubricant import Lubricant
 
+_BETWEEN_PARTS = (("body", "housing"), ("body", "stator"))  # fields of bearings and motors
 _MOTIONS = (*COORDINATES, *(f"{one}.rate" for one in COORDINATES))
 
 
@@ -233,6 +234,7 @@ def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
     """Raise ParameterError unless all names are unique and those that are referred to exist."""
     there = {"bodies": [one.name for one in bodies], "elements": [one.name for one in elements]}
     ports = [one.name for one in elements if one.works and one.kept_size()]
+    nodes = {one.name: one.name.partition(".")[0] for one in bodies if isinstance(one, Node)}
     for what, names in there.items():
         for name in names:
             if names.count(name) > 1:
@@ -248,6 +250,11 @@ def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         if len(set(on)) < len(on):
             raise ParameterError(
                 f"{one.name} must act on {len(on)} different bodies, got {', '.join(on)}."
+            )
+        if one.on in _BETWEEN_PARTS and len({nodes.get(name, name) for name in on}) == 1:
+            raise ParameterError(
+                f"{one.name} must act between two bodies, got {' and '.join(on)} of one. Name a "
+                f"node of another body, or the ground, as its {one.on[1]}."
             )
         asked += [("ports", ports, getattr(one, field)) for field in one.beside]
         for what, names, name in asked:

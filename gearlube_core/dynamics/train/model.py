@@ -22,6 +22,7 @@ from gearlube_core.dynamics.train.outputs import outputs_at
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.dynamics.train.rest import LEAST_RATE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK
+from gearlube_core.dynamics.train.supports import unsupported, whole
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
@@ -340,10 +341,19 @@ class Train(MarchedTrain):
                 "that holds rz does not turn."
             )
         if status == NO_REST:
+            where = self._made.names[int(place)]
+            if ".modes_" in where:
+                where = f"the modes of {whole(where)}"
+            loose = unsupported(self.bodies, self.elements)
+            cure = (
+                f"No bearing, spring or joint leads from {', '.join(loose)} to the ground: give it "
+                "one."
+                if loose
+                else "Reduce the torques, stiffen the supports, or give every body that may move "
+                "along or about an axis a support there."
+            )
             raise ConvergenceError(
-                f"no static equilibrium: forces on {self._made.names[int(place)]} are out by "
-                f"{number:g} N or N.m. Reduce the torques, stiffen the supports, or give every "
-                "body that may move along or about an axis a support there."
+                f"no static equilibrium: forces on {where} are out by {number:g} N or N.m. {cure}"
             )
         raise ConvergenceError(
             "natural frequencies at rest are not finite numbers. Check masses and stiffness."

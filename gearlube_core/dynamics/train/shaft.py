@@ -17,6 +17,7 @@ from gearlube_core.shafts.beam import shaft_beam
 from gearlube_core.shafts.free_modes import ShaftMotion, shaft_motion
 from gearlube_core.shafts.section import ShaftDisc, ShaftMaterial, ShaftSection
 
+_MOST_ELEMENTS = 600  # of a beam: the time for its modes grows with their third power
 _LIMIT = Number("Hz", 0.0, 1e6, text="Modes up to this frequency move; 0: the shaft is rigid")
 _LONGEST = Number("m", 0.0, 10.0, text="Longest element of the beam; 0: a quarter of the least "
                   "outer diameter", shown="mm")  # fmt: skip
@@ -110,11 +111,21 @@ class Shaft:
                     f"{end:g} m, got {place:g} m."
                 )
 
+        longest = self._longest()
+        n = len(self.sections) + len(self.discs) + (end - ordered[0].start) / longest
+        if n > _MOST_ELEMENTS:
+            raise ParameterError(
+                f"elements of {self.name} must be at most {_MOST_ELEMENTS}, got {n:.3g} of at most "
+                f"{1e3 * longest:.3g} mm. Give a larger longest_element, or leave out what is thin."
+            )
+
+    def _longest(self) -> float:
+        return self.longest_element or 0.25 * min(one.outer_diameter for one in self.sections)
+
     def motion(self) -> ShaftMotion:
         """Return its mass and inertia, and its modes at the nodes."""
         places = list(self.nodes.values())
-        longest = self.longest_element or 0.25 * min(one.outer_diameter for one in self.sections)
-        beam = shaft_beam(self.sections, self.discs, places, self.material, longest)
+        beam = shaft_beam(self.sections, self.discs, places, self.material, self._longest())
         return shaft_motion(beam, np.array(places), self.highest_frequency)
 
     def members(self) -> tuple[list[Body], list[Element]]:
