@@ -259,7 +259,7 @@ def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         asked += [("ports", ports, getattr(one, field)) for field in one.beside]
         for what, names, name in asked:
             if name is not None and name not in names:
-                known = ", ".join(names) or "none"
+                known = ", ".join(one for one in names if ".modes_" not in one) or "none"
                 raise ParameterError(
                     f"{one.name} names {name!r}, which is not among the {what} of the train. "
                     f"There are: {known}."
