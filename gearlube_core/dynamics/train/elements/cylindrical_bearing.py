@@ -56,7 +56,7 @@ class CylindricalBearing(RingBearing):
     ...     pitch_diameter=47e-3, clearance=2e-5, f0=2.0, f1=3e-4,
     ... )
     >>> rings, gaps = bearing.rings()
-    >>> gaps.size, round(1e6 * gaps[15], 2)  # um, half of the clearance and the profile
+    >>> gaps.size, round(1e6 * float(gaps[15]), 2)  # um, half of the clearance and the profile
     (31, 10.0)
     """
 
