@@ -123,6 +123,12 @@ class ShaftDisc:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if self.polar_inertia > 2.0 * self.inertia * (1.0 + 1e-9):
+            raise ParameterError(
+                f"polar_inertia of a disc must be at most twice its inertia about a diameter, "
+                f"{2.0 * self.inertia:g} kg m2, got {self.polar_inertia:g} kg m2. A thin disc has "
+                "twice, all others less."
+            )
 
     @classmethod
     def ring(

@@ -247,3 +247,8 @@ def test_shafts_that_cannot_be_are_refused(change: dict, words: str):
     given = {"sections": (ROUND,), "nodes": {"left": 0.0}} | change
     with pytest.raises(ParameterError, match=words):
         Shaft(name="beam", **given)
+
+
+def test_a_disc_turns_no_harder_than_a_thin_one():
+    with pytest.raises(ParameterError, match=r"at most twice its inertia about a diameter, 0\.02"):
+        ShaftDisc(position=0.0, mass=1.0, inertia=0.01, polar_inertia=0.03)
