@@ -22,8 +22,9 @@ from fmu_src.native.model import NativeModel
 from fmu_src.native.models import native_model
 from fmu_src.native.platforms import platform_of_this_machine
 from gearlube_core.errors import ParameterError
+from tests.helpers.native_fmus import unpacked_library
 from tests.helpers.native_library import OK, NativeInstance, NativeLibrary
-from tests.helpers.native_walk import unpacked_library, walk
+from tests.helpers.native_walk import walk
 
 OUTPUTS = ("pinion.torque", "wheel.torque", "vehicle.speed", "engine.speed", "start.pinion_speed",
            "start.gear")  # fmt: skip

@@ -12,8 +12,9 @@ from pathlib import Path
 import pytest
 
 from tests.helpers.fmu_cases import CASES, Case
+from tests.helpers.native_fmus import native_library
 from tests.helpers.native_library import DISCARD, OK, WARNING, NativeInstance, NativeLibrary
-from tests.helpers.native_walk import MODELS, native_library, walk
+from tests.helpers.native_walk import MODELS, walk
 from tests.helpers.watching_library import COMPILER, NO_COMPILER
 
 ROOT = Path(__file__).parents[2]

@@ -30,17 +30,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import fmpy
-
 from fmu_src.native.build import libraries, native_guid
 from fmu_src.native.driveline import driveline_model
 from fmu_src.native.model import NativeModel
 from fmu_src.native.models import native_model
 from fmu_src.native.platforms import PLATFORMS, platform_of_this_machine
 from fmu_src.native.train import train_model
-from tests.helpers.fmu_cases import CASES, Case
+from tests.helpers.fmu_cases import CASES
 from tests.helpers.native_exchange_walk import FINITE, REALS, ExchangeWalk
-from tests.helpers.native_fmus import native_fmus
 from tests.helpers.native_library import DISCARD, ERROR, OK, NativeInstance, NativeLibrary
 from tests.helpers.small_native_builds import unpacked
 from tests.helpers.small_trains import GEARS_ON_ROLLERS
@@ -72,23 +69,6 @@ _STEPS = (1e-4, 1e-3, 1e-3, 2.0**-10, 3e-3, 1e-2, 0.1, 1e-9, 1e-15, 1e-300, 5e-3
           0.2, 1e300, math.nan, math.inf)  # fmt: skip
 _HEADER = 56  # bytes of a state before its numbers, with the phase at 48 and the checksum at 52
 _WHOLE = (0, 1, 2, 3, 4, 5, -1, 16, 4096, 2**31 - 1, -(2**31))
-
-
-def unpacked_library(fmu: Path, version: int, folder: Path) -> Path:
-    """Return the path of this machine's library in an FMU, unpacked into `folder`."""
-    platform = platform_of_this_machine()
-    (suffix,) = (one.suffix for one in PLATFORMS if one.name == platform)
-    name = fmu.stem.removesuffix("_FMI3")
-    there = "linux64" if version == 2 else platform
-    return Path(fmpy.extract(str(fmu), str(folder))) / "binaries" / there / f"{name}{suffix}"
-
-
-def native_library(case: Case, version: int, folder: Path) -> NativeLibrary:
-    """Return the library of a case's FMU, unpacked into `folder`."""
-    fmus = native_fmus(case)
-    path = unpacked_library(fmus.fmi2 if version == 2 else fmus.fmi3, version, folder)
-    model = native_model(case.definition)
-    return NativeLibrary(path, model, str(native_guid(model)), version)
 
 
 class Walk(ExchangeWalk):

@@ -45,7 +45,7 @@ class Train(MarchedTrain):
     driver : {"automatic", "interpreted", "generated"}
         One compiled code for all lists of the package's elements, or code generated for this list:
         10 to 25 % faster, after some 10 s of compilation. The code for all lists is compiled once
-        on a machine, in some 45 s, and kept. Automatic: interpreted where it can be.
+        on a machine, in some 80 s, and kept. Automatic: interpreted where it can be.
 
     Notes
     -----
