@@ -33,9 +33,8 @@ REACTIONS = {
 def test_all_frequencies_are_those_of_the_other_model():
     found, _ = whole().train.modes()
     assert found.size == 74
-    np.testing.assert_allclose(
-        found[1:30], FREQUENCIES[1:], rtol=1e-6, atol=6e-4
-    )  # digits of masses and of these
+    # masses have six digits, frequencies three behind the point
+    np.testing.assert_allclose(found[1:30], FREQUENCIES[1:], rtol=1e-6, atol=6e-4)
     assert found[0] == pytest.approx(0.0, abs=0.01)
     assert found[-1] == pytest.approx(HIGHEST, rel=1e-6)
 

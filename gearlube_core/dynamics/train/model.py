@@ -35,7 +35,7 @@ class Train(MarchedTrain):
 
     Parameters
     ----------
-    bodies : sequence of Body, Shaft
+    bodies : sequence of Body, Shaft, Housing
     elements : sequence of Element
         Their order is the order of sums, so that another order changes the last digits.
     oil : Lubricant
