@@ -25,6 +25,7 @@ from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm, rpm_to_rads
 
 _NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
 _RESERVED = ("oil", "range", "energy", "efficiency", "start")  # words of the FMU's own variables
+_PARTS = ("bodies", "elements")
 _TOLD, _SHOWN = 20, 80  # wrong fields in an error, signs of a wrong text
 Text = Annotated[str, Field(min_length=1)]
 _FASTEST = rads_to_rpm(MAX_SPEED)
@@ -90,7 +91,7 @@ class TrainFile(InputFile):
     Examples
     --------
     >>> TrainFile.shipped()
-    ('e_axle', 'e_axle_elastic', 'e_axle_full', 'hypoid_axle', 'planetary')
+    ('e_axle', 'e_axle_elastic', 'e_axle_full', 'hypoid_axle', 'nrel_5mw', 'planetary')
     >>> axle = TrainFile.named("e_axle").case().start()
     >>> round(axle.state("motor.rz.rate"), 1)  # rad/s
     -314.1
@@ -127,7 +128,8 @@ class TrainFile(InputFile):
         ParameterError
             Names every field that is wrong.
         """
-        found = super().from_data(data, where)
+        whole = {key: _completed(data[key]) for key in _PARTS if key in data}
+        found = super().from_data(data | whole, where)
         wrong = found._parts()[2]
         if wrong:
             more = f" And {len(wrong) - _TOLD} more." if len(wrong) > _TOLD else ""
@@ -145,7 +147,7 @@ class TrainFile(InputFile):
         """Return the dotted fields that name a file, those of the bodies and elements too."""
         found = list(cls.files)
         for section, known in (("bodies", BODIES), ("elements", ELEMENTS.known())):
-            parts = data.get(section)
+            parts = _completed(data.get(section))
             for name, given in parts.items() if isinstance(parts, dict) else ():
                 kind = given.get("kind") if isinstance(given, dict) else None
                 if isinstance(kind, str) and kind in known and "." not in name:
@@ -157,9 +159,16 @@ class TrainFile(InputFile):
         wrong = [
             f"{section}.{name[:_SHOWN]} must have a name of letters, digits and _, at most 63, "
             f"that is none of {', '.join(_RESERVED)}."
-            for section in ("bodies", "elements")
+            for section in _PARTS
             for name in getattr(self, section)
             if not _NAME.fullmatch(name) or name in _RESERVED
+        ]
+        wrong += [
+            f"{section}.{name[:_SHOWN]}.like must name a section of {section} above it, got "
+            f"{str(given['like'])[:_SHOWN]!r}."
+            for section in _PARTS
+            for name, given in getattr(self, section).items()
+            if "like" in given
         ]
         wrong += [
             f"elements.{name} has the name of a body. Give it a name of its own."
@@ -169,6 +178,8 @@ class TrainFile(InputFile):
         bodies, elements = [], []
         of_train = {name: getattr(self, name) for name in OF_THE_TRAIN}
         for name, given in self.bodies.items():
+            if "like" in given:
+                continue
             kind = given.get("kind", "rigid")
             if not isinstance(kind, str) or kind not in BODIES:
                 wrong.append(
@@ -187,6 +198,8 @@ class TrainFile(InputFile):
             wrong += problems
             bodies += [body] if body else []
         for name, given in self.elements.items():
+            if "like" in given:
+                continue
             kind = given.get("kind", "")
             known = ELEMENTS.known(kind if isinstance(kind, str) else "")
             if not isinstance(kind, str) or kind not in known:
@@ -241,3 +254,19 @@ class TrainFile(InputFile):
             torques={name: self.start.torque_n_m.get(name, 0.0) for name in ports},
             oil_temperature=kelvin,
         )
+
+
+def _completed(parts: Any) -> Any:
+    """Return sections by name, each with the fields of the one above it that it is `like`.
+
+    One that names none above keeps its `like`.
+    """
+    if not isinstance(parts, dict):
+        return parts
+    found: dict[str, Any] = {}
+    for name, given in parts.items():
+        other = found.get(str(given.get("like"))) if isinstance(given, dict) else None
+        if isinstance(other, dict) and "like" not in other:
+            given = other | {key: value for key, value in given.items() if key != "like"}
+        found[name] = given
+    return found

@@ -129,3 +129,7 @@ def test_the_picture_places_shafts_by_their_meshes() -> None:
     planets = [centre for name, centre in stage.centres.items() if name.startswith("planet")]
     assert len(planets) == 3
     assert sum(planets) == pytest.approx(0.0, abs=1e-9)
+    gearbox = layout(TrainFile.named("nrel_5mw").case().train)
+    assert len({one.mesh for one in gearbox.gears}) == 13
+    assert abs(gearbox.centres["carrier_2"]) < 1e-12  # on the axis of the first sun
+    assert abs(gearbox.centres["pinion"]) == pytest.approx(0.861, rel=1e-9)

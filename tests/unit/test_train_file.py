@@ -55,6 +55,43 @@ def test_a_port_without_a_torque_has_none():
     assert case.torques["right_wheel"] == 0.0
 
 
+def test_a_section_like_another_has_its_fields_but_for_its_own():
+    springs = """
+[elements.first]
+kind = "spring_support"
+body = "motor"
+K_xx_n_per_um = 1.0
+K_yy_n_per_um = 2.0
+
+[elements.second]
+like = "first"
+K_yy_n_per_um = 3.0
+
+[elements.third]
+like = "second"
+body = "counter"
+"""
+    found = TrainFile.from_data(tomllib.loads(TEXT + springs), "my.toml").case().train.elements
+    of_springs = [(one.body, one.K_xx, one.K_yy) for one in found[-3:]]
+    assert of_springs == [("motor", 1e6, 2e6), ("motor", 1e6, 3e6), ("counter", 1e6, 3e6)]
+
+
+@pytest.mark.parametrize("other", ["nothing", "second", "counter_bearings", 3, ["a"]])
+def test_a_section_is_like_one_above_it_alone(other):
+    data = tomllib.loads(TEXT)
+    parts = data["elements"]
+    data["elements"] = {"motor_torque": parts["motor_torque"], "second": {"like": other}, **parts}
+    with pytest.raises(ParameterError, match=r"second\.like must name a section of elements above"):
+        TrainFile.from_data(data, "my.toml")
+
+
+def test_a_file_that_a_section_like_another_names_counts_from_the_train_file():
+    data = tomllib.loads(TEXT)
+    assert data["elements"]["stage_1"]["kind"] == "helical_mesh"
+    data["elements"]["stage_2"] = {"like": "stage_1", "gear_file": "mine.toml"}
+    assert "elements.stage_2.gear_file" in TrainFile.file_fields(data)
+
+
 def test_every_kind_of_element_has_fields_in_a_file():
     kinds = ELEMENTS.known()
     assert set(kinds) >= {"port", "helical_mesh", "hypoid_mesh", "spring_support", "half_shaft",

@@ -10,6 +10,7 @@ from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
+from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import GROUND
@@ -47,7 +48,7 @@ def layout(train: Train) -> Layout:
     """Return where the shafts of a train are: meshes place each from the one before.
 
     The first body of the first mesh stands at the origin. Bevel gears and what no mesh, half shaft
-    or differential reaches are left out.
+    or orbit reaches are left out.
 
     Examples
     --------
@@ -74,21 +75,26 @@ def layout(train: Train) -> Layout:
     shifts: dict[str, float] = {}
     if pairs:
         centres[pairs[0].first.body], shifts[pairs[0].first.body] = 0.0j, 0.0
-    together = [
-        (one.first.partition(".")[0], one.second.partition(".")[0])
+    beside = [
+        (one.first.partition(".")[0], one.second.partition(".")[0], 0.0j)
         for one in train.elements
         if isinstance(one, HalfShaft)
     ]
-    for _ in range(len(pairs) + len(together)):
+    beside += [
+        (one.carrier, one.body, cmath.rect(one.radius, one.azimuth))
+        for one in train.elements
+        if isinstance(one, Orbit)
+    ]
+    for _ in range(len(pairs) + len(beside)):
         for first_gear, second_gear, way in pairs:
             for a, b, step in ((first_gear, second_gear, way), (second_gear, first_gear, -way)):
                 if a.body in centres and b.body not in centres:
                     centres[b.body] = centres[a.body] + step
                     shifts[b.body] = shifts[a.body] + a.z - b.z
-        for ends in together:
-            for here, there in (ends, ends[::-1]):
+        for start, end, step in beside:
+            for here, there, by in ((start, end, step), (end, start, -step)):
                 if here in centres and there not in centres:
-                    centres[there], shifts[there] = centres[here], shifts[here]
+                    centres[there], shifts[there] = centres[here] + by, shifts[here]
     gears = tuple(gear for pair in pairs for gear in pair[:2] if gear.body in centres)
     of_meshes = {one.name for one in train.elements if isinstance(one, GearMesh | HelicalMesh)}
     seats: dict[str, list[float]] = {}

@@ -151,9 +151,9 @@ _FIGURES: Mapping[str, tuple[Callable[[Any], Any], str, str]] = {
     "response": (
         response_figure,
         "Forces that a transmission error makes",
-        "Amplitude over that of a sinusoidal error of one mesh, with mean stiffness and "
-        f"{100.0 * DAMPING_RATIO:g} % damping of all modes; solid: meshes, others: bearings. "
-        "Flanks stay in contact.",
+        "Amplitude over that of a sinusoidal error of one mesh, the first of equal ones, with mean "
+        f"stiffness and {100.0 * DAMPING_RATIO:g} % damping of all modes; solid: meshes, others: "
+        "bearings. Flanks stay in contact.",
     ),
     "campbell": (
         campbell_figure,

@@ -18,6 +18,7 @@ from gearlube_core.units import rads_to_rpm
 DAMPING_RATIO = 0.02  # of all modes; 1 to 3 % is usual of gearboxes
 _LOWEST, _POINTS = 50.0, 400  # Hz
 _HARMONICS = (1, 2, 3)
+_FAINTEST = 1e-6  # of the largest force that a mesh makes, as drawn
 _FORCE, _LOAD = ".force.", ".load"
 
 
@@ -92,19 +93,31 @@ def responses(train: Train, highest: float) -> dict[str, Any]:
     }
 
 
+def _by_frequency(dataset: xr.Dataset) -> dict[float, list[str]]:
+    """Return meshes by their frequency at the start [Hz]; those of equal planets share one."""
+    found: dict[float, list[str]] = {}
+    for mesh in dataset["excited"].values.tolist():
+        frequency = abs(float(dataset[f"{mesh}.frequency"].values[0]))
+        found.setdefault(round(frequency, 6), []).append(mesh)
+    return found
+
+
 def response_figure(dataset: xr.Dataset) -> Any:
-    """Draw the forces over frequency, a panel for each mesh that excites."""
+    """Draw the forces over frequency, a panel for the first mesh of each frequency."""
     meshes = dataset["excited"].values.tolist()
+    drawn_meshes = [names[0] for names in _by_frequency(dataset).values()]
     with house_style():
-        figure = new_figure(7.2, 1.4 + 2.3 * len(meshes))
-        panels = figure.subplots(len(meshes), 1, squeeze=False, sharex=True).ravel()
-        for ax, mesh in zip(panels, meshes, strict=True):
+        figure = new_figure(7.2, 1.4 + 2.3 * len(drawn_meshes))
+        panels = figure.subplots(len(drawn_meshes), 1, squeeze=False, sharex=True).ravel()
+        for ax, mesh in zip(panels, drawn_meshes, strict=True):
+            highest = 1e-6 * float(dataset["response"].sel(excited=mesh).max())
             for i, part in enumerate(dataset["part"].values.tolist()):
                 drawn = 1e-6 * dataset["response"].sel(excited=mesh, part=part)
                 style = "-" if part in meshes else "--"
                 look = {"color": SERIES[i % len(SERIES)], "ls": style if i < len(SERIES) else ":"}
                 ax.loglog(drawn["response_frequency"], drawn, label=part.replace("_", " "), **look)
             ax.set(title=f"error of {mesh.replace('_', ' ')}", ylabel="force [N/µm]")
+            ax.set_ylim(_FAINTEST * highest, 2.0 * highest)
         panels[-1].set_xlabel("frequency [Hz]")
         handles, labels = panels[0].get_legend_handles_labels()
         figure.legend(handles, labels, ncols=4, loc="outside lower center")
@@ -121,20 +134,19 @@ def campbell_figure(dataset: xr.Dataset) -> Any:
         ax = figure.subplots()
         for frequency in dataset["frequency"].values:
             ax.axhline(frequency, color="0.75", lw=0.8, zorder=0)
-        highest = 0.0
-        for i, mesh in enumerate(dataset["excited"].values.tolist()):
-            at_start = abs(float(dataset[f"{mesh}.frequency"].values[0]))
-            highest = max(highest, at_start)
+        together = _by_frequency(dataset)
+        for i, (at_start, meshes) in enumerate(together.items()):
+            more = f" and {len(meshes) - 1} more" if len(meshes) > 1 else ""
             for k in _HARMONICS:
-                name = mesh.replace("_", " ") if k == 1 else None
-                width = 2.0 if k == 1 else 1.0
-                ax.plot(speeds, k * at_start * speeds / now, color=SERIES[i], lw=width, label=name)
+                look = {"color": SERIES[i % len(SERIES)], "lw": 2.0 if k == 1 else 1.0}
+                label = meshes[0].replace("_", " ") + more if k == 1 else None
+                ax.plot(speeds, k * at_start * speeds / now, label=label, **look)
         ax.axvline(now, color="black", lw=1.0, ls=":")
         ax.set(
             xlabel=f"speed of {body.replace('_', ' ')} [rpm]",
             ylabel="frequency [Hz]",
             xlim=(0.0, 2.0 * now),
-            ylim=(0.0, 2.0 * _HARMONICS[-1] * highest),
+            ylim=(0.0, 2.0 * _HARMONICS[-1] * max(together)),
         )
         ax.legend(loc="upper left")
     return figure

@@ -27,6 +27,7 @@ ELEMENTS: Kind[Any] = Kind(
     files="*",
 )
 
+_INERTIA = INERTIA._replace(high=1e9)  # rotors of wind turbines have 1e7 to 1e9 kg m2
 # elements that carry the nodes of a body, which a user lists as that body
 CARRIERS: Kind[Any] = replace(ELEMENTS, what="carrier of nodes", parts={})
 
@@ -58,8 +59,8 @@ class Body:
 
     name: str
     mass: Annotated[float, MASS]
-    inertia: Annotated[float, INERTIA._replace(text="Moment of inertia about a diameter")]
-    polar_inertia: Annotated[float, INERTIA._replace(text="Moment of inertia about the axis")]
+    inertia: Annotated[float, _INERTIA._replace(text="Moment of inertia about a diameter")]
+    polar_inertia: Annotated[float, _INERTIA._replace(text="Moment of inertia about the axis")]
     held: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

@@ -94,9 +94,9 @@ class HalfShaft(Element):
     ----------
     name, first, second : str
     stiffness : float
-        [N.m/rad], 1 to 1e9.
+        [N.m/rad], 1 to 1e12.
     damping : float
-        [N.m s/rad], 0 to 1e6.
+        [N.m s/rad], 0 to 1e9.
     backlash : float
         Play of the splines on the way, the whole gap; in it neither spring nor damper act [rad].
         At the start those flanks touch which turn the second body about +z, unless the torque is
@@ -112,9 +112,9 @@ class HalfShaft(Element):
     name: str
     first: str
     second: str
-    stiffness: Annotated[float, Number("N.m/rad", 1.0, 1e9, text="Torque per twist")]
+    stiffness: Annotated[float, Number("N.m/rad", 1.0, 1e12, text="Torque per twist")]
     damping: Annotated[
-        float, Number("N.m.s/rad", 0.0, 1e6, text="Torque per difference of the speeds")
+        float, Number("N.m.s/rad", 0.0, 1e9, text="Torque per difference of the speeds")
     ] = 0.0
     backlash: Annotated[
         float, Number("rad", 0.0, 0.5, text="Play of its splines, the whole gap", shown="deg")
