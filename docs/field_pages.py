@@ -14,7 +14,7 @@ from docs.measured.make import lines_rows
 from docs.page import Page
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
-from drivetrain.train.part_section import BODIES, section_of
+from drivetrain.train.part_section import BODIES, contact_section, section_of
 from drivetrain.train.train_file import TrainFile
 from fmu_src.axle_arguments import start_arguments
 from fmu_src.variables import HYPOID_AXLE
@@ -108,7 +108,7 @@ def refreshed(name: str) -> Page:
 
 
 def _rows(heading: str, notes: Mapping[str, FieldNote], defaults: Mapping[str, str]) -> str:
-    bracket = re.match(r'\[([\w.]+)\](?:, kind = "(\w+)")?', heading)
+    bracket = re.match(r'\[([\w.]+)\](?:, kind = "(\w+)")?(?: with (\w+))?', heading)
     section = ".".join(filter(None, bracket.groups())) if bracket else ""
     rows = ""
     for name, note in notes.items():
@@ -180,10 +180,12 @@ def _train_parts() -> dict[str, FieldNote]:
     """Return the fields of all kinds of bodies and elements."""
     bodies = {f"bodies.NAME.{kind}": one for kind, one in BODIES.items()}
     shipped = {f"elements.NAME.{kind}": one for kind, one in ELEMENTS.known().items()}
+    sections = {name: section_of(kind) for name, kind in (bodies | shipped).items()}
+    sections["elements.NAME.gear_mesh.gear_file"] = contact_section()
     return {
         f"{section}.{name}": note
-        for section, kind in (bodies | shipped).items()
-        for name, note in field_notes(section_of(kind)).items()
+        for section, model in sections.items()
+        for name, note in field_notes(model).items()
         if name != "kind"
     }
 

@@ -36,6 +36,7 @@ from gearlube_core.dynamics.helical_model.model import HelicalPairModel as Helic
 from gearlube_core.dynamics.train.model import Train as Train
 from gearlube_core.dynamics.train.part import Body as TrainBody
 from gearlube_core.dynamics.train.shaft import Shaft as Shaft
+from gearlube_core.dynamics.train.contact_stations import contact_fields as contact_fields
 from gearlube_core.dynamics.train.response import frequency_response as frequency_response
 from gearlube_core.shafts.section import ShaftDisc as ShaftDisc
 from gearlube_core.shafts.section import ShaftMaterial as ShaftMaterial

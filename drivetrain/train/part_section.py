@@ -8,14 +8,11 @@ that is read from other files, such as the gears of a mesh, has one in READERS.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
+from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
-from pathlib import Path
 from typing import (
     Annotated,
     Any,
-    ClassVar,
-    Generic,
     Literal,
     NamedTuple,
     TypeVar,
@@ -26,164 +23,31 @@ from typing import (
 
 from pydantic import Field, ValidationError, create_model
 
-from drivetrain.axle_file.bearing_section import BearingSection
-from drivetrain.axle_file.read_axle import read_axle
-from gearlube_core.bearings.bearing_type import Bearing
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
-from gearlube_core.dynamics.helical_pair.march.parameters import (
-    Film,
-    Friction,
-    HelicalMarchParameters,
-)
-from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
+from drivetrain.train.file_parts import READERS, ContactGears
+from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
 from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.part import Body, Element
-from gearlube_core.dynamics.train.ripple_table import RippleTable
 from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import GearLubeError
-from gearlube_core.film_model.chosen_model import chosen_model
-from gearlube_core.film_model.model import ROLLER, FilmModel
-from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.housings.model_files import read_reduced_model
-from gearlube_core.housings.reduced_model import Length, Mass, ReducedModel
 from gearlube_core.input_file.field_notes import Declared, field_notes, sentence
 from gearlube_core.input_file.field_units import attribute_of, field_value, si_value, unit_ending
 from gearlube_core.input_file.input_file import Section
-from gearlube_core.mesh_table.line_mesh_file import named_line_mesh, read_line_mesh
 from gearlube_core.number import Number, numbers_of
 
 Text = Annotated[str, Field(min_length=1)]
 _Value = TypeVar("_Value")
 _Part = TypeVar("_Part", Body, Shaft, Housing, Element)
 
-
-class HelicalGears(Section):
-    """Gears of a helical mesh."""
-
-    files: ClassVar[tuple[str, ...]] = ("gear_file", "line_mesh")
-
-    gear_file: Text = Field(
-        description="Gear file (.toml) of the pair, or the name of a shipped one"
-    )
-    line_mesh: Text | None = Field(
-        default=None,
-        description="Line mesh (.nc) of `gearlube helical`, or the name of a shipped pair that has "
-        "one; left out: the stiffness of ISO 6336-1",
-    )
-    friction: Friction | None = Field(default=None, description="Friction of the flanks; film")
-    film: Film | None = Field(
-        default=None, description="Films by formulas or solved films; left out: as in the gear file"
-    )
-
-    def read(self) -> HelicalMarchParameters:
-        """Return gears, stiffness and friction."""
-        mesh = None
-        if self.line_mesh is not None:
-            path = Path(self.line_mesh)
-            mesh = read_line_mesh(path) if path.suffix else named_line_mesh(self.line_mesh)
-        options = self.model_dump(include={"friction", "film"}, exclude_none=True)
-        found = helical_march_parameters(HelicalGearFile.given(self.gear_file), line_mesh=mesh)
-        return replace(found, **options)
-
-
-class HypoidGears(Section):
-    """Gears of a hypoid mesh."""
-
-    files: ClassVar[tuple[str, ...]] = ("axle_file",)
-
-    axle_file: Text = Field(
-        description="Axle file (.toml) whose mesh, friction and films are taken, or the name of a "
-        "shipped one"
-    )
-
-    def read(self) -> HypoidAxleParameters:
-        """Return mesh table, damping, friction and films."""
-        return read_axle(self.axle_file).axle
-
-
-class RollerFilmModel(Section):
-    """Film model of the rollers of a bearing."""
-
-    files: ClassVar[tuple[str, ...]] = ("film_model",)
-
-    film_model: Text | None = Field(
-        default=None,
-        description="Film model of rollers (.json) for torque_loss solved_films, or its name in "
-        "the package; left out: that of the package",
-    )
-
-    def read(self) -> FilmModel | None:
-        """Return the model, or None."""
-        if self.film_model is None:
-            return None
-        return chosen_model(self.film_model, ROLLER, "film_model")
-
-
-class HousingModel(Section):
-    """Reduced model of a housing."""
-
-    files: ClassVar[tuple[str, ...]] = ("model_file", "mass_file", "damping_file", "node_table")
-
-    model_file: Text = Field(
-        description="Reduced model: arrays (.npz), a punch file of Nastran (.pch), a substructure "
-        "of Abaqus (.mtx), or the stiffness alone as a Matrix Market file (.mtx)"
-    )
-    mass_file: Text | None = Field(
-        default=None, description="Mass, where model_file has the stiffness alone"
-    )
-    damping_file: Text | None = Field(default=None, description="Damping, likewise")
-    node_table: Text | None = Field(
-        default=None,
-        description="Table of nodes (.csv): node, name, x, y, z; not for .npz",
-    )
-    length_unit: Length = Field(default="m", description="Of matrices and node_table")
-    mass_unit: Mass = Field(
-        default="kg", description="Of matrices; t where the stiffness is in N/mm"
-    )
-
-    def read(self) -> ReducedModel:
-        """Return the model."""
-        return read_reduced_model(**{key: getattr(self, key) for key in HousingModel.model_fields})
-
-
-@dataclass(frozen=True)
-class _Reader(Generic[_Value]):
-    """How a field that is a part is read.
-
-    Its fields stand in the section of the element itself, or, `nested`, in one of their own.
-    """
-
-    section: type[Section]
-    read: Callable[[Any], _Value]
-    nested: bool = False
-
-
-class Ripple(Section):
-    """Torque ripple and pull of a motor."""
-
-    files: ClassVar[tuple[str, ...]] = ("ripple_table",)
-
-    ripple_table: Text | None = Field(
-        default=None,
-        description="Table (.csv) of ripple and pull by order, speed and torque, or the name of a "
-        "shipped one; left out: none",
-    )
-
-    def read(self) -> RippleTable | None:
-        """Return the table, or None."""
-        return None if self.ripple_table is None else RippleTable.given(self.ripple_table)
-
-
-READERS: Mapping[Any, _Reader[Any]] = {
-    HelicalMarchParameters: _Reader(HelicalGears, HelicalGears.read),
-    HypoidAxleParameters: _Reader(HypoidGears, HypoidGears.read),
-    ReducedModel: _Reader(HousingModel, HousingModel.read),
-    FilmModel | None: _Reader(RollerFilmModel, RollerFilmModel.read),
-    RippleTable | None: _Reader(Ripple, Ripple.read),
-    Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
-}
 BODIES: Mapping[str, Any] = {"rigid": Body, "shaft": Shaft, "housing": Housing}
+# of a gear_mesh, which a gear file and its loaded contact say; kinds that no such file has
+_OF_CONTACT = (
+    "teeth_1", "teeth_2", "normal_module_mm", "face_width_mm", "normal_pressure_angle_deg",
+    "helix_angle_deg", "helix_angle_2_deg", "ring", "cone_angle_1_deg", "cone_angle_2_deg",
+    "centre_distance_mm", "azimuth_2_deg", "stiffness_n_per_um", "stiffness_waves",
+    "station_stiffness", "gap", "backlash_um", "tooth_thickness",
+)  # fmt: skip
 OF_THE_TRAIN = ("steps_per_highest_period",)  # fields that elements have from their train
+
 _WORDS = {
     "body": "Body on which it acts",
     "housing": "Body that carries the outer ring; left out: the ground",
@@ -204,6 +68,8 @@ _WORDS = {
     "ring": "Whether gear 2 is internal",
     "carrier": "Body with which the pitch point, or the body, turns around the axis",
     "stiffness_waves": "Cosine and sine of each harmonic of the stiffness over its mean, in turn",
+    "station_stiffness": "Stiffness of each station over the mean of all, each a row as of gap; "
+    "instead of stiffness_waves",
     "gap": "Unloaded gap [m] of each station from low z or the apex on, or one row for all: a "
     "number, or numbers at equal distances over a mesh cycle",
     "torque_loss": "Law of the drag, named as model.bearing_torque_loss of an axle file",
@@ -301,6 +167,18 @@ def _section_of(kind: Any) -> type[Section]:
 section_of: Callable[[Any], type[Section]] = cache(_section_of)  # of a body or a kind of element
 
 
+@cache
+def contact_section() -> type[Section]:
+    """Return the section of a gear_mesh that names a gear file."""
+    whole = section_of(GearMesh).model_fields
+    rest = {
+        name: (one.annotation, one)
+        for name, one in whole.items()
+        if name not in (*_OF_CONTACT, *ContactGears.model_fields)
+    }
+    return create_model("ContactMesh", __base__=ContactGears, **rest)  # type: ignore[call-overload]
+
+
 def read_part(
     kind: type[_Part], name: str, data: Mapping[str, Any], head: str, of_train: Mapping[str, Any]
 ) -> tuple[_Part | None, list[str]]:
@@ -309,13 +187,18 @@ def read_part(
     `head` names the section in these sentences; `of_train` has the fields OF_THE_TRAIN.
     """
     section = section_of(kind)
+    if kind is GearMesh and "gear_file" in data:
+        section = contact_section()
     try:
         given = section.model_validate(dict(data))
     except ValidationError as reason:
         notes = field_notes(section)
         return None, [f"{head}.{sentence(error, notes)}" for error in reason.errors()]
     try:
-        return _built(kind, given, {"name": name, **of_train}), []
+        known = {"name": name, **of_train}
+        if isinstance(given, ContactGears):
+            known |= given.read()
+        return _built(kind, given, known), []
     except GearLubeError as reason:
         return None, [f"{head}: {reason}"]
 
@@ -330,7 +213,11 @@ def _built(kind: Any, given: Section, known: Mapping[str, Any]) -> Any:
         name = field.name
         reader, key = READERS.get(hints[name]), keys.get(name, name)
         value: Any = getattr(given, key, None)
-        if name in numbers:
+        if name in known:
+            found[name] = known[name]
+        elif isinstance(given, ContactGears) and key not in type(given).model_fields:
+            continue  # no cone angles and the like of gears on parallel axes
+        elif name in numbers:
             found[name] = si_value(key, value)
         elif nested := _nested(whole[name]):
             if nested.number is not None:
@@ -342,10 +229,11 @@ def _built(kind: Any, given: Section, known: Mapping[str, Any]) -> Any:
         elif reader is not None:
             found[name] = reader.read(value if reader.nested else given)
         else:
-            found[name] = known.get(name, value)
+            found[name] = value
     return kind(**found)
 
 
 def files_in(kind: type[Any]) -> tuple[str, ...]:
     """Return the fields of a body or an element that name files."""
-    return getattr(section_of(kind), "files", ())
+    of_contact = ContactGears.files if kind is GearMesh else ()
+    return (*getattr(section_of(kind), "files", ()), *of_contact)

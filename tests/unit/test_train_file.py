@@ -14,12 +14,14 @@ from drivetrain.train.train_file import TrainFile
 from fmu_src.model_description import UNITS
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle
+from gearlube_core.dynamics.train.contact_stations import contact_fields
 from gearlube_core.dynamics.train.elements.drag import Churning
 from gearlube_core.dynamics.train.part import ELEMENTS
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helpers.coulomb_brake import CoulombBrake
 from tests.helpers.each import each
 
@@ -293,6 +295,42 @@ def test_a_wrong_shaft_is_refused_by_name(old: str, new: str, words: str):
     data["bodies"]["motor"] = tomllib.loads(SHAFT.replace(old, new))
     with pytest.raises(ParameterError, match=words):
         TrainFile.from_data(data, "file")
+
+
+OF_CONTACT = {
+    "kind": "gear_mesh", "first": "motor", "second": "counter", "gear_file": "he_2007",
+    "line_mesh": "he_2007", "contact_torque_n_m": 200.0, "stations": 5, "right_hand": True,
+    "azimuth_deg": 90.0, "friction": 0.05,
+}  # fmt: skip
+
+
+def test_a_gear_file_with_its_line_mesh_gives_all_but_the_places_of_a_gear_mesh():
+    data = tomllib.loads(TEXT)
+    data["elements"]["stage_1"] = OF_CONTACT
+    found = TrainFile.from_data(data, "my.toml").case().train
+    mesh = next(one for one in found.elements if one.name == "stage_1")
+    pair = HelicalGearFile.named("he_2007").helical_pair()
+    gears = {"stations": 5, "right_hand": True}
+    expected = contact_fields(pair, named_line_mesh("he_2007"), 200.0, **gears)
+    assert {name: getattr(mesh, name) for name in expected} == expected
+    assert (mesh.azimuth, mesh.friction) == (pytest.approx(math.pi / 2.0), 0.05)
+    assert abs(mesh.centres) == pytest.approx(pair.centre_distance, rel=1e-12)
+
+
+@each(
+    "change, words",
+    [
+        ({"teeth_1": 25}, "stage_1.teeth_1 is not a field"),
+        ({"line_mesh": "x"}, "No line mesh of the name 'x' is shipped"),
+        ({"contact_torque_n_m": 1e3}, "contact torque must be within 25 to 450 N.m, got 1000"),
+        ({"gear_file": "examples/gears/face_milled.toml"}, "of a hypoid pair.* Take a hypoid_mesh"),
+    ],
+)
+def test_gears_whose_contact_does_not_serve_are_refused(change, words):
+    data = tomllib.loads(TEXT)
+    data["elements"]["stage_1"] = OF_CONTACT | change
+    with pytest.raises(ParameterError, match=words):
+        TrainFile.from_data(data, "my.toml")
 
 
 def test_fmus_know_the_units_in_which_elements_show_their_outputs():

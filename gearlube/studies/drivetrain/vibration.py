@@ -24,10 +24,7 @@ _FORCE, _LOAD = ".force.", ".load"
 
 def mean_train(case: TrainCase) -> Train:
     """Return the train at its start with the mean stiffness of its meshes."""
-    elements = [
-        replace(one, stiffness_waves=()) if isinstance(one, GearMesh) else one
-        for one in case.train.elements
-    ]
+    elements = [one.steady() if isinstance(one, GearMesh) else one for one in case.train.elements]
     if all(one is other for one, other in zip(elements, case.train.elements, strict=True)):
         return case.train
     train = Train(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
@@ -30,6 +30,7 @@ from gearlube_core.helical_geometry.gear_body import BACKLASH
 from gearlube_core.number import Number, Output
 
 _SAME = 1e-6  # relative, of numbers of one gear in two meshes
+_ROUNDED = 1e-3  # of a mean of numbers written with four digits
 
 
 class _Wheel(NamedTuple):
@@ -60,6 +61,8 @@ class GearMesh(GearPair, Element):
         Mean along the normal of the teeth [N/m]; default: `iso_stiffness` of the pair.
     stiffness_waves : tuple of float
         Cosine and sine of each harmonic of the stiffness over its mean, in turn.
+    station_stiffness : tuple of tuple of float
+        That of each station over the mean of all, a row over a mesh cycle; instead of waves.
     gap : tuple of tuple of float
         Unloaded gap [m] of each station, from low z or the apex on, or of all: one number, or a row
         over a mesh cycle. Gear errors and modifications belong here, deflections do not.
@@ -104,6 +107,7 @@ class GearMesh(GearPair, Element):
         ),
     ] = None  # fmt: skip
     stiffness_waves: tuple[float, ...] = ()
+    station_stiffness: tuple[tuple[float, ...], ...] = ()
     gap: tuple[tuple[float, ...], ...] = ()
     damping: Annotated[float, Number("N.s/m", 0.0, 1e9, text="Damping while teeth touch")] = 0.0
     backlash: Annotated[float, BACKLASH._replace(text="Normal backlash, the whole gap", shown="um")]
@@ -151,6 +155,7 @@ class GearMesh(GearPair, Element):
             )
         swing = sum(map(abs, self.stiffness_waves))
         check_within(f"sum of stiffness_waves of {self.name}", swing, 0.0, 0.95)
+        self._check_station_stiffness()
         if len(self.gap) not in (0, 1, self.stations) or not all(self.gap):
             raise ParameterError(
                 f"gap of {self.name} must have one row, or one for each of the {self.stations} "
@@ -169,12 +174,37 @@ class GearMesh(GearPair, Element):
                     "not possible. Leave it out."
                 )
 
+    def _check_station_stiffness(self) -> None:
+        """Raise ParameterError unless the stations have rows whose mean is 1, or none."""
+        rows = self.station_stiffness
+        if not rows:
+            return
+        if self.stiffness_waves or len(rows) != self.stations or not all(rows):
+            raise ParameterError(
+                f"station_stiffness of {self.name} must have a row for each of the {self.stations} "
+                f"stations, with at least one number each, and no stiffness_waves beside it; got "
+                f"{len(rows)} rows. Leave one of both out."
+            )
+        for one in (number for row in rows for number in row):
+            check_within(f"station_stiffness of {self.name}", one, -1e3, 1e3)
+        means = [sum(row) / len(row) for row in rows]
+        check_within(f"least mean of station_stiffness of {self.name}", min(means), 0.0, 1e3)
+        mean = sum(means) / len(means)
+        check_within(
+            f"mean of station_stiffness of {self.name}", mean, 1.0 - _ROUNDED, 1 + _ROUNDED
+        )
+
+    def steady(self) -> GearMesh:
+        """Return the mesh with the mean stiffness of each station."""
+        means = tuple((sum(row) / len(row),) for row in self.station_stiffness)
+        return replace(self, stiffness_waves=(), station_stiffness=means)
+
     def sizes(self) -> tuple[int, ...]:
         """Return the numbers of stations and of harmonics."""
         return self.stations, self._waves()
 
     def _waves(self) -> int:
-        longest = max((len(row) for row in self.gap), default=1)
+        longest = max((len(row) for row in (*self.gap, *self.station_stiffness)), default=1)
         return max(len(self.stiffness_waves) // 2, longest // 2)
 
     def numbers(self) -> GearMeshKernels:
@@ -199,13 +229,16 @@ class GearMesh(GearPair, Element):
         )
 
     def memory(self) -> Array:
-        """Return places of the stations, waves of the stiffness, and gaps with their waves."""
+        """Return places of the stations, then their stiffness and gaps with their waves."""
         n, waves = self.stations, self._waves()
         places = (np.arange(n) + 0.5 - 0.5 * n) * self.face_width / n
-        stiffness = np.zeros(2 * waves)
-        stiffness[: len(self.stiffness_waves)] = self.stiffness_waves
+        stiffness = [_series(row, waves) for row in self.station_stiffness]
+        if not stiffness:
+            alike = _series((1.0,), waves)
+            alike[1 : 1 + len(self.stiffness_waves)] = self.stiffness_waves
+            stiffness = n * [alike]
         rows = self.gap if len(self.gap) == n else n * (self.gap or ((0.0,),))
-        return np.concatenate([places, stiffness, *(_series(row, waves) for row in rows)])
+        return np.concatenate([places, *stiffness, *(_series(row, waves) for row in rows)])
 
     def between_axes(self) -> tuple[str, str, complex] | None:
         """Return the bodies of gears on parallel axes that stand, and where gear 2 is."""

@@ -198,8 +198,8 @@ class GearMeshKernels(NamedTuple):
 
 @kernel
 def memory_size(stations: int, waves: int) -> int:
-    """Return how many numbers a mesh has: places, waves of the stiffness, gaps with their waves."""
-    return stations + 2 * waves + stations * (1 + 2 * waves)
+    """Return how many numbers a mesh has: places, then stiffness and gaps with their waves."""
+    return stations + 2 * stations * (1 + 2 * waves)
 
 
 @inside
@@ -208,7 +208,7 @@ def _gaps(at: Any, memory: Array) -> tuple[float, float]:
     stations, waves = at[_STATIONS], at[_WAVES]
     least, most = math.inf, -math.inf
     for i in range(stations):
-        first = stations + 2 * waves + i * (1 + 2 * waves)
+        first = stations + (stations + i) * (1 + 2 * waves)
         swing = 0.0
         for j in range(1, 1 + 2 * waves):
             swing += abs(memory[first + j])
@@ -280,25 +280,27 @@ def _flank(
 ) -> FlankLoad:
     """Return the loads of a flank, from its compression and tilt without gaps, and their rates."""
     stations, waves = at[_STATIONS], at[_WAVES]
-    cos = sin = k_wave = k_change = 0.0
+    cos = sin = 0.0
     if waves > 0:
         cos, sin = math.cos(angle), math.sin(angle)
-        k_wave, k_change = _wave(memory, stations, waves, cos, sin)
     share = 1.0 / stations
-    k = self.stiffness * (1.0 + k_wave) * share
     force = moment = change = heat = energy = touching = low = high = 0.0
     deepest = -math.inf
     for i in range(stations):
-        first = stations + 2 * waves + i * (1 + 2 * waves)
-        gap, e_change = memory[first], 0.0
+        of_k = stations + i * (1 + 2 * waves)
+        of_gap = of_k + stations * (1 + 2 * waves)
+        k, k_change, gap, e_change = memory[of_k], 0.0, memory[of_gap], 0.0
         if waves > 0:
-            e_wave, e_change = _wave(memory, first + 1, waves, cos, sin)
+            k_wave, k_change = _wave(memory, of_k + 1, waves, cos, sin)
+            e_wave, e_change = _wave(memory, of_gap + 1, waves, cos, sin)
+            k += k_wave
             gap += e_wave
+        k *= self.stiffness * share
         place = memory[i]
         pressed = depth[0] + place * depth[1] - gap
         deepest = max(deepest, pressed)
         one = 0.0
-        if pressed > 0.0:
+        if pressed > 0.0 and k > 0.0:
             closing = rate[0] + place * rate[1] - e_change * turning
             elastic = k * pressed
             one = max(elastic + self.damping * share * closing, 0.0)
