@@ -10,13 +10,17 @@ import pytest
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.as_train import axle_train, axle_values
+from gearlube_core.dynamics.hypoid_axle.as_train import axle_train, axle_values, hypoid_axle
 from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
 from gearlube_core.dynamics.train.model import Train
+from gearlube_core.dynamics.train.part import Body
+from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.mesh_table.table import PAIRS
+from gearlube_core.shafts.section import ShaftDisc, ShaftSection
 
 AXLE = mohammadpour_2015_axle()
 KELVIN, SPEED, TORQUE = 363.15, 300.0, 50.0
@@ -63,6 +67,44 @@ def test_the_axle_moves_as_its_train_and_loses_what_it_is_given(changes):
     missing = train.work - sum(train.lost.values()) - (train.energy - start)
     # the stiffness follows the load level without work: 5e-6 of what is put in, at any step
     assert abs(missing) < 1e-5 * TORQUE * SPEED * 0.006
+
+
+def rigid_shaft(body: Body) -> Shaft:
+    """A short rod with a disc: a shaft without modes of the mass and inertia of a body."""
+    rod = ShaftSection(start=-0.01, end=0.01, outer_diameter=0.02)
+    mass = 7850.0 * rod.area * 0.02
+    polar = body.polar_inertia - 0.5 * mass * 0.01**2
+    disc = ShaftDisc(position=0.0, mass=body.mass - mass, inertia=0.6 * polar, polar_inertia=polar)
+    return Shaft(name=body.name, sections=(rod,), discs=(disc,), nodes={"centre": 0.0},
+                 highest_frequency=0.0)  # fmt: skip
+
+
+def test_the_axle_on_nodes_of_rigid_shafts_is_the_axle():
+    """Shafts may tilt where bodies of the axle do not; no force of it tilts them."""
+    bodies, elements = hypoid_axle(AXLE)
+    on_nodes: list[Any] = []
+    for one in elements:
+        places = {name: f"{getattr(one, name)}.centre" for name in one.on}
+        on_nodes.append(replace(one, **places))
+    # below the highest frequency of the axle, so that the steps are the same
+    tilt = {"K_ax": 1e5, "K_ay": 1e5}
+    for body in bodies:
+        on_nodes.append(SpringSupport(name=f"{body.name} tilt", body=f"{body.name}.centre", **tilt))
+    steps = AXLE.steps_per_highest_period
+    shafts = [rigid_shaft(one) for one in bodies]
+    on_shafts = Train(shafts, on_nodes, AXLE.oil, steps_per_highest_period=steps)
+    axle = axle_train(AXLE)
+    torques = {"input": TORQUE, "output": TORQUE * AXLE.mesh.ratio}
+    for one in (axle, on_shafts):
+        one.initialise({"pinion": SPEED}, torques, KELVIN)
+        for _ in range(20):
+            one.step(1e-3, torques, KELVIN)
+    found, wanted = on_shafts.outputs(), axle.outputs()
+    # arms and inertias of the shafts are rounded in other places
+    for name in (n for n in wanted if n.split(".")[-1] != "acceleration"):
+        assert found[name] == pytest.approx(wanted[name], rel=1e-11, abs=1e-18), name
+    for name in ("pinion.acceleration", "gear.acceleration"):  # differences of large forces
+        assert found[name] == pytest.approx(wanted[name], rel=1e-10), name
 
 
 def changed_model(name: str) -> FilmModel:
