@@ -7,6 +7,7 @@ that is read from other files, such as the gears of a mesh, has one in READERS.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
@@ -28,7 +29,7 @@ from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
 from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.dynamics.train.shaft import Shaft
-from gearlube_core.errors import GearLubeError
+from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.input_file.field_notes import Declared, field_notes, sentence
 from gearlube_core.input_file.field_units import attribute_of, field_value, si_value, unit_ending
 from gearlube_core.input_file.input_file import Section
@@ -203,8 +204,11 @@ def read_part(
         return None, [f"{head}: {reason}"]
 
 
-def _built(kind: Any, given: Section, known: Mapping[str, Any]) -> Any:
-    """Return the dataclass of a section; fields that are `known` stand in no file."""
+def _built(kind: Any, given: Section, known: Mapping[str, Any], head: str = "") -> Any:
+    """Return the dataclass of a section; fields that are `known` stand in no file.
+
+    Its errors begin with `head` and end with the names in the file of the fields that they name.
+    """
     hints, numbers = get_type_hints(kind), numbers_of(kind)
     whole = get_type_hints(kind, include_extras=True)
     keys = {attribute_of(key): key for key in type(given).model_fields}
@@ -223,14 +227,21 @@ def _built(kind: Any, given: Section, known: Mapping[str, Any]) -> Any:
             if nested.number is not None:
                 found[name] = {one: si_value(key, number) for one, number in value.items()}
             elif nested.many:
-                found[name] = tuple(_built(nested.kind, one, {}) for one in value)
+                found[name] = tuple(
+                    _built(nested.kind, one, {}, f"{key} {i + 1}: ") for i, one in enumerate(value)
+                )
             elif value is not None:
-                found[name] = _built(nested.kind, value, {})
+                found[name] = _built(nested.kind, value, {}, f"{key}: ")
         elif reader is not None:
             found[name] = reader.read(value if reader.nested else given)
         else:
             found[name] = value
-    return kind(**found)
+    try:
+        return kind(**found)
+    except GearLubeError as reason:
+        named = set(re.findall(r"\w+", str(reason))) & (keys.keys() - set(keys.values()))
+        here = f" In the file: {', '.join(keys[one] for one in sorted(named))}." if named else ""
+        raise ParameterError(f"{head}{reason}{here}") from None
 
 
 def files_in(kind: type[Any]) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
@@ -23,6 +24,7 @@ from gearlube_core.input_file.field_units import (
 )
 from gearlube_core.number import Number, numbers_of
 
+_ENTRY = re.compile(r"(\.\d+)+$")  # of a list, in the place of an error
 _LIMITS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _KINDS = {
     "number": "number",
@@ -175,7 +177,8 @@ def sentence(
     `unmodelled` says of words in unknown fields and their values why there is no such field.
     """
     field = ".".join(str(part) for part in error["loc"])
-    kind, note = error["type"], notes.get(field)
+    whole = _ENTRY.sub("", field)
+    kind, note = error["type"], notes.get(whole)
     if kind == "value_error":
         said = str(error["ctx"]["error"])
         return f"{f'{field}: ' if field else ''}{said}{'' if said.endswith('?') else '.'}"
@@ -201,7 +204,8 @@ def sentence(
     unit = f" {note.unit}" if note.unit else ""
     what = note.kind if note.kind == _KINDS["boolean"] else f"a {note.kind}"
     hint = note.hint(error) or cure
-    return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}.{hint}"
+    got = f"{error['input']!r}{'' if whole == field else ' in it'}"
+    return f"{whole} must be {what}{limits}{unit}, got {got}. {note.meaning}.{hint}"
 
 
 def likely_fields(field: str, names: Iterable[str]) -> list[str]:

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import gc
 import itertools
+import logging
+import multiprocessing
 import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -24,6 +26,8 @@ from numba.core.registry import CPUDispatcher
 from gearlube_core.kernels.compiled_cache import LinkedCache, SourceCache, cache_of
 from gearlube_core.kernels.linked_code import LinkedCodeCompiler
 from gearlube_core.kernels.machine_code import MachineCodeCompiler
+
+logger = logging.getLogger(__name__)
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -81,6 +85,17 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
         linked: Any = CPUDispatcher(py_func, locals, linked_options, LinkedCodeCompiler)
         linked._cache = cache_of(LinkedCache, py_func)
         self._linked = linked
+
+    def announce(self, words: str) -> None:
+        """Log these words before it is compiled, unless its code is on disk."""
+        compile_now = self._compiler.compile
+
+        def compile_after_words(*signature: Any) -> Any:
+            if multiprocessing.parent_process() is None:  # workers are silent
+                logger.warning("%s", words)
+            return compile_now(*signature)
+
+        self._compiler.compile = compile_after_words
 
     def compile(self, sig: Any) -> Any:
         """Compile for a signature, or read what is on disk; numba's name of this method."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from gearlube_core.kernels.dispatcher import compiled
+from gearlube_core.kernels.dispatcher import KernelDispatcher, compiled
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -19,6 +19,13 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 def kernel(function: _Function) -> _Function:
     """Compile `function` with numba on first call and keep the machine code on disk."""
     return compiled(function, error_model="numpy")
+
+
+def announced(function: _Function, words: str) -> _Function:
+    """Return a kernel that logs these words before it is compiled, as that takes long."""
+    if isinstance(function, KernelDispatcher):
+        function.announce(words)
+    return function
 
 
 def row_kernel(function: _Function) -> _Function:

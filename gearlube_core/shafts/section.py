@@ -78,12 +78,13 @@ class ShaftSection:
         check_fields(self)
         if not self.end > self.start:
             raise ParameterError(
-                f"end of a section must be above its start, {self.start:g} m, got {self.end:g} m."
+                f"end of a section must be above its start, {1e3 * self.start:g} mm, got "
+                f"{1e3 * self.end:g} mm."
             )
         if not self.outer_diameter > self.inner_diameter:
             raise ParameterError(
-                f"outer_diameter must be above inner_diameter, {self.inner_diameter:g} m, got "
-                f"{self.outer_diameter:g} m."
+                "outer_diameter must be above inner_diameter, "
+                f"{1e3 * self.inner_diameter:g} mm, got {1e3 * self.outer_diameter:g} mm."
             )
 
     @property

@@ -282,8 +282,8 @@ def listed(change: str) -> Train:
     ("place", "p2 pin needs the axis of p2 at x, y = -31.9253, 55.2963 mm from that of carrier, "
               "got -32, 55.4256 mm by the orbits on carrier"),
     ("azimuth", "p2 pin needs the axis of p2 at x, y = -26.5713, 58.0592 mm from that of"),
-    ("module", "the gear of ring with 90 teeth must have one normal_module, got 0.002 in p1 ring "
-               "and 0.0025 in p2 ring. Correct one"),
+    ("module", "the gear of ring with 90 teeth must have one normal_module, got 2 mm in p1 ring "
+               "and 2.5 mm in p2 ring. Correct one"),
     ("hand", "the gear of sun with 30 teeth must have one hand, got both, in p1 sun and p2 sun"),
     ("mass", "mass of p2 orbit must be that of p2, 0.7 kg, got 0.8 kg."),
     ("teeth", "planets p1 and p2 must stand a multiple of 2.97521 deg apart"),
@@ -347,7 +347,7 @@ def split(azimuth: float, second: float = 0.0) -> Train:
     few = {"normal_module": 3e-3, "face_width": 0.03, "backlash": 1e-4}
     small, large = {"teeth_1": 20, "teeth_2": 30, **few}, {"teeth_1": 30, "teeth_2": 40, **few}
     names = ("pinion", "upper", "lower", "wheel")
-    bodies = [Body(name=one, mass=1.0, inertia=1e-3, polar_inertia=2e-3) for one in names]
+    bodies = [Body.spinning(one, 2e-3) for one in names]
     turn = math.radians(60.0)
     parts = [
         GearMesh(name="a", first="pinion", second="upper", azimuth=turn, **small),

@@ -235,9 +235,9 @@ def test_energy_of_gears_on_elastic_shafts_balances():
     [
         ({"sections": ()}, "at least one"),
         ({"nodes": {}}, "at least one place"),
-        ({"nodes": {"far": 1.2}}, "node far of beam must lie on the shaft, 0 to 1 m, got 1.2 m"),
+        ({"nodes": {"far": 1.2}}, "node far of beam must lie on the shaft, 0 to 1000 mm"),
         ({"sections": (ROUND, ShaftSection(start=1.1, end=1.2, outer_diameter=0.05))},
-         "gap from 1 to 1.1 m"),
+         "gap from 1000 to 1100 mm"),
         ({"discs": (ShaftDisc.ring(-0.5, 0.1, 0.05, 0.02),)}, "disc 1 of beam"),
         # it would ask for a matrix of 65 TB
         ({"longest_element": 1e-7}, r"beam must be at most 600, got 1e\+07 of at most 0.0001 mm"),

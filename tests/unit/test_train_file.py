@@ -2,6 +2,7 @@
 
 import math
 import random
+import re
 import tomllib
 from contextlib import suppress
 from copy import deepcopy
@@ -283,7 +284,11 @@ polar_inertia_kg_m2 = 0.02
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("gear = 60.0", "gear = 160.0", "node gear of motor must lie on the shaft, 0 to 0.12 m"),
+        (
+            "gear = 60.0",
+            "gear = 160.0",
+            "node gear of motor must lie on the shaft, 0 to 120 mm",
+        ),
         ("outer_diameter_mm = 30.0", "outer_diameter_mm = -3.0", "outer_diameter"),
         ("end_mm = 120.0, ", "", "bodies.motor.sections"),
         ("left = 0.0", '"le.ft" = 0.0', "without a point"),
@@ -342,3 +347,25 @@ def test_fmus_know_the_units_in_which_elements_show_their_outputs():
         if one.shown and one.shown not in {shown.name for shown in UNITS[one.unit].display}
     ]
     assert not wrong
+
+
+def test_errors_between_fields_name_them_as_the_file_does():
+    data = tomllib.loads(TrainFile.shipped_text("e_axle"))
+    tube = SHAFT.replace(
+        "outer_diameter_mm = 30.0", "outer_diameter_mm = 30.0, inner_diameter_mm = 35.0"
+    )
+    data["bodies"]["motor"] = tomllib.loads(tube)
+    words = (
+        "bodies.motor: sections 1: outer_diameter must be above inner_diameter, 35 mm, got 30 mm. "
+        "In the file: inner_diameter_mm, outer_diameter_mm."
+    )
+    with pytest.raises(ParameterError, match=re.escape(words)):
+        TrainFile.from_data(data, "file")
+
+
+def test_a_gap_without_its_second_brackets_is_told_what_it_must_be():
+    data = tomllib.loads(TrainFile.shipped_text("planetary"))
+    data["elements"]["sun_mesh_1"]["gap"] = [1e-6]
+    words = "sun_mesh_1.gap must be a list of lists, got 1e-06 in it. Unloaded gap [m] of each"
+    with pytest.raises(ParameterError, match=re.escape(words)):
+        TrainFile.from_data(data, "file")

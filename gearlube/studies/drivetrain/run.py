@@ -83,7 +83,7 @@ def run_drivetrain(
     shortest, longest = max(1e-7, duration / MOST_POINTS), min(0.1, duration)
     if step is not None:
         check_within("step", step, shortest, longest, "s")
-    progress(0.0, "finding the equilibrium; the first time it is compiled, one to two minutes")
+    progress(0.0, "finding the equilibrium")
     train = case.start()
     if step is None:
         meshes = [v for name, v in train.outputs().items() if name.endswith(".frequency")]

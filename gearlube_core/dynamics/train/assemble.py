@@ -40,6 +40,7 @@ from gearlube_core.dynamics.train.plan import (
     Sizes,
     pack_plan,
 )
+from gearlube_core.dynamics.train.supports import check_supports
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.number import Output
@@ -121,13 +122,14 @@ def assemble(
     ------
     ParameterError
         Two bodies or elements have one name, or an element names one that is not there, or one
-        body twice, or does not fit the others.
+        body twice, or does not fit the others, or nothing holds a body.
     """
     bodies, elements = _expanded(bodies, elements)
     _check_names(bodies, elements)
     for one in elements:
         one.fits(bodies, elements)
-    check_axes(bodies, elements)
+    check_axes(elements)
+    check_supports(bodies, elements)
     names = [f"{body.name}.{one}" for body in bodies for one in _MOTIONS]
     of_body = {body.name: BODY_STATES * i for i, body in enumerate(bodies)}
     own, works, kept = {}, {}, {}

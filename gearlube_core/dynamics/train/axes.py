@@ -1,49 +1,52 @@
-"""Where the axes of bodies stand from each other, as meshes and shafts of a train say."""
+"""Where the axes of bodies stand from each other, as meshes, shafts and bearings of a train say."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gearlube_core.dynamics.train.part import Body, Element, Node
+from gearlube_core.dynamics.train.part import AxisPlace, Element
+from gearlube_core.dynamics.train.supports import holds
 from gearlube_core.errors import ParameterError
 
 _NEAR = 1e-3  # of the longest distance: numbers of files are rounded
+_LEAST = 1e-3  # m, of that distance
 
 
-def check_axes(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
-    """Raise ParameterError where a loop of meshes and shafts does not close.
+def check_axes(elements: Sequence[Element]) -> None:
+    """Raise ParameterError where a loop of meshes, shafts and bearings does not close.
 
     The last mesh of a split drive, or of one whose output is coaxial with its input, then has
-    gears that do not touch.
+    gears that do not touch; or a bearing stands off the axis of its shaft. Meshes place what they
+    reach first, so that a bearing is named where both disagree.
     """
-    nodes = {one.name: one.name.partition(".")[0] for one in bodies if isinstance(one, Node)}
-    left = [(element, found) for element in elements if (found := element.between_axes())]
+    left = [(element, place) for element in elements for place in element.between_axes()]
+    left.sort(key=lambda one: holds(one[0]))
+    places: dict[str, complex] = {}
     while left:
-        first = left[0][1][0]
-        places, reached = {nodes.get(first, first): 0.0j}, True
-        while reached:
-            reached = False
-            for one in list(left):
-                element, (start, end, step) = one
-                a, b = nodes.get(start, start), nodes.get(end, end)
-                if a in places and b in places:
-                    _check_closed(element, (start, end), step, places[b] - places[a])
-                elif a in places:
-                    places[b] = places[a] + step
-                elif b in places:
-                    places[a] = places[b] - step
-                else:
-                    continue
-                left.remove(one)
-                reached = True
+        near = (i for i, (_, one) in enumerate(left) if one.first in places or one.second in places)
+        element, one = left.pop(next(near, 0))
+        start = places.get(one.second, 0.0j) - (one.step if one.second in places else 0.0j)
+        there = places.setdefault(one.first, start)
+        _check_closed(element, one, places.setdefault(one.second, there + one.step) - there)
 
 
-def _check_closed(element: Element, names: tuple[str, str], step: complex, there: complex) -> None:
+def _check_closed(element: Element, place: AxisPlace, there: complex) -> None:
     """Raise ParameterError unless both distances are the same."""
-    if abs(step - there) > _NEAR * max(abs(step), abs(there)):
-        wanted, got = (f"{1e3 * one.real:.6g}, {1e3 * one.imag:.6g} mm" for one in (step, there))
+    apart = abs(place.step - there)
+    if apart <= _NEAR * max(abs(place.step), abs(there), _LEAST):
+        return
+    wanted, got = (
+        f"{1e3 * one.real + 0.0:.6g}, {1e3 * one.imag + 0.0:.6g} mm" for one in (place.step, there)
+    )
+    if holds(element):
+        fields = "radius and azimuth" if element.kind == "joint" else "housing_x and housing_y"
         raise ParameterError(
-            f"{element.name} needs the axis of {names[1]} at x, y = {wanted} from that of "
-            f"{names[0]}, but the other meshes and shafts between them put it at {got}: gears do "
-            "not touch. Correct an azimuth or angle, a distance, a module or a number of teeth."
+            f"{element.name} must stand on the axis of {place.second}, at x, y = {got} from "
+            f"{place.first} by meshes, shafts and other bearings, got {wanted}, {1e3 * apart:.4g} "
+            f"mm off. Correct {fields}, the node on which it acts, or a mesh."
         )
+    raise ParameterError(
+        f"{element.name} needs the axis of {place.second} at x, y = {wanted} from that of "
+        f"{place.first}, but the other meshes and shafts between them put it at {got}: gears do "
+        "not touch. Correct an azimuth or angle, a distance, a module or a number of teeth."
+    )

@@ -13,8 +13,10 @@ from gearlube_core.dynamics.train.element import Listed
 from gearlube_core.dynamics.train.march import train_kernel
 from gearlube_core.dynamics.train.part import shipped_kinds
 from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.jit import announced
 from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws
 
+_ONCE = "Compiling the code of {}, once on this machine: about {:g} s."
 Driver = Literal["automatic", "generated", "interpreted"]
 
 
@@ -22,7 +24,7 @@ Driver = Literal["automatic", "generated", "interpreted"]
 def _generated(
     listed: tuple[Listed, ...], shape: tuple[int, ...], laws: OilLaws
 ) -> Callable[..., float]:
-    return train_kernel(generated(listed, shape), laws)
+    return announced(train_kernel(generated(listed, shape), laws), _ONCE.format("this train", 15))
 
 
 def generated_kernel(made: Assembly) -> Callable[..., float]:
@@ -36,7 +38,9 @@ def generated_kernel(made: Assembly) -> Callable[..., float]:
 @cache
 def interpreted_kernel() -> Callable[..., float]:
     """Return the function of `train_kernel` for all lists of elements and oils of the package."""
-    return train_kernel(interpreted(shipped_kinds()), FORMULA_LAWS)
+    return announced(
+        train_kernel(interpreted(shipped_kinds()), FORMULA_LAWS), _ONCE.format("all trains", 80)
+    )
 
 
 def kernel_of(made: Assembly, driver: Driver, names: Sequence[str] = ()) -> Callable[..., float]:

@@ -137,6 +137,7 @@ class GearPair:
                 f"teeth_2 of {self.name}, a ring, must be above the {self.teeth_1} teeth of gear "
                 f"1, got {self.teeth_2}. Gear 1 is the one inside."
             )
+        self._working()
 
     @property
     def parallel(self) -> bool:

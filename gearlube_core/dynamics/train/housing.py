@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -9,11 +10,11 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.elements.housing_motion import CarriedInterface, free_modes
-from gearlube_core.dynamics.train.part import GROUND, Body, Element, Hidden, Node
+from gearlube_core.dynamics.train.part import GROUND, AxisPlace, Body, Element, Hidden, Node
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO
 from gearlube_core.housings.housing_modes import HousingMotion, housing_motion
-from gearlube_core.housings.reduced_model import ReducedModel
+from gearlube_core.housings.reduced_model import LENGTHS, ReducedModel
 from gearlube_core.number import Number, check_fields
 
 _LIMIT = Number("Hz", 0.0, 1e6, text="Modes up to this frequency move; 0: the housing is rigid")
@@ -108,6 +109,14 @@ class Housing:
             )
         return turned
 
+    def _places(self) -> Iterator[AxisPlace]:
+        """Yield where the axis through each node stands from that of the model's origin."""
+        turned, metres = self._turned(), LENGTHS[self.model.length_unit]
+        for one in self.model.nodes:
+            x, y, _ = metres * (turned @ one[1:])
+            if one.name:
+                yield AxisPlace(self.name, f"{self.name}.{one.name}", complex(x, y))
+
     def members(self) -> tuple[list[Body], list[Element]]:
         """Return its nodes and modes, and the element that carries them."""
         own = self.motion()
@@ -120,6 +129,7 @@ class Housing:
             name=f"{self.name}.nodes",
             nodes=nodes[0].name,
             modes=modes[0].name if modes else GROUND,
+            places=tuple(self._places()),
             motion=own,
             highest_frequency=self.highest_frequency,
         )

@@ -42,7 +42,8 @@ MAX_STEPS = 150_000  # in one communication interval, or their cost
 DIVERGED = 0.1  # m, displacement of a body: supports long broken
 REFUSALS = {
     NOT_FINITE: (
-        "the state is no longer finite, or a body has moved by more than 0.1 m. Reduce the torques"
+        "the state is no longer finite, or a body has moved by more than 0.1 m. Reduce the "
+        "torques, or dampers far above the critical one"
     ),
     TOO_MANY_STEPS: (
         f"the step costs more than {MAX_STEPS} integrator steps. Shorten the communication step, "

@@ -7,27 +7,30 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
 
 import numpy as np
+from scipy.linalg import null_space
 
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.assemble import Bodies, assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
-from gearlube_core.dynamics.train.element import COORDINATES
+from gearlube_core.dynamics.train.element import COORDINATES, N_COORDINATES, RZ
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import ENERGY, EVENT, START, WRITE
 from gearlube_core.dynamics.train.marched import MarchedTrain
 from gearlube_core.dynamics.train.outputs import outputs_at
-from gearlube_core.dynamics.train.part import Element
+from gearlube_core.dynamics.train.part import Element, Hidden
 from gearlube_core.dynamics.train.rest import LEAST_RATE
-from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK
-from gearlube_core.dynamics.train.supports import unsupported, whole
+from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK, room_of
+from gearlube_core.dynamics.train.supports import whole
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.units import rads_to_rpm
 
 MOST_TORQUE = 1e7  # N.m, of a port
+_TURNS = 1e-6  # of 1, a body in a way to turn
 
 
 class Train(MarchedTrain):
@@ -317,7 +320,7 @@ class Train(MarchedTrain):
             if name not in names:
                 raise ParameterError(
                     f"speeds must name bodies of the train, got {name!r}. There are "
-                    f"{', '.join(names)}."
+                    f"{', '.join(one.name for one in self.bodies if not isinstance(one, Hidden))}."
                 )
             check_within(f"speed of {name}", speed, -MAX_SPEED, MAX_SPEED, "rad/s")
             wanted[1 + names.index(name)] = speed
@@ -326,34 +329,41 @@ class Train(MarchedTrain):
         wanted[0] = names.index(next(iter(speeds)))
         return wanted
 
+    def _loose(self, speeds: Mapping[str, float]) -> list[str]:
+        """Return the bodies that a start left free to turn, by the relations in its work array."""
+        room = room_of(self._made.sizes)
+        relations = self._work[room.relations : room.related].reshape(-1, room.coordinates)
+        relations = relations[:, RZ::N_COORDINATES]
+        still = [body.name in speeds or "rz" in body.held for body in self.bodies]
+        sizes = np.maximum(abs(relations).max(axis=1, keepdims=True), np.finfo(float).tiny)
+        free = null_space(np.vstack([relations / sizes, np.eye(len(still))[still]]))
+        turns = abs(free).max(axis=1) > _TURNS
+        return [body.name for body, one in zip(self.bodies, turns, strict=True) if one]
+
     def _refuse(self, status: int, speeds: Mapping[str, float]) -> NoReturn:
         """Raise the error of a start that left its number in the work array."""
         number, place = self._work[1:3].tolist()
         if status == LOOSE:
             raise ParameterError(
                 f"speeds must fix all bodies that turn, got those of {', '.join(speeds)}, which "
-                f"leave {number:g} free. Give more, or connect the bodies."
+                f"leave {', '.join(self._loose(speeds))} free. Give {number:g} more, or connect "
+                "the bodies."
             )
         if status == APART:
+            given = (f"{one} {v:.6g} rad/s ({rads_to_rpm(v):.6g} rpm)" for one, v in speeds.items())
             raise ParameterError(
-                "speeds must fit together through meshes and shafts, got "
-                f"{dict(speeds)}, which are {number:.3g} rad/s apart. Give one of them; a body "
-                "that holds rz does not turn."
+                f"speeds must fit together through meshes and shafts, got {', '.join(given)}, "
+                f"which are {number:.3g} rad/s ({rads_to_rpm(number):.3g} rpm) apart. Give one of "
+                "them; a body that holds rz does not turn."
             )
         if status == NO_REST:
             where = self._made.names[int(place)]
             if ".modes_" in where:
                 where = f"the modes of {whole(where)}"
-            loose = unsupported(self.bodies, self.elements)
-            cure = (
-                f"No bearing, spring or joint leads from {', '.join(loose)} to the ground: give it "
-                "one."
-                if loose
-                else "Reduce the torques, stiffen the supports, or give every body that may move "
-                "along or about an axis a support there."
-            )
             raise ConvergenceError(
-                f"no static equilibrium: forces on {where} are out by {number:g} N or N.m. {cure}"
+                f"no static equilibrium: forces on {where} are out by {number:g} N or N.m. Reduce "
+                "the torques, stiffen the supports, or give every body that may move along or "
+                "about an axis a support there."
             )
         raise ConvergenceError(
             "natural frequencies at rest are not finite numbers. Check masses and stiffness."

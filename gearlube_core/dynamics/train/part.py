@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -130,6 +130,14 @@ class Hidden(Body):
         return cls(name=name, mass=mass, inertia=mass, polar_inertia=1.0, held=held)
 
 
+class AxisPlace(NamedTuple):
+    """Two bodies or nodes, and where the axis of the second one stands from that of the first."""
+
+    first: str
+    second: str
+    step: complex  # x + i y [m]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Element(ABC):
     """What acts on bodies: derive a frozen dataclass, and give it a NamedTuple of kernels.
@@ -190,12 +198,9 @@ class Element(ABC):
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:  # noqa: B027
         """Raise ParameterError where the element does not fit the others of its train."""
 
-    def between_axes(self) -> tuple[str, str, complex] | None:
-        """Return two bodies, and where the second one's axis stands from the first's, x + i y [m].
-
-        None where the element does not fix it.
-        """
-        return None
+    def between_axes(self) -> Sequence[AxisPlace]:
+        """Return between which bodies the element fixes where their axes stand, none by default."""
+        return ()
 
     def ranges(self) -> tuple[Range, ...]:
         """Return ranges of outputs, which are named without the element."""

@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes, mode_bodies
-from gearlube_core.dynamics.train.part import GROUND, Body, Element, Hidden, Node
+from gearlube_core.dynamics.train.part import GROUND, AxisPlace, Body, Element, Hidden, Node
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO, POSITION
 from gearlube_core.number import Number, check_fields
@@ -94,7 +94,8 @@ class Shaft:
         for one in ordered:
             if one.start > end + 1e-9:
                 raise ParameterError(
-                    f"sections of {self.name} must meet, got a gap from {end:g} to {one.start:g} m."
+                    f"sections of {self.name} must meet, got a gap from {1e3 * end:g} to "
+                    f"{1e3 * one.start:g} mm."
                 )
             end = max(end, one.end)
         for node in self.nodes:
@@ -107,8 +108,8 @@ class Shaft:
         for what, place in places.items():
             if not ordered[0].start - 1e-9 <= place <= end + 1e-9:
                 raise ParameterError(
-                    f"{what} of {self.name} must lie on the shaft, {ordered[0].start:g} to "
-                    f"{end:g} m, got {place:g} m."
+                    f"{what} of {self.name} must lie on the shaft, {1e3 * ordered[0].start:g} to "
+                    f"{1e3 * end:g} mm, got {1e3 * place:g} mm."
                 )
 
         longest = self._longest()
@@ -144,6 +145,7 @@ class Shaft:
             body=self.name,
             nodes=nodes[0].name,
             modes=modes[0].name if modes else GROUND,
+            places=tuple(AxisPlace(self.name, one.name, 0.0j) for one in nodes),
             motion=own,
             highest_frequency=self.highest_frequency,
             damping_ratio=self.damping_ratio,

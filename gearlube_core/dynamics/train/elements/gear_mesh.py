@@ -24,7 +24,7 @@ from gearlube_core.dynamics.train.gear_geometry import (
     planets_fit,
 )
 from gearlube_core.dynamics.train.gear_pair import AZIMUTH, GearPair, worded
-from gearlube_core.dynamics.train.part import GROUND, Body, Element
+from gearlube_core.dynamics.train.part import GROUND, AxisPlace, Body, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import BACKLASH
 from gearlube_core.number import Number, Output
@@ -240,11 +240,10 @@ class GearMesh(GearPair, Element):
         rows = self.gap if len(self.gap) == n else n * (self.gap or ((0.0,),))
         return np.concatenate([places, *stiffness, *(_series(row, waves) for row in rows)])
 
-    def between_axes(self) -> tuple[str, str, complex] | None:
+    def between_axes(self) -> list[AxisPlace]:
         """Return the bodies of gears on parallel axes that stand, and where gear 2 is."""
-        if self.carrier != GROUND or not self.parallel:
-            return None
-        return self.first, self.second, self.centres
+        stands = self.parallel and self.carrier == GROUND
+        return [AxisPlace(self.first, self.second, self.centres)] if stands else []
 
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         """Raise ParameterError where gears of the train do not fit each other.
@@ -271,12 +270,17 @@ class GearMesh(GearPair, Element):
     def _check_shared(self, other: GearMesh, mine: _Wheel, its: _Wheel) -> None:
         """Raise ParameterError unless one gear is the same in two meshes."""
         gear = f"the gear of {mine.body} with {mine.teeth} teeth"
-        for what in ("normal_module", "normal_pressure_angle", "helix_angle"):
-            one, another = getattr(self, what), getattr(other, what)
+        degree = math.degrees(1.0)
+        for what, unit, scale in (
+            ("normal_module", "mm", 1e3), ("normal_pressure_angle", "deg", degree),
+            ("helix_angle", "deg", degree),
+        ):  # fmt: skip
+            one, another = scale * getattr(self, what), scale * getattr(other, what)
             if not math.isclose(one, another, rel_tol=_SAME):
                 raise ParameterError(
-                    f"{gear} must have one {what}, got {one:g} in {self.name} and {another:g} in "
-                    f"{other.name}. Correct one, or give the arms of two gears."
+                    f"{gear} must have one {what}, got {one:g} {unit} in {self.name} and "
+                    f"{another:g} {unit} in {other.name}. Correct one, or give the arms of two "
+                    "gears."
                 )
         if self.helix_angle > 0.0 and mine.right_hand != its.right_hand:
             raise ParameterError(

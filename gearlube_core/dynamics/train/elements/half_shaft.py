@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
-from gearlube_core.dynamics.train.part import Element
+from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields, constants_of
@@ -131,9 +131,9 @@ class HalfShaft(Element):
     def __post_init__(self) -> None:
         check_fields(self)
 
-    def between_axes(self) -> tuple[str, str, complex]:
+    def between_axes(self) -> list[AxisPlace]:
         """Return both bodies, which have one axis."""
-        return self.first, self.second, 0.0j
+        return [AxisPlace(self.first, self.second, 0.0j)]
 
     def numbers(self) -> _HalfShaft:
         """Return the constants of the kernels."""

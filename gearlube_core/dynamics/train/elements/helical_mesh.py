@@ -31,7 +31,7 @@ from gearlube_core.dynamics.train.elements.mesh_outputs import (
     FILM_SHARE,
     MESH_OUTPUTS,
 )
-from gearlube_core.dynamics.train.part import Element
+from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.number import Number, Output, check_fields
 
 _ANGLE = Number(
@@ -143,10 +143,10 @@ class HelicalMesh(Element):
         table = packed.torque, packed.density.ravel(), packed.offset.ravel()
         return np.concatenate([np.zeros(TABLE), *table, self._pair_data()])
 
-    def between_axes(self) -> tuple[str, str, complex]:
+    def between_axes(self) -> list[AxisPlace]:
         """Return both bodies, and where the gear is."""
         pair = self.parameters.pair
-        return self.pinion, self.gear, cmath.rect(pair.centre_distance, self.angle)
+        return [AxisPlace(self.pinion, self.gear, cmath.rect(pair.centre_distance, self.angle))]
 
     def ranges(self) -> tuple[Range, ...]:
         """Return the ranges of line mesh, oil and formulas, and that of solved films."""

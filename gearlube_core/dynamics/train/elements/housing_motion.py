@@ -15,7 +15,7 @@ from gearlube_core.dynamics.train.element import (
     RATE,
     Listed,
 )
-from gearlube_core.dynamics.train.part import Element
+from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.housings.housing_modes import HousingMotion
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
@@ -117,6 +117,8 @@ class CarriedInterface(Element):
     ----------
     name, nodes, modes : str
         Of itself, of its first node and the first body of modes.
+    places : tuple of AxisPlace
+        Of its nodes in the housing.
     motion : HousingMotion
     highest_frequency : float
         Of its modes [Hz].
@@ -130,6 +132,7 @@ class CarriedInterface(Element):
     name: str
     nodes: str
     modes: str
+    places: tuple[AxisPlace, ...]
     motion: HousingMotion
     highest_frequency: float
     kind: ClassVar = "carried_interface"
@@ -137,6 +140,10 @@ class CarriedInterface(Element):
     interpreted: ClassVar = (Listed(_Housing, (), 5),)
     on: ClassVar = ("nodes", "modes")
     losses: ClassVar = ("housing_damping",)
+
+    def between_axes(self) -> tuple[AxisPlace, ...]:
+        """Return where its nodes are."""
+        return self.places
 
     def numbers(self) -> _Housing:
         """Return the constants of the kernels."""

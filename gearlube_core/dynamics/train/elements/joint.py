@@ -20,7 +20,7 @@ from gearlube_core.dynamics.train.elements.turned_moves import (
     turned_rates,
 )
 from gearlube_core.dynamics.train.gear_pair import worded
-from gearlube_core.dynamics.train.part import Body, Element, Node
+from gearlube_core.dynamics.train.part import GROUND, AxisPlace, Body, Element, Node
 from gearlube_core.helical_geometry.gear_body import POSITION
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -206,6 +206,11 @@ class Joint(Springs, Element):
         if stands and centre_of(elements, self.first, self.second) == 0.0:
             return
         check_place(elements, self.name, self.first, self.second, there)
+
+    def between_axes(self) -> list[AxisPlace]:
+        """Return both bodies, unless one is the ground."""
+        there = cmath.rect(self.radius, self.azimuth)
+        return [AxisPlace(self.second, self.first, there)] if self.second != GROUND else []
 
     def numbers(self) -> JointKernels:
         """Return the constants of the kernels."""

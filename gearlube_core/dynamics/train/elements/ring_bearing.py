@@ -26,16 +26,11 @@ from gearlube_core.dynamics.ranges import HERTZ_LIMIT, Range
 from gearlube_core.dynamics.train.element import RATE, W
 from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES
 from gearlube_core.dynamics.train.elements.seat import (
-    ARM,
-    SEAT,
-    HousingX,
-    HousingY,
-    HousingZ,
     Seat,
+    SeatedBearing,
     add_to_both,
     between,
 )
-from gearlube_core.dynamics.train.part import GROUND, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.checked_numbers import all_finite, is_whole
@@ -163,18 +158,9 @@ def _loads(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RingBearing(Element):
+class RingBearing(SeatedBearing):
     """What ball and cylindrical roller bearings of a train have in common."""
 
-    name: str
-    body: str
-    housing: str = GROUND
-    arm: Annotated[
-        float, ARM._replace(text="Middle of the bearing along z from the centre of the body")
-    ] = 0.0
-    housing_x: HousingX = 0.0
-    housing_y: HousingY = 0.0
-    housing_z: HousingZ = 0.0
     pitch_diameter: Annotated[
         float, DIAMETER._replace(text="Diameter of the circle of the elements' centres")
     ]
@@ -209,9 +195,6 @@ class RingBearing(Element):
     poisson_ratio: Annotated[
         float, Number("1", 0.0, 0.5, text="Poisson's ratio of rings and elements")
     ] = 0.3
-    on: ClassVar = ("body", "housing")
-    angles: ClassVar = ("cage",)
-    losses: ClassVar = ("bearing_damping", "bearing_torque")
     outputs: ClassVar = OUTPUTS
 
     @abstractmethod
@@ -226,7 +209,7 @@ class RingBearing(Element):
     def numbers(self) -> RingBearingNumbers:
         """Return the constants of the kernels."""
         return RingBearingNumbers(
-            Seat(*(float(getattr(self, one)) for one in SEAT)),
+            self.seat,
             float(self.damping_time),
             float(self.pitch_diameter),
             float(self.axial_factor),

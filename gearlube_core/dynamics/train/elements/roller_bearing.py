@@ -42,16 +42,11 @@ from gearlube_core.dynamics.train.element import RATE, Listed, W
 from gearlube_core.dynamics.train.elements.checks import fits_model, fits_rollers
 from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES, OF_ONE
 from gearlube_core.dynamics.train.elements.seat import (
-    ARM,
-    SEAT,
-    HousingX,
-    HousingY,
-    HousingZ,
     Seat,
+    SeatedBearing,
     add_to_both,
     between,
 )
-from gearlube_core.dynamics.train.part import GROUND, Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.kernels.array_part import part
@@ -229,7 +224,7 @@ def _forces(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RollerBearing(Element):
+class RollerBearing(SeatedBearing):
     """One tapered roller bearing of a shaft along z in its housing; two carry a tilting shaft.
 
     Every roller is summed at every stage of a step, so that it costs more than `OpposedBearings`.
@@ -271,18 +266,7 @@ class RollerBearing(Element):
     -1.0
     """
 
-    name: str
-    body: str
     bearing: Bearing
-    housing: str = GROUND
-    arm: Annotated[
-        float,
-        ARM._replace(text="Where the roller forces meet the axis, along z from the centre of the "
-                     "body"),
-    ] = 0.0  # fmt: skip
-    housing_x: HousingX = 0.0
-    housing_y: HousingY = 0.0
-    housing_z: HousingZ = 0.0
     side: Annotated[
         int,
         Number("1", -1, 1, text="1: a displacement along +z loads it, -1: one along -z"),
@@ -297,9 +281,6 @@ class RollerBearing(Element):
     ] = 50.0
     kind: ClassVar = "roller_bearing"
     interpreted: ClassVar = (Listed(_RollerBearing, (), 8),)
-    on: ClassVar = ("body", "housing")
-    angles: ClassVar = ("cage",)
-    losses: ClassVar = ("bearing_damping", "bearing_torque")
     bounds: ClassVar = ("bearing_bound",)
     outputs: ClassVar = (
         *FORCES,
@@ -324,7 +305,7 @@ class RollerBearing(Element):
         bearings: Any = self.bearing.parameters()
         return _RollerBearing(
             float(self.side),
-            Seat(*(float(getattr(self, one)) for one in SEAT)),
+            self.seat,
             float(TORQUE_LOSSES.index(_LOADED.get(self.torque_loss, self.torque_loss))),
             float(self.orders),
             float(self.least_frequency),

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import add_wrench
+from gearlube_core.dynamics.train.part import GROUND, AxisPlace, Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.number import Number
 
-ARM = Number("m", -10.0, 10.0, shown="mm")
-SEAT = ("arm", "housing_x", "housing_y", "housing_z")  # fields of an element, as in `Seat`
-HousingX = Annotated[
-    float, ARM._replace(text="Place of the bearing along x from the centre of the housing")
-]
-HousingY = Annotated[float, ARM._replace(text="Likewise along y")]
-HousingZ = Annotated[float, ARM._replace(text="Likewise along z")]
+_ARM = Number("m", -10.0, 10.0, shown="mm")
 
 
 class Seat(NamedTuple):
@@ -65,3 +61,37 @@ def add_to_both(
     turning = (1.0 - ratio) * on_cage - m_z + p.y * f_x - p.x * f_y
     reaction = -m_x - p.y * f_z, -m_y + p.x * f_z, turning
     add_wrench(ds, housing, p.z, (-f_x, -f_y, -f_z), reaction)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeatedBearing(Element):
+    """What bearings between a body and a housing have in common."""
+
+    name: str
+    body: str
+    housing: str = GROUND
+    arm: Annotated[
+        float,
+        _ARM._replace(text="Middle of the bearing, of tapered rollers where their forces meet the "
+                      "axis, along z from the centre of the body"),
+    ] = 0.0  # fmt: skip
+    housing_x: Annotated[
+        float, _ARM._replace(text="The same place along x from the centre or node of the housing")
+    ] = 0.0
+    housing_y: Annotated[float, _ARM._replace(text="Likewise along y")] = 0.0
+    housing_z: Annotated[float, _ARM._replace(text="Likewise along z")] = 0.0
+    on: ClassVar = ("body", "housing")
+    angles: ClassVar = ("cage",)
+    losses: ClassVar = ("bearing_damping", "bearing_torque")
+
+    @property
+    def seat(self) -> Seat:
+        """Its place for kernels."""
+        return Seat(
+            float(self.arm), float(self.housing_x), float(self.housing_y), float(self.housing_z)
+        )
+
+    def between_axes(self) -> list[AxisPlace]:
+        """Return where the axis of the body is in its housing."""
+        there = complex(self.housing_x, self.housing_y)
+        return [AxisPlace(self.housing, self.body, there)] if self.housing != GROUND else []

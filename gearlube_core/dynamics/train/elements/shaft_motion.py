@@ -16,7 +16,7 @@ from gearlube_core.dynamics.train.element import (
     W,
     add_wrench,
 )
-from gearlube_core.dynamics.train.part import Element
+from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -190,6 +190,8 @@ class CarriedNodes(Element):
     ----------
     name, body, nodes, modes : str
         Of itself, of the rigid body, its first node and the first body of modes.
+    places : tuple of AxisPlace
+        Of its nodes on the body.
     motion : ShaftMotion
     highest_frequency : float
         Modes of the train above it are not those of the shaft [Hz]; 0: the shaft is rigid.
@@ -210,6 +212,7 @@ class CarriedNodes(Element):
     body: str
     nodes: str
     modes: str
+    places: tuple[AxisPlace, ...]
     motion: ShaftMotion
     highest_frequency: float
     damping_ratio: float
@@ -220,6 +223,10 @@ class CarriedNodes(Element):
     interpreted: ClassVar = (Listed(_Shaft, (), 7),)
     on: ClassVar = ("body", "nodes", "modes")
     losses: ClassVar = ("shaft_damping",)
+
+    def between_axes(self) -> tuple[AxisPlace, ...]:
+        """Return where its nodes are."""
+        return self.places
 
     def numbers(self) -> _Shaft:
         """Return the constants of the kernels."""
