@@ -88,14 +88,15 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
 
     def announce(self, words: str) -> None:
         """Log these words before it is compiled, unless its code is on disk."""
-        compile_now = self._compiler.compile
+        compiler: Any = self._compiler  # type: ignore[attr-defined]
+        compile_now = compiler.compile
 
         def compile_after_words(*signature: Any) -> Any:
             if multiprocessing.parent_process() is None:  # workers are silent
                 logger.warning("%s", words)
             return compile_now(*signature)
 
-        self._compiler.compile = compile_after_words
+        compiler.compile = compile_after_words
 
     def compile(self, sig: Any) -> Any:
         """Compile for a signature, or read what is on disk; numba's name of this method."""
