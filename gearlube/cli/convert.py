@@ -15,10 +15,11 @@ from gearlube.cli.exit_codes import exit_on_error
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from gearlube_core.rexs.gearbox import RexsTrain
     from gearlube_core.rexs.stage import ExchangeNote
 
 logger = logging.getLogger("gearlube")
-_REXS = (".rexs", ".rexsz", ".rexsj", ".xml")
+REXS_ENDINGS = (".rexs", ".rexsz", ".rexsj", ".xml")
 
 
 def _example() -> str:
@@ -52,6 +53,12 @@ def convert(
             metavar="FIELD=VALUE...",
         ),
     ] = None,
+    train: Annotated[
+        bool,
+        typer.Option(
+            "--train", help="Write a train file of the whole gearbox: shafts, bearings, stages."
+        ),
+    ] = False,
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace the file if it exists.")
     ] = False,
@@ -59,22 +66,36 @@ def convert(
 ) -> None:
     """Convert a pair between REXS and gear files, and say what does not fit.
 
-    A cylindrical stage becomes a gear file of a helical pair, a bevel stage a blank file.
+    A cylindrical stage becomes a gear file of a helical pair, a bevel stage a blank file; with
+    --train a gearbox of cylindrical stages becomes a train file.
     Macro geometry only: no machine settings, no flank modifications.
     """
+    from drivetrain.train.train_file import TrainFile
     from gearlube.output.toml_text import toml_text
     from gearlube_core.errors import ParameterError
     from gearlube_core.rexs.exchange import BlankFile, pair_file, read_rexs, write_rexs
+    from gearlube_core.rexs.gearbox import read_gearbox
     from gearlube_core.storage.atomic_file import write_text
 
     with exit_on_error():
-        reads = Path(pair).suffix.lower() in _REXS
+        reads = Path(pair).suffix.lower() in REXS_ENDINGS
         path = out or Path(Path(pair).name).with_suffix(".toml" if reads else ".rexs")
         wanted = ".toml" if reads else ".rexs"
         if path.suffix.lower() != wanted:
             raise ParameterError(f"--out must end in {wanted}, got {path}")
         if path.exists() and not overwrite:
             raise ParameterError(f"{path} exists already. Choose another --out, or add --overwrite")
+        if train:
+            if stage is not None or given or not reads:
+                raise ParameterError(
+                    "--train is for REXS files, without --stage and --set. Leave out what is more"
+                )
+            gearbox = read_gearbox(pair)
+            TrainFile.from_data(gearbox.data, pair)
+            write_text(train_text(gearbox), path)
+            _show(gearbox.notes, path)
+            logger.info("Next: gearlube drivetrain %s", path)
+            return
         if not reads:
             if stage is not None or given:
                 raise ParameterError("--stage and --set are for REXS files only. Leave them out")
@@ -88,6 +109,13 @@ def convert(
         blank = isinstance(read.file, BlankFile)
         load = "" if blank or "operation" in read.data else " --torque N_M --speed-rpm RPM"
         logger.info("Next: gearlube %s %s%s", "design" if blank else "helical", path, load)
+
+
+def train_text(gearbox: RexsTrain) -> str:
+    """Return a gearbox as a train file, which says first what was assumed."""
+    from gearlube.output.toml_text import toml_text
+
+    return f"{gearbox.comments()}\n{toml_text(gearbox.data)}"
 
 
 def _fields(given: list[str]) -> dict[str, Any]:

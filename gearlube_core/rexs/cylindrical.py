@@ -41,6 +41,20 @@ def helical_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
     """
     data: dict[str, Any] = {"name": as_name(stage.stage.name or stage.model.path.stem)}
     data["source"] = stage.model.source
+    data |= pair_data(stage, given)
+    for role, one in stage.members().items():
+        data[f"{role}.profile_shift_coefficient"] = _shift(stage, role, one, data | given)
+        data[f"{role}.tip_diameter_mm"] = _tip(stage, role, one, data, given)
+        data[f"{role}.root_diameter_mm"] = stage.optional(
+            f"{role}.root_diameter_mm", (one, "root_diameter", "mm")
+        )
+    stage.check_complete()
+    return {name: value for name, value in data.items() if value is not None}
+
+
+def pair_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields of both gears together, None where absent, which the stage then knows."""
+    data: dict[str, Any] = {}
     teeth = {
         role: stage.required(f"{role}.teeth", (one, "number_of_teeth", "none"), given=given)
         for role, one in stage.members().items()
@@ -68,14 +82,7 @@ def helical_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
     data["pair.face_width_mm"] = _face_width(stage, given)
     if (backlash := _backlash(stage)) is not None:
         data["pair.backlash_mm"] = backlash
-    for role, one in stage.members().items():
-        data[f"{role}.profile_shift_coefficient"] = _shift(stage, role, one, data | given)
-        data[f"{role}.tip_diameter_mm"] = _tip(stage, role, one, data, given)
-        data[f"{role}.root_diameter_mm"] = stage.optional(
-            f"{role}.root_diameter_mm", (one, "root_diameter", "mm")
-        )
-    stage.check_complete()
-    return {name: value for name, value in data.items() if value is not None}
+    return data
 
 
 def _places(stage: Stage, attribute: str) -> list[Component]:

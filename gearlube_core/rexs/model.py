@@ -6,6 +6,7 @@ import json
 import math
 import zipfile
 import zlib
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,15 @@ _SAME = {
     "mm": {"mm": 1.0, "m": 1e3, "cm": 10.0, "mum": 1e-3, "um": 1e-3, "µm": 1e-3, "in": 25.4},
     "deg": {"deg": 1.0, "°": 1.0, "rad": 1.0 / DEGREE},
     "none": {"none": 1.0},
+    "N / m": {"N / m": 1.0, "N / mm": 1e3, "N / mum": 1e6},
+    "N mm / rad": {"N mm / rad": 1.0, "N m / rad": 1e3},
+    "N / mm^2": {"N / mm^2": 1.0, "MPa": 1.0},
+    "kg / dm^3": {"kg / dm^3": 1.0, "kg / m^3": 1e-3},
+    "kg": {"kg": 1.0},
+    "kg m^2": {"kg m^2": 1.0, "kg mm^2": 1e-6},
+    "1 / min": {"1 / min": 1.0},
+    "N m": {"N m": 1.0, "N mm": 1e-3},
+    "C": {"C": 1.0},
 }
 
 _MODELS = (".rexs", ".rexsj", ".xml")  # files of an archive that hold a model
@@ -35,14 +45,14 @@ class Component:
     number: int
     kind: str
     name: str
-    attributes: dict[str, tuple[str, str]]  # text and unit; text is empty where it is an array
+    attributes: dict[str, tuple[str, str]]  # text, of arrays their numbers, and unit
     used: set[str] = field(default_factory=set)
 
     def __str__(self) -> str:
         return f"{self.kind} {self.number}" + (f" ({self.name})" if self.name else "")
 
     def value(self, attribute: str, unit: str = "none") -> float | None:
-        """Return a number in `unit` ("mm", "deg" or "none"), or None where it is not given.
+        """Return a number in `unit`, one of the data base, or None where it is not given.
 
         Raises
         ------
@@ -61,6 +71,21 @@ class Component:
         if not math.isfinite(number):
             raise ParameterError(f"{what} must be a number, got {text!r}. Correct the file")
         return converted(number, "" if own == "none" else own, unit, what)
+
+    def vector(self, attribute: str) -> tuple[float, float, float] | None:
+        """Return three numbers in the unit of the data base, or None where they are not given."""
+        text = self.word(attribute)
+        if not text:
+            return None
+        try:
+            u, v, w = (float(one) for one in text.split())
+        except ValueError:
+            raise ParameterError(
+                f"{attribute} of {self} must be three numbers, got {text!r}. Correct the file"
+            ) from None
+        own = self.attributes[attribute][1]
+        factor = converted(1.0, own, "mm", f"{attribute} of {self}") if own else 1.0
+        return factor * u, factor * v, factor * w
 
     def count(self, attribute: str) -> int | None:
         """Return a whole number, or None where it is not given."""
@@ -95,7 +120,8 @@ class RexsModel:
     source: str
     components: dict[int, Component]
     relations: list[tuple[str, list[tuple[str, int]]]]  # type; roles and components
-    load_spectra: int  # how many the file has; they are not read
+    load_spectra: int  # how many the file has
+    cases: list[dict[int, Component]]  # what load cases say of components
 
     @classmethod
     def read(cls, path: str | Path) -> RexsModel:
@@ -128,6 +154,10 @@ class RexsModel:
             )
         try:
             components = [_component(one) for one in root.findall("{*}components/{*}component")]
+            cases = [
+                {part.number: part for part in map(_component, one.findall("{*}component"))}
+                for one in root.findall("{*}load_spectrum/{*}load_case")
+            ]
             relations = [
                 (one.get("type", ""), [(ref.get("role", ""), int(ref.get("id"))) for ref in one])
                 for one in root.findall("{*}relations/{*}relation")
@@ -144,6 +174,7 @@ class RexsModel:
             components={one.number: one for one in components},
             relations=relations,
             load_spectra=len(root.findall("{*}load_spectrum")),
+            cases=cases,
         )
 
     def related(self, kind: str, role: str, number: int) -> list[dict[str, int]]:
@@ -209,30 +240,45 @@ def _tree(model: dict[str, Any]) -> etree._Element:
         relation = etree.SubElement(relations, "relation", type=one["type"])
         for ref in one["refs"]:
             etree.SubElement(relation, "ref", id=str(ref["id"]), role=ref["role"])
-    for one in model["components"]:
-        about = {"id": str(one["id"]), "type": one["type"], "name": one.get("name") or ""}
-        component = etree.SubElement(components, "component", about)
-        for given in one.get("attributes") or ():
-            attribute = etree.SubElement(
-                component, "attribute", id=given["id"], unit=given.get("unit") or ""
-            )
-            values = [value for key, value in given.items() if key not in ("id", "unit")]
-            if values and isinstance(values[0], str | int | float):
-                attribute.text = str(values[0])
-    spectrum = model.get("load_spectrum") or ()
-    for _ in spectrum if isinstance(spectrum, list) else (spectrum,):
-        etree.SubElement(root, "load_spectrum")
+    _add_components(components, model["components"])
+    spectra: Any = model.get("load_spectrum") or []
+    for one in spectra if isinstance(spectra, list) else [spectra]:
+        spectrum = etree.SubElement(root, "load_spectrum")
+        for case in one.get("load_cases") or ():
+            _add_components(etree.SubElement(spectrum, "load_case"), case.get("components") or ())
     return root
+
+
+def _add_components(root: etree._Element, given: Iterable[dict[str, Any]]) -> None:
+    for one in given:
+        about = {"id": str(one["id"]), "type": one["type"], "name": one.get("name") or ""}
+        component = etree.SubElement(root, "component", about)
+        for said in one.get("attributes") or ():
+            attribute = etree.SubElement(
+                component, "attribute", id=said["id"], unit=said.get("unit") or ""
+            )
+            value = next((value for key, value in said.items() if key not in ("id", "unit")), None)
+            if isinstance(value, bool):
+                attribute.text = str(value).lower()
+            elif isinstance(value, str | int | float):
+                attribute.text = str(value)
+            for number in value if isinstance(value, list) else ():
+                etree.SubElement(attribute, "c").text = str(number)
 
 
 def _component(element: etree._Element) -> Component:
     attributes = {
-        one.get("id", ""): ((one.text or "").strip(), one.get("unit", "").strip())
+        one.get("id", ""): (_text(one), one.get("unit", "").strip())
         for one in element.findall("{*}attribute")
     }
     return Component(
         int(element.get("id")), element.get("type", ""), element.get("name", ""), attributes
     )
+
+
+def _text(attribute: etree._Element) -> str:
+    numbers = [one.text or "" for one in attribute.iterfind(".//{*}c")]
+    return " ".join(numbers) if numbers else (attribute.text or "").strip()
 
 
 def converted(value: float, unit: str, wanted: str, what: str) -> float:
@@ -244,7 +290,7 @@ def converted(value: float, unit: str, wanted: str, what: str) -> float:
     unit : str
         As the file says; empty: that of the data base, which is the one that is wanted.
     wanted : str
-        "mm", "deg" or "none".
+        One of the data base.
     what : str
         Names the attribute in errors.
 

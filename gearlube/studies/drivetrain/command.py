@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.convert import REXS_ENDINGS, train_text
 from gearlube.cli.example import print_example
 from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.study_run import empty_table, study_run
@@ -19,7 +20,7 @@ def drivetrain(
         str,
         typer.Argument(
             help="Train file (.toml), or the name of a shipped one, such as e_axle or "
-            "e_axle_elastic.",
+            "e_axle_elastic; or a gearbox as REXS file (.rexs, .rexsj, .rexsz).",
             metavar="TRAIN",
         ),
     ] = "e_axle",
@@ -40,7 +41,8 @@ def drivetrain(
 ) -> None:
     """Run a drivetrain of bodies and elements: modes, transmission errors, losses.
 
-    Writes drivetrain.nc with all outputs over time, report.html and figures.
+    Writes drivetrain.nc with all outputs over time, report.html and figures; of a REXS file
+    also train.toml, the train file to go on with.
     """
     if example:
         print_example(_TARGET, "e_axle")
@@ -50,12 +52,15 @@ def drivetrain(
     from gearlube.studies.drivetrain.report import losses, report, save_figures
     from gearlube.studies.drivetrain.run import run_drivetrain
     from gearlube_core.checks import check_within
+    from gearlube_core.rexs.gearbox import read_gearbox
+    from gearlube_core.storage.atomic_file import write_text
 
     with study_run("drivetrain", out, overwrite=overwrite) as run:
         check_within("--duration-ms", duration_ms, 1e-3, 1e7, "ms")
         if step_us is not None:
             check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
-        given = TrainFile.given(file)
+        gearbox = read_gearbox(file) if Path(file).suffix.lower() in REXS_ENDINGS else None
+        given = TrainFile.from_data(gearbox.data, file) if gearbox else TrainFile.given(file)
         case = given.case()
         with run.results() as progress:
             dataset = run_drivetrain(
@@ -66,9 +71,11 @@ def drivetrain(
                 progress=progress,
             )
             figures = save_figures(dataset, case.train, out / "figures")
+            if gearbox:
+                write_text(train_text(gearbox), out / "train.toml")
         table = empty_table("Power lost, mean of the second half", "kind", ">W")
         for name, power in losses(dataset).items():
             table.add_row(name.replace("_", " "), f"{power:.4g}")
         run.show(table)
-        run.written("drivetrain.nc", "figures")
-        run.finish(report(dataset, figures, file_inputs(given)))
+        run.written("drivetrain.nc", "figures", *(["train.toml"] if gearbox else []))
+        run.finish(report(dataset, figures, file_inputs(given), gearbox.notes if gearbox else ()))

@@ -33,6 +33,7 @@ from gearlube.studies.drivetrain.vibration import (
     response_figure,
 )
 from gearlube_core.dynamics.train.model import Train
+from gearlube_core.rexs.stage import ExchangeNote
 from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import rads_to_rpm
 
@@ -270,8 +271,25 @@ def _carried(dataset: xr.Dataset) -> list[Table]:
     return tables
 
 
-def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input]) -> Report:
-    """Return the report of a run."""
+def _exchanged(notes: Sequence[ExchangeNote]) -> list[Table]:
+    """Return what became of the numbers of a REXS file."""
+    words = {"lacking": "assumed", "inferred": "follows", "left out": "left out"}
+    rows = [[words[kind], what, why] for kind, what, why in notes if kind in words]
+    if not rows:
+        return []
+    columns = [Column("", ""), Column("what"), Column("value, or why")]
+    caption = "train.toml has it all: correct what matters there, and run it."
+    return [Table(title="What the REXS file does not say", columns=columns, rows=rows,
+                  caption=caption)]  # fmt: skip
+
+
+def report(
+    dataset: xr.Dataset,
+    figures: dict[str, Path],
+    inputs: Sequence[Input],
+    notes: Sequence[ExchangeNote] = (),
+) -> Report:
+    """Return the report of a run; `notes` are those of a REXS file."""
     half, lost = settled(dataset), losses(dataset)
     speeds = [
         (body, float(rads_to_rpm(half[f"{body}.speed"].values.mean())))
@@ -309,6 +327,7 @@ def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input
                 rows=speeds,
                 caption="Mean of the second half of the run, about +z.",
             ),
+            *_exchanged(notes),
             *_carried(dataset),
             Table(
                 title="Modes",
@@ -323,5 +342,5 @@ def report(dataset: xr.Dataset, figures: dict[str, Path], inputs: Sequence[Input
         ],
         inputs=inputs,
         limits=_LIMITS,
-        files=("drivetrain.nc", "figures/"),
+        files=("drivetrain.nc", "figures/", *(["train.toml"] if notes else [])),
     )
