@@ -38,6 +38,7 @@ from gearlube_core.dynamics.train.part import Body as TrainBody
 from gearlube_core.dynamics.train.shaft import Shaft as Shaft
 from gearlube_core.dynamics.train.contact_stations import contact_fields as contact_fields
 from gearlube_core.dynamics.train.response import frequency_response as frequency_response
+from gearlube_core.dynamics.train.response import order_response as order_response
 from gearlube_core.shafts.section import ShaftDisc as ShaftDisc
 from gearlube_core.shafts.section import ShaftMaterial as ShaftMaterial
 from gearlube_core.shafts.section import ShaftSection as ShaftSection
@@ -74,6 +75,7 @@ from gearlube_core.dynamics.hypoid_axle.as_train import axle_train as axle_train
 from gearlube_core.dynamics.hypoid_axle.as_train import axle_values as axle_values
 from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle as hypoid_axle_train
 from drivetrain.train.train_file import TrainFile as TrainFile
+from gearlube.studies.drivetrain.ramp import run_ramp as run_ramp
 from gearlube.studies.drivetrain.run import run_drivetrain as run_drivetrain
 
 # -- Oils

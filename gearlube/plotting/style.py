@@ -30,6 +30,8 @@ GREY = "#B0B0B0"
 YELLOW = "#F0E442"
 PARTS = (*SERIES, YELLOW, GREY)  # of parts that add up, in their order: the same in all figures
 
+_ROWS = 170  # cells of the frequency axis; a cell shows the largest line inside it
+
 _STYLE = {
     "font.size": 9.5,
     "axes.titlesize": 10.5,
@@ -95,6 +97,14 @@ def cell_edges(centres: Array) -> Array:
     return np.concatenate(
         [[2.0 * centres[0] - middle[0]], middle, [2.0 * centres[-1] - middle[-1]]]
     )
+
+
+def largest_in_cells(rows: Array, values: Array) -> tuple[Array, Array]:
+    """Return middles of at most 170 cells of equal rows, and the largest value in each."""
+    width = max(1, rows.size // _ROWS)
+    count = rows.size // width
+    cells = values[:, : count * width].reshape(values.shape[0], count, width)
+    return rows[: count * width].reshape(count, width).mean(axis=1), cells.max(axis=2)
 
 
 def typical_speeds(dataset: xr.Dataset) -> list[int]:

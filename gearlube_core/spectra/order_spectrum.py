@@ -69,6 +69,7 @@ def order_blocks(
     revolutions: int,
     samples_per_revolution: int,
     highest_order: float,
+    orders: Array | None = None,
 ) -> OrderBlocks:
     """Return the orders of a record during a run-up or coast-down.
 
@@ -89,6 +90,8 @@ def order_blocks(
         See `samples_for`. Content above half of it folds back into lower orders.
     highest_order : float
         End of the spectra [-].
+    orders : ndarray of shape (n,), optional
+        These alone, whole or not, in the place of all bins up to `highest_order`.
 
     Raises
     ------
@@ -119,9 +122,13 @@ def order_blocks(
         )
     size = revolutions * samples_per_revolution
     bins = math.floor(highest_order * revolutions + 1e-9) + 1
+    wanted = np.arange(bins) / revolutions if orders is None else orders
     window = 0.5 - 0.5 * np.cos(turn * np.arange(size) / size)
+    turns = np.arange(size) / samples_per_revolution
+    waves = None if orders is None else window * np.exp(-1j * turn * np.outer(orders, turns))
+    begun = np.exp(-1j * turn * np.outer(first + np.arange(count), wanted))  # of each block
     columns = signals[:, None] if signals.ndim == 1 else signals
-    amplitude = np.empty((count, bins, columns.shape[1]), dtype=np.complex128)
+    amplitude = np.empty((count, wanted.size, columns.shape[1]), dtype=np.complex128)
     rms = np.empty((count, columns.shape[1]))
     at = turn * (
         first + np.arange((last - first) * samples_per_revolution) / samples_per_revolution
@@ -131,16 +138,21 @@ def order_blocks(
         for block in range(count):
             part = even[block * samples_per_revolution :][:size]
             part = part - np.mean(part)
-            spectrum = np.fft.rfft(window * part)[:bins]
-            amplitude[block, :, channel] = spectrum * (2.0 / window.sum())
+            if waves is None:
+                spectrum = np.fft.rfft(window * part)[:bins]
+                amplitude[block, :, channel] = spectrum * (2.0 / window.sum())
             rms[block, channel] = math.sqrt(float(np.dot(window, part**2) / window.sum()))
+        if waves is not None:
+            parts = np.lib.stride_tricks.sliding_window_view(even, size)[::samples_per_revolution]
+            spectra = (parts - parts.mean(axis=1, keepdims=True)) @ waves.T
+            amplitude[..., channel] = spectra * begun * (2.0 / window.sum())
     edges = np.interp(turn * (first + np.arange(last - first + 1)), angle, time)
     middles = turn * (first + np.arange(count) + 0.5 * revolutions)
     whole = signals.ndim > 1
     return OrderBlocks(
         time=np.interp(middles, angle, time),
         speed=turn * revolutions / (edges[revolutions:] - edges[:count]),
-        order=np.arange(bins) / revolutions,
+        order=wanted,
         amplitude=amplitude if whole else amplitude[..., 0],
         rms=rms if whole else rms[:, 0],
     )

@@ -97,3 +97,15 @@ def test_a_shaft_that_turns_back_is_refused() -> None:
         order_blocks(
             time, angle, angle, revolutions=40, samples_per_revolution=64, highest_order=8.0
         )
+
+
+def test_an_order_between_bins_is_read_with_its_amplitude_and_phase():
+    time = np.arange(40_000) / 20_000.0
+    angle = 2.0 * math.pi * (10.0 * time + 2.0 * time**2)
+    signal = 3.0 * np.cos(9.3226 * angle + 0.4)
+    found = order_blocks(
+        time, angle, signal, revolutions=4, samples_per_revolution=512, highest_order=20.0,
+        orders=np.array([9.3226]),
+    )  # fmt: skip
+    # leakage of the image at -9.3 orders through a Hann window, 75 bins away
+    np.testing.assert_allclose(found.amplitude[:, 0], 3.0 * np.exp(0.4j), rtol=1e-4)

@@ -35,6 +35,21 @@ def drivetrain(
             metavar="US",
         ),
     ] = None,
+    run_up: Annotated[
+        str | None,
+        typer.Option(
+            help="Also run from one speed of the driven shaft to another [rpm], such as 600:6000, "
+            "at the torque of the file.",
+            metavar="FIRST:LAST",
+        ),
+    ] = None,
+    ramp_s: Annotated[
+        float | None,
+        typer.Option(
+            help="Duration of the run-up [s]. Default: so long that its orders are told apart.",
+            metavar="S",
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_drivetrain"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -42,16 +57,19 @@ def drivetrain(
     """Run a drivetrain of bodies and elements: modes, transmission errors, losses.
 
     Writes drivetrain.nc with all outputs over time, report.html and figures; of a REXS file
-    also train.toml, the train file to go on with.
+    also train.toml, the train file to go on with; with --run-up runup.nc with waterfall and orders,
+    which `gearlube sound` makes audible.
     """
     if example:
         print_example(_TARGET, "e_axle")
         return
     from drivetrain.train.train_file import TrainFile
     from gearlube.report.inputs import file_inputs
+    from gearlube.studies.drivetrain.ramp import run_ramp
     from gearlube.studies.drivetrain.report import losses, report, save_figures
     from gearlube.studies.drivetrain.run import run_drivetrain
     from gearlube_core.checks import check_within
+    from gearlube_core.progress import part_of
     from gearlube_core.rexs.gearbox import read_gearbox
     from gearlube_core.storage.atomic_file import write_text
 
@@ -59,6 +77,7 @@ def drivetrain(
         check_within("--duration-ms", duration_ms, 1e-3, 1e7, "ms")
         if step_us is not None:
             check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
+        ramp = _ramp(run_up, ramp_s)
         gearbox = read_gearbox(file) if Path(file).suffix.lower() in REXS_ENDINGS else None
         given = TrainFile.from_data(gearbox.data, file) if gearbox else TrainFile.given(file)
         case = given.case()
@@ -68,9 +87,13 @@ def drivetrain(
                 duration=1e-3 * duration_ms,
                 step=None if step_us is None else 1e-6 * step_us,
                 folder=out,
-                progress=progress,
+                progress=progress if ramp is None else part_of(progress, 0.0, 0.3),
             )
-            figures = save_figures(dataset, case.train, out / "figures")
+            runup = None
+            if ramp is not None:
+                rest = part_of(progress, 0.3, 1.0)
+                runup = run_ramp(case, *ramp, duration=ramp_s, folder=out, progress=rest)
+            figures = save_figures(dataset, case.train, out / "figures", runup)
             if gearbox:
                 write_text(train_text(gearbox), out / "train.toml")
         table = empty_table("Power lost, mean of the second half", "kind", ">W")
@@ -78,4 +101,28 @@ def drivetrain(
             table.add_row(name.replace("_", " "), f"{power:.4g}")
         run.show(table)
         run.written("drivetrain.nc", "figures", *(["train.toml"] if gearbox else []))
-        run.finish(report(dataset, figures, file_inputs(given), gearbox.notes if gearbox else ()))
+        notes = gearbox.notes if gearbox else ()
+        run.finish(report(dataset, figures, file_inputs(given), notes, runup))
+
+
+def _ramp(run_up: str | None, ramp_s: float | None) -> tuple[float, float] | None:
+    """Return the speeds of a run-up [rad/s], or None."""
+    from gearlube_core.checks import check_within
+    from gearlube_core.errors import ParameterError
+    from gearlube_core.units import rpm_to_rads
+
+    if run_up is None:
+        if ramp_s is not None:
+            raise ParameterError(f"--ramp-s needs --run-up, got {ramp_s:g} s alone. Add it.")
+        return None
+    if ramp_s is not None:
+        check_within("--ramp-s", ramp_s, 0.2, 3600.0, "s")
+    try:
+        first, last = (float(one) for one in run_up.split(":"))
+    except ValueError:
+        raise ParameterError(
+            f"--run-up must be two speeds [rpm] as 600:6000, got {run_up!r}."
+        ) from None
+    for speed in (first, last):
+        check_within("--run-up", speed, 0.01, 1e5, "rpm")
+    return rpm_to_rads(first), rpm_to_rads(last)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +26,15 @@ from gearlube.report.parts import (
     Table,
 )
 from gearlube.studies.drivetrain.layout import layout, layout_figure
-from gearlube.studies.drivetrain.vibration import (
+from gearlube.studies.drivetrain.orders import (
     DAMPING_RATIO,
+    LEAST,
     campbell_figure,
-    deflection,
-    response_figure,
+    order_figure,
+    resonant_speeds,
 )
+from gearlube.studies.drivetrain.ramp import waterfall_figure
+from gearlube.studies.drivetrain.vibration import deflection, response_figure
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.rexs.stage import ExchangeNote
 from gearlube_core.storage.atomic_file import write_figure
@@ -126,7 +129,7 @@ def _mode_figure(dataset: xr.Dataset) -> Any:
     return figure
 
 
-_FIGURES: Mapping[str, tuple[Callable[[Any], Any], str, str]] = {
+_FIGURES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
     "layout": (
         layout_figure,
         "Where shafts, gears and bearings are",
@@ -151,21 +154,45 @@ _FIGURES: Mapping[str, tuple[Callable[[Any], Any], str, str]] = {
     ),
     "response": (
         response_figure,
-        "Forces that a transmission error makes",
-        "Amplitude over that of a sinusoidal error of one mesh, the first of equal ones, with mean "
-        f"stiffness and {100.0 * DAMPING_RATIO:g} % damping of all modes; solid: meshes, others: "
-        "bearings. Flanks stay in contact.",
+        "Forces that a transmission error or a motor's ripple makes",
+        "Amplitude over that of a sinusoidal error of a mesh, the first of equal ones, or of a "
+        f"torque, with mean stiffness and {100.0 * DAMPING_RATIO:g} % damping of all modes; solid: "
+        "meshes, others: bearings. Flanks stay in contact.",
+    ),
+    "orders": (
+        order_figure,
+        "Forces by order",
+        "Amplitude over speed, by modes: the meshes with the swing of their stiffness and gaps at "
+        "the torque of the start, the motor with its table of ripple. Flanks stay in contact.",
     ),
     "campbell": (
         campbell_figure,
-        "Speeds at which meshes meet natural frequencies",
-        "Lines from the origin: a mesh and its second and third harmonic; grey: natural "
-        "frequencies; dotted: the speed of this run.",
+        "Speeds at which orders meet natural frequencies",
+        "Lines from the origin: orders of meshes and motors, thin ones are not excited; grey: "
+        "natural frequencies; dotted: the speed of this run.",
     ),
 }
 
 
-def save_figures(dataset: xr.Dataset, train: Train, folder: Path) -> dict[str, Path]:
+_OF_RUNUP: dict[str, tuple[Callable[[Any], Any], str, str]] = {
+    "waterfall": (
+        waterfall_figure,
+        "Waterfall of the run-up",
+        "Spectra in time, with flanks that may open: all forces of bearings and supports, or the "
+        "velocity of a housing, mean over its nodes. Dotted: orders of meshes and motors.",
+    ),
+    "runup_orders": (
+        order_figure,
+        "Orders of the run-up",
+        "Solid: in time. Dotted: by modes, with flanks in contact; where both part, flanks open, "
+        "swings are large, or the ramp is too fast for a resonance to build up.",
+    ),
+}
+
+
+def save_figures(
+    dataset: xr.Dataset, train: Train, folder: Path, runup: xr.Dataset | None = None
+) -> dict[str, Path]:
     """Draw every figure of a run of a train into `folder` as PNG; return the files by name."""
     found = layout(train)
     folder.mkdir(parents=True, exist_ok=True)
@@ -175,10 +202,17 @@ def save_figures(dataset: xr.Dataset, train: Train, folder: Path) -> dict[str, P
             continue
         if name == "layout" and not found.gears:
             continue
-        if name in ("response", "campbell") and "response" not in dataset:
+        if name == "response" and not {"response", "torque_response"} & set(dataset):
+            continue
+        if name in ("orders", "campbell") and "order_force" not in dataset:
+            continue
+        if name == "orders" and float(dataset["order_force"].max()) < LEAST:
             continue
         files[name] = folder / f"{name}.png"
         write_figure(draw(found if name == "layout" else dataset), files[name])
+    for name, (draw, *_) in _OF_RUNUP.items() if runup is not None else ():
+        files[name] = folder / f"{name}.png"
+        write_figure(draw(runup), files[name])
     return files
 
 
@@ -283,13 +317,31 @@ def _exchanged(notes: Sequence[ExchangeNote]) -> list[Table]:
                   caption=caption)]  # fmt: skip
 
 
+def _loudest(runup: xr.Dataset | None) -> list[Finding]:
+    """Return where an order of a run-up makes the largest force of a bearing."""
+    if runup is None:
+        return []
+    forces = runup["order_track"].sel(part=runup["bearing"].values)
+    place = {str(name): int(one) for name, one in forces.argmax(...).items()}
+    at, rpm = forces[place], float(rads_to_rpm(runup["block_speed"].values[place["block"]]))
+    return [
+        Finding(
+            NOTE,
+            f"In the run-up {at['line'].item()} makes the largest force: {float(at):.4g} N on "
+            f"{at['part'].item()} at {rpm:.0f} rpm.",
+            "Run `gearlube sound` on this folder to hear it.",
+        )
+    ]
+
+
 def report(
     dataset: xr.Dataset,
     figures: dict[str, Path],
     inputs: Sequence[Input],
     notes: Sequence[ExchangeNote] = (),
+    runup: xr.Dataset | None = None,
 ) -> Report:
-    """Return the report of a run; `notes` are those of a REXS file."""
+    """Return the report of a run, and of a run-up beside it; `notes` are those of a REXS file."""
     half, lost = settled(dataset), losses(dataset)
     speeds = [
         (body, float(rads_to_rpm(half[f"{body}.speed"].values.mean())))
@@ -306,7 +358,7 @@ def report(
         study="drivetrain",
         title=str(dataset.attrs["name"]),
         subtitle=f"Modes, and a run of {end:.4g} ms from the static equilibrium.",
-        findings=findings(dataset),
+        findings=[*findings(dataset), *_loudest(runup)],
         numbers=[
             Number("power lost", sum(lost.values()), "W"),
             Number("efficiency", 100.0 * efficiency(dataset), "%", 4),
@@ -317,7 +369,7 @@ def report(
         ],
         figures=[
             Figure(name=name, title=title, caption=words, picture=figures[name].read_bytes())
-            for name, (_, title, words) in _FIGURES.items()
+            for name, (_, title, words) in (_FIGURES | _OF_RUNUP).items()
             if name in figures
         ],
         tables=[
@@ -329,6 +381,7 @@ def report(
             ),
             *_exchanged(notes),
             *_carried(dataset),
+            *resonant_speeds(dataset),
             Table(
                 title="Modes",
                 columns=[
@@ -342,5 +395,10 @@ def report(
         ],
         inputs=inputs,
         limits=_LIMITS,
-        files=("drivetrain.nc", "figures/", *(["train.toml"] if notes else [])),
+        files=(
+            "drivetrain.nc",
+            *(["runup.nc"] if runup is not None else []),
+            "figures/",
+            *(["train.toml"] if notes else []),
+        ),
     )

@@ -9,21 +9,27 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.train.train_file import TrainCase
+from gearlube.studies.drivetrain.operation import Operation
+from gearlube.studies.drivetrain.orders import order_forces
 from gearlube.studies.drivetrain.vibration import mean_train, responses
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.train.element import N_COORDINATES
 from gearlube_core.dynamics.train.elements.housing_motion import CarriedInterface
+from gearlube_core.dynamics.train.elements.motor import Motor
 from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import GROUND
+from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
+from gearlube_core.units import rads_to_rpm
 
 FILE = "drivetrain.nc"
 MOST_POINTS = 200_000
 MOST_FREQUENCY = 1e4  # Hz, of responses
 _PER_PERIOD, _USUAL_STEP = 24, 1e-4  # steps of a mesh period; without a mesh [s]
+_SPEEDS, _N_SPEEDS = (0.05, 1.5), 400  # of orders, over the speed at the start
 _RIGID = 1.0  # Hz, below which a mode is a turning of the whole train
 
 
@@ -92,7 +98,18 @@ def run_drivetrain(
     before = train.energy
     mean = mean_train(case)
     frequency, share = mode_shares(mean)
-    vibration = responses(mean, min(trusted_frequency(train), MOST_FREQUENCY))
+    motors = [one.name for one in train.elements if isinstance(one, Motor) and one.ripple]
+    vibration = responses(mean, motors, min(trusted_frequency(train), MOST_FREQUENCY))
+    driven = {}
+    try:
+        operation = Operation.of(case)
+    except ParameterError:  # nothing drives it, or no port takes what it gives
+        pass
+    else:
+        vibration |= order_forces(
+            operation, mean, np.geomspace(*_SPEEDS, _N_SPEEDS) * operation.speed
+        )
+        driven = {"shaft": operation.title, "shaft_rpm": float(rads_to_rpm(operation.speed))}
     steps = math.ceil(duration / step - 1e-9)
     rows = np.empty((steps + 1, len(train.output_records)))
     rows[0] = list(train.outputs().values())
@@ -123,6 +140,7 @@ def run_drivetrain(
             "reference": next(iter(case.speeds)),
             "imbalance": _imbalance(train, before),
             "exceeded": "\n".join(exceeded.values()),
+            **driven,
         },
     )
     if folder is not None:

@@ -107,6 +107,8 @@ def assemble(
     elements: Sequence[Element],
     oil: Lubricant,
     kinds: Sequence[Listed] | None = None,
+    *,
+    losses_by_element: bool = False,
 ) -> Assembly:
     """Return a train of bodies and elements, whose order is the order of its states and sums.
 
@@ -117,6 +119,8 @@ def assemble(
     kinds : sequence of Listed, optional
         What an element's number in the plan counts, for code that is interpreted; those of the
         package by default. Generated code needs none: () then loads no other element.
+    losses_by_element : bool
+        Whether each element has losses of its own, "element.loss"; else those of a kind are shared.
 
     Raises
     ------
@@ -145,7 +149,8 @@ def assemble(
             works[label] = len(names)
             names.append(f"energy.{label}")
     losses, bounds = dict[str, int](), dict[str, int]()
-    lost = [loss for one in elements for loss in one.losses]
+    heads = {one.name: f"{one.name}." if losses_by_element else "" for one in elements}
+    lost = [f"{heads[one.name]}{loss}" for one in elements for loss in one.losses]
     for places, labels in ((losses, lost), (bounds, [b for one in elements for b in one.bounds])):
         for label in dict.fromkeys(labels):
             places[label] = len(names)
@@ -165,7 +170,7 @@ def assemble(
             *(of_body[getattr(one, field)] for field in one.on),
             *own[one.name],
             *(works[f"{one.name}.{work}"] for work in one.works),
-            *(losses[loss] for loss in one.losses),
+            *(losses[f"{heads[one.name]}{loss}"] for loss in one.losses),
             *(bounds[bound] for bound in one.bounds),
             *((kept[one.name],) if one.kept_size() else ()),
             *(0 if other is None else kept[other] for other in beside),

@@ -49,6 +49,8 @@ class Train(MarchedTrain):
         One compiled code for all lists of the package's elements, or code generated for this list:
         10 to 25 % faster, after some 10 s of compilation. The code for all lists is compiled once
         on a machine, in some 80 s, and kept. Automatic: interpreted where it can be.
+    losses_by_element : bool
+        Whether losses are those of each element, "stage_1.friction"; else those of a kind are one.
 
     Notes
     -----
@@ -77,9 +79,11 @@ class Train(MarchedTrain):
         *,
         steps_per_highest_period: int = 16,
         driver: Driver = "automatic",
+        losses_by_element: bool = False,
     ) -> None:
         check_within("steps_per_highest_period", steps_per_highest_period, 6, 4096)
-        made = assemble(bodies, elements, oil)
+        made = assemble(bodies, elements, oil, losses_by_element=losses_by_element)
+        self.losses_by_element = losses_by_element
         self.bodies, self.elements, self.oil = made.bodies, made.elements, oil
         self.driver = driver
         self.steps_per_highest_period = steps_per_highest_period
@@ -93,8 +97,19 @@ class Train(MarchedTrain):
         self._events = np.array([one.place for one in self._made.events], dtype=int)
 
     def _given(self) -> dict[str, Any]:
-        names = ("bodies", "elements", "oil", "steps_per_highest_period", "driver")
+        names = (
+            "bodies",
+            "elements",
+            "oil",
+            "steps_per_highest_period",
+            "driver",
+            "losses_by_element",
+        )
         return {name: getattr(self, name) for name in names}
+
+    def changed(self, **changes: Any) -> Train:
+        """Return a train, not yet at rest, with other arguments, such as its `elements`."""
+        return Train(**(self._given() | changes))
 
     @property
     def _least_rate(self) -> float:

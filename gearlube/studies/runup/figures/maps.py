@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import house_style, name_levels, new_figure, outlined
+from gearlube.plotting.style import house_style, largest_in_cells, name_levels, new_figure, outlined
 from gearlube.studies.runup import levels
 from gearlube_core.arrays import Array
 
@@ -16,7 +16,6 @@ _MOST_ORDERS = 3.6  # mesh orders on the order axis
 _COLOURS = "viridis"
 _LIGHT = "white"
 _LOWEST = 3.5  # bins above 0 Hz, where the change of the mean leaks
-_ROWS = 170  # cells of the frequency axis; a cell shows the largest line inside it
 
 
 def force_cells(dataset: xr.Dataset) -> tuple[Array, Array, Array]:
@@ -31,7 +30,7 @@ def force_cells(dataset: xr.Dataset) -> tuple[Array, Array, Array]:
     keep = (frequency <= _top_frequency(dataset)) & (frequency > _LOWEST * frequency[1])
     speed = levels.rpm(dataset, "slice_speed")
     along = np.argsort(speed)
-    return speed[along], *_largest_in_cells(frequency[keep], force[along][:, keep])
+    return speed[along], *largest_in_cells(frequency[keep], force[along][:, keep])
 
 
 def frequency_map(dataset: xr.Dataset) -> Any:
@@ -102,14 +101,6 @@ def _is_seen(frequency: float, rows: Array, cells: Array, floor: float) -> bool:
     """Whether a slice, its cells over `rows`, reaches above `floor` at a frequency [Hz]."""
     place = int(np.searchsorted(rows, frequency))
     return bool(float(cells[max(place - 1, 0) : place + 2].max()) > floor)
-
-
-def _largest_in_cells(rows: Array, values: Array) -> tuple[Array, Array]:
-    """Return middles of at most `_ROWS` cells of equal rows, and the largest value in each."""
-    width = max(1, rows.size // _ROWS)
-    count = rows.size // width
-    cells = values[:, : count * width].reshape(values.shape[0], count, width)
-    return rows[: count * width].reshape(count, width).mean(axis=1), cells.max(axis=2)
 
 
 def _picture(figure: Any, ax: Any, speed: Array, rows: Array, force: Array, *, pad: float) -> None:

@@ -200,6 +200,31 @@ class Motor(Port):
         table = self.ripple
         return (0, 0, 0) if table is None else table.torque.shape[1:] + table.orders.shape
 
+    def ripple_at(self, speed: float, torque: float) -> dict[float, complex]:
+        """Return the torque ripple by order, beyond the ends of the table as there [N.m].
+
+        Parameters
+        ----------
+        speed, torque : float
+            Of the rotor [rad/s], [N.m].
+
+        Examples
+        --------
+        >>> motor = Motor(name="motor", body="rotor", ripple=RippleTable.named("48_slots_8_poles"))
+        >>> round(abs(motor.ripple_at(628.3, 100.0)[24.0]), 2)
+        1.32
+        """
+        table, found = self.ripple, {}
+        if table is not None:
+            for order, rows in zip(table.orders, table.torque, strict=True):
+                by_speed = [np.interp(abs(torque), table.torques, row) for row in rows]
+                ripple = complex(np.interp(abs(speed), table.speeds, by_speed))
+                if ripple and order:
+                    found[float(order)] = ripple * skew_factor(
+                        order, self.skew_angle, self.skew_steps
+                    )
+        return found
+
     def memory(self) -> Array:
         """Return speeds, torques and orders of the table, then parts of all amplitudes."""
         table = self.ripple
