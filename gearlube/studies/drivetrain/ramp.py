@@ -13,6 +13,7 @@ import xarray as xr
 from drivetrain.speed_ramp import RampHold, SpeedRamp
 from drivetrain.train.train_file import TrainCase
 from gearlube.plotting.style import house_style, largest_in_cells, new_figure, outlined
+from gearlube.report.parts import NOTE, Finding
 from gearlube.studies.drivetrain.operation import Operation, lost_power
 from gearlube.studies.drivetrain.orders import Order, Parts, order_forces, orders_of, parts_of
 from gearlube.studies.drivetrain.vibration import mean_train
@@ -275,6 +276,23 @@ def _dataset(
 
 def _about(units: str, long_name: str) -> dict[str, str]:
     return {"units": units, "long_name": long_name}
+
+
+def loudest(runup: xr.Dataset | None) -> list[Finding]:
+    """Return where an order of a run-up makes the largest force of a bearing."""
+    if runup is None:
+        return []
+    forces = runup["order_track"].sel(part=runup["bearing"].values)
+    place = {str(name): int(one) for name, one in forces.argmax(...).items()}
+    at, rpm = forces[place], float(rads_to_rpm(runup["block_speed"].values[place["block"]]))
+    return [
+        Finding(
+            NOTE,
+            f"In the run-up {at['line'].item()} makes the largest force: {float(at):.4g} N on "
+            f"{at['part'].item()} at {rpm:.0f} rpm.",
+            "Run `gearlube sound` on this folder to hear it.",
+        )
+    ]
 
 
 def waterfall_figure(dataset: xr.Dataset) -> Any:

@@ -33,7 +33,7 @@ from gearlube.studies.drivetrain.orders import (
     order_figure,
     resonant_speeds,
 )
-from gearlube.studies.drivetrain.ramp import waterfall_figure
+from gearlube.studies.drivetrain.ramp import loudest, waterfall_figure
 from gearlube.studies.drivetrain.vibration import deflection, response_figure
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.rexs.stage import ExchangeNote
@@ -317,23 +317,6 @@ def _exchanged(notes: Sequence[ExchangeNote]) -> list[Table]:
                   caption=caption)]  # fmt: skip
 
 
-def _loudest(runup: xr.Dataset | None) -> list[Finding]:
-    """Return where an order of a run-up makes the largest force of a bearing."""
-    if runup is None:
-        return []
-    forces = runup["order_track"].sel(part=runup["bearing"].values)
-    place = {str(name): int(one) for name, one in forces.argmax(...).items()}
-    at, rpm = forces[place], float(rads_to_rpm(runup["block_speed"].values[place["block"]]))
-    return [
-        Finding(
-            NOTE,
-            f"In the run-up {at['line'].item()} makes the largest force: {float(at):.4g} N on "
-            f"{at['part'].item()} at {rpm:.0f} rpm.",
-            "Run `gearlube sound` on this folder to hear it.",
-        )
-    ]
-
-
 def report(
     dataset: xr.Dataset,
     figures: dict[str, Path],
@@ -358,7 +341,7 @@ def report(
         study="drivetrain",
         title=str(dataset.attrs["name"]),
         subtitle=f"Modes, and a run of {end:.4g} ms from the static equilibrium.",
-        findings=[*findings(dataset), *_loudest(runup)],
+        findings=[*findings(dataset), *loudest(runup)],
         numbers=[
             Number("power lost", sum(lost.values()), "W"),
             Number("efficiency", 100.0 * efficiency(dataset), "%", 4),
