@@ -3,17 +3,20 @@
 import math
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
+import gearlube as gl
 from drivetrain.train.train_file import TrainFile
 from gearlube.command import app
 from gearlube.studies.drivetrain.layout import layout
 from gearlube.studies.drivetrain.report import findings, losses, transmission_errors
 from gearlube.studies.drivetrain.run import FILE
+from gearlube.studies.drivetrain.space_view import space_view
 from tests.helpers.small_trains import BRAKE, FIRST, SECOND, STIFFNESS, WITH_BRAKE
 
 
@@ -133,3 +136,58 @@ def test_the_picture_places_shafts_by_their_meshes() -> None:
     assert len({one.mesh for one in gearbox.gears}) == 13
     assert abs(gearbox.centres["carrier_2"]) < 1e-12  # on the axis of the first sun
     assert abs(gearbox.centres["pinion"]) == pytest.approx(0.861, rel=1e-9)
+
+
+def about_axis(trace: Any, centre: complex) -> tuple[np.ndarray, np.ndarray]:
+    """Return the distances of a drawn body's points from an axis, and their z [m]."""
+    x, y, z = (1e-3 * np.asarray(trace[c], float) for c in "xyz")
+    return np.hypot(x - centre.real, y - centre.imag), z
+
+
+def test_the_view_in_space_has_pitch_circles_shafts_and_bearings_in_their_places() -> None:
+    axle = layout(TrainFile.named("e_axle_elastic").case().train)
+    drawn = {one.name: one for one in space_view(axle).chart.data}
+    touching = []
+    for stage, bodies in (("stage_1", ("input", "counter")), ("stage_2", ("counter", "output"))):
+        radii = [about_axis(drawn[f"{stage}, {one}"], axle.centres[one])[0].max() for one in bodies]
+        apart = abs(axle.centres[bodies[0]] - axle.centres[bodies[1]])
+        touching.append(sum(radii) - apart)
+    assert touching == pytest.approx([0.0, 0.0], abs=1e-7)  # m: 32 bits of 0.3 m
+    radius, z = about_axis(drawn["output"], axle.centres["output"])
+    assert (radius.min(), radius.max()) == pytest.approx((0.015, 0.030), abs=1e-7)
+    assert (z.min(), z.max()) == pytest.approx((0.26, 0.34), abs=1e-7)
+    radius, z = about_axis(drawn["output_end"], axle.centres["output"])
+    assert radius.min() == pytest.approx(0.030, abs=1e-7)
+    assert z.mean() == pytest.approx(0.34, abs=1e-7)
+    stage = layout(TrainFile.named("planetary").case().train)
+    ring = {one.name: one for one in space_view(stage).chart.data}["ring_mesh_1, ring"]
+    inner = next(one.radius for one in stage.gears if one.ring)
+    assert about_axis(ring, stage.centres["ring"])[0].min() == pytest.approx(inner, rel=1e-6)
+
+
+def test_nodes_of_a_housing_are_where_its_bearings_are() -> None:
+    tube = gl.ShaftSection(start=0.0, end=0.1, outer_diameter=0.03)
+    shafts = [gl.Shaft(name=one, sections=[tube], nodes={"gear": 0.02, "end": 0.1}) for one in "ab"]
+    places = {"seat": (0.2, 0.1, 0.3), "foot": (0.2, 0.0, 0.35)}  # m, in its own axes
+    model = gl.ReducedModel(
+        stiffness=1e8 * np.eye(6),
+        mass=np.eye(6),
+        nodes=tuple(gl.InterfaceNode(name, *at) for name, at in places.items()),
+        owner=np.repeat([0, 1], 3),
+        direction=np.tile(np.arange(3), 2),
+    )
+    teeth = {"teeth_1": 20, "teeth_2": 30, "normal_module": 4e-3, "face_width": 0.02}
+    parts = [
+        gl.GearMesh(name="mesh", first="a.gear", second="b.gear", backlash=1e-4, **teeth),
+        gl.Joint(name="bearing", first="b.end", second="case.seat", K_xx=1e8, K_yy=1e8),
+        gl.SpringSupport(name="springs", body="a", K_xx=1e8, K_yy=1e8),
+        gl.Port(name="load", body="b"),
+    ]
+    case = gl.Housing(name="case", model=model, free=False)
+    train = gl.Train([*shafts, case], parts, gl.Lubricant.named("mohammadpour_2015"))
+    found = layout(train).housing
+    assert found["case.seat"] == (pytest.approx(0.1), pytest.approx(0.1))  # m z/2 along x; end
+    assert found["case.foot"] == (pytest.approx(0.1 - 0.1j), pytest.approx(0.15))
+    points = space_view(layout(train)).chart.data[-1]
+    assert list(points.text) == ["case.seat", "case.foot"]
+    assert points.y[1] == pytest.approx(-100.0)

@@ -65,9 +65,11 @@ def drivetrain(
         return
     from drivetrain.train.train_file import TrainFile
     from gearlube.report.inputs import file_inputs
+    from gearlube.studies.drivetrain.layout import layout
     from gearlube.studies.drivetrain.ramp import run_ramp
     from gearlube.studies.drivetrain.report import losses, report, save_figures
     from gearlube.studies.drivetrain.run import run_drivetrain
+    from gearlube.studies.drivetrain.space_view import space_view
     from gearlube_core.checks import check_within
     from gearlube_core.progress import part_of
     from gearlube_core.rexs.gearbox import read_gearbox
@@ -101,8 +103,9 @@ def drivetrain(
             table.add_row(name.replace("_", " "), f"{power:.4g}")
         run.show(table)
         run.written("drivetrain.nc", "figures", *(["train.toml"] if gearbox else []))
-        notes = gearbox.notes if gearbox else ()
-        run.finish(report(dataset, figures, file_inputs(given), notes, runup))
+        notes, placed = gearbox.notes if gearbox else (), layout(case.train)
+        views = [space_view(placed)] if placed.gears else []
+        run.finish(report(dataset, figures, file_inputs(given), notes, runup, views))
 
 
 def _ramp(run_up: str | None, ramp_s: float | None) -> tuple[float, float] | None:

@@ -10,6 +10,7 @@ from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
+from gearlube_core.dynamics.train.elements.housing_motion import CarriedInterface
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.shaft_motion import CarriedNodes
 from gearlube_core.dynamics.train.model import Train
@@ -34,14 +35,20 @@ class _Pair(NamedTuple):
     way: complex  # from the centre of the first to that of the second one
 
 
+class _Seat(NamedTuple):
+    name: str
+    z: float  # in the axis of its body [m]
+
+
 class Layout(NamedTuple):
     """Axes of a drivetrain in the plane x + i y [m], by body, and what stands on them."""
 
     centres: dict[str, complex]
     gears: tuple[_Gear, ...]
     sections: dict[str, tuple[tuple[float, float, float, float], ...]]  # start, end, radii
-    seats: dict[str, tuple[float, ...]]  # of what else acts on nodes
+    seats: dict[str, tuple[_Seat, ...]]  # of what else acts on nodes
     shifts: dict[str, float]  # of z between bodies, so that gears in mesh face each other
+    housing: dict[str, tuple[complex, float]]  # nodes of housings, and where they are: x + i y, z
 
 
 def layout(train: Train) -> Layout:
@@ -97,7 +104,14 @@ def layout(train: Train) -> Layout:
                     centres[there], shifts[there] = centres[here] + by, shifts[here]
     gears = tuple(gear for pair in pairs for gear in pair[:2] if gear.body in centres)
     of_meshes = {one.name for one in train.elements if isinstance(one, GearMesh | HelicalMesh)}
-    seats: dict[str, list[float]] = {}
+    seats: dict[str, list[_Seat]] = {}
+    housings = {
+        place.second: (carrier, place)
+        for carrier in train.elements
+        if isinstance(carrier, CarriedInterface)
+        for place in carrier.places
+    }
+    housing: dict[str, tuple[complex, float]] = {}
     for element in train.elements:
         if element.name in of_meshes or not {"force.x", "force.y"} & {
             output.name for output in element.outputs
@@ -106,14 +120,25 @@ def layout(train: Train) -> Layout:
         for field in element.on:
             node = getattr(element, field)
             body = node.partition(".")[0]
-            if node in along and body in centres and body != GROUND:
-                seats.setdefault(body, []).append(along[node])
+            if node not in along or body not in centres or body == GROUND:
+                continue
+            z = along[node] + getattr(element, "arm", 0.0)
+            seats.setdefault(body, []).append(_Seat(element.name, z))
+            for other in element.on:
+                seated = housings.get(getattr(element, other))
+                if seated is None or seated[1].second in housing:
+                    continue
+                for place in seated[0].places:
+                    at = centres[body] + place.step - seated[1].step
+                    level = z + shifts[body] + place.along - seated[1].along
+                    housing[place.second] = at, level
     return Layout(
         centres,
         gears,
         {name: one for name, one in sections.items() if name in centres},
         {name: tuple(one) for name, one in seats.items()},
         shifts,
+        housing,
     )
 
 
@@ -200,7 +225,7 @@ def layout_figure(found: Layout) -> Any:
                         va="bottom",
                     )
             for seat in found.seats.get(name, ()):
-                side.plot(1e3 * (seat + shift), 1e3 * y, "x", color="black", ms=7, mew=1.6)
+                side.plot(1e3 * (seat.z + shift), 1e3 * y, "x", color="black", ms=7, mew=1.6)
             side.plot([], [], color=colour, label=name.replace("_", " "))
         if found.seats:
             side.plot([], [], "x", color="black", ls="none", label="bearing or support")

@@ -323,8 +323,12 @@ def report(
     inputs: Sequence[Input],
     notes: Sequence[ExchangeNote] = (),
     runup: xr.Dataset | None = None,
+    views: Sequence[Figure] = (),
 ) -> Report:
-    """Return the report of a run, and of a run-up beside it; `notes` are those of a REXS file."""
+    """Return the report of a run, and of a run-up beside it.
+
+    `notes` are those of a REXS file, `views` come before all figures.
+    """
     half, lost = settled(dataset), losses(dataset)
     speeds = [
         (body, float(rads_to_rpm(half[f"{body}.speed"].values.mean())))
@@ -351,9 +355,12 @@ def report(
             ),
         ],
         figures=[
-            Figure(name=name, title=title, caption=words, picture=figures[name].read_bytes())
-            for name, (_, title, words) in (_FIGURES | _OF_RUNUP).items()
-            if name in figures
+            *views,
+            *(
+                Figure(name=name, title=title, caption=words, picture=figures[name].read_bytes())
+                for name, (_, title, words) in (_FIGURES | _OF_RUNUP).items()
+                if name in figures
+            ),
         ],
         tables=[
             Table(

@@ -113,9 +113,9 @@ class Housing:
         """Yield where the axis through each node stands from that of the model's origin."""
         turned, metres = self._turned(), LENGTHS[self.model.length_unit]
         for one in self.model.nodes:
-            x, y, _ = metres * (turned @ one[1:])
+            x, y, z = metres * (turned @ one[1:])
             if one.name:
-                yield AxisPlace(self.name, f"{self.name}.{one.name}", complex(x, y))
+                yield AxisPlace(self.name, f"{self.name}.{one.name}", complex(x, y), float(z))
 
     def members(self) -> tuple[list[Body], list[Element]]:
         """Return its nodes and modes, and the element that carries them."""

@@ -136,6 +136,7 @@ class AxisPlace(NamedTuple):
     first: str
     second: str
     step: complex  # x + i y [m]
+    along: float = 0.0  # z of the second one, where a housing says it [m]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
