@@ -114,10 +114,14 @@ def _of_lists(hint: Any) -> Any:
     return Annotated[tuple[inner], Field(strict=False)]  # type: ignore[valid-type]
 
 
+@cache
+def _hints(kind: Any) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Return the types of the fields of a dataclass, and these with what is marked on them."""
+    return get_type_hints(kind), get_type_hints(kind, include_extras=True)
+
+
 def _section_of(kind: Any) -> type[Section]:
-    hints: dict[str, Any] = get_type_hints(kind)
-    whole: dict[str, Any] = get_type_hints(kind, include_extras=True)
-    numbers = numbers_of(kind)
+    hints, whole, numbers = *_hints(kind), numbers_of(kind)
     model: dict[str, Any] = {}
     base: type[Section] = Section
     bodies = getattr(kind, "on", ())
@@ -209,8 +213,7 @@ def _built(kind: Any, given: Section, known: Mapping[str, Any], head: str = "") 
 
     Its errors begin with `head` and end with the names in the file of the fields that they name.
     """
-    hints, numbers = get_type_hints(kind), numbers_of(kind)
-    whole = get_type_hints(kind, include_extras=True)
+    hints, whole, numbers = *_hints(kind), numbers_of(kind)
     keys = {attribute_of(key): key for key in type(given).model_fields}
     found: dict[str, Any] = {}
     for field in fields(kind):

@@ -24,6 +24,8 @@ PROFILE = 0.00035  # of the logarithmic profile, over the roller diameter [iso_1
 _LAMINA = 35948.0  # N mm^-(10/9) mm^-(8/9), inner race - steel roller - outer race [iso_16281]
 _MM = 1e-3  # m
 _UNIT = 1e-8  # m, of approaches under the ninth root: good from 1e-12 m to 1.8 mm
+_LEAST = 1e-30  # m, of an approach that divides
+_STEEPER = 10.0 / 9.0  # tangent over secant of the load of a lamina
 _ROOT_OF_UNIT = _UNIT ** (1.0 / 9.0)
 
 
@@ -50,8 +52,10 @@ class CylinderRings(NamedTuple):
 
         Notes
         -----
-        Laminae do not feel each other, so that loads at the ends of a roller are too low. A roller
-        follows the mean tilt of both rings. Ribs are a spring without friction.
+        The damper of a lamina is at most its load: below an approach of (10/9) t |d'| it fades in,
+        so that races do not pull. Laminae do not feel each other, so that loads at the ends of a
+        roller are too low. A roller follows the mean tilt of both rings. Ribs are a spring without
+        friction.
         Source: [iso_16281].
         """
         m, count = motion, int(self.n_elements)
@@ -66,7 +70,8 @@ class CylinderRings(NamedTuple):
                 continue
             rate = m.v_x * c + m.v_y * s + m.cage_speed * (m.y * c - m.x * s)
             turning = m.w_y * c - m.w_x * s - m.cage_speed * (m.ry * s + m.rx * c)
-            one = _sums(radial, slope, width, self.stiffness, gaps)
+            reach = _STEEPER * damping_time * (abs(rate) + 0.5 * self.length * abs(turning))
+            one = _sums(radial, slope, width, self.stiffness, gaps, reach)
             resisting = damping_time * (one.k_0 * rate + one.k_1 * turning)
             tilting = one.moment + damping_time * (one.k_1 * rate + one.k_2 * turning)
             f_x -= (one.load + resisting) * c
@@ -84,7 +89,7 @@ class CylinderRings(NamedTuple):
             f_z = -self.flange * (over * sense + damping_time * m.v_z)
             lost += damping_time * self.flange * m.v_z * m.v_z
             energy += 0.5 * self.flange * over * over
-        line = _lamina(self.stiffness, deepest)[0] / width
+        line = _lamina(self.stiffness, deepest) / width
         return RingLoads(f_x, f_y, f_z, m_x, m_y, lost, energy, largest, loaded, 0.0, line)
 
     @kernel
@@ -99,7 +104,7 @@ class CylinderRings(NamedTuple):
             c = COS_TABLE[count, i] * cos_c - SIN_TABLE[count, i] * sin_c
             s = SIN_TABLE[count, i] * cos_c + COS_TABLE[count, i] * sin_c
             radial, slope = m.x * c + m.y * s, m.ry * c - m.rx * s
-            one = _sums(radial, slope, width, self.stiffness, gaps)
+            one = _sums(radial, slope, width, self.stiffness, gaps, 0.0)
             middle = one.k_1 / one.k_0 if one.k_0 > 0.0 else 0.0  # of the line of contact
             add_stiffness(out, one.k_0, (c, s, 0.0, -middle * s, middle * c))
             about = one.k_2 - one.k_1 * middle
@@ -130,25 +135,30 @@ class _Roller(NamedTuple):
 
 
 @inlined
-def _lamina(c_s: float, d: float) -> tuple[float, float]:
-    """Return load and tangent stiffness of a lamina, both 0 where it is apart."""
+def _lamina(c_s: float, d: float) -> float:
+    """Return the load of a lamina, 0 where it is apart."""
     x = d * (1.0 / _UNIT)
     x = ROOT_MIN if x < ROOT_MIN else x
     x = ROOT_MAX if x > ROOT_MAX else x
     root = c_s * _ROOT_OF_UNIT * ninth_root(x)
-    root = root if d > 0.0 else 0.0
-    return root * d, 10.0 / 9.0 * root
+    return root * d if d > 0.0 else 0.0
 
 
 @summing
-def _sums(radial: float, slope: float, width: float, c_s: float, gaps: Array) -> _Roller:
-    """Return the sums of a roller whose races approach by `radial` in its middle."""
+def _sums(
+    radial: float, slope: float, width: float, c_s: float, gaps: Array, reach: float
+) -> _Roller:
+    """Return the sums of a roller whose races approach by `radial` in its middle.
+
+    Stiffness fades in over an approach of `reach` [m].
+    """
     load = moment = energy = k_0 = k_1 = k_2 = 0.0
     middle = 0.5 * (gaps.size - 1)
     for k in range(gaps.size):
         t = (k - middle) * width
         d = radial + t * slope - gaps[k]
-        q, stiffness = _lamina(c_s, d)
+        q = _lamina(c_s, d)
+        stiffness = _STEEPER * q / max(d, max(reach, _LEAST))
         load += q
         moment += q * t
         energy += q * d

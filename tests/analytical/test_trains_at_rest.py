@@ -9,6 +9,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 import pytest
 
+from drivetrain.train.train_file import TrainFile
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_model.pair import helical_pair
 from gearlube_core.dynamics.train.choice import interpreted_kernel
@@ -194,3 +195,26 @@ def test_steps_of_a_start_with_little_load_are_those_of_teeth_that_all_touch():
         # lines touch over their whole length in both, so that stiffness does not feel the torque;
         # differences over 1e-8 m leave 3e-7. At rest without torque the mode is 1.2 % lower
         assert rate / 16.0 == pytest.approx(highest, rel=1e-6), torque
+
+
+def test_loads_of_gears_follow_the_torques_down_to_a_millionth():
+    """Flanks in contact are linear springs; friction is a share of the load."""
+    found = []
+    for share in (1e-3, 1e-6):
+        case = TrainFile.named("e_axle_elastic").case()
+        torques = {port: share * torque for port, torque in case.torques.items()}
+        out = replace(case, torques=torques).start().outputs()
+        found.append([out["stage_1.load"] / share, out["stage_2.load"] / share])
+    # 1e-6 N of the search, over the share, is 2e-4 of the loads
+    np.testing.assert_allclose(found[1], found[0], rtol=2e-4)
+
+
+def test_planets_without_torque_rest_on_their_pins_alone():
+    """Each pin carries m r w^2; nothing else acts on the set."""
+    case = TrainFile.named("planetary").case()
+    out = replace(case, torques=dict.fromkeys(case.torques, 0.0)).start().outputs()
+    wanted = 1523.0 * 0.863 * (12.1 * math.pi / 30.0) ** 2
+    for n in (1, 2, 3):
+        # 1e-6 of the force is what the search leaves
+        assert out[f"pin_{n}.force.x"] == pytest.approx(-wanted, rel=2e-6)
+        assert out[f"sun_mesh_{n}.load"] == out[f"ring_mesh_{n}.load"] == 0.0

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.train.drivers import AllElements
@@ -40,6 +39,9 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.spectral_radius import spectral_radius
 from gearlube_core.oil.lubricant import LubricantState
 
+# state, oil, numbers, memory and plan of a train, places in the work space, and that
+Given = tuple[Array, LubricantState, Array, Array, Offsets, Room, Array]
+
 LEAST_RATE = 1e3  # integrator steps a second, of a train without a mode that vibrates
 _DIFFERENCE = 1e-8  # m and rad, of coordinates in a linearisation
 _EASINGS = 9  # of gaps: a bearing that carries 1 mN is found at the edge of its clearance
@@ -58,16 +60,9 @@ def rest_kernels(
     ease = elements.ease
 
     @kernel
-    def relate(
-        s: Array,
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        room: Room,
-        work: Array,
-    ) -> None:
+    def relate(given: Given) -> None:
         """Write the relations of the state `s`, and stop it."""
+        s, oil, numbers, memory, plan, room, work = given
         slope = part(work, 0, room.before)
         for body in range(room.bodies):
             for i in range(N_COORDINATES):
@@ -82,46 +77,32 @@ def rest_kernels(
                 work[room.relations + k * room.coordinates + j] = slope[room.first + k]
 
     @kernel
-    def keep(
-        s: Array,
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        room: Room,
-        work: Array,
-    ) -> None:
+    def keep(given: Given) -> None:
         """Write what elements keep under the loads, and about what own states then are."""
+        s, oil, numbers, memory, plan, room, work = given
         swap_own(s, room.loads, room.held, room, work)
         at_rest(s, oil, numbers, memory, plan)
         swap_own(s, room.held, room.guess, room, work)
 
     @kernel
-    def leave_out_gaps(
-        s: Array,
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        room: Room,
-        work: Array,
-    ) -> None:
+    def leave_out_gaps(given: Given) -> None:
         """Take the smaller guess of both senses of the loads: one of them passes a backlash.
 
         What is left is the move under load alone. Differences over a share of the backlash would
         lose the contact of lightly loaded flanks.
         """
+        room, work = given[5], given[6]
         for k in range(room.own):
             work[room.right + k] = abs(work[room.guess + k])
             work[room.loads + k] *= -1.0
-        keep(s, oil, numbers, memory, plan, room, work)
+        keep(given)
         for k in range(room.own):
             work[room.guess + k] = min(work[room.right + k], abs(work[room.guess + k]))
             work[room.loads + k] *= -1.0
 
     @kernel
-    def unbalanced(u: Array, problem: Any, out: Array) -> None:
-        s, oil, numbers, memory, plan, room, work = problem
+    def unbalanced(u: Array, given: Given, out: Array) -> None:
+        s, oil, numbers, memory, plan, room, work = given
         displace(u, s, room, work)
         spread(s, oil, numbers, memory, plan)
         expand(s, oil, numbers, memory, plan)
@@ -132,17 +113,9 @@ def rest_kernels(
     newton = damped_newton(unbalanced)
 
     @kernel
-    def find_rest(
-        s: Array,
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        room: Room,
-        bearing: int,
-        work: Array,
-    ) -> tuple[int, float, int]:
+    def find_rest(given: Given, bearing: int) -> tuple[int, float, int]:
         """Write the static equilibrium; return a status, its number and its place."""
+        s, oil, numbers, memory, plan, room, work = given
         sizes = sizes_of(plan)
         for i in range(sizes.integrated):
             s[i] = 0.0
@@ -150,49 +123,41 @@ def rest_kernels(
             s[i] = 0.0
         for k in range(room.own):
             work[room.loads + k] = 0.0
-        keep(s, oil, numbers, memory, plan, room, work)
-        relate(s, oil, numbers, memory, plan, room, work)
+        keep(given)
+        relate(given)
         status, number, turnings = find_speeds(s, numbers, room, work)
         if status != OK:
             return status, number, 0
         find_bearing(numbers, bearing, turnings, room, work)
         m = find_places(numbers, True, room, work)
-        keep(s, oil, numbers, memory, plan, room, work)
+        keep(given)
         renew(s, oil, numbers, memory, plan)
         rates(s, oil, numbers, memory, plan, 0, part(work, 0, room.before))
-        find_loads(numbers, m, room, work)
-        keep(s, oil, numbers, memory, plan, room, work)
+        size = find_loads(numbers, m, room, work)
+        keep(given)
         find_own(s, m, room, work)
-        leave_out_gaps(s, oil, numbers, memory, plan, room, work)
+        leave_out_gaps(given)
         find_scales(m, room, work)
         moves, scales = part(work, room.moves, m), part(work, room.scales, m)
-        problem = (s, oil, numbers, memory, plan, room, work)
         easings = _EASINGS if ease(s, oil, numbers, memory, plan, 0.0) > 0.0 else 0
         for k in range(easings + _PASSES):
             share = 0.1**k if k < easings else 0.0
             ease(s, oil, numbers, memory, plan, share)
-            keep(s, oil, numbers, memory, plan, room, work)
+            keep(given)
             renew(s, oil, numbers, memory, plan)
             begin_search(s, m, room, work)
-            newton(moves, scales, problem, part(work, room.solver, room.end - room.solver))
-            unbalanced(moves, problem, part(work, room.out, m))
-        return largest_force(m, room, work)
+            newton(moves, scales, given, part(work, room.solver, room.end - room.solver))
+            unbalanced(moves, given, part(work, room.out, m))
+        return largest_force(m, size, room, work)
 
     @kernel
-    def stiffness(
-        s: Array,
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        room: Room,
-        work: Array,
-    ) -> int:
+    def stiffness(given: Given) -> int:
         """Write M^-1 K of the free coordinates into the solver's room; return their number."""
+        s, oil, numbers, memory, plan, room, work = given
         n_state = room.moved - room.before
         slope, moved = part(work, 0, room.before), part(work, room.moved, n_state)
         copy(s, moved)
-        relate(moved, oil, numbers, memory, plan, room, work)
+        relate((moved, oil, numbers, memory, plan, room, work))
         m = find_places(numbers, False, room, work)
         matrix = part(work, room.solver, m * m)
         copy(s, moved)
@@ -232,13 +197,14 @@ def rest_kernels(
             work[room.wanted + body] = work[1 + body]
         before = part(work, room.before, room.moved - room.before)
         copy(s, before)
-        status, number, where = find_rest(s, oil, numbers, memory, plan, room, bearing, work)
+        given = (s, oil, numbers, memory, plan, room, work)
+        status, number, where = find_rest(given, bearing)
         if status == OK:
             for k in range(room.own):
                 work[room.held + k] = s[room.first + k]
             full_contact(s, oil, numbers, memory, plan)
             ease(s, oil, numbers, memory, plan, 1.0)
-            m = stiffness(s, oil, numbers, memory, plan, room, work)
+            m = stiffness(given)
             ease(s, oil, numbers, memory, plan, 0.0)
             for k in range(room.own):
                 s[room.first + k] = work[room.held + k]
@@ -258,7 +224,7 @@ def rest_kernels(
         s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets, work: Array
     ) -> int:
         room = room_of(sizes_of(plan))
-        m = stiffness(s, oil, numbers, memory, plan, room, work)
+        m = stiffness((s, oil, numbers, memory, plan, room, work))
         for i in range(m * m):
             work[i] = work[room.solver + i]
         return m

@@ -31,9 +31,9 @@ NO_MODES = 7  # natural frequencies are not finite
 
 
 _newton_size, _squares_size = kernel(newton_work_size), kernel(least_squares_work)
-_SETTLED = 1e-6  # of the largest force of a member at rest
+_SETTLED = 1e-6  # of the largest force that acts, or of a member, at rest
 _SAME_SPEED = 1e-6  # of the largest speed
-_SHARE, _NO_LOAD = 0.1, 1e-6  # of an own state, a move that matters; without load [m, rad]
+_SHARE, _NO_LOAD = 0.1, 1e-9  # of an own state, a move that matters; without load [m, rad]
 
 
 class Room(NamedTuple):
@@ -269,20 +269,27 @@ def find_bearing(numbers: Array, bearing: int, turnings: int, room: Room, work: 
 
 
 @kernel
-def find_loads(numbers: Array, m: int, room: Room, work: Array) -> None:
-    """Write the loads on own states that balance the torques in the rates."""
+def find_loads(numbers: Array, m: int, room: Room, work: Array) -> float:
+    """Write the loads on own states that balance the torques in the rates.
+
+    Return the largest force among the rates [N, N.m], at least 1.
+    """
+    largest = 1.0
     own, q = room.own, room.vector
     right, matrix = part(work, room.right, q), part(work, room.solver, q * q)
     count = 0
     for i in range(m):
         place = int(work[room.places + i])
+        force = work[place + RATE] / _mobility(numbers, place, room)
+        largest = max(largest, abs(force))
         if turns(place):
-            right[count] = work[place + RATE] / _mobility(numbers, place, room)
+            right[count] = force
             for k in range(own):
                 matrix[count * own + k] = work[room.related + k * m + i]
             count += 1
     solver = part(work, room.solver + q * q, own * own)
     least_squares(matrix, count, own, right, part(work, room.loads, q), solver)
+    return largest
 
 
 @kernel
@@ -333,9 +340,12 @@ def find_scales(m: int, room: Room, work: Array) -> None:
 
 
 @kernel
-def largest_force(m: int, room: Room, work: Array) -> tuple[int, float, int]:
-    """Return a status, the largest force out of balance and its place."""
-    worst, where, size = 0.0, 0, 1.0
+def largest_force(m: int, size: float, room: Room, work: Array) -> tuple[int, float, int]:
+    """Return a status, the largest force out of balance and its place.
+
+    `size` is that of the forces which have to be balanced [N, N.m].
+    """
+    worst, where = 0.0, 0
     for i in range(m):
         one = abs(work[room.out + i])
         if worst < math.inf and not one <= worst:

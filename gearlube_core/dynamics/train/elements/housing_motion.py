@@ -15,6 +15,12 @@ from gearlube_core.dynamics.train.element import (
     RATE,
     Listed,
 )
+from gearlube_core.dynamics.train.elements.held_modes import (
+    HELD,
+    HOLDING,
+    energy_of_modes,
+    hold_modes,
+)
 from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.housings.housing_modes import HousingMotion
 from gearlube_core.kernels.checked_numbers import all_finite
@@ -25,9 +31,7 @@ from gearlube_core.oil.lubricant import LubricantState
 _MOST = 1000  # nodes, or bodies of modes
 # sizes at the end of `at`, behind the first node, the first body of modes and the loss
 _LOST, _NODES, _BODIES = range(2, 5)
-_HELD = 5  # modes that a body holds
-_SHAPES = _HELD * N_COORDINATES  # of them at a node
-_HOLDING = 2 * _HELD  # stiffness and damping of each
+_SHAPES = HELD * N_COORDINATES  # of the modes of a body at a node
 
 
 class _Housing(NamedTuple):
@@ -41,7 +45,7 @@ class _Housing(NamedTuple):
                 x = y = z = rx = ry = rz = 0.0
                 q = at[1] + d
                 for _ in range(at[_BODIES]):
-                    for k in range(_HELD):
+                    for k in range(HELD):
                         moved = s[q + k]
                         x += memory[m] * moved
                         y += memory[m + 1] * moved
@@ -59,15 +63,7 @@ class _Housing(NamedTuple):
     def add_forces(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
     ) -> None:
-        m, q, power = _holding(at), at[1], 0.0
-        for _ in range(at[_BODIES]):
-            for k in range(_HELD):
-                damping = memory[m + 1] * s[q + RATE + k]
-                ds[q + RATE + k] -= memory[m] * s[q + k] + damping
-                power += damping * s[q + RATE + k]
-                m += 2
-            q += BODY_STATES
-        ds[at[_LOST]] += power
+        ds[at[_LOST]] += hold_modes(memory, _holding(at), at[_BODIES], at[1], s, ds)
 
     @kernel
     def collect(self, at: Any, memory: Array, s: Array, oil: LubricantState, ds: Array) -> None:
@@ -78,7 +74,7 @@ class _Housing(NamedTuple):
             m_x, m_y, m_z = ds[f + 3], ds[f + 4], ds[f + 5]
             q = at[1] + RATE
             for _ in range(at[_BODIES]):
-                for k in range(_HELD):
+                for k in range(HELD):
                     force = memory[m] * f_x + memory[m + 1] * f_y + memory[m + 2] * f_z
                     moment = memory[m + 3] * m_x + memory[m + 4] * m_y + memory[m + 5] * m_z
                     ds[q + k] += force + moment
@@ -87,19 +83,13 @@ class _Housing(NamedTuple):
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
-        m, q, twice = _holding(at), at[1], 0.0
-        for _ in range(at[_BODIES]):
-            for k in range(_HELD):
-                twice += memory[m] * s[q + k] * s[q + k]
-                m += 2
-            q += BODY_STATES
-        return 0.5 * twice
+        return energy_of_modes(memory, _holding(at), at[_BODIES], at[1], s)
 
     @kernel
     def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
         if not (1 <= at[_NODES] <= _MOST and at[_BODIES] <= _MOST):
             return 0.0
-        fits = memory.size == _holding(at) + _HOLDING * at[_BODIES] and kept == 0
+        fits = memory.size == _holding(at) + HOLDING * at[_BODIES] and kept == 0
         return 1.0 if fits and all_finite(memory, 0, memory.size) else 0.0
 
 
@@ -157,9 +147,9 @@ class CarriedInterface(Element):
         """Return shapes at the nodes, then stiffness and damping of the modes."""
         modes, nodes, _ = self.motion.shapes.shape
         bodies = len(free_modes(self.motion))
-        shapes = np.zeros((nodes, bodies * _HELD, N_COORDINATES))
+        shapes = np.zeros((nodes, bodies * HELD, N_COORDINATES))
         shapes[:, :modes] = self.motion.shapes.transpose(1, 0, 2)
-        holding = np.zeros((bodies * _HELD, 2))
+        holding = np.zeros((bodies * HELD, 2))
         holding[:modes] = np.column_stack([self.motion.stiffness, self.motion.damping])
         return np.concatenate([shapes.ravel(), holding.ravel()])
 
@@ -174,4 +164,4 @@ def free_modes(motion: HousingMotion) -> list[tuple[str, ...]]:
     [('rz',), ('z', 'rx', 'ry', 'rz')]
     """
     modes = motion.stiffness.size
-    return [COORDINATES[min(_HELD, modes - first) :] for first in range(0, modes, _HELD)]
+    return [COORDINATES[min(HELD, modes - first) :] for first in range(0, modes, HELD)]

@@ -16,6 +16,12 @@ from gearlube_core.dynamics.train.element import (
     W,
     add_wrench,
 )
+from gearlube_core.dynamics.train.elements.held_modes import (
+    HELD,
+    HOLDING,
+    energy_of_modes,
+    hold_modes,
+)
 from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
@@ -29,11 +35,9 @@ _MOST = 1000  # nodes, or bodies of modes
 _LOST, _NODES, _BODIES, _BENT = range(3, 7)
 # the first bodies of modes hold two bending modes, each towards x and then y, and an axial or
 # torsional one; those behind them five axial or torsional ones
-_PAIRS, _SINGLE, _SINGLES = 2, 4, 5
+_PAIRS, _SINGLE = 2, 4
 # of both at a node: deflection and slope of bending modes, deflection and twist of single ones
-_SHAPES, _STRAIGHT = 2 * _PAIRS + 2, 2 * _SINGLES
-# of both: stiffness, then damping of each
-_HOLDING, _HOLDING_STRAIGHT = 2 * (_PAIRS + 1), 2 * _SINGLES
+_SHAPES, _STRAIGHT = 2 * _PAIRS + 2, 2 * HELD
 
 
 class _Shaft(NamedTuple):
@@ -62,7 +66,7 @@ class _Shaft(NamedTuple):
                     m += _SHAPES
                     q += BODY_STATES
                 for _ in range(at[_BODIES] - at[_BENT]):
-                    for k in range(_SINGLES):
+                    for k in range(HELD):
                         z += memory[m + 2 * k] * s[q + k]
                         rz += memory[m + 2 * k + 1] * s[q + k]
                     m += _STRAIGHT
@@ -75,25 +79,10 @@ class _Shaft(NamedTuple):
     def add_forces(
         self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
     ) -> None:
-        body, bent, power = at[0], at[_BENT], 0.0
-        m, q = _holding(at), at[2]
-        for _ in range(bent):
-            for k in range(_SINGLE + 1):
-                damping = memory[m + 3 + k // 2] * s[q + RATE + k]
-                ds[q + RATE + k] -= memory[m + k // 2] * s[q + k] + damping
-                power += damping * s[q + RATE + k]
-            m += _HOLDING
-            q += BODY_STATES
-        for _ in range(at[_BODIES] - bent):
-            for k in range(_SINGLES):
-                damping = memory[m + _SINGLES + k] * s[q + RATE + k]
-                ds[q + RATE + k] -= memory[m + k] * s[q + k] + damping
-                power += damping * s[q + RATE + k]
-            m += _HOLDING_STRAIGHT
-            q += BODY_STATES
-        ds[at[_LOST]] += power
+        ds[at[_LOST]] += hold_modes(memory, _holding(at), at[_BODIES], at[2], s, ds)
         if self.gyroscopic == 0.0:
             return
+        body, bent, m = at[0], at[_BENT], _holding(at) + HOLDING * at[_BODIES]
         turning = s[body + W]
         from_x, from_y = _tilting(at, memory, s, m)
         ds[body + RATE + 4] -= turning * from_y
@@ -125,33 +114,20 @@ class _Shaft(NamedTuple):
                 m += _SHAPES
                 q += BODY_STATES
             for _ in range(at[_BODIES] - at[_BENT]):
-                for k in range(_SINGLES):
+                for k in range(HELD):
                     ds[q + k] += memory[m + 2 * k] * f_z + memory[m + 2 * k + 1] * m_z
                 m += _STRAIGHT
                 q += BODY_STATES
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:
-        m, q, twice = _holding(at), at[2], 0.0
-        for _ in range(at[_BENT]):
-            for k in range(_SINGLE + 1):
-                twice += memory[m + k // 2] * s[q + k] * s[q + k]
-            m += _HOLDING
-            q += BODY_STATES
-        for _ in range(at[_BODIES] - at[_BENT]):
-            for k in range(_SINGLES):
-                twice += memory[m + k] * s[q + k] * s[q + k]
-            m += _HOLDING_STRAIGHT
-            q += BODY_STATES
-        return 0.5 * twice
+        return energy_of_modes(memory, _holding(at), at[_BODIES], at[2], s)
 
     @kernel
     def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
         if not (1 <= at[_NODES] <= _MOST and at[_BENT] <= at[_BODIES] <= _MOST):
             return 0.0
-        straight = at[_BODIES] - at[_BENT]
-        end = _holding(at) + _HOLDING * at[_BENT] + _HOLDING_STRAIGHT * straight
-        end += (1 + _PAIRS * at[_BENT]) ** 2
+        end = _holding(at) + HOLDING * at[_BODIES] + (1 + _PAIRS * at[_BENT]) ** 2
         fits = memory.size == end and kept == 0 and self.bent == float(at[_BENT])
         return 1.0 if fits and all_finite(memory, 0, memory.size) else 0.0
 
@@ -244,7 +220,7 @@ class CarriedNodes(Element):
         shapes = np.zeros((nodes, 2, _PAIRS * bent))
         shapes[:, 0, :pairs] = own.bending.deflection.T
         shapes[:, 1, :pairs] = own.bending.slope.T
-        single = np.zeros((nodes, bent + _SINGLES * straight, 2))
+        single = np.zeros((nodes, bent + HELD * straight, 2))
         single[:, :axial, 0] = own.axial.deflection.T
         single[:, axial : axial + own.torsion.stiffness.size, 1] = own.torsion.deflection.T
         of_bent = shapes.transpose(0, 2, 1).reshape(nodes, bent, 2 * _PAIRS)
@@ -252,17 +228,16 @@ class CarriedNodes(Element):
         rows = np.hstack([rows, single[:, bent:].reshape(nodes, -1)])
         held = np.zeros(_PAIRS * bent)
         held[:pairs] = own.bending.stiffness
-        alone = np.zeros(bent + _SINGLES * straight)
+        alone = np.zeros(bent + HELD * straight)
         both = [*own.axial.stiffness, *own.torsion.stiffness]
         alone[: len(both)] = both
-        of_bent = np.column_stack([held.reshape(bent, _PAIRS), alone[:bent]])
-        holding = [
-            np.hstack([one, 2.0 * self.damping_ratio * np.sqrt(one * own.mass)]).ravel()
-            for one in (of_bent, alone[bent:].reshape(straight, _SINGLES))
-        ]
+        towards = np.repeat(held.reshape(bent, _PAIRS), 2, axis=1)  # x and y are alike
+        stiffness = np.append(np.column_stack([towards, alone[:bent]]), alone[bent:])
+        damping = 2.0 * self.damping_ratio * np.sqrt(stiffness * own.mass)
+        holding = np.column_stack([stiffness, damping])
         turning = np.zeros((1 + _PAIRS * bent,) * 2)
         turning[: 1 + pairs, : 1 + pairs] = own.gyroscopic
-        return np.concatenate([own.arms, rows.ravel(), *holding, turning.ravel()])
+        return np.concatenate([own.arms, rows.ravel(), holding.ravel(), turning.ravel()])
 
 
 def _bent(motion: ShaftMotion) -> int:
@@ -290,6 +265,6 @@ def mode_bodies(motion: ShaftMotion) -> list[tuple[str, ...]]:
         {*range(2 * min(_PAIRS, pairs - _PAIRS * i)), *((_SINGLE,) if i < single else ())}
         for i in range(bent)
     ]
-    rest = range(bent, single, _SINGLES)
-    used += [set(range(min(_SINGLES, single - first))) for first in rest]
+    rest = range(bent, single, HELD)
+    used += [set(range(min(HELD, single - first))) for first in rest]
     return [tuple(one for i, one in enumerate(COORDINATES) if i not in own) for own in used]
