@@ -49,7 +49,8 @@ class RexsTrain(NamedTuple):
         }
         lines = []
         for kind, words in meaning.items():
-            found = [f"#   {note.what}: {note.why}" for note in self.notes if note.kind == kind]
+            said = [f"{note.what}: {note.why}" for note in self.notes if note.kind == kind]
+            found = [f"#   {' '.join(one.split())}" for one in said]  # names may have line breaks
             lines += [f"# {words}", *found] if found else []
         return "".join(f"{line}\n" for line in lines)
 

@@ -1,7 +1,9 @@
 """A whole gearbox in REXS as a train file: the e-axle on elastic shafts, written by hand."""
 
 import json
+import random
 import tomllib
+from copy import deepcopy
 
 import pytest
 from lxml import etree
@@ -10,7 +12,7 @@ from typer.testing import CliRunner
 from drivetrain.train.train_file import TrainFile
 from gearlube.cli.convert import train_text
 from gearlube.command import app
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.rexs.gearbox import read_gearbox
 from tests.helpers.each import each
 from tests.helpers.gearbox_rexs import e_axle_model
@@ -215,6 +217,33 @@ def test_a_gearbox_that_is_no_train_is_refused(root, words, tmp_path):
     path.write_bytes(etree.tostring(root))
     with pytest.raises(ParameterError, match=words):
         read_gearbox(path)
+
+
+def test_a_damaged_gearbox_is_read_or_refused_in_words(tmp_path):
+    """Elements that are gone, twice or wrong; line breaks in names do not leave the comments."""
+    rng, path, refused = random.Random(5), tmp_path / "axle.rexs", 0
+    for _ in range(40):
+        root = e_axle_model()
+        one = rng.choice([part for part in root.iter() if part is not root])
+        match rng.randrange(4):
+            case 0:
+                one.getparent().remove(one)
+            case 1:
+                one.getparent().append(deepcopy(one))
+            case 2:
+                one.text = rng.choice(["", "0", "-5", "1e308", "nan", "x", "1 2 3"])
+            case _:
+                one.set(
+                    rng.choice(list(one.attrib) or ["id"]), rng.choice(["", "x", "-1", 'a\n"b'])
+                )
+        path.write_bytes(etree.tostring(root))
+        try:
+            found = read_gearbox(path)
+            assert tomllib.loads(train_text(found)).keys() == found.data.keys()
+            TrainFile.from_data(found.data, "file")
+        except GearLubeError:
+            refused += 1
+    assert 0 < refused < 40
 
 
 def test_the_command_writes_a_train_file(written, tmp_path, caplog):
