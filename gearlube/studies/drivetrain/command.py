@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +11,9 @@ from gearlube.cli.convert import REXS_ENDINGS, train_text
 from gearlube.cli.example import print_example
 from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.study_run import empty_table, study_run
+
+if TYPE_CHECKING:
+    from gearlube_core.arrays import Array
 
 _TARGET = "drivetrain.train.train_file:TrainFile"
 
@@ -50,6 +53,23 @@ def drivetrain(
             metavar="S",
         ),
     ] = None,
+    loss_map: Annotated[
+        bool,
+        typer.Option("--map", help="Also map the losses of each element over speed and torque."),
+    ] = False,
+    map_speeds: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Speeds of the map [rpm] of the driven shaft, first:last:step and single values.",
+            metavar="RANGE...",
+        ),
+    ] = None,
+    map_torques: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Torques of the map [N.m]; below 0 the shaft brakes.", metavar="RANGE..."
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_drivetrain"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -58,7 +78,7 @@ def drivetrain(
 
     Writes drivetrain.nc with all outputs over time, report.html and figures; of a REXS file
     also train.toml, the train file to go on with; with --run-up runup.nc with waterfall and orders,
-    which `gearlube sound` makes audible.
+    which `gearlube sound` makes audible; with --map loss_map.nc and loss_map.csv.
     """
     if example:
         print_example(_TARGET, "e_axle")
@@ -66,6 +86,7 @@ def drivetrain(
     from drivetrain.train.train_file import TrainFile
     from gearlube.report.inputs import file_inputs
     from gearlube.studies.drivetrain.layout import layout
+    from gearlube.studies.drivetrain.losses import map_losses
     from gearlube.studies.drivetrain.ramp import run_ramp
     from gearlube.studies.drivetrain.report import losses, report, save_figures
     from gearlube.studies.drivetrain.run import run_drivetrain
@@ -80,6 +101,7 @@ def drivetrain(
         if step_us is not None:
             check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
         ramp = _ramp(run_up, ramp_s)
+        grid = _grid(map_speeds, map_torques)
         gearbox = read_gearbox(file) if Path(file).suffix.lower() in REXS_ENDINGS else None
         given = TrainFile.from_data(gearbox.data, file) if gearbox else TrainFile.given(file)
         case = given.case()
@@ -95,7 +117,11 @@ def drivetrain(
             if ramp is not None:
                 rest = part_of(progress, 0.3, 1.0)
                 runup = run_ramp(case, *ramp, duration=ramp_s, folder=out, progress=rest)
-            figures = save_figures(dataset, case.train, out / "figures", runup)
+            losses_of_all = None
+            if loss_map or grid:
+                losses_of_all = map_losses(case, **grid, folder=out, progress=progress)
+            studies = {"runup": runup, "loss_map": losses_of_all}
+            figures = save_figures(dataset, case.train, out / "figures", **studies)
             if gearbox:
                 write_text(train_text(gearbox), out / "train.toml")
         table = empty_table("Power lost, mean of the second half", "kind", ">W")
@@ -105,7 +131,24 @@ def drivetrain(
         run.written("drivetrain.nc", "figures", *(["train.toml"] if gearbox else []))
         notes, placed = gearbox.notes if gearbox else (), layout(case.train)
         views = [space_view(placed)] if placed.gears else []
-        run.finish(report(dataset, figures, file_inputs(given), notes, runup, views))
+        run.finish(report(dataset, figures, file_inputs(given), notes, views=views, **studies))
+
+
+def _grid(speeds: list[str] | None, torques: list[str] | None) -> dict[str, Array]:
+    """Return the grid of a map in SI units; what was not asked for is left out."""
+    import numpy as np
+
+    from gearlube.cli.ranges import numbers_from
+    from gearlube_core.units import rpm_to_rads
+
+    grid = {}
+    if speeds:
+        rpm = numbers_from("--map-speeds", speeds, "rpm", 0.01, 1e5, example="500:6000:500")
+        grid["speeds"] = np.array([rpm_to_rads(one) for one in rpm])
+    if torques:
+        found = numbers_from("--map-torques", torques, "N.m", -1e7, 1e7, example="25:150:25")
+        grid["torques"] = np.array(found)
+    return grid
 
 
 def _ramp(run_up: str | None, ramp_s: float | None) -> tuple[float, float] | None:

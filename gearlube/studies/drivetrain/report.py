@@ -26,6 +26,7 @@ from gearlube.report.parts import (
     Table,
 )
 from gearlube.studies.drivetrain.layout import layout, layout_figure
+from gearlube.studies.drivetrain.losses import loss_figure, of_map
 from gearlube.studies.drivetrain.orders import (
     DAMPING_RATIO,
     LEAST,
@@ -34,7 +35,7 @@ from gearlube.studies.drivetrain.orders import (
     resonant_speeds,
 )
 from gearlube.studies.drivetrain.ramp import loudest, waterfall_figure
-from gearlube.studies.drivetrain.vibration import deflection, response_figure
+from gearlube.studies.drivetrain.vibration import carried, response_figure
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.rexs.stage import ExchangeNote
 from gearlube_core.storage.atomic_file import write_figure
@@ -174,7 +175,7 @@ _FIGURES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
 }
 
 
-_OF_RUNUP: dict[str, tuple[Callable[[Any], Any], str, str]] = {
+_OF_STUDIES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
     "waterfall": (
         waterfall_figure,
         "Waterfall of the run-up",
@@ -187,11 +188,21 @@ _OF_RUNUP: dict[str, tuple[Callable[[Any], Any], str, str]] = {
         "Solid: in time. Dotted: by modes, with flanks in contact; where both part, flanks open, "
         "swings are large, or the ramp is too fast for a resonance to build up.",
     ),
+    "loss_map": (
+        loss_figure,
+        "Losses over speed and torque",
+        "Means of runs in time, each from its equilibrium; the loads take what losses leave. "
+        "Torques below 0 brake; without torque there is no equilibrium.",
+    ),
 }
 
 
 def save_figures(
-    dataset: xr.Dataset, train: Train, folder: Path, runup: xr.Dataset | None = None
+    dataset: xr.Dataset,
+    train: Train,
+    folder: Path,
+    runup: xr.Dataset | None = None,
+    loss_map: xr.Dataset | None = None,
 ) -> dict[str, Path]:
     """Draw every figure of a run of a train into `folder` as PNG; return the files by name."""
     found = layout(train)
@@ -210,9 +221,11 @@ def save_figures(
             continue
         files[name] = folder / f"{name}.png"
         write_figure(draw(found if name == "layout" else dataset), files[name])
-    for name, (draw, *_) in _OF_RUNUP.items() if runup is not None else ():
-        files[name] = folder / f"{name}.png"
-        write_figure(draw(runup), files[name])
+    for name, (draw, *_) in _OF_STUDIES.items():
+        study = loss_map if name == "loss_map" else runup
+        if study is not None:
+            files[name] = folder / f"{name}.png"
+            write_figure(draw(study), files[name])
     return files
 
 
@@ -272,39 +285,6 @@ def _drift(dataset: xr.Dataset) -> list[Finding]:
     ]
 
 
-def _carried(dataset: xr.Dataset) -> list[Table]:
-    """Return the tables of what meshes and bearings carry at the start."""
-    meshes, bearings = deflection(dataset)
-    tables = []
-    if meshes:
-        tables.append(
-            Table(
-                title="Meshes under load",
-                columns=[
-                    Column("mesh"),
-                    Column("normal load", "N", 4),
-                    Column("misalignment", "µrad", 3),
-                    Column("load at low z", "", 3),
-                    Column("load at high z", "", 3),
-                ],
-                rows=meshes,
-                caption="At the start, with all shafts bent and bearings deflected; loads of the "
-                "ends of the face are those over their mean.",
-            )
-        )
-    if bearings:
-        columns = [Column("part"), Column("radial force", "N", 4), Column("axial force", "N", 4)]
-        tables.append(
-            Table(
-                title="Forces of bearings and supports",
-                columns=columns,
-                rows=bearings,
-                caption="At the start, on the shaft.",
-            )
-        )
-    return tables
-
-
 def _exchanged(notes: Sequence[ExchangeNote]) -> list[Table]:
     """Return what became of the numbers of a REXS file."""
     words = {"lacking": "assumed", "inferred": "follows", "left out": "left out"}
@@ -323,6 +303,7 @@ def report(
     inputs: Sequence[Input],
     notes: Sequence[ExchangeNote] = (),
     runup: xr.Dataset | None = None,
+    loss_map: xr.Dataset | None = None,
     views: Sequence[Figure] = (),
 ) -> Report:
     """Return the report of a run, and of a run-up beside it.
@@ -345,7 +326,7 @@ def report(
         study="drivetrain",
         title=str(dataset.attrs["name"]),
         subtitle=f"Modes, and a run of {end:.4g} ms from the static equilibrium.",
-        findings=[*findings(dataset), *loudest(runup)],
+        findings=[*findings(dataset), *loudest(runup), *of_map(loss_map)],
         numbers=[
             Number("power lost", sum(lost.values()), "W"),
             Number("efficiency", 100.0 * efficiency(dataset), "%", 4),
@@ -358,7 +339,7 @@ def report(
             *views,
             *(
                 Figure(name=name, title=title, caption=words, picture=figures[name].read_bytes())
-                for name, (_, title, words) in (_FIGURES | _OF_RUNUP).items()
+                for name, (_, title, words) in (_FIGURES | _OF_STUDIES).items()
                 if name in figures
             ),
         ],
@@ -370,7 +351,7 @@ def report(
                 caption="Mean of the second half of the run, about +z.",
             ),
             *_exchanged(notes),
-            *_carried(dataset),
+            *carried(dataset),
             *resonant_speeds(dataset),
             Table(
                 title="Modes",
@@ -388,6 +369,7 @@ def report(
         files=(
             "drivetrain.nc",
             *(["runup.nc"] if runup is not None else []),
+            *(["loss_map.nc", "loss_map.csv"] if loss_map is not None else []),
             "figures/",
             *(["train.toml"] if notes else []),
         ),

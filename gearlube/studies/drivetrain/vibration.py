@@ -11,6 +11,7 @@ import xarray as xr
 
 from drivetrain.train.train_file import TrainCase
 from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.report.parts import Column, Table
 from gearlube.studies.drivetrain.orders import DAMPING_RATIO, FORCE, parts_of
 from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
 from gearlube_core.dynamics.train.elements.motor import Motor
@@ -154,3 +155,36 @@ def deflection(dataset: xr.Dataset) -> tuple[list[list[Any]], list[list[Any]]]:
             x, y, z = (float(one or 0.0) for one in forces)
             of_bearings.append([bearing, float(np.hypot(x, y)), z])
     return of_meshes, of_bearings
+
+
+def carried(dataset: xr.Dataset) -> list[Table]:
+    """Return the tables of what meshes and bearings carry at the start."""
+    meshes, bearings = deflection(dataset)
+    tables = []
+    if meshes:
+        tables.append(
+            Table(
+                title="Meshes under load",
+                columns=[
+                    Column("mesh"),
+                    Column("normal load", "N", 4),
+                    Column("misalignment", "µrad", 3),
+                    Column("load at low z", "", 3),
+                    Column("load at high z", "", 3),
+                ],
+                rows=meshes,
+                caption="At the start, with all shafts bent and bearings deflected; loads of the "
+                "ends of the face are those over their mean.",
+            )
+        )
+    if bearings:
+        columns = [Column("part"), Column("radial force", "N", 4), Column("axial force", "N", 4)]
+        tables.append(
+            Table(
+                title="Forces of bearings and supports",
+                columns=columns,
+                rows=bearings,
+                caption="At the start, on the shaft.",
+            )
+        )
+    return tables

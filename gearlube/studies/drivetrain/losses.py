@@ -1,0 +1,261 @@
+"""Loss map of a train: what each element loses over speed and torque of the driven shaft."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from drivetrain.train.train_file import TrainCase
+from gearlube.output.csv_text import csv_text, number_text
+from gearlube.plotting.style import PARTS, house_style, new_figure
+from gearlube.report.parts import NOTE, WARNING, Finding
+from gearlube.studies.drivetrain.operation import Operation
+from gearlube_core import __version__
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, resumable_results
+from gearlube_core.units import rads_to_rpm
+
+FILE = "loss_map.nc"
+_SPEEDS = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25)  # over that of the start
+_TORQUES = (-0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25)  # likewise; 0 has no rest
+_PERIODS, _SHORTEST, _LONGEST = 4.0, 2e-3, 0.25  # of the slowest mesh; s, of the mean
+_STEPS = 8  # of a settling, and of a mean
+_MOST_POINTS = 5000
+_LEAST_KEPT = 0.5  # share of the input, below which no efficiency is stated
+_SHOWN, _LEAST_SHARE = 7, 2e-3  # losses by name, and of their sum
+_SAME = 0.1  # %, of efficiencies
+
+
+def map_losses(
+    case: TrainCase,
+    *,
+    speeds: Array | None = None,
+    torques: Array | None = None,
+    folder: Path | None = None,
+    progress: Progress = no_progress,
+) -> xr.Dataset:
+    """Return what each element of a train loses over speed and torque of its driven shaft.
+
+    Each point runs in time from its equilibrium; the loads take what losses leave.
+
+    Parameters
+    ----------
+    case : TrainCase
+    speeds, torques : ndarray, optional
+        Of the shaft, rising [rad/s], [N.m]; torques below 0 brake. Default: 6 speeds and 9
+        torques about those of the start.
+    folder : Path, optional
+        Folder for FILE and a CSV table; points are kept in its folder parts, so that a stopped map
+        goes on from there.
+    progress : callable, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        `loss` [W] over `speed` [rpm], `torque` [N.m] and `source`, an element and its kind of loss;
+        `efficiency` and `load_torque`. A point without equilibrium is NaN; `failure` says why.
+
+    Raises
+    ------
+    ParameterError
+        A number is out of range, or nothing drives the train.
+    """
+    operation = Operation.of(case)
+    speeds = operation.speed * np.array(_SPEEDS) if speeds is None else speeds
+    torques = operation.torque * np.array(_TORQUES) if torques is None else torques
+    for name, values in (("speeds", speeds), ("torques", torques)):
+        if values.ndim != 1 or values.size == 0 or np.any(np.diff(values) <= 0.0):
+            raise ParameterError(f"{name} of the map must be rising numbers, got {values}.")
+    check_within("points of the map", speeds.size * torques.size, 1, _MOST_POINTS)
+    check_within("lowest speed of the map", float(speeds[0]), 1e-3 * operation.speed, 1e5, "rad/s")
+    train = case.train.changed(losses_by_element=True)
+    operation = replace(operation, case=replace(case, train=train))
+    sources = list(train.assembly.losses)
+    tasks = [(float(w), float(t)) for w in speeds for t in torques]
+    shape = speeds.size, torques.size
+    lost, load = np.full((*shape, len(sources)), math.nan), np.full(shape, math.nan)
+    failure = np.full(shape, "", dtype=object)
+    store = ResultStore(None if folder is None else folder / "parts", ARRAYS)
+    whole = _key(operation)
+    compute = partial(_point, operation)
+    results = resumable_results(
+        tasks,
+        lambda task: f"{whole}_{task[0]:.9g}_{task[1]:.9g}",
+        compute,
+        store,
+        ProcessPool(jobs=1),
+        failed=_failed,
+    )
+    for k, (task, found, _) in enumerate(results):
+        at = np.unravel_index(tasks.index(task), shape)
+        failure[at] = str(found["failure"])
+        if not failure[at]:
+            lost[at], load[at] = found["lost"], float(found["load"])
+        rpm = float(rads_to_rpm(task[0]))
+        progress((k + 1) / len(tasks), f"loss map, {rpm:.4g} rpm and {task[1]:.4g} N.m")
+    dataset = _dataset(operation, speeds, torques, sources, lost, load, failure)
+    if folder is not None:
+        write_dataset(dataset, folder / FILE)
+        head = ["speed_rpm", "torque_n_m", "load_torque_n_m", "efficiency", *sources]
+        rows = [
+            [
+                number_text(float(one))
+                for one in (rads_to_rpm(w), t, load[i, j], dataset["efficiency"][i, j], *lost[i, j])
+            ]
+            for i, w in enumerate(speeds)
+            for j, t in enumerate(torques)
+        ]
+        write_text(csv_text(head, rows), folder / "loss_map.csv")
+    return dataset
+
+
+def _key(operation: Operation) -> str:
+    """Return a hash of the train, before it moves, and of what it starts from."""
+    made, case = operation.case.train.assembly, operation.case
+    given = (__version__, made.names, dict(case.speeds), dict(case.torques), case.oil_temperature)
+    found = hashlib.sha256(repr(given).encode())
+    for one in (made.numbers, made.memory, made.plan):
+        found.update(np.ascontiguousarray(one).tobytes())
+    return found.hexdigest()[:20]
+
+
+def _point(operation: Operation, task: tuple[float, float]) -> Record:
+    """Return the mean losses at a speed and torque, and the torque of the loads."""
+    case = operation.at(*task)
+    train, found = case.train, case.train.outputs()
+    meshes = [abs(v) for name, v in found.items() if name.endswith(".frequency") and v]
+    slowest = min(meshes, default=math.inf)
+    time = min(max(_PERIODS / slowest, _SHORTEST), _LONGEST)
+    for _ in range(_STEPS):  # what swings at the start
+        train.step(time / _STEPS, case.torques, case.oil_temperature)
+    before = np.array(list(train.lost.values()))
+    for _ in range(_STEPS):
+        train.step(time / _STEPS, case.torques, case.oil_temperature)
+    lost = (np.array(list(train.lost.values())) - before) / time
+    load = task[1] - float(lost.sum()) / task[0]
+    return {"lost": lost, "load": np.array(load), "failure": np.array("")}
+
+
+def _failed(_task: tuple[float, float], reason: Exception) -> Record:
+    return {"lost": np.zeros(0), "load": np.zeros(()), "failure": np.array(str(reason))}
+
+
+def _dataset(
+    operation: Operation,
+    speeds: Array,
+    torques: Array,
+    sources: list[str],
+    lost: Array,
+    load: Array,
+    failure: Any,
+) -> xr.Dataset:
+    total = lost.sum(axis=-1)
+    driven = speeds[:, None] * np.where(torques > 0.0, torques, -load)  # what is put in
+    kept = 1.0 - total / np.where(driven > 0.0, driven, math.nan)
+    grid = ("speed", "torque")
+    return xr.Dataset(
+        {
+            "loss": ((*grid, "source"), lost, {"units": "W", "long_name": "mean power lost"}),
+            "efficiency": (
+                grid,
+                np.where(kept > _LEAST_KEPT, kept, math.nan),
+                {"units": "1", "long_name": "efficiency"},
+            ),
+            "load_torque": (
+                grid,
+                load,
+                {"units": "N.m", "long_name": "torque of all loads at the driven shaft"},
+            ),
+            "failure": (grid, failure.astype(str), {"long_name": "why a point failed"}),
+        },
+        coords={
+            "speed": ("speed", rads_to_rpm(1.0) * speeds, {"units": "rpm"}),
+            "torque": ("torque", torques, {"units": "N.m"}),
+            "source": sources,
+        },
+        attrs={"name": operation.case.name, "shaft": operation.title},
+    )
+
+
+def loss_figure(dataset: xr.Dataset) -> Any:
+    """Draw losses and efficiency over speed and torque, and the losses of elements over torque."""
+    given = dataset["torque"].values
+    if given[0] < 0.0 < given[-1] and 0.0 not in given:  # no line joins braking and driving
+        dataset = dataset.reindex(torque=np.sort([*given, 0.0]))
+    total = dataset["loss"].sum("source", skipna=False)
+    shaft = dataset.attrs["shaft"]
+    with house_style():
+        figure = new_figure(10.0, 4.6)
+        left, right = figure.subplots(1, 2)
+        if min(total.shape) > 1:
+            drawn = left.contourf(total["speed"], total["torque"], total.T, 12, cmap="cividis")
+            figure.colorbar(drawn, ax=left, label="power lost [W]")
+            share = 100.0 * dataset["efficiency"].T
+            if np.isfinite(share).any() and float(share.max() - share.min()) > _SAME:
+                lines = left.contour(share["speed"], share["torque"], share, 6, colors="white",
+                                     linewidths=0.8)  # fmt: skip
+                left.clabel(lines, fmt="%.4g %%", fontsize=7)
+        else:
+            left.plot(
+                *((total["torque"], total[0]) if len(total) == 1 else (total["speed"], total))
+            )
+        left.set(title="white: efficiency", xlabel=f"speed of {shaft} [rpm]", ylabel="torque [N·m]")
+        middle = dataset.isel(speed=dataset.sizes["speed"] // 2)
+        losses = middle["loss"].transpose("source", "torque")
+        mean = losses.mean("torque").values
+        order = [i for i in np.argsort(-mean) if mean[i] > _LEAST_SHARE * mean.sum()]
+        named = [int(i) for i in order[:_SHOWN]]
+        others = [i for i in range(mean.size) if i not in named]
+        words = [_words(str(one)) for one in losses["source"].values[named]]
+        values = losses.values[[*named, *others]]
+        parts = [*values[: len(named)], values[len(named) :].sum(axis=0)]
+        right.stackplot(losses["torque"], parts, labels=[*words, "all others"], colors=PARTS,
+                        alpha=0.85)  # fmt: skip
+        right.set(
+            title=f"by element, at {float(middle['speed']):.4g} rpm",
+            xlabel=f"torque of {shaft} [N·m]",
+            ylabel="power lost [W]",
+        )
+        figure.legend(loc="outside lower center", ncols=3)
+    return figure
+
+
+def _words(source: str) -> str:
+    element, _, kind = source.rpartition(".")
+    text = element if element == kind else f"{element}: {kind}"
+    return text.replace("_", " ").replace(".nodes", "")
+
+
+def of_map(dataset: xr.Dataset | None) -> list[Finding]:
+    """Return what a map says, the most important first."""
+    if dataset is None:
+        return []
+    failed = dataset["failure"].values[dataset["failure"].values != ""]
+    found = []
+    if failed.size:
+        words = f"{failed.size} of {dataset['failure'].size} points of the map have no equilibrium."
+        found.append(Finding(WARNING, words, str(failed[0])))
+    share = dataset["efficiency"]
+    if np.isfinite(share).any():
+        best = {str(name): int(one) for name, one in share.argmax(...).items()}
+        there = share[best]
+        found.append(
+            Finding(
+                NOTE,
+                f"The best efficiency of the map is {100.0 * float(there):.2f} %, at "
+                f"{float(there['speed']):.4g} rpm and {float(there['torque']):.4g} N·m.",
+            )
+        )
+    return found

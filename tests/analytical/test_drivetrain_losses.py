@@ -1,0 +1,71 @@
+"""Loss map of two gears and a seal, whose losses have a closed form."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gearlube.studies.drivetrain.losses import map_losses, of_map
+from gearlube_core.errors import ParameterError
+from gearlube_core.units import rads_to_rpm
+from tests.analytical.test_drivetrain_runup import SEAL, case
+from tests.helpers.elastic_e_axle import case as elastic
+
+SPEEDS, TORQUES = np.array([150.0, 300.0]), np.array([-20.0, 25.0, 50.0])
+
+
+def test_a_seal_loses_its_torque_times_the_speed_at_all_points():
+    found = map_losses(case(), speeds=SPEEDS, torques=TORQUES)
+    lost = found["loss"].sel(source="seal.seals").values
+    # the seal lacks 0.01 rad/s over the speed, and the speed drifts by less than 1e-3
+    np.testing.assert_allclose(lost, np.outer(SEAL * SPEEDS, np.ones(3)), rtol=1e-3)
+    # dampers of mesh and supports take less than 1e-4 of that at 1 % waves
+    np.testing.assert_allclose(found["load_torque"], [TORQUES - SEAL] * 2, atol=2e-3 * SEAL)
+    braking, driving = 1.0 - SEAL / (20.0 + SEAL), 1.0 - SEAL / TORQUES[1:]
+    np.testing.assert_allclose(found["efficiency"], [[braking, *driving]] * 2, rtol=1e-4)
+    best = of_map(found)[0].headline
+    assert f"{100.0 * driving[-1]:.1f}" in best
+    assert "50 N·m" in best
+    assert f"{float(rads_to_rpm(SPEEDS[0])):.4g} rpm" in best or "2865 rpm" in best
+
+
+def test_losses_of_the_elements_add_up_to_those_of_the_train():
+    axle, apart = (elastic().train.changed(losses_by_element=one) for one in (False, True))
+    given = elastic()
+    for train in (axle, apart):
+        train.initialise(given.speeds, given.torques, given.oil_temperature)
+        train.step(1e-3, given.torques, given.oil_temperature)
+    for kind, lost in axle.lost.items():
+        own = [v for name, v in apart.lost.items() if name.rpartition(".")[2] == kind]
+        assert len(own) > 1
+        assert sum(own) == pytest.approx(lost, rel=1e-12)  # rounding of sums
+
+
+def test_a_stopped_map_goes_on_from_the_points_that_it_has(tmp_path: Path):
+    class Stopped(Exception):  # noqa: N818
+        pass
+
+    def stop(share: float, _sentence: str) -> None:
+        if share > 0.4:
+            raise Stopped
+
+    grid = {"speeds": SPEEDS, "torques": TORQUES, "folder": tmp_path}
+    with pytest.raises(Stopped):
+        map_losses(case(), **grid, progress=stop)
+    kept = {one: one.stat().st_mtime_ns for one in (tmp_path / "parts").iterdir()}
+    assert 2 <= len(kept) < 6
+    found = map_losses(case(), **grid)
+    assert np.isfinite(found["efficiency"]).all()
+    assert all(one.stat().st_mtime_ns == time for one, time in kept.items())
+    assert len(list((tmp_path / "parts").iterdir())) == 6
+
+
+def test_a_point_without_equilibrium_is_told_and_torques_must_rise():
+    found = map_losses(case(), speeds=SPEEDS[:1], torques=np.array([50.0, 1e7]))
+    assert np.isfinite(found["efficiency"][0, 0])
+    assert np.isnan(found["efficiency"][0, 1])
+    assert of_map(found)[0].headline == "1 of 2 points of the map have no equilibrium."
+    with pytest.raises(ParameterError, match="torques of the map must be rising"):
+        map_losses(case(), torques=TORQUES[::-1])
