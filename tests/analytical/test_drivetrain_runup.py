@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +16,15 @@ from gearlube.studies.drivetrain.ramp import FILE, run_ramp
 from gearlube.studies.sound.force_record import read_forces
 from gearlube_core.dynamics.train.elements.drag import Seal
 from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
+from gearlube_core.dynamics.train.elements.joint import Joint
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
+from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body
+from gearlube_core.dynamics.train.response import order_response
 from gearlube_core.errors import ParameterError
+from gearlube_core.housings.reduced_model import InterfaceNode, ReducedModel
 from tests.helpers.small_trains import KELVIN, OIL
 
 TORQUE, TEETH, SEAL = 50.0, 20, 0.5
@@ -96,6 +101,49 @@ def test_sound_reads_the_forces_of_a_run_up(runup: Path):
     record = read_forces(runup)
     assert record.paths[:3] == ("pinion_bearing.x", "pinion_bearing.y", "pinion_bearing.z")
     assert record.speed[-1] == pytest.approx(FAST, rel=5e-3)
+
+
+def test_the_nodes_of_a_housing_move_in_a_run_up_as_by_frequency():
+    """Its velocity is the mean square of all nodes; a line between two bins lacks up to 15 %."""
+    plain = case()
+    train = plain.train.changed(
+        bodies=[*plain.train.bodies[:2], plate()],
+        elements=[
+            *(one for one in plain.train.elements if not isinstance(one, SpringSupport)),
+            *(joint(f"{one}_bearing", one, f"case.{one}", 1e8) for one in ("pinion", "wheel")),
+            *(joint(f"{one}_mount", f"case.{one}", "ground", 1e6) for one in ("pinion", "wheel")),
+        ],
+    )
+    housed = replace(plain, train=train)
+    found = run_ramp(housed, 0.98 * SLOW, SLOW, duration=1.5)
+    moved = [f"case.{one}.displacement.{c}" for one in ("pinion", "wheel") for c in "xyz"]
+    x = abs(order_response(housed.start(), "mesh", moved, [1.0], 1)[0, 0])
+    velocity = math.sqrt((x**2).sum() / 2.0) * TEETH * SLOW
+    assert found.attrs["nodes"] == "case.pinion, case.wheel"
+    largest = found["velocity_waterfall"].isel(slice=-1).sel(spectrum=slice(300.0, 900.0)).max()
+    assert 0.83 * velocity < float(largest) < 1.05 * velocity
+
+
+def joint(name: str, first: str, second: str, stiffness: float) -> Joint:
+    springs = {"K_xx": stiffness, "K_yy": stiffness, "K_zz": stiffness, "K_ax": 1e3, "K_ay": 1e3}
+    return Joint(name=name, first=first, second=second, c_x=2e3, c_y=2e3, c_z=2e3, **springs)
+
+
+def plate() -> Housing:
+    """Return two masses on a stiff spring, at the axes of both gears."""
+    lever, arm = np.eye(6), 0.075
+    lever[1, 5], lever[2, 4] = -2.0 * arm, 2.0 * arm
+    spring = np.diag([1e9, 1e9, 1e9, 1e7, 1e7, 1e7])
+    model = ReducedModel(
+        stiffness=np.block(
+            [[spring, -spring @ lever], [-lever.T @ spring, lever.T @ spring @ lever]]
+        ),
+        mass=np.kron(np.eye(2), np.diag([5.0, 5.0, 5.0, 0.05, 0.05, 0.05])),
+        nodes=(InterfaceNode("pinion", -arm, 0.0, 0.0), InterfaceNode("wheel", arm, 0.0, 0.0)),
+        owner=np.repeat([0, 1], 6),
+        direction=np.tile(np.arange(6), 2),
+    )
+    return Housing(name="case", model=model)
 
 
 def test_a_train_whose_ports_take_nothing_has_no_run_up():

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from drivetrain.train.train_file import TrainFile
 from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.model import Train
@@ -129,6 +130,19 @@ def test_a_run_in_time_swings_as_the_orders_of_a_mesh(speed: float):
         loads.append(train.outputs()["mesh.load"])
     found = 2.0 / SAMPLES * abs(np.fft.rfft(loads)[1:3])
     np.testing.assert_allclose(found, expected, rtol=1e-3)
+
+
+def test_planets_take_an_error_that_changes_slowly_as_statics_do():
+    """Far below the first mode, 9.7 Hz, forces depend neither on frequency nor on damping.
+
+    Three equal planets have double modes, and their bodies go around with the carrier.
+    """
+    stage = TrainFile.named("planetary").case().start()
+    outputs = ["sun_mesh_1.load", "ring_mesh_2.load"]
+    slow = frequency_response(stage, "sun_mesh_1", outputs, [0.1, 0.2], 0.02)
+    undamped = frequency_response(stage, "sun_mesh_1", outputs, [0.1], 0.0)[0]
+    # the square of the frequency over that of the mode: 4e-4
+    np.testing.assert_allclose(abs(slow), np.array([abs(undamped)] * 2), rtol=1e-3)
 
 
 def test_meshes_and_outputs_that_are_not_there_are_named():

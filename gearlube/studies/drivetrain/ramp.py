@@ -135,7 +135,9 @@ def _nodes_of(train: Train) -> list[str]:
     bodies = {
         one.nodes.partition(".")[0] for one in train.elements if isinstance(one, CarriedInterface)
     }
-    names = (one.name.removesuffix(".displacement.x") for one in train.output_records)
+    end = ".displacement.x"
+    found = [one.name for one in train.output_records if one.name.endswith(end)]
+    names = [one.removesuffix(end) for one in found]
     return [one for one in names if "." in one and one.partition(".")[0] in bodies]
 
 
