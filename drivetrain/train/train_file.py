@@ -15,8 +15,9 @@ from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.choice import Driver
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.housing import Housing
-from gearlube_core.dynamics.train.model import MOST_TORQUE, Train
+from gearlube_core.dynamics.train.model import MOST_TORQUE, Integration, Train
 from gearlube_core.dynamics.train.part import ELEMENTS, Body, Element
+from gearlube_core.dynamics.train.plan import MOST_EXPONENTIAL
 from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.input_file.input_file import InputFile, Section
@@ -110,6 +111,13 @@ class TrainFile(InputFile):
         default="automatic",
         description="interpreted: code for all lists, which compiles nothing; generated: code of "
         "this list, 10 to 25 % faster; automatic: interpreted where all elements are shipped ones",
+    )
+    integration: Integration = Field(
+        default="automatic",
+        description="rk4; exponential: longer steps, exact in all that is linear",
+    )
+    exponential_steps_per_ms: Annotated[int, Field(ge=1, le=MOST_EXPONENTIAL)] = Field(
+        default=25, description="Exponential steps a ms, at least"
     )
     oil: OilSection
     start: StartSection
@@ -246,6 +254,8 @@ class TrainFile(InputFile):
             oil,
             steps_per_highest_period=self.steps_per_highest_period,
             driver=self.driver,
+            integration=self.integration,
+            exponential_steps_per_ms=self.exponential_steps_per_ms,
         )
         return TrainCase(
             name=self.name,

@@ -24,6 +24,8 @@ from gearlube_core.dynamics.train.plan import (
     N_MEMORY,
     N_PLACES,
     NUMBER,
+    WHICH,
+    sizes_of,
 )
 from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.oil.lubricant import lubricant_state
@@ -61,11 +63,15 @@ def _kernel() -> Callable[..., bool]:
 
 
 def free_places(plan: np.ndarray) -> set[int]:
-    """Return places of the plan that may hold another number: of bodies, losses, ports beside."""
+    """Return places of the plan that may hold another number: of bodies, losses, ports beside.
+
+    Whether the forces of an element are linear is one, too, if others touch its bodies.
+    """
     found, at = set(), FIRST_ROW
-    while at < plan.size:
+    for _ in range(sizes_of(plan).elements):
         one = shipped_elements()[plan[at + KIND]][0]
         first = at + AT
+        found.add(at + WHICH)
         found |= set(range(first, first + len(one.on)))
         own = len(one.states) + len(one.angles) + len(one.lags)
         first += len(one.on) + own + len(one.works)

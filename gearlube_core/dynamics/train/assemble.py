@@ -22,6 +22,7 @@ from gearlube_core.dynamics.train.exchange import (
     continuous_states,
     event_indicators,
 )
+from gearlube_core.dynamics.train.exponential_room import room_size
 from gearlube_core.dynamics.train.outputs import train_outputs
 from gearlube_core.dynamics.train.part import (
     GROUND,
@@ -33,6 +34,8 @@ from gearlube_core.dynamics.train.part import (
 )
 from gearlube_core.dynamics.train.plan import (
     AT,
+    CURVED,
+    LINEAR,
     N_MEMORY,
     NUMBER,
     OF_TABLES,
@@ -109,6 +112,7 @@ def assemble(
     kinds: Sequence[Listed] | None = None,
     *,
     losses_by_element: bool = False,
+    exponential: int = 0,
 ) -> Assembly:
     """Return a train of bodies and elements, whose order is the order of its states and sums.
 
@@ -121,6 +125,8 @@ def assemble(
         package by default. Generated code needs none: () then loads no other element.
     losses_by_element : bool
         Whether each element has losses of its own, "element.loss"; else those of a kind are shared.
+    exponential : int
+        Exponential steps a ms, at least; 0: RK4 steps.
 
     Raises
     ------
@@ -161,7 +167,7 @@ def assemble(
         size += one.kept_size()
     numbers, memory = [flatten(oil.parameters())], []
     kinds = shipped_kinds() if kinds is None else kinds
-    listed, rows, shapes = list[Listed](), [], []
+    listed, rows, shapes, curved = list[Listed](), [], [], list[str]()
     at_number, at_memory, at_output, at_exchanged = numbers[0].size, 0, 0, 0
     for one in elements:
         constants, room = one.numbers(), one.memory_among(bodies)
@@ -181,7 +187,9 @@ def assemble(
         listed.append(Listed(type(constants), one.variants(), len(at)))
         number = kinds.index(listed[-1]) if listed[-1] in kinds else UNKNOWN
         first = number, at_number, at_memory, room.size, at_output, at_exchanged
-        rows.append((*first, one.kept_size(), len(at), *at))
+        which = LINEAR if one.linear_among(bodies) else CURVED
+        rows.append((*first, one.kept_size(), len(at), which, *at))
+        curved += [getattr(one, field) for field in one.on] if which == CURVED else []
         shapes.append(_shape(rows[-1], len(one.sizes())))
         at_output += len(one.outputs)
         at_exchanged += len(one.levels) + len(one.events)
@@ -191,6 +199,13 @@ def assemble(
     own_states = sum(len(one.states) for one in elements)
     energies = len(works) + len(losses) + len(bounds)
     outputs = train_outputs(bodies, elements, works, losses, bounds)
+    touched = [
+        of_body[body.name] + i
+        for body in bodies
+        if body.name in curved
+        for i, c in enumerate(COORDINATES)
+        if isinstance(body, Node) or c not in body.held
+    ]
     sizes = Sizes(
         elements=len(elements),
         carriers=sum(one.carries for one in elements),
@@ -208,6 +223,9 @@ def assemble(
         energies=energies,
         exchanged=at_exchanged,
         written=len(outputs),
+        free=sum(c not in body.held for body in bodies for c in COORDINATES),
+        touched=len(touched),
+        exponential=exponential,
     )
     return Assembly(
         bodies,
@@ -215,10 +233,10 @@ def assemble(
         tuple(listed),
         laws,
         sizes,
-        pack_plan(sizes, rows),
+        pack_plan(sizes, rows, touched),
         tuple(pack_plan(sizes, shapes).tolist()),
         np.concatenate([*numbers, *(body.mobility for body in bodies)]),
-        np.concatenate([*memory, np.zeros(1)]),
+        np.concatenate([*memory, np.zeros(1 + room_size(sizes))]),
         tuple(names),
         works,
         losses,

@@ -15,19 +15,24 @@ import numpy as np
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES
+from gearlube_core.dynamics.train.exponential_room import room_size
 from gearlube_core.dynamics.train.outputs import count_outputs
 from gearlube_core.dynamics.train.part import Element, shipped_elements
 from gearlube_core.dynamics.train.plan import (
     AT,
+    CURVED,
     EXCHANGED,
     FIRST_ROW,
     KIND,
+    LINEAR,
     MEMORY,
+    MOST_EXPONENTIAL,
     N_KEPT,
     N_MEMORY,
     N_PLACES,
     NUMBER,
     OUTPUT,
+    WHICH,
     Sizes,
     sizes_of,
 )
@@ -113,7 +118,7 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
             exchanged += counts[kind, _EXCHANGED]
             at += AT + counts[kind, _PLACES]
         integrated = BODY_STATES * sizes.bodies + own + turning + sizes.energies
-        fits = at == plan.size and own == sizes.own and works == sizes.works
+        fits = at + sizes.touched == plan.size and own == sizes.own and works == sizes.works
         fits = fits and works + sizes.losses <= sizes.energies
         fits = fits and outputs == sizes.outputs and exchanged == sizes.exchanged
         return fits and integrated == sizes.integrated
@@ -135,6 +140,7 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
             fits = fits and counts[kind, _CARRIES] == (1 if i < sizes.carriers else 0)
             fits = fits and plan[at + NUMBER] == number and plan[at + MEMORY] == place
             fits = fits and plan[at + OUTPUT] == output and plan[at + EXCHANGED] == exchanged
+            fits = fits and plan[at + WHICH] in (LINEAR, CURVED)
             number += counts[kind, _FLOATS]
             place += plan[at + N_MEMORY]
             output += counts[kind, _OUTS]
@@ -183,10 +189,36 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
             kept += plan[at + N_KEPT]
             at += AT + counts[kind, _PLACES]
         fits = fits and node == BODY_STATES * (sizes.shown + sizes.nodes)
+        fits = (
+            fits
+            and sizes.exponential <= MOST_EXPONENTIAL
+            and memory.size == place + 1 + room_size(sizes)
+        )
         fits = fits and mode in (ground, ground + BODY_STATES)
-        fits = fits and number == sizes.first_mobility and place < memory.size
+        fits = fits and number == sizes.first_mobility
         fits = fits and numbers.size == number + N_COORDINATES * sizes.bodies
         return fits and kept == sizes.kept and sizes.states == kept + sizes.energies + 1
+
+    @kernel
+    def touches_fit(numbers: Array, plan: Offsets, sizes: Sizes) -> bool:
+        """Whether the coordinates at the end are those that curved elements act on."""
+        at, free = plan.size - sizes.touched, 0
+        for body in range(sizes.bodies):
+            touched, row = False, FIRST_ROW
+            for _ in range(sizes.elements):
+                for j in range(counts[plan[row + KIND], _BODIES]):
+                    here = plan[row + AT + j] == BODY_STATES * body
+                    touched |= here and plan[row + WHICH] == CURVED
+                row += AT + plan[row + N_PLACES]
+            node = sizes.shown <= body < sizes.shown + sizes.nodes
+            for i in range(N_COORDINATES):
+                moves = numbers[sizes.first_mobility + N_COORDINATES * body + i] > 0.0
+                free += 1 if moves else 0
+                if touched and (moves or node):
+                    if at >= plan.size or plan[at] != BODY_STATES * body + i:
+                        return False
+                    at += 1
+        return at == plan.size and free == sizes.free
 
     @kernel
     def is_train(oil: LubricantState, numbers: Array, memory: Array, plan: Offsets) -> bool:
@@ -203,6 +235,7 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
             return False
         for i in range(sizes.first_mobility, numbers.size):
             fits = fits and numbers[i] >= 0.0
+        fits = fits and touches_fit(numbers, plan, sizes)
         fits = fits and sizes.written == count_outputs(numbers, sizes)
         return fits and check(numbers, oil, numbers, memory, plan) > 0.0
 

@@ -26,6 +26,7 @@ from gearlube_core.dynamics.train.plan import (
     NUMBER,
     OF_TABLES,
     OUTPUT,
+    WHICH,
     Sizes,
     places,
     sizes_of,
@@ -40,8 +41,8 @@ class AllElements(NamedTuple):
     """Kernels of these names of all elements, see `element.Kernels`, and one of the sizes.
 
     They take the state, the oil's, numbers and memory of the assembly and the plan, then what
-    those of an element take more; that of `show` at last which elements, a bit for each. That of
-    the sizes takes the plan alone.
+    those of an element take more; that of `show` at last which elements, a bit for each, and that
+    of `add_forces` elements of which forces, see `plan`. That of the sizes takes the plan alone.
     """
 
     spread: Callable[..., None]  # of the carriers alone, as the next one
@@ -87,7 +88,7 @@ _LINES = {
     "finish": ("", "{call}", "None"),
     "time_to_jump": (", h", "total = min(total, {call})", "total"),
     "stored_energy": ("", "total += {call}", "total"),
-    "add_forces": (", stage, ds", "{call}", "None"),
+    "add_forces": (", stage, ds, which", "{call}", "None"),
     "after_forces": (", stage, ds", "{call}", "None"),
     "event": ("", "{call}", "None"),
     "write": (", out", "{call}", "None"),
@@ -140,7 +141,7 @@ class _Source:
         """Return the line that calls the kernel of a name of an element."""
         self.given[f"{name}{i}"] = getattr(one.numbers, name)
         more, line, _ = _LINES[name]
-        more = more.replace(", only", "")
+        more = more.replace(", only", "").replace(", which", "")
         place = f", {first}" if name in _LAST else ""
         return line.format(call=f"{name}{i}({given}, s, oil{more}{place})")
 
@@ -176,6 +177,7 @@ def generated(elements: Sequence[Listed], plan: Sequence[int]) -> AllElements:
         source.given |= {f"k{i}": row[NUMBER], f"at{i}": known}
         source.given |= {f"m{i}": at + MEMORY, f"t{i}": at + len(row) - n_sizes, f"n{i}": n_sizes}
         source.given |= {f"{name}_at{i}": row[place] for name, place in _LAST.items()}
+        source.given[f"w{i}"] = row[WHICH]
         at += len(row)
         constants = source.constants(i, one).format(f"k{i}")
         own = f"at{i} + places(plan, t{i}, n{i})" if n_sizes else f"at{i}"
@@ -191,6 +193,7 @@ def generated(elements: Sequence[Listed], plan: Sequence[int]) -> AllElements:
                 line = source.call(name, i, one, calls[i], first[i].format(name))
                 source.given |= {f"p{i}": 1 << min(i, _LAST_BIT)}
                 test = f"if only & p{i}: " if name == "show" else ""
+                test = f"if which & w{i}: " if name == "add_forces" else test
                 source.lines.append(f"        {test}{line}")
         source.end(name)
     sizes = Sizes(*plan[:FIRST_ROW])
@@ -230,6 +233,8 @@ def interpreted(kinds: Sequence[Listed]) -> AllElements:
             test = "if" if i == having[0] else "elif"
             if name == "show":
                 line = f"if only & (1 << min(i, {_LAST_BIT})): {line}"
+            if name == "add_forces":
+                line = f"if which & row[{WHICH}]: {line}"
             source.lines += [f"            {test} kind == q{i}:", f"                {line}"]
         source.lines.append(f"            at += {AT} + row[{N_PLACES}]")
         source.end(name)

@@ -16,13 +16,15 @@ from gearlube_core.dynamics.ranges import MAX_ANGLE, MAX_SPEED, TOO_FAR
 from gearlube_core.dynamics.train.drivers import AllElements
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, W
 from gearlube_core.dynamics.train.exchange import now_kernel, stage_of
+from gearlube_core.dynamics.train.exponential_march import exponential_kernel
+from gearlube_core.dynamics.train.exponential_modes import modes_kernel
 from gearlube_core.dynamics.train.outputs import (
     energy_at,
     of_elements_at,
     outputs_kernel,
     write_work_size,
 )
-from gearlube_core.dynamics.train.plan import Sizes
+from gearlube_core.dynamics.train.plan import ALL, Sizes
 from gearlube_core.dynamics.train.rest import rest_kernels
 from gearlube_core.dynamics.train.rest_search import OK, rest_work_size
 from gearlube_core.kernels.array_part import part
@@ -39,6 +41,8 @@ TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
 MAX_STEPS = 150_000  # in one communication interval, or their cost
+_MS = 1e3  # in a second
+_OF_MESH = 0.5  # share of the steps per mesh period that exponential steps need
 DIVERGED = 0.1  # m, displacement of a body: supports long broken
 REFUSALS = {
     NOT_FINITE: (
@@ -110,6 +114,24 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
     step_rate, stiffening = of_all.step_rate, of_all.stiffening
     time_to_jump, show = of_all.time_to_jump, of_all.show
 
+    @kernel
+    def sums(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        stage: int,
+        which: int,
+        ds: Array,
+    ) -> None:
+        s, ds = part(s, 0, s.size), part(ds, 0, ds.size)  # not counted, as in `operate`
+        numbers, memory = part(numbers, 0, numbers.size), part(memory, 0, memory.size)
+        plan = part(plan, 0, plan.size)  # type: ignore[arg-type, assignment]
+        for i in range(sizes_of(plan).integrated):
+            ds[i] = 0.0
+        add_forces(s, oil, numbers, memory, plan, stage, ds, which)
+
     @inside
     def forces(
         s: Array,
@@ -120,10 +142,8 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         stage: int,
         ds: Array,
     ) -> None:
-        for i in range(sizes_of(plan).integrated):
-            ds[i] = 0.0
         spread(s, oil, numbers, memory, plan)
-        add_forces(s, oil, numbers, memory, plan, stage, ds)
+        sums(s, oil, numbers, memory, plan, stage, ALL, ds)
         collect(s, oil, numbers, memory, plan, ds)
 
     @kernel
@@ -140,10 +160,8 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         numbers, memory = part(numbers, 0, numbers.size), part(memory, 0, memory.size)
         plan = part(plan, 0, plan.size)  # type: ignore[arg-type, assignment]
         sizes = sizes_of(plan)
-        for i in range(sizes.integrated):  # as in `forces`, which would count all arrays once more
-            ds[i] = 0.0
         spread(s, oil, numbers, memory, plan)
-        add_forces(s, oil, numbers, memory, plan, stage, ds)
+        sums(s, oil, numbers, memory, plan, stage, ALL, ds)
         collect(s, oil, numbers, memory, plan, ds)
         for body in range(sizes.bodies):
             at = BODY_STATES * body
@@ -215,6 +233,44 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         return wild
 
     @kernel
+    def march(
+        s: Array,
+        h: float,
+        steps: int,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        work: Array,
+    ) -> bool:
+        """Make RK4 steps of `h` [s]; return whether they cost no more than MAX_STEPS."""
+        cost = 0.0
+        for _ in range(steps):
+            rest = h
+            while rest > 0.0:
+                piece = min(rest, time_to_jump(s, oil, numbers, memory, plan, h))
+                cost += each_step(s, oil, numbers, memory, plan, piece)
+                if cost > MAX_STEPS:
+                    return False
+                rk4_step(s, piece, oil, numbers, memory, plan, work)
+                after_part(s, oil, numbers, memory, plan, piece)
+                rest -= piece
+            after_step(s, oil, numbers, memory, plan, h)
+            if is_wild(s, plan):
+                break
+        return True
+
+    @kernel
+    def renew(s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets) -> None:
+        spread(s, oil, numbers, memory, plan)
+        begin(s, oil, numbers, memory, plan)
+        each_step(s, oil, numbers, memory, plan, 0.0)
+        expand(s, oil, numbers, memory, plan)
+
+    fill = modes_kernel(of_all, renew, sums)
+    run = exponential_kernel(of_all, fill, sums, is_wild)
+
+    @kernel
     def advance(
         s: Array,
         duration: float,
@@ -228,13 +284,16 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         s, work = part(s, 0, s.size), part(work, 0, work.size)  # not counted, as in `rates`
         numbers, memory = part(numbers, 0, numbers.size), part(memory, 0, memory.size)
         plan = part(plan, 0, plan.size)  # type: ignore[arg-type, assignment]
+        sizes = sizes_of(plan)
         highest = least_rate * max(1.0, stiffening(s, oil, numbers, memory, plan))
-        wanted = duration * max(highest, step_rate(s, oil, numbers, memory, plan))
+        rate = step_rate(s, oil, numbers, memory, plan)
+        exact = sizes.exponential > 0
+        longest = max(_MS * sizes.exponential, _OF_MESH * rate) if exact else max(highest, rate)
+        wanted = duration * longest
         if not wanted < MAX_STEPS:
             return TOO_MANY_STEPS
         steps = max(1, math.ceil(wanted))
         h = duration / steps
-        sizes = sizes_of(plan)
         n, n_kept, energies = sizes.integrated, sizes.kept, sizes.energies
         first_energy = n - energies
         for i in range(energies):
@@ -242,20 +301,17 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
             s[n_kept + i] = now if duration >= LEAST_WINDOW else s[n_kept + i] - now
         if duration >= LEAST_WINDOW:
             s[sizes.states - 1] = duration
-        cost = 0.0
-        for _ in range(steps):
-            rest = h
-            while rest > 0.0:
-                piece = min(rest, time_to_jump(s, oil, numbers, memory, plan, h))
-                cost += each_step(s, oil, numbers, memory, plan, piece)
-                if cost > MAX_STEPS:
-                    return TOO_MANY_STEPS
-                rk4_step(s, piece, oil, numbers, memory, plan, work)
-                after_part(s, oil, numbers, memory, plan, piece)
-                rest -= piece
-            after_step(s, oil, numbers, memory, plan, h)
+        if not exact and not march(s, h, steps, oil, numbers, memory, plan, work):
+            return TOO_MANY_STEPS
+        while exact and steps > 0:
+            steps -= run(s, h, steps, oil, numbers, memory, plan)
             if is_wild(s, plan):
                 break
+            if steps > 0:  # one that has parts
+                parts = max(1, math.ceil(h * max(highest, rate)))
+                if not march(s, h / parts, parts, oil, numbers, memory, plan, work):
+                    return TOO_MANY_STEPS
+                steps -= 1
         status = status_of(s, plan)
         if status != OK:
             return status
@@ -275,13 +331,6 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
                 if numbers[mobility + i] > 0.0:
                     twice += s[at + i] * s[at + i] / numbers[mobility + i]
         return 0.5 * twice
-
-    @kernel
-    def renew(s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets) -> None:
-        spread(s, oil, numbers, memory, plan)
-        begin(s, oil, numbers, memory, plan)
-        each_step(s, oil, numbers, memory, plan, 0.0)
-        expand(s, oil, numbers, memory, plan)
 
     start, stiffness = rest_kernels(of_all, renew, rates, forces)
     now = now_kernel(of_all, rates)

@@ -203,6 +203,13 @@ class Element(ABC):
         """Return between which bodies the element fixes where their axes stand, none by default."""
         return ()
 
+    def linear_among(self, bodies: Sequence[Body]) -> bool:
+        """Return whether forces are linear in the motion of its bodies, and losses in its square.
+
+        Beside it there may be torques of ports, and gyroscopic moments of carriers.
+        """
+        return False
+
     def ranges(self) -> tuple[Range, ...]:
         """Return ranges of outputs, which are named without the element."""
         return ()

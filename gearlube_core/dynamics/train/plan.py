@@ -1,9 +1,9 @@
 """Plan of a train: whole numbers that tell the kernels where everything of it stands.
 
-    sizes | a row for each element, in the order of the list
+    sizes | a row for each element, in the order of the list | places of coordinates
 
 A row holds the kind of an element and what its constants, memory and outputs begin at, then its
-places `at`.
+places `at`. The coordinates at the end are those that elements without linear forces act on.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from numba.np import arrayobj
 from gearlube_core.arrays import Offsets
 from gearlube_core.kernels.inlining import inside
 
+MOST_EXPONENTIAL = 1000  # steps a ms
 MOST = 2**40  # a number in a plan is less
 
 
@@ -42,19 +43,25 @@ class Sizes(NamedTuple):
     energies: int
     exchanged: int  # rates of levels and event indicators of the elements
     written: int  # outputs of the train
+    free: int  # coordinates that move
+    touched: int  # of them, those that elements without linear forces act on
+    exponential: int  # least steps a ms, with room behind the memory of the elements; 0: RK4
 
 
 FIRST_ROW = len(Sizes._fields)
 # of a row: kind of the element, first constant, first place in the memory and how many, first
-# output, first of what EXCHANGE writes, how many numbers are kept, how many places; then the places
-KIND, NUMBER, MEMORY, N_MEMORY, OUTPUT, EXCHANGED, N_KEPT, N_PLACES, AT = range(9)
+# output, first of what EXCHANGE writes, how many numbers are kept, how many places, whether its
+# forces are LINEAR or CURVED; then the places
+KIND, NUMBER, MEMORY, N_MEMORY, OUTPUT, EXCHANGED, N_KEPT, N_PLACES, WHICH, AT = range(10)
+LINEAR, CURVED = 1, 2
+ALL = LINEAR | CURVED
 OF_TABLES = -1  # in the shape of a plan: a number that the size of a table decides
 UNKNOWN = MOST - 1  # kind of an element that `interpreted` does not know
 
 
-def pack_plan(sizes: Sizes, rows: Sequence[Sequence[int]]) -> Offsets:
-    """Return the plan of a train with these rows."""
-    return np.array([*sizes, *(one for row in rows for one in row)], dtype=np.int64)
+def pack_plan(sizes: Sizes, rows: Sequence[Sequence[int]], touched: Sequence[int] = ()) -> Offsets:
+    """Return the plan of a train with these rows and coordinates."""
+    return np.array([*sizes, *(one for row in rows for one in row), *touched], dtype=np.int64)
 
 
 @inside
@@ -78,6 +85,9 @@ def sizes_of(plan: Offsets) -> Sizes:
         n[13],
         n[14],
         n[15],
+        n[16],
+        n[17],
+        n[18],
     )
 
 

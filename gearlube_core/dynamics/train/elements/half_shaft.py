@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
-from gearlube_core.dynamics.train.part import AxisPlace, Element
+from gearlube_core.dynamics.train.part import AxisPlace, Body, Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields, constants_of
@@ -134,6 +135,10 @@ class HalfShaft(Element):
     def between_axes(self) -> list[AxisPlace]:
         """Return both bodies, which have one axis."""
         return [AxisPlace(self.first, self.second, 0.0j)]
+
+    def linear_among(self, bodies: Sequence[Body]) -> bool:
+        """Return whether there is no play."""
+        return self.backlash == 0.0
 
     def numbers(self) -> _HalfShaft:
         """Return the constants of the kernels."""

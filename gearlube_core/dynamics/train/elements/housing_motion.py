@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -21,7 +22,7 @@ from gearlube_core.dynamics.train.elements.held_modes import (
     energy_of_modes,
     hold_modes,
 )
-from gearlube_core.dynamics.train.part import AxisPlace, Element
+from gearlube_core.dynamics.train.part import AxisPlace, Body, Element
 from gearlube_core.housings.housing_modes import HousingMotion
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
@@ -142,6 +143,10 @@ class CarriedInterface(Element):
     def sizes(self) -> tuple[int, ...]:
         """Return how many nodes and bodies of modes there are."""
         return self.motion.shapes.shape[1], len(free_modes(self.motion))
+
+    def linear_among(self, bodies: Sequence[Body]) -> bool:
+        """Return True: modes are linear."""
+        return True
 
     def memory(self) -> Array:
         """Return shapes at the nodes, then stiffness and damping of the modes."""

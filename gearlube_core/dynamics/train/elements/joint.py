@@ -212,6 +212,11 @@ class Joint(Springs, Element):
         there = cmath.rect(self.radius, self.azimuth)
         return [AxisPlace(self.second, self.first, there)] if self.second != GROUND else []
 
+    def linear_among(self, bodies: Sequence[Body]) -> bool:
+        """Return whether the second body stands, as housings do, and the joint in its place."""
+        turning = [one.name for one in bodies if "rz" not in one.held]
+        return self.error_x == self.error_y == 0.0 and self.second.partition(".")[0] not in turning
+
     def numbers(self) -> JointKernels:
         """Return the constants of the kernels."""
         return constants_of(JointKernels, self)

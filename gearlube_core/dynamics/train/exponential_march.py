@@ -1,0 +1,391 @@
+"""Exponential Runge-Kutta steps of a train: its linear part exactly, by modes.
+
+State between two intervals is that of any train. Within one the modes move: displacements count
+from its start, so that angles that turn on cost no digits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from gearlube_core.arrays import Array, Offsets
+from gearlube_core.dynamics.train.drivers import AllElements
+from gearlube_core.dynamics.train.element import RATE, W
+from gearlube_core.dynamics.train.exponential_room import (
+    ALSO,
+    CONSTANT,
+    COUPLED,
+    FILLED,
+    FORCE,
+    HALF,
+    STEP,
+    TO_END_1,
+    TO_END_2,
+    TO_END_3,
+    TO_HALF,
+    WHOLE,
+    Z_A,
+    Z_B,
+    Places,
+    V,
+    Z,
+    places_of,
+    room_in,
+    touched_at,
+)
+from gearlube_core.dynamics.train.plan import AT, CURVED, FIRST_ROW, LINEAR, N_PLACES
+from gearlube_core.kernels.array_part import part
+from gearlube_core.kernels.dense_rows import add_products, add_times, dot, times, times_both
+from gearlube_core.kernels.exponential_step import phi_functions
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import LubricantState
+
+
+@kernel
+def write_coefficients(h: float, p: Places, room: Array) -> None:
+    """Write the numbers of a step of `h` [s]."""
+    n, c = p.modes, part(room, p.coefficients, p.vectors - p.coefficients)
+    for k in range(n):
+        square, damping = room[p.squares + k], room[p.damping + k]
+        half, to_half, _, _ = phi_functions(square, damping, 0.5 * h)
+        whole, one, two, three = phi_functions(square, damping, h)
+        for i in range(4):
+            c[(WHOLE + i) * n + k], c[(HALF + i) * n + k] = whole[i], half[i]
+        for i in range(2):
+            j = 2 * i + 1
+            c[(TO_HALF + i) * n + k] = 0.5 * h * to_half[j]
+            c[(TO_END_1 + i) * n + k] = h * (one[j] - 3.0 * two[j] + 4.0 * three[j])
+            c[(TO_END_2 + i) * n + k] = h * (2.0 * two[j] - 4.0 * three[j])
+            c[(TO_END_3 + i) * n + k] = h * (4.0 * three[j] - two[j])
+    room[STEP] = h
+
+
+@kernel
+def vector(room: Array, p: Places, which: int) -> Array:
+    """Return a vector of all modes."""
+    return part(room, p.vectors + which * p.modes, p.modes)
+
+
+@kernel
+def coefficient(room: Array, p: Places, which: int) -> Array:
+    """Return a number of all modes."""
+    return part(room, p.coefficients + which * p.modes, p.modes)
+
+
+@kernel
+def to_half(p: Places, room: Array, start: int, force: Array, end: int) -> None:
+    """Write displacement and speed of the modes after half a step under a force."""
+    for i in range(2):
+        out = vector(room, p, end + i)
+        for k in range(p.modes):
+            out[k] = 0.0
+        add_products(coefficient(room, p, HALF + 2 * i), vector(room, p, start), out)
+        add_products(coefficient(room, p, HALF + 2 * i + 1), vector(room, p, start + 1), out)
+        add_products(coefficient(room, p, TO_HALF + i), force, out)
+
+
+@kernel
+def to_end(p: Places, room: Array) -> None:
+    """Move displacement and speed of the modes by a step under the forces of its stages."""
+    z, v, middle = vector(room, p, Z), vector(room, p, V), vector(room, p, FORCE + 1)
+    third = vector(room, p, FORCE + 2)
+    for k in range(p.modes):
+        middle[k] += third[k]
+    for i in range(2):
+        out = vector(room, p, Z_A + i)
+        for k in range(p.modes):
+            out[k] = 0.0
+        add_products(coefficient(room, p, WHOLE + 2 * i), z, out)
+        add_products(coefficient(room, p, WHOLE + 2 * i + 1), v, out)
+        add_products(coefficient(room, p, TO_END_1 + i), vector(room, p, FORCE), out)
+        add_products(coefficient(room, p, TO_END_2 + i), middle, out)
+        add_products(coefficient(room, p, TO_END_3 + i), vector(room, p, FORCE + 3), out)
+    moved, rates = vector(room, p, Z_A), vector(room, p, Z_A + 1)
+    for k in range(p.modes):
+        z[k] = moved[k]
+    for k in range(p.modes):
+        v[k] = rates[k]
+
+
+def exponential_kernel(
+    elements: AllElements,
+    fill: Callable[..., None],
+    sums: Callable[..., None],
+    is_wild: Callable[..., bool],
+) -> Callable[..., int]:
+    """Return the kernel that steps a train until one step has to be made in parts.
+
+    `fill` is that of `modes_kernel`, with the same `sums`. Steps end where a state `is_wild`.
+    """
+    sizes_of, spread, collect = elements.sizes_of, elements.spread, elements.collect
+    each_step, time_to_jump = elements.each_step, elements.time_to_jump
+    after_part, after_step, begin = elements.after_part, elements.after_step, elements.begin
+
+    @kernel
+    def loads_of(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        p: Places,
+        room: Array,
+    ) -> Array:
+        """Return the forces of linear elements on the modes."""
+        slope, loads = part(room, p.slope, p.trial - p.slope), vector(room, p, COUPLED)
+        forces = vector(room, p, ALSO)
+        sums(s, oil, numbers, memory, plan, 0, LINEAR, slope)
+        collect(s, oil, numbers, memory, plan, slope)
+        for i in range(p.modes):
+            loads[i] = 0.0
+        for i in range(p.free):
+            forces[i] = slope[int(room[p.coordinates + i]) + RATE]
+        add_times(part(room, p.shapes, p.free * p.modes), p.free, forces, loads)
+        return loads
+
+    @kernel
+    def begin_interval(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        p: Places,
+        room: Array,
+    ) -> None:
+        spread(s, oil, numbers, memory, plan)
+        n = p.modes
+        z, v, constant = vector(room, p, Z), vector(room, p, V), vector(room, p, CONSTANT)
+        coupling = part(room, p.coupling + n * n, n * n)
+        for i in range(n * n):
+            coupling[i] = room[p.coupling + i]
+        at = FIRST_ROW
+        for carrier in range(p.carriers):
+            turning, first = s[int(plan[at + AT]) + W], p.gyroscopic + carrier * n * n
+            for i in range(n * n):
+                coupling[i] += turning * room[first + i]
+            at += AT + int(plan[at + N_PLACES])
+        rates = vector(room, p, ALSO)
+        for k in range(n):
+            z[k] = rates[k] = 0.0
+        for i in range(p.free):
+            place = int(room[p.coordinates + i])
+            room[p.started + i], rates[i] = s[place], s[place + RATE]
+        times(part(room, p.inverse, n * n), n, rates, v)
+        times(coupling, n, v, constant)
+        loads = loads_of(s, oil, numbers, memory, plan, p, room)
+        for k in range(n):
+            constant[k] += loads[k] + room[p.damping + k] * v[k]
+        for i in range(p.touched):
+            room[p.before + i] = s[touched_at(plan, p, i)]
+            room[p.before + p.touched + i] = 0.0
+        for i in range(p.own):
+            room[p.own_room + i] = s[p.first + i]
+            room[p.own_room + p.own + i] = 0.0
+        for i in range(p.energies):
+            room[p.energy_room + i] = 0.0
+        for k in range(p.losses):
+            room[p.lost + k] = 0.0
+
+    @kernel
+    def show_touched(s: Array, plan: Offsets, p: Places, room: Array, at: int) -> None:
+        """Put the touched coordinates at displacement and speed `at` of the modes into the state.
+
+        Own states follow.
+        """
+        n, f, own = p.modes, p.touched, p.own
+        touching = part(room, p.touching, f * n)
+        moved, rates = part(room, p.before + f, f), part(room, p.before + 2 * f, f)
+        times_both(touching, f, vector(room, p, at), vector(room, p, at + 1), moved, rates)
+        for i in range(f):
+            place = touched_at(plan, p, i)
+            s[place], s[place + RATE] = room[p.before + i] + moved[i], rates[i]
+        times(part(room, p.related, own * f), own, moved, part(s, p.first, own))
+        for i in range(own):
+            s[p.first + i] += room[p.own_room + i] + room[p.own_room + own + i]
+
+    @kernel
+    def couple(p: Places, room: Array, at: int) -> None:
+        """Write the forces of coupling dampers and gyroscopic moments at a speed of the modes."""
+        n = p.modes
+        coupling = part(room, p.coupling + n * n, n * n)
+        times(coupling, n, vector(room, p, at), vector(room, p, COUPLED))
+
+    @kernel
+    def force_of_stage(
+        s: Array,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        p: Places,
+        room: Array,
+        at: int,
+        stage: int,
+    ) -> None:
+        """Write the forces on the modes at a stage, whose coordinates stand in the state."""
+        n, f, own = p.modes, p.touched, p.own
+        force, slope = vector(room, p, FORCE + stage), part(room, p.slope, p.trial - p.slope)
+        moved, push = part(room, p.before + f, f), part(room, p.before + 2 * f, f)
+        rates = part(room, p.own_room + (2 + stage) * own, own)
+        sums(s, oil, numbers, memory, plan, stage + 1, CURVED, slope)
+        for i in range(f):
+            push[i] = s[touched_at(plan, p, i) + RATE]
+        times(part(room, p.related, own * f), own, push, rates)
+        for i in range(own):  # what does not follow from motion
+            rates[i] = slope[p.first + i] - rates[i]
+        share = 2.0 if stage in (1, 2) else 1.0
+        for i in range(p.energies):
+            room[p.energy_room + i] += share * slope[p.first_energy + i]
+        times(part(room, p.stiffness, f * f), f, moved, push)
+        for i in range(f):
+            push[i] += slope[touched_at(plan, p, i) + RATE]
+        constant, coupled = vector(room, p, CONSTANT), vector(room, p, COUPLED)
+        couple(p, room, at + 1)
+        for k in range(n):
+            force[k] = constant[k] - coupled[k]
+        add_times(part(room, p.touching, f * n), f, push, force)
+
+    @kernel
+    def add_own(s: Array, p: Places, room: Array, stage: int, h: float) -> None:
+        """Add to own states what the rates of a stage, beside those that follow, do in `h` [s]."""
+        for i in range(p.own):
+            s[p.first + i] += h * room[p.own_room + (2 + stage) * p.own + i]
+
+    @kernel
+    def add_losses(p: Places, room: Array, at: int, weight: float) -> None:
+        """Add losses of linear elements at a speed of the modes times a weight.
+
+        The forces of `couple` stand there: they tell all losses together, hence one of them.
+        """
+        n, v, along = p.modes, vector(room, p, at), vector(room, p, ALSO)
+        left, last = dot(v, vector(room, p, COUPLED)), 0
+        for k in range(n):
+            left += room[p.damping + k] * v[k] * v[k]
+        for k in range(int(room[p.losing])):
+            last = int(room[p.losing + 1 + k])
+            if k + 1 < int(room[p.losing]):
+                times(part(room, p.powers + last * n * n, n * n), n, v, along)
+                one = dot(v, along)
+                room[p.lost + last] += weight * one
+                left -= one
+        if room[p.losing] > 0.0:
+            room[p.lost + last] += weight * left
+
+    @kernel
+    def step(
+        s: Array,
+        h: float,
+        share: float,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        p: Places,
+        room: Array,
+    ) -> None:
+        """Make a step of `h` [s], with a share of the losses at its start."""
+        n, own = p.modes, p.own
+        force_of_stage(s, oil, numbers, memory, plan, p, room, Z, 0)
+        add_losses(p, room, V, share * h)
+        to_half(p, room, Z, vector(room, p, FORCE), Z_A)
+        show_touched(s, plan, p, room, Z_A)
+        add_own(s, p, room, 0, 0.5 * h)
+        force_of_stage(s, oil, numbers, memory, plan, p, room, Z_A, 1)
+        to_half(p, room, Z, vector(room, p, FORCE + 1), Z_B)
+        show_touched(s, plan, p, room, Z_B)
+        add_own(s, p, room, 1, 0.5 * h)
+        force_of_stage(s, oil, numbers, memory, plan, p, room, Z_B, 2)
+        first, third, both = (
+            vector(room, p, FORCE),
+            vector(room, p, FORCE + 2),
+            vector(room, p, ALSO),
+        )
+        for k in range(n):
+            both[k] = 2.0 * third[k] - first[k]
+        to_half(p, room, Z_A, both, Z_B)
+        show_touched(s, plan, p, room, Z_B)
+        add_own(s, p, room, 2, h)
+        force_of_stage(s, oil, numbers, memory, plan, p, room, Z_B, 3)
+        to_end(p, room)
+        k_1 = p.own_room + 2 * own
+        for i in range(own):
+            j = k_1 + i
+            total = room[j] + 2.0 * (room[j + own] + room[j + 2 * own]) + room[j + 3 * own]
+            room[p.own_room + own + i] += h / 6.0 * total
+        for i in range(p.energies):
+            s[p.first_energy + i] += h / 6.0 * room[p.energy_room + i]
+            room[p.energy_room + i] = 0.0
+        show_touched(s, plan, p, room, Z)
+
+    @kernel
+    def end_interval(
+        s: Array,
+        duration: float,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+        p: Places,
+        room: Array,
+    ) -> None:
+        n, z, v = p.modes, vector(room, p, Z), vector(room, p, V)
+        shapes, out = part(room, p.shapes, p.free * n), vector(room, p, ALSO)
+        times(shapes, p.free, z, out)
+        for i in range(p.free):
+            place = int(room[p.coordinates + i])
+            s[place] = room[p.started + i] + out[i]
+            s[place + RATE] = out[i] / duration
+            for k in range(p.own):
+                s[p.first + k] += room[p.straight + k * n + i] * out[i]
+        # linear elements lose what they do at the mean speeds, and more by what differs from these
+        slope = part(room, p.slope, p.trial - p.slope)
+        spread(s, oil, numbers, memory, plan)
+        sums(s, oil, numbers, memory, plan, 0, LINEAR, slope)
+        couple(p, room, Z)
+        add_losses(p, room, Z, -1.0 / duration)
+        for i in range(p.energies):
+            s[p.first_energy + i] += duration * slope[p.first_energy + i]
+        for k in range(p.losses):
+            s[p.first_loss + k] += room[p.lost + k]
+        times(shapes, p.free, v, out)
+        for i in range(p.free):
+            s[int(room[p.coordinates + i]) + RATE] = out[i]
+        spread(s, oil, numbers, memory, plan)
+
+    @kernel
+    def run(
+        s: Array,
+        h: float,
+        most: int,
+        oil: LubricantState,
+        numbers: Array,
+        memory: Array,
+        plan: Offsets,
+    ) -> int:
+        """Make at most so many steps of `h` [s]; return how many there are until one has parts."""
+        sizes = sizes_of(plan)
+        p, room = places_of(sizes), room_in(memory, sizes)
+        if room[FILLED] == 0.0:
+            fill(oil, numbers, memory, plan)
+            begin(s, oil, numbers, memory, plan)
+        if room[STEP] != h:
+            write_coefficients(h, p, room)
+        done = 0
+        while done < most and not time_to_jump(s, oil, numbers, memory, plan, h) < h:
+            if done == 0:
+                begin_interval(s, oil, numbers, memory, plan, p, room)
+            each_step(s, oil, numbers, memory, plan, h)
+            step(s, h, 0.5 if done == 0 else 1.0, oil, numbers, memory, plan, p, room)
+            after_part(s, oil, numbers, memory, plan, h)
+            after_step(s, oil, numbers, memory, plan, h)
+            done += 1
+            if is_wild(s, plan):
+                break
+        if done > 0:
+            couple(p, room, V)
+            add_losses(p, room, V, 0.5 * h)
+            end_interval(s, done * h, oil, numbers, memory, plan, p, room)
+        return done
+
+    return run
