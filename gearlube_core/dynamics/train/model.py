@@ -62,10 +62,8 @@ class Train(MarchedTrain):
     Notes
     -----
     Steps have a fixed length. The same input gives the same output to the bit. Exponential steps
-    are those of S. M. Cox, P. C. Matthews, J. Comput. Phys. 176 (2002),
-    doi:10.1006/jcph.2002.6995, (26)-(29), on the modes with all contacts closed. Mesh, bearings
-    with clearance and friction act at all four stages, as do gyroscopic moments; a step that a film
-    or flank asks to be cut is made of RK4 steps.
+    are those of [cox_matthews_2002, (26)-(29)] on the modes with all contacts closed. Where a film
+    or flank asks for parts of a step, RK4 steps take its place.
 
     Examples
     --------
@@ -101,11 +99,11 @@ class Train(MarchedTrain):
                 "integration must be automatic or rk4 for a train with bodies on carriers, got "
                 f"exponential, and {orbits[0]} takes one around."
             )
-        most = MOST_EXPONENTIAL
-        check_within("exponential_steps_per_ms", exponential_steps_per_ms, 1, most, "1/ms")
-        exponential = exponential_steps_per_ms if integration == "exponential" else 0
+        per_ms = exponential_steps_per_ms
+        check_within("exponential_steps_per_ms", per_ms, 1, MOST_EXPONENTIAL, "1/ms")
+        per_ms = per_ms if integration == "exponential" else 0
         made = assemble(
-            bodies, elements, oil, exponential=exponential, losses_by_element=losses_by_element
+            bodies, elements, oil, exponential=per_ms, losses_by_element=losses_by_element
         )
         self.losses_by_element = losses_by_element
         self.bodies, self.elements, self.oil = made.bodies, made.elements, oil
