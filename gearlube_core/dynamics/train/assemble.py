@@ -137,6 +137,11 @@ def assemble(
     bodies, elements = _expanded(bodies, elements)
     _check_names(bodies, elements)
     for one in elements:
+        if exponential > 0 and hasattr(type(one.numbers()), "after_forces"):
+            raise ParameterError(
+                "integration must be automatic or rk4 for a train with bodies on carriers, got "
+                f"exponential, and {one.name} takes one around."
+            )
         one.fits(bodies, elements)
     check_axes(elements)
     check_supports(bodies, elements)

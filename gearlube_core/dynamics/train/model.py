@@ -93,12 +93,6 @@ class Train(MarchedTrain):
     ) -> None:
         check_within("steps_per_highest_period", steps_per_highest_period, 6, 4096)
         check_option("integration", integration, get_args(Integration))
-        orbits = [one.name for one in elements if isinstance(one, Orbit)]
-        if integration == "exponential" and orbits:
-            raise ParameterError(
-                "integration must be automatic or rk4 for a train with bodies on carriers, got "
-                f"exponential, and {orbits[0]} takes one around."
-            )
         per_ms = exponential_steps_per_ms
         check_within("exponential_steps_per_ms", per_ms, 1, MOST_EXPONENTIAL, "1/ms")
         per_ms = per_ms if integration == "exponential" else 0
