@@ -7,12 +7,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
+import numpy as np
 from pydantic import Field
 
 from drivetrain.train.part_section import BODIES, OF_THE_TRAIN, files_in, read_part
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.choice import Driver
+from gearlube_core.dynamics.train.elements.motor import Motor
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.model import MOST_TORQUE, Integration, Train
@@ -30,6 +32,7 @@ _PARTS = ("bodies", "elements")
 _TOLD, _SHOWN = 20, 80  # wrong fields in an error, signs of a wrong text
 Text = Annotated[str, Field(min_length=1)]
 _FASTEST = rads_to_rpm(MAX_SPEED)
+_NO_MODE = 0.5  # Hz, below which nothing brings a motion back: bearings and mounts have more
 
 
 class OilSection(Section):
@@ -80,9 +83,19 @@ class TrainCase:
         Raises
         ------
         ParameterError, ConvergenceError
-            See `Train.initialise`.
+            See `Train.initialise`; or the pull of a motor draws its rotor away.
         """
         self.train.initialise(self.speeds, self.torques, self.oil_temperature)
+        pulled = [one for one in self.train.elements if isinstance(one, Motor)]
+        if any(one.pull_stiffness > 0.0 for one in pulled):
+            still = int(np.sum(self.train.modes()[0] < _NO_MODE))
+            if still > len(self.speeds):
+                named = ", ".join(f"{one.pull_stiffness:g} N/m of {one.name}" for one in pulled)
+                raise ParameterError(
+                    "pull_stiffness must be below what bearings and shafts resist, got "
+                    f"{named}: {still - len(self.speeds)} motion(s) that nothing brings back. "
+                    "Lower it, or stiffen the bearings of the rotor."
+                )
         return self.train
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from drivetrain.train.train_file import TrainCase
 from fmu_src.train import definition_with_train
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.motor import Motor
@@ -117,6 +118,47 @@ def test_the_pull_turns_with_the_rotor_and_acts_on_both(tmp_path: Path, sign: fl
         wanted = sense * sign * 50j / (1e6 - mass * speed**2)
         # free vibrations of the start cancel over some hundred periods
         assert abs(around - wanted) < 1e-2 * abs(wanted)
+
+
+def test_the_pull_that_grows_with_displacement_is_a_negative_spring(tmp_path: Path):
+    """Rotor and stator on springs K with -k_m between them: frequencies, and rest under a pull."""
+    k, drawn, pull = 1e6, 3e5, 50.0
+    table_of_pull = table(tmp_path, HEAD + f"0,0,0,0,0,{pull:g},0\n")
+    train = rotor(pull_stiffness=drawn, ripple=table_of_pull)
+    train.initialise({"load": 0.0}, {"motor": 0.0, "brake": 0.0}, KELVIN)
+    stiffness = np.array([[k - drawn, drawn], [drawn, k - drawn]])
+    wanted = np.sqrt(np.linalg.eigvals(stiffness / np.array([[2.0], [20.0]]))) / (2.0 * math.pi)
+    found = train.modes()[0]
+    for one in wanted:  # along x and along y, by differences of 1e-9 m
+        assert np.sum(np.abs(found / one - 1.0) < 1e-6) == 2
+    x = np.linalg.solve(stiffness, [pull, -pull])
+    places = [train.state("rotor.x"), train.state("stator.x")]
+    np.testing.assert_allclose(places, x, rtol=1e-6)
+    assert train.outputs()["motor.pull.x"] == pytest.approx(pull + drawn * (x[0] - x[1]), rel=1e-6)
+
+
+def test_a_pull_that_draws_the_rotor_away_is_refused():
+    """det K = K^2 - 2 K k_m is zero at half of K."""
+    torques = {"motor": 0.0, "brake": 0.0}
+    start = {"speeds": {"load": 0.0}, "torques": torques, "oil_temperature": KELVIN}
+    TrainCase(name="rotor", train=rotor(pull_stiffness=4.9e5), **start).start()
+    case = TrainCase(name="rotor", train=rotor(pull_stiffness=5.1e5), **start)
+    with pytest.raises(ParameterError, match="got 510000 N/m of motor: 2 motion"):
+        case.start()
+
+
+def test_work_of_the_growing_pull_is_the_energy_of_the_train():
+    train = rotor(pull_stiffness=3e5)
+    train.initialise({"load": 300.0}, {"motor": 0.0, "brake": 0.0}, KELVIN)
+    state = train.get_state()
+    state[train.state_names.index("rotor.x")] = 1e-4
+    train.set_state(state)
+    before = train.energy
+    for _ in range(123):
+        train.step(1e-4, {"motor": 0.0, "brake": 0.0}, KELVIN)
+    # 5 mJ swing at 84 Hz; RK4 is off by (w h)^5 of it in a step, 2e-9 J, which 123 steps add up
+    assert abs(train.work) > 1e-3
+    assert train.energy - before == pytest.approx(train.work, abs=2.5e-7)
 
 
 def test_the_torque_follows_its_control_with_the_lag_of_first_order():

@@ -40,6 +40,7 @@ class MotorKernels(NamedTuple):
     sign: float  # of its torque about z
     lag_rate: float  # [1/s], 0 for none
     steps_per_period: float
+    pull_stiffness: float  # [N/m]
 
     @kernel
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -109,8 +110,10 @@ def _bracket(memory: Array, first: int, n: int, x: float) -> tuple[int, float]:
 def _act(self: MotorKernels, at: Any, memory: Array, s: Array) -> _Act:
     n, m, k = at[_SPEEDS], at[_TORQUES], at[_ORDERS]
     mean = s[at[_LAGGED]] if self.lag_rate > 0.0 else s[at[_GIVEN]]
+    drawn_x = self.pull_stiffness * (s[at[0]] - s[at[1]])  # to where the gap is narrow
+    drawn_y = self.pull_stiffness * (s[at[0] + 1] - s[at[1] + 1])
     if k == 0:
-        return _Act(self.sign * mean, 0.0, 0.0, 0.0)
+        return _Act(self.sign * mean, 0.0, drawn_x, drawn_y)
     i, over = _bracket(memory, 0, n, abs(s[at[0] + W] - s[at[1] + W]))
     j, beyond = _bracket(memory, n, m, abs(mean))
     turned = self.sign * (s[at[0] + RZ] - s[at[1] + RZ])
@@ -126,7 +129,8 @@ def _act(self: MotorKernels, at: Any, memory: Array, s: Array) -> _Act:
                 ripple += share * (memory[p] * cos - memory[p + 1] * sin)
                 along += share * (memory[p + 2] * cos - memory[p + 3] * sin)
                 across += share * (memory[p + 2] * sin + memory[p + 3] * cos)
-    return _Act(self.sign * (mean + ripple), self.sign * ripple, along, self.sign * across)
+    torque = self.sign * (mean + ripple)
+    return _Act(torque, self.sign * ripple, along + drawn_x, self.sign * across + drawn_y)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,11 +139,12 @@ class Motor(Port):
 
     T = T_mean + sum A cos(order angle + phase),  dT_mean/dt = 2 pi bandwidth (T_wanted - T_mean)
 
-    F_x + i F_y = sum B exp(i (order angle + phase))
+    F_x + i F_y = sum B exp(i (order angle + phase)) + k_m (x + i y)
 
     Amplitudes A and B are those of a table at the speed and T_mean, both absolute, between its
     points by their cosine and sine parts; beyond its ends they are held. The angle is that of the
-    rotor against the stator, in the sense of a positive torque, in which the pull turns too.
+    rotor against the stator, in the sense of a positive torque, in which the pull turns too. x, y
+    is the rotor's displacement in the stator.
 
     Parameters beside those of `Port`
     ---------------------------------
@@ -152,6 +157,9 @@ class Motor(Port):
         Of rotor or stator over the whole length, where the table is that without skew [rad].
     skew_steps : int
         Of the skew; 0 for one without steps.
+    pull_stiffness : float
+        k_m, how far the pull of the magnets grows where the rotor leaves the middle of the stator
+        [N/m]; it acts against the bearings, as a negative spring.
     steps_per_ripple_period : float
         Integrator steps per period of the highest order.
 
@@ -177,6 +185,13 @@ class Motor(Port):
         Number("rad", 0.0, math.pi, text="Skew, where the table is that without it", shown="deg"),
     ] = 0.0
     skew_steps: Annotated[int, Number("1", 0, 100, text="Steps of the skew; 0: no steps")] = 0
+    pull_stiffness: Annotated[
+        float,
+        Number(
+            "N/m", 0.0, 1e9, text="Growth of the magnetic pull with the rotor's displacement",
+            shown="N/um",
+        ),
+    ] = 0.0  # fmt: skip
     steps_per_ripple_period: Annotated[
         float, Number("1", 4.0, 4096.0, text="Integrator steps per period of the highest order")
     ] = 16.0
@@ -198,7 +213,8 @@ class Motor(Port):
     def numbers(self) -> MotorKernels:  # type: ignore[override]
         """Return the constants of the kernels."""
         rate = 2.0 * math.pi * self.bandwidth
-        return MotorKernels(float(self.sign), rate, float(self.steps_per_ripple_period))
+        steps = float(self.steps_per_ripple_period)
+        return MotorKernels(float(self.sign), rate, steps, float(self.pull_stiffness))
 
     def sizes(self) -> tuple[int, ...]:
         """Return the numbers of speeds, torques and orders of the table."""
