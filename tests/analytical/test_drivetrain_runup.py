@@ -149,3 +149,10 @@ def plate() -> Housing:
 def test_a_train_whose_ports_take_nothing_has_no_run_up():
     with pytest.raises(ParameterError, match=r"one that takes it, got motor .* W, road 0 W"):
         run_ramp(case(load=0.0), SLOW, FAST)
+
+
+def test_a_ramp_that_is_too_short_or_too_slow_is_refused_with_a_cure():
+    with pytest.raises(ParameterError, match=r"8 .* got 0\.413803. Take 3\.87 s or more"):
+        run_ramp(case(), 12.0, 14.0, duration=0.2)
+    with pytest.raises(ParameterError, match=r"start of the run-up must be .* rpm, got 0\.9549"):
+        run_ramp(case(), 0.1, 14.0)

@@ -87,7 +87,7 @@ def drivetrain(
     from gearlube.report.inputs import file_inputs
     from gearlube.studies.drivetrain.layout import layout
     from gearlube.studies.drivetrain.losses import map_losses
-    from gearlube.studies.drivetrain.ramp import run_ramp
+    from gearlube.studies.drivetrain.ramp import plan_ramp, run_ramp
     from gearlube.studies.drivetrain.report import losses, report, save_figures
     from gearlube.studies.drivetrain.run import run_drivetrain
     from gearlube.studies.drivetrain.space_view import space_view
@@ -105,6 +105,8 @@ def drivetrain(
         gearbox = read_gearbox(file) if Path(file).suffix.lower() in REXS_ENDINGS else None
         given = TrainFile.from_data(gearbox.data, file) if gearbox else TrainFile.given(file)
         case = given.case()
+        if ramp is not None:
+            plan_ramp(case, *ramp, ramp_s)  # refuses what it cannot run before all else
         with run.results() as progress:
             dataset = run_drivetrain(
                 case,

@@ -74,7 +74,9 @@ def parts_of(train: Train) -> Parts:
     names = [one.name for one in train.output_records]
     meshes = mesh_loads(train)
     carrying = dict.fromkeys(name.partition(FORCE)[0] for name in names if FORCE in name)
-    return Parts(meshes, [one for one in carrying if one not in meshes])
+    # a set of bearings has a force of its own, beside those of each
+    whole = [one for one in carrying if one.rpartition(".")[0] not in carrying]
+    return Parts(meshes, [one for one in whole if one not in meshes])
 
 
 def orders_of(operation: Operation) -> list[Order]:

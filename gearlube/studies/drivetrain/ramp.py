@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -82,26 +82,9 @@ def run_ramp(
     ConvergenceError, StepError
         There is no equilibrium at a speed, or a step cannot be made.
     """
-    operation = Operation.of(case)
-    for name, speed in (("start", start), ("end", end)):
-        check_within(f"{name} of the run-up", speed, 1e-3 * operation.speed, 1e4, "rad/s")
-    if start == end:
-        raise ParameterError(f"A run-up must end at another speed, got {start:g} rad/s twice.")
-    parts, orders = parts_of(case.train), orders_of(operation)
-    if not parts.bearings or not orders:
-        raise ParameterError("A run-up needs meshes and bearings whose forces are outputs.")
-    slow, fast = sorted((start, end))
-    revolutions = _revolutions(orders)
-    if duration is None:
-        usual = (fast - slow) * 2.0 * math.pi * revolutions / (_CHANGE * slow**2)
-        duration = min(max(usual, _SHORTEST), _LONGEST)
-    check_within("duration of the run-up", duration, 0.2, 3600.0, "s")
-    highest = max(one.order for one in orders) * fast / (2.0 * math.pi)
-    rate = min(max(_SAMPLES * highest, _LEAST_RATE), _MOST_RATE)
-    check_within("samples of the run-up", duration * rate, 1.0, _MOST_SAMPLES, "", "Run faster.")
-    turned = 0.5 * (start + end) * duration / (2.0 * math.pi)
-    check_within("turns of the shaft", turned, 4.0 * revolutions, 1e9, "", "Take a longer ramp.")
-    ramp = SpeedRamp(start=start, end=end, duration=duration)
+    plan = plan_ramp(case, start, end, duration)
+    operation, parts, orders, rate = plan.operation, plan.parts, plan.orders, plan.rate
+    ramp = SpeedRamp(start=start, end=end, duration=plan.duration)
     nodes = _nodes_of(case.train)
     motors = [one.name for one in case.train.elements if isinstance(one, Motor)]
     channels = [
@@ -113,14 +96,55 @@ def run_ramp(
     ]
     values = _march(operation, ramp, rate, channels, orders, progress)
     progress(1.0, "orders and spectra")
-    dataset = _dataset(operation, values, rate, parts, orders, revolutions, nodes, motors)
-    speeds = np.geomspace(slow, fast, 400)
+    dataset = _dataset(operation, values, rate, parts, orders, plan.revolutions, nodes, motors)
+    speeds = np.geomspace(min(start, end), max(start, end), 400)
     case.start()
     dataset = dataset.merge(order_forces(operation, mean_train(case), speeds), join="exact")
-    dataset.attrs |= {"duration": duration, "revolutions": revolutions}
+    dataset.attrs |= {"duration": plan.duration, "revolutions": plan.revolutions}
     if folder is not None:
         write_compressed_dataset(dataset, folder / FILE)
     return dataset
+
+
+class Plan(NamedTuple):
+    """What a run-up records, and for how long."""
+
+    operation: Operation
+    parts: Parts
+    orders: list[Order]
+    revolutions: int  # of a block
+    duration: float  # [s]
+    rate: float  # [Hz]
+
+
+def plan_ramp(case: TrainCase, start: float, end: float, duration: float | None = None) -> Plan:
+    """Return the plan of a run-up; arguments and errors are those of `run_ramp`."""
+    operation = Operation.of(case)
+    for name, speed in (("start", start), ("end", end)):
+        least, most, rpm = (float(rads_to_rpm(w)) for w in (1e-3 * operation.speed, 1e4, speed))
+        check_within(f"{name} of the run-up", rpm, least, most, "rpm")
+    if start == end:
+        raise ParameterError(
+            f"A run-up must end at another speed, got {rads_to_rpm(start):g} rpm twice."
+        )
+    parts, orders = parts_of(case.train), orders_of(operation)
+    if not parts.bearings or not orders:
+        raise ParameterError("A run-up needs meshes and bearings whose forces are outputs.")
+    slow, fast = sorted((start, end))
+    revolutions = _revolutions(orders)
+    if duration is None:
+        usual = (fast - slow) * 2.0 * math.pi * revolutions / (_CHANGE * slow**2)
+        duration = min(max(usual, _SHORTEST), _LONGEST)
+    check_within("duration of the run-up", duration, 0.2, 3600.0, "s")
+    highest = max(one.order for one in orders) * fast / (2.0 * math.pi)
+    rate = min(max(_SAMPLES * highest, _LEAST_RATE), _MOST_RATE)
+    check_within(
+        "samples of the run-up", duration * rate, 1.0, _MOST_SAMPLES, "", "Take a shorter ramp."
+    )
+    turned = 0.5 * (start + end) * duration / (2.0 * math.pi)
+    cure = f"Take {duration * 4.0 * revolutions / turned:.3g} s or more."
+    check_within("turns of the shaft in the run-up", turned, 4.0 * revolutions, 1e9, "", cure)
+    return Plan(operation, parts, orders, revolutions, duration, rate)
 
 
 def _revolutions(orders: Sequence[Order]) -> int:
