@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import GREY, PARTS, house_style, new_figure
+from gearlube.plotting.style import GREY, PARTS, house_style, name_levels, new_figure
 from gearlube.report.parts import Cell, Column, Table
 from gearlube.studies.drivetrain.operation import Operation
 from gearlube_core.arrays import Array
@@ -95,7 +95,7 @@ def orders_of(operation: Operation) -> list[Order]:
         name, order = next(iter(first.items()))
         alike = [one for one, other in first.items() if math.isclose(other, order, rel_tol=_SAME)]
         first = {one: other for one, other in first.items() if one not in alike}
-        words = name.replace("_", " ") if len(alike) == 1 else f"{len(alike)} meshes"
+        words = name.replace("_", " ") + (f" and {len(alike) - 1} more" if alike[1:] else "")
         if order > 0.0:
             found += [
                 Order(f"{words}, {'' if k == 1 else f'{k} x '}{order:.5g}", k * order, k, (*alike,))
@@ -174,13 +174,13 @@ def resonant_speeds(dataset: xr.Dataset) -> list[Table]:
     """Return the table of speeds at which orders that excite meet natural frequencies."""
     if "order_force" not in dataset:
         return []
-    largest = dataset["order_force"].max(("order_speed", "part")).values
+    largest = _largest(dataset)
     orders = [
         Order(str(name), float(order), 0, ())
         for name, order, force in zip(
             dataset["line"].values, dataset["order"].values, largest, strict=True
         )
-        if force > LEAST
+        if not force <= LEAST
     ]
     low, high = (float(rpm_to_rads(dataset["order_speed"].values[i])) for i in (0, -1))
     frequency, share = dataset["frequency"].values, dataset["share"].values
@@ -222,11 +222,20 @@ def order_forces(operation: Operation, train: Train, speeds: Array) -> dict[str,
     }
 
 
+def _largest(dataset: xr.Dataset) -> Array:
+    """Return the largest force of each order [N], in time or by frequency; NaN: not known."""
+    found = dataset["order_force"].max(("order_speed", "part")).values
+    if "order_track" in dataset:
+        found = np.fmax(found, dataset["order_track"].max(("block", "part")).values)
+    return np.asarray(found)
+
+
 def order_figure(dataset: xr.Dataset) -> Any:
     """Draw the forces of meshes and bearings over speed, one panel each, a line for each order."""
     forces = dataset["order_force"]
     tracks = dataset.get("order_track")
-    lines = [str(one) for one in forces["line"].values if float(forces.sel(line=one).max()) > LEAST]
+    most = dict(zip(forces["line"].values.tolist(), _largest(dataset), strict=True))
+    lines = [line for line, force in most.items() if force > LEAST]
     parts = [str(one) for one in dataset["part"].values]
     rows = -(-len(parts) // 2)
     with house_style():
@@ -260,8 +269,7 @@ def campbell_figure(dataset: xr.Dataset) -> Any:
     """Draw natural frequencies over speed with the orders of meshes and motors."""
     speeds = dataset["order_speed"].values
     ends = np.array([0.0, speeds[-1]])
-    forces = dataset["order_force"].max(("order_speed", "part"))
-    first = dataset["order"].values[forces.values > LEAST]
+    excited = dataset["order"].values[~(_largest(dataset) <= LEAST)]
     with house_style():
         figure = new_figure(8.4, 4.6)
         ax = figure.subplots()
@@ -271,11 +279,7 @@ def campbell_figure(dataset: xr.Dataset) -> Any:
         colours = dict(zip(kinds, PARTS, strict=False))
         for name, order in zip(dataset["line"].values, dataset["order"].values, strict=True):
             colour = colours.get(str(name).rpartition(", ")[0], GREY)
-            ax.plot(ends, order * ends / 60.0, color=colour, lw=2.0 if order in first else 0.8)
-            ax.annotate(
-                f" {name}", (ends[1], order * ends[1] / 60.0), color=colour, fontsize=7.5,
-                va="center", annotation_clip=False,
-            )  # fmt: skip
+            ax.plot(ends, order * ends / 60.0, color=colour, lw=2.0 if order in excited else 0.8)
         ax.axvline(dataset.attrs["shaft_rpm"], color="black", lw=1.0, ls=":")
         ax.set(
             xlabel=f"speed of {dataset.attrs['shaft']} [rpm]",
@@ -283,4 +287,6 @@ def campbell_figure(dataset: xr.Dataset) -> Any:
             xlim=ends,
             ylim=(0.0, 1.05 * float(dataset["order"].max()) * ends[1] / 60.0),
         )
+        tops = dataset["order"].values * ends[1] / 60.0
+        name_levels(ax, dict(zip(dataset["line"].values.tolist(), tops, strict=True)))
     return figure

@@ -12,7 +12,7 @@ import xarray as xr
 
 from drivetrain.speed_ramp import RampHold, SpeedRamp
 from drivetrain.train.train_file import TrainCase
-from gearlube.plotting.style import house_style, largest_in_cells, new_figure, outlined
+from gearlube.plotting.style import house_style, largest_in_cells, name_levels, new_figure, outlined
 from gearlube.report.parts import NOTE, Finding
 from gearlube.studies.drivetrain.operation import Operation, lost_power
 from gearlube.studies.drivetrain.orders import Order, Parts, order_forces, orders_of, parts_of
@@ -343,19 +343,17 @@ def waterfall_figure(dataset: xr.Dataset) -> Any:
         figure.colorbar(drawn, ax=ax, extend="min", label=words, location="bottom", aspect=50)
         ax.grid(visible=False)
         ax.set_facecolor(drawn.cmap(0.0))
-        for line, order in zip(dataset["line"].values, dataset["order"].values, strict=True):
+        for order in dataset["order"].values:
             (drawn_line,) = ax.plot(speed, order * speed / 60.0, color="white", lw=0.5, ls=":")
             outlined(drawn_line, width=1.0)
-            ax.annotate(
-                f" {line}", (speed[-1], order * speed[-1] / 60.0), fontsize=7.5, va="center",
-                annotation_clip=False,
-            )  # fmt: skip
         ax.set(
             xlabel=f"speed of {dataset.attrs['shaft']} [rpm]",
             ylabel="frequency [Hz]",
             xlim=(speed[0], speed[-1]),
             ylim=(0.0, _top(dataset)),
         )
+        tops = dataset["order"].values * speed[-1] / 60.0
+        name_levels(ax, dict(zip(dataset["line"].values.tolist(), tops, strict=True)))
     return figure
 
 

@@ -217,7 +217,7 @@ def save_figures(
             continue
         if name in ("orders", "campbell") and "order_force" not in dataset:
             continue
-        if name == "orders" and float(dataset["order_force"].max()) < LEAST:
+        if name == "orders" and not float(dataset["order_force"].max()) > LEAST:
             continue
         files[name] = folder / f"{name}.png"
         write_figure(draw(found if name == "layout" else dataset), files[name])
