@@ -1,1 +1,1 @@
-"""Gear pairs as REXS files: what they hold of a pair, read and written."""
+"""Gear pairs as REXS files, read and written; whole gearboxes as train files."""
