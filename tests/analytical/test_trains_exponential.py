@@ -9,12 +9,15 @@ import numpy as np
 import pytest
 
 from drivetrain.train.train_file import TrainFile
+from gearlube_core.dynamics.train.elements.joint import Joint
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
+from gearlube_core.dynamics.train.housing import Housing
 from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import ParameterError
 from gearlube_core.shafts.section import ShaftDisc, ShaftSection
+from tests.helpers.frame_model import box_frame, reduced
 from tests.helpers.small_trains import OIL
 
 KELVIN = 333.15
@@ -86,6 +89,67 @@ def test_losses_are_those_of_short_steps():
         assert found["exponential"][name] == pytest.approx(
             lost, rel=0.1 if "mesh" in name else 5e-3
         )
+
+
+def swing_apart(trains: dict[str, Train], torques: dict[str, float], h: float, n: int) -> float:
+    """Return how far rates differ after RK4 and after exponential steps, over their largest one."""
+    found = {}
+    for integration, train in trains.items():
+        for _ in range(n):
+            train.step(h, torques, KELVIN)
+        names = train.state_names
+        rates = [i for i, one in enumerate(names) if one.endswith((".x.rate", ".y.rate"))]
+        found[integration] = train.get_state()[rates]
+    return float(np.abs(found["exponential"] - found["rk4"]).max() / np.abs(found["rk4"]).max())
+
+
+def test_a_shaft_in_a_housing_moves_as_by_rk4():
+    """All is linear but gyroscopic moments and coupling dampers: long steps are near to exact."""
+    tube = ShaftSection(start=0.0, end=0.3, outer_diameter=0.04)
+    shaft = Shaft(name="shaft", sections=(tube,), nodes={"low": 0.0, "high": 0.25})
+    case = Housing(name="case", model=reduced(box_frame(), modes=4), highest_frequency=3e3)
+    stiff = {
+        "K_xx": 1e8,
+        "K_yy": 1e8,
+        "K_zz": 5e7,
+        "K_ax": 1e4,
+        "K_ay": 1e4,
+        "c_x": 200.0,
+        "c_y": 200.0,
+        "c_z": 100.0,
+    }
+    soft = {"K_xx": 1e7, "K_yy": 1e7, "K_zz": 1e7, "K_ax": 1e5, "K_ay": 1e5, "c_x": 100.0}
+    joints = [
+        Joint(name=f"{what} {one}", first=first, second=second, **springs)
+        for one in ("low", "high")
+        for what, first, second, springs in (
+            ("seat", f"shaft.{one}", f"case.a_{one}", stiff),
+            ("mount", f"case.a_{one}", "ground", soft),
+        )
+    ]
+    trains: dict[str, Train] = {}
+    for integration in ("rk4", "exponential"):
+        port = Port(name="motor", body="shaft")
+        train = Train([case, shaft], [*joints, port], OIL, integration=integration)
+        train.initialise({"shaft": 300.0}, {"motor": 0.0}, KELVIN)
+        state = train.get_state()
+        state[train.state_names.index("shaft.x.rate")] = 1e-2  # a blow
+        if integration == "rk4":
+            state[-1] *= 8.0
+        train.set_state(state)
+        trains[integration] = train
+    # 7e-4 at 40 us, of order 4 in the coupling dampers alone
+    assert swing_apart(trains, {"motor": 3.0}, 1e-3, 20) < 2e-3
+
+
+def test_ripple_play_and_a_differential_move_as_by_rk4():
+    trains = {}
+    for integration in ("rk4", "exponential"):
+        data = tomllib.loads(TrainFile.shipped_text("e_axle_full"))
+        case = TrainFile.from_data(data | {"integration": integration}, "file").case()
+        trains[integration] = case.start()
+    # 40 us are 5 steps in a period of the motor's highest order
+    assert swing_apart(trains, dict(case.torques), 1e-3, 10) < 1e-2
 
 
 def test_a_state_goes_on_in_another_train_to_the_bit():

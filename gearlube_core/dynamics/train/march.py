@@ -42,7 +42,7 @@ TOO_FAST = 3
 
 MAX_STEPS = 150_000  # in one communication interval, or their cost
 _MS = 1e3  # in a second
-_OF_MESH = 0.5  # share of the steps per mesh period that exponential steps need
+_OF_PERIODS = 1.0 / 3.0  # of the steps per mesh or ripple period that RK4 takes
 DIVERGED = 0.1  # m, displacement of a body: supports long broken
 REFUSALS = {
     NOT_FINITE: (
@@ -288,7 +288,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         highest = least_rate * max(1.0, stiffening(s, oil, numbers, memory, plan))
         rate = step_rate(s, oil, numbers, memory, plan)
         exact = sizes.exponential > 0
-        longest = max(_MS * sizes.exponential, _OF_MESH * rate) if exact else max(highest, rate)
+        longest = max(_MS * sizes.exponential, _OF_PERIODS * rate) if exact else max(highest, rate)
         wanted = duration * longest
         if not wanted < MAX_STEPS:
             return TOO_MANY_STEPS

@@ -57,7 +57,7 @@ class Train(MarchedTrain):
         RK4, whose step is a share of the highest mode's period, or exponential Runge-Kutta steps,
         exact in all that is linear. Automatic: RK4.
     exponential_steps_per_ms : int
-        Of these the least, 1 to 1000; at least half as many as elements ask for in a mesh period.
+        Of these the least, 1 to 1000; at least a third of what elements ask for in a mesh period.
 
     Notes
     -----
