@@ -156,7 +156,8 @@ class HousingModel(Section):
 
     model_file: Text = Field(
         description="Reduced model: arrays (.npz), a punch file of Nastran (.pch), a substructure "
-        "of Abaqus (.mtx), or the stiffness alone as a Matrix Market file (.mtx)"
+        "of Abaqus (.mtx), the stiffness alone as a Matrix Market file (.mtx), or the shipped "
+        "e_axle_case"
     )
     mass_file: Text | None = Field(
         default=None, description="Mass, where model_file has the stiffness alone"

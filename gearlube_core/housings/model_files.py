@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping
+from importlib.resources import as_file, files
 from pathlib import Path
 from typing import NamedTuple
 
@@ -24,6 +25,7 @@ from gearlube_core.housings.reduced_model import (
 from gearlube_core.housings.text_formats import Label, Labelled, check_rows, read_abaqus, read_dmig
 from gearlube_core.storage.atomic_file import read_arrays
 
+SHIPPED = "e_axle_case"  # made by examples/e_axle_case.py
 _LARGEST = 500_000_000  # bytes of a text with matrices
 _COLUMNS = ("node", "name", "x", "y", "z")
 _ALL = "123456"
@@ -53,7 +55,7 @@ def read_reduced_model(
     ----------
     model_file : path
         All matrices: arrays `.npz`, a punch file `.pch` with DMIG of Nastran, or `.mtx` of Abaqus.
-        Or the stiffness alone, `.mtx` of Matrix Market.
+        Or the stiffness alone, `.mtx` of Matrix Market. Or the name of the shipped e_axle_case.
     mass_file, damping_file : path, optional
         With the other matrices, where they are files of their own.
     node_table : path, optional
@@ -82,6 +84,9 @@ def read_reduced_model(
     gearlube_core.errors.ParameterError: model_file must end in .npz, .pch or .mtx, got case.step.
     """
     units = {"length_unit": length_unit, "mass_unit": mass_unit}
+    if model_file == SHIPPED:
+        with as_file(files("gearlube_core.housings") / "data" / f"{SHIPPED}.npz") as path:
+            return _from_arrays(path, units)
     if Path(model_file).suffix == ".npz":
         return _from_arrays(Path(model_file), units)
     table = {} if node_table is None else _read_table(node_table)

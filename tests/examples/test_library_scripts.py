@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from examples.axle_torque_ramp import ramp
+from examples.e_axle_case_response import panel_velocities
 from examples.film_with_own_oil import films
 from examples.helical_transmission_error import transmission_error
 from examples.sliding_point_contact import friction
@@ -59,3 +60,12 @@ def test_the_measured_profile_presses_its_peaks_through_the_film(monkeypatch):
     assert films["pressure_max"].values[0] == pytest.approx(hertz, rel=0.05)
     assert films["pressure_max"].values[-1] > 1.2 * hertz
     assert films["film_min"].values[-1] < 0.8 * films["film_min"].values[0]
+
+
+def test_panels_of_the_case_move_as_those_of_its_finite_elements():
+    """All finite elements, computed once, give 311.2 1/s of the top and 377.6 of the cover.
+
+    Waves of the meshes' stiffness and modes left out change that by 3 %.
+    """
+    top, _, cover = panel_velocities(np.array([300.0]))["stage_1"][0]
+    assert [top, cover] == pytest.approx([311.2, 377.6], rel=0.04)

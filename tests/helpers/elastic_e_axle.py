@@ -8,11 +8,11 @@ from functools import cache
 from drivetrain.train.train_file import TrainCase, TrainFile
 
 
-def case(**of_shafts: float) -> TrainCase:
-    data = tomllib.loads(TrainFile.shipped_text("e_axle_elastic"))
+def case(name: str = "e_axle_elastic", **of_elastic: float) -> TrainCase:
+    data = tomllib.loads(TrainFile.shipped_text(name))
     for body in data["bodies"].values():
-        if body.get("kind") == "shaft":
-            body |= of_shafts
+        if body.get("kind"):
+            body |= of_elastic
     for mesh in ("stage_1", "stage_2"):  # the other model has neither
         data["elements"][mesh] |= {"stiffness_waves": [], "friction": 0.0}
     return TrainFile.from_data(data, "file").case()
