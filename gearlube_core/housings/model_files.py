@@ -85,8 +85,8 @@ def read_reduced_model(
     """
     units = {"length_unit": length_unit, "mass_unit": mass_unit}
     if model_file == SHIPPED:
-        with as_file(files("gearlube_core.housings") / "data" / f"{SHIPPED}.npz") as path:
-            return _from_arrays(path, units)
+        with as_file(files("gearlube_core.housings") / "data" / f"{SHIPPED}.npz") as shipped:
+            return _from_arrays(shipped, units)
     if Path(model_file).suffix == ".npz":
         return _from_arrays(Path(model_file), units)
     table = {} if node_table is None else _read_table(node_table)
