@@ -93,8 +93,8 @@ def test_orders_of_the_run_up_are_those_by_frequency(runup: Path):
             one = {"line": "mesh, 20", "part": part}
             in_time = found["order_track"].sel(one).values
             rpm = speeds * 60.0 / (2.0 * math.pi)
-            by_modes = np.interp(rpm, found["order_speed"], found["order_force"].sel(one))
-            np.testing.assert_allclose(in_time, carried * by_modes, rtol=0.01)
+            by_frequency = np.interp(rpm, found["order_speed"], found["order_force"].sel(one))
+            np.testing.assert_allclose(in_time, carried * by_frequency, rtol=0.01)
 
 
 def test_sound_reads_the_forces_of_a_run_up(runup: Path):

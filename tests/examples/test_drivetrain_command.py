@@ -102,6 +102,28 @@ def test_a_step_that_is_too_short_is_refused(
     assert "step must be within 0.005 to 0.1 s" in caplog.text
 
 
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--run-up", "600"], "--run-up must be two speeds"),
+        (["--run-up", "0:600"], "--run-up must be within 0.01 to 100000 rpm, got 0"),
+        (["--ramp-s", "3"], "--ramp-s needs --run-up, got 3 s alone"),
+        (["--run-up", "600:900"], "need a port that puts power into the train"),
+        (["--map"], "need a port that puts power into the train"),
+        (["--map-torques", "5:1:1"], "The last value of --map-torques must be at least the first"),
+    ],
+)
+def test_studies_that_cannot_run_are_refused_at_once(
+    options: list[str], told: str, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "rotors.toml").write_text(WITH_BRAKE)
+    command = ["drivetrain", str(tmp_path / "rotors.toml"), "--out", str(tmp_path / "out")]
+    done = CliRunner().invoke(app, [*command, *options])
+    assert done.exit_code == 2
+    assert told in caplog.text
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.mark.slow
 def test_the_shipped_axle_balances_its_energy(tmp_path: Path) -> None:
     done = CliRunner().invoke(

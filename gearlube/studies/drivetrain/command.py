@@ -87,6 +87,7 @@ def drivetrain(
     from gearlube.report.inputs import file_inputs
     from gearlube.studies.drivetrain.layout import layout
     from gearlube.studies.drivetrain.losses import map_losses
+    from gearlube.studies.drivetrain.operation import Operation
     from gearlube.studies.drivetrain.ramp import plan_ramp, run_ramp
     from gearlube.studies.drivetrain.report import losses, report, save_figures
     from gearlube.studies.drivetrain.run import run_drivetrain
@@ -107,6 +108,8 @@ def drivetrain(
         case = given.case()
         if ramp is not None:
             plan_ramp(case, *ramp, ramp_s)  # refuses what it cannot run before all else
+        if loss_map or grid:
+            Operation.of(case)  # likewise
         with run.results() as progress:
             dataset = run_drivetrain(
                 case,

@@ -217,7 +217,7 @@ def order_forces(operation: Operation, train: Train, speeds: Array) -> dict[str,
                 "part": parts_of(train).names,
                 "order_speed": rpm,
             },
-            attrs={"units": "N", "long_name": "amplitude of a force by one order, by modes"},
+            attrs={"units": "N", "long_name": "amplitude of a force by one order, by frequency"},
         ),
     }
 

@@ -71,9 +71,9 @@ def run_ramp(
     xarray.Dataset
         Over `time` [s]: `bearing_force` [N], `mesh_force` [N], `motor_torque` [N.m], and angle and
         speed of the shaft. Amplitudes `order_track` [N] of each force by each order over
-        `block_speed`, and beside them `order_force` by modes. Over slices of speed the spectra of
-        all bearing forces, `force_waterfall` [N], and of a housing's nodes, `velocity_waterfall`
-        [m/s].
+        `block_speed`, and beside them `order_force` by frequency. Over slices of speed the spectra
+        of all bearing forces, `force_waterfall` [N], and of a housing's nodes,
+        `velocity_waterfall` [m/s].
 
     Raises
     ------

@@ -163,8 +163,8 @@ _FIGURES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
     "orders": (
         order_figure,
         "Forces by order",
-        "Amplitude over speed, by modes: the meshes with the swing of their stiffness and gaps at "
-        "the torque of the start, the motor with its table of ripple. Flanks stay in contact.",
+        "Amplitude over speed, by frequency: the meshes with the swing of their stiffness and gaps "
+        "at the torque of the start, the motor with its table of ripple. Flanks stay in contact.",
     ),
     "campbell": (
         campbell_figure,
@@ -185,8 +185,8 @@ _OF_STUDIES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
     "runup_orders": (
         order_figure,
         "Orders of the run-up",
-        "Solid: in time. Dotted: by modes, with flanks in contact; where both part, flanks open, "
-        "swings are large, or the ramp is too fast for a resonance to build up.",
+        "Solid: in time. Dotted: by frequency, with flanks in contact; where both part, flanks "
+        "open, swings are large, or the ramp is too fast for a resonance to build up.",
     ),
     "loss_map": (
         loss_figure,

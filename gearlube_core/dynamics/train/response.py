@@ -1,4 +1,4 @@
-"""Vibration of a train that a mesh or a torque excites, by its modes."""
+"""Vibration of a train that a mesh or a torque excites, by frequency."""
 
 from __future__ import annotations
 
