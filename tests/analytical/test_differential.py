@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
 
 import numpy as np
 import pytest
@@ -176,8 +175,7 @@ def test_energy_balances_while_splines_rattle():
 
 def test_the_shipped_axle_holds_its_curve_and_its_energy():
     """Friction of the open differential: 10 N.m and 8 % of the torque of the case."""
-    data = tomllib.loads(TrainFile.shipped_text("e_axle_full")) | {"driver": "generated"}
-    case = TrainFile.from_data(data, "file").case()
+    case = TrainFile.named("e_axle_full").case()
     train = case.start()
     found = train.outputs()
     left, right = found["differential.torque.left"], found["differential.torque.right"]

@@ -193,7 +193,7 @@ def test_a_motor_without_a_table_is_a_port_to_the_bit():
     for drive in (Motor(name="drive", body="engine"), Port(name="drive", body="engine")):
         bodies = [Body.spinning("engine", 0.2), Body.spinning("load", 2.0)]
         shaft = HalfShaft(name="shaft", first="engine", second="load", stiffness=1e4)
-        train = Train(bodies, [drive, shaft], OIL, driver="generated")
+        train = Train(bodies, [drive, shaft], OIL)
         train.initialise({"load": 50.0}, {"drive": 10.0}, KELVIN)
         for _ in range(20):
             train.step(1e-3, {"drive": 30.0}, KELVIN)
