@@ -20,10 +20,10 @@ from gearlube_core.dynamics.train.model import Train
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.dynamics.train.supports import check_supports
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.housings.reduced_model import InterfaceNode, ReducedModel
 from gearlube_core.shafts.section import ShaftSection
-from tests.helpers.small_trains import OIL
+from tests.helpers.small_trains import KELVIN, OIL
 
 STIFF = dict.fromkeys(("K_xx", "K_yy", "K_zz"), 1e8) | {"K_ax": 1e6, "K_ay": 1e6}
 ROTOR = Shaft(
@@ -37,12 +37,13 @@ BALLS = {
 }  # fmt: skip
 
 
-def pair_on(*supports: Element, more: Sequence[Any] = ()) -> Train:
+def pair_on(*supports: Element, more: Sequence[Any] = (), helix: float = 0.0) -> Train:
     bodies = [
         Body(name=one, mass=1.0, inertia=1e-3, polar_inertia=2e-3) for one in ("pinion", "wheel")
     ]
     mesh = GearMesh(name="mesh", first="pinion", second="wheel", teeth_1=20, teeth_2=40,
-                    normal_module=3e-3, face_width=0.03, backlash=1e-4)  # fmt: skip
+                    normal_module=3e-3, face_width=0.03, backlash=1e-4,
+                    helix_angle=helix)  # fmt: skip
     ports = [Port(name="motor", body="pinion"), Port(name="road", body="wheel")]
     return Train([*bodies, *more], [*ports, mesh, *supports], OIL)
 
@@ -144,3 +145,12 @@ def test_an_unknown_node_lists_those_that_a_user_can_name():
         ParameterError, match=r"There are: rotor, rotor\.left, rotor\.right(, ground)?\.$"
     ):
         Train([ROTOR], [Port(name="motor", body="rotor.lft")], OIL)
+
+
+def test_a_direction_in_which_nothing_holds_a_shaft_is_named():
+    """Thrust of helical teeth, and bearings that carry none."""
+    loose = SpringSupport(name="road side", body="wheel", **(STIFF | {"K_zz": 0.0}))
+    train = pair_on(SpringSupport(name="motor side", body="pinion", **STIFF), loose, helix=0.3)
+    words = r"no static equilibrium: nothing holds wheel along z\. Give a support there"
+    with pytest.raises(ConvergenceError, match=words):
+        train.initialise({"pinion": 100.0}, {"motor": 50.0, "road": 100.0}, KELVIN)

@@ -98,7 +98,8 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         one that bears what torques leave, then the speed wanted of each body [rad/s], NaN where it
         follows; torques stand in the state; `size` is integrator steps per highest period. Returns
         OK, and the least rate for ADVANCE is work[0]; or LOOSE, APART, NO_REST or NO_MODES, whose
-        number is work[1], and the state stays as it was.
+        number is work[1], and the state stays as it was. With NO_REST work[0] is how many
+        coordinates are free, whose stiffness STIFFNESS would write is in the room of the solver.
     STIFFNESS
         M^-1 K of the coordinates that are free, about the state, row by row into `work`; returns
         their number.

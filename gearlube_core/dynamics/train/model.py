@@ -14,7 +14,7 @@ from gearlube_core.checks import check_option, check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.assemble import Bodies, assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
-from gearlube_core.dynamics.train.element import COORDINATES, N_COORDINATES, RZ
+from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, N_COORDINATES, RZ
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import ENERGY, EVENT, START, WRITE
@@ -24,7 +24,7 @@ from gearlube_core.dynamics.train.part import Element, Hidden
 from gearlube_core.dynamics.train.plan import MOST_EXPONENTIAL
 from gearlube_core.dynamics.train.rest import LEAST_RATE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK, room_of
-from gearlube_core.dynamics.train.supports import whole
+from gearlube_core.dynamics.train.supports import free_motions, whole
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
@@ -368,6 +368,15 @@ class Train(MarchedTrain):
         turns = abs(free).max(axis=1) > _TURNS
         return [body.name for body, one in zip(self.bodies, turns, strict=True) if one]
 
+    def _free_motions(self) -> list[str]:
+        """Return what can move without force, by what a start without rest left in its work."""
+        room, m = room_of(self._made.sizes), int(self._work[0])
+        places = self._work[room.places : room.places + m].astype(int)
+        mobility = np.concatenate([body.mobility for body in self.bodies])
+        at = places // BODY_STATES * N_COORDINATES + places % BODY_STATES
+        stiffness = self._work[room.solver : room.solver + m * m].reshape(m, m)
+        return free_motions(stiffness, mobility[at], [self._made.names[i] for i in places])
+
     def _refuse(self, status: int, speeds: Mapping[str, float]) -> NoReturn:
         """Raise the error of a start that left its number in the work array."""
         number, place = self._work[1:3].tolist()
@@ -388,10 +397,13 @@ class Train(MarchedTrain):
             where = self._made.names[int(place)]
             if ".modes_" in where:
                 where = f"the modes of {whole(where)}"
+            free = self._free_motions()
             raise ConvergenceError(
-                f"no static equilibrium: forces on {where} are out by {number:g} N or N.m. Reduce "
-                "the torques, stiffen the supports, or give every body that may move along or "
-                "about an axis a support there."
+                f"no static equilibrium: nothing holds {', '.join(free)}. Give a support there."
+                if free
+                else f"no static equilibrium: forces on {where} are out by {number:g} N or N.m. "
+                "Reduce the torques, stiffen the supports, or give every body that may move along "
+                "or about an axis a support there."
             )
         raise ConvergenceError(
             "natural frequencies at rest are not finite numbers. Check masses and stiffness."

@@ -17,6 +17,7 @@ from gearlube_core.dynamics.train.element import (
 )
 from gearlube_core.dynamics.train.rest_search import (
     NO_MODES,
+    NO_REST,
     OK,
     Room,
     begin_search,
@@ -45,6 +46,8 @@ Given = tuple[Array, LubricantState, Array, Array, Offsets, Room, Array]
 LEAST_RATE = 1e3  # integrator steps a second, of a train without a mode that vibrates
 _DIFFERENCE = 1e-8  # m and rad, of coordinates in a linearisation
 _EASINGS = 9  # of gaps: a bearing that carries 1 mN is found at the edge of its clearance
+# m and rad, a move without load: of the first search, and of one that follows tiny loads
+_NO_LOAD = (1e-6, 1e-9)
 _PASSES = 4  # friction of films depends on the loads, weakly
 
 
@@ -113,6 +116,21 @@ def rest_kernels(
     newton = damped_newton(unbalanced)
 
     @kernel
+    def search(given: Given, m: int) -> None:
+        """Search the static equilibrium in `m` coordinates, through gaps that close by and by."""
+        s, oil, numbers, memory, plan, room, work = given
+        moves, scales = part(work, room.moves, m), part(work, room.scales, m)
+        easings = _EASINGS if ease(s, oil, numbers, memory, plan, 0.0) > 0.0 else 0
+        for k in range(easings + _PASSES):
+            share = 0.1**k if k < easings else 0.0
+            ease(s, oil, numbers, memory, plan, share)
+            keep(given)
+            renew(s, oil, numbers, memory, plan)
+            begin_search(s, m, room, work)
+            newton(moves, scales, given, part(work, room.solver, room.end - room.solver))
+            unbalanced(moves, given, part(work, room.out, m))
+
+    @kernel
     def find_rest(given: Given, bearing: int) -> tuple[int, float, int]:
         """Write the static equilibrium; return a status, its number and its place."""
         s, oil, numbers, memory, plan, room, work = given
@@ -134,21 +152,19 @@ def rest_kernels(
         renew(s, oil, numbers, memory, plan)
         rates(s, oil, numbers, memory, plan, 0, part(work, 0, room.before))
         size = find_loads(numbers, m, room, work)
-        keep(given)
-        find_own(s, m, room, work)
-        leave_out_gaps(given)
-        find_scales(m, room, work)
-        moves, scales = part(work, room.moves, m), part(work, room.scales, m)
-        easings = _EASINGS if ease(s, oil, numbers, memory, plan, 0.0) > 0.0 else 0
-        for k in range(easings + _PASSES):
-            share = 0.1**k if k < easings else 0.0
-            ease(s, oil, numbers, memory, plan, share)
+        number, where = math.inf, 0
+        for no_load in _NO_LOAD:
+            for i in range(m):
+                s[int(work[room.places + i])] = 0.0
             keep(given)
-            renew(s, oil, numbers, memory, plan)
-            begin_search(s, m, room, work)
-            newton(moves, scales, given, part(work, room.solver, room.end - room.solver))
-            unbalanced(moves, given, part(work, room.out, m))
-        return largest_force(m, size, room, work)
+            find_own(s, m, room, work)
+            leave_out_gaps(given)
+            find_scales(m, no_load, room, work)
+            search(given, m)
+            status, number, where = largest_force(m, size, room, work)
+            if status == OK:
+                break
+        return status, number, where
 
     @kernel
     def stiffness(given: Given) -> int:
@@ -199,7 +215,10 @@ def rest_kernels(
         copy(s, before)
         given = (s, oil, numbers, memory, plan, room, work)
         status, number, where = find_rest(given, bearing)
-        if status == OK:
+        if status == NO_REST:  # the stiffness at no displacement shows why
+            for i in range(room.first + room.own):
+                s[i] = 0.0
+        if status in (OK, NO_REST):
             for k in range(room.own):
                 work[room.held + k] = s[room.first + k]
             full_contact(s, oil, numbers, memory, plan)
@@ -208,6 +227,8 @@ def rest_kernels(
             ease(s, oil, numbers, memory, plan, 0.0)
             for k in range(room.own):
                 s[room.first + k] = work[room.held + k]
+            work[0] = m
+        if status == OK:
             matrix = part(work, room.solver, m * m)
             square = spectral_radius(matrix, m, part(work, room.solver + m * m, m * m))
             highest = math.sqrt(square) / (2.0 * math.pi)

@@ -33,7 +33,7 @@ NO_MODES = 7  # natural frequencies are not finite
 _newton_size, _squares_size = kernel(newton_work_size), kernel(least_squares_work)
 _SETTLED = 1e-6  # of the largest force that acts, or of a member, at rest
 _SAME_SPEED = 1e-6  # of the largest speed
-_SHARE, _NO_LOAD = 0.1, 1e-9  # of an own state, a move that matters; without load [m, rad]
+_SHARE = 0.1  # of an own state, a move that matters
 
 
 class Room(NamedTuple):
@@ -318,13 +318,14 @@ def find_own(s: Array, m: int, room: Room, work: Array) -> None:
 
 
 @kernel
-def find_scales(m: int, room: Room, work: Array) -> None:
+def find_scales(m: int, no_load: float, room: Room, work: Array) -> None:
     """Write what move of each coordinate matters: a share of what moves the own states.
 
-    Members without load, such as the shaft of a wheel that turns freely, do not narrow it to zero.
+    Members without load, such as the shaft of a wheel that turns freely, count as if they had moved
+    by `no_load` [m, rad].
     """
     scales, guess = part(work, room.scales, m), part(work, room.guess, room.own)
-    least = _SHARE * _NO_LOAD
+    least = _SHARE * no_load
     others = least if room.own == 0 else math.inf
     for k in range(room.own):
         others = min(others, _SHARE * abs(guess[k]))

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.elements.housing_motion import CarriedInterface
 from gearlube_core.dynamics.train.part import GROUND, Body, Element
 from gearlube_core.errors import ParameterError
@@ -11,6 +14,8 @@ from gearlube_core.errors import ParameterError
 _TURNS_ALONE = frozenset({"port", "motor", "half_shaft", "differential", "seal", "churning"})
 _MESHES = frozenset({"gear_mesh", "helical_mesh", "hypoid_mesh"})
 _HOLDS_NOTHING = _TURNS_ALONE | _MESHES | {"orbit"}
+_FORCELESS = 1e-10  # of the largest squared frequency: what differences leave
+_MOVES = 0.03  # share of a coordinate in motions without force
 _ENOUGH = 3  # meshes that can hold a body: x, y and its turning against a torque
 
 
@@ -35,6 +40,31 @@ def holds(element: Element) -> bool:
     False
     """
     return element.kind not in _HOLDS_NOTHING and not element.carries
+
+
+def free_motions(stiffness: Array, mobility: Array, names: Sequence[str]) -> list[str]:
+    """Return the bodies that can move without force, but for turning about z, and along what.
+
+    Parameters
+    ----------
+    stiffness : ndarray of shape (m, m)
+        M^-1 K of the free coordinates.
+    mobility : ndarray of shape (m,)
+        Their diagonal of M^-1.
+    names : sequence of str
+        Of the coordinates, as "rotor.x".
+
+    Examples
+    --------
+    >>> free_motions(np.diag([1e8, 0.0, 0.0]), np.ones(3), ["rotor.x", "rotor.z", "rotor.rz"])
+    ['rotor along z']
+    """
+    scale = np.sqrt(mobility)
+    _, sizes, ways = np.linalg.svd(stiffness * scale / scale[:, None])
+    free = np.linalg.norm(ways[sizes <= _FORCELESS * sizes[0]], axis=0) > _MOVES
+    words = {"x": "along x", "y": "along y", "z": "along z", "rx": "about x", "ry": "about y"}
+    moved = [name.rpartition(".") for name, one in zip(names, free, strict=True) if one]
+    return [f"{body} {words[way]}" for body, _, way in moved if way in words and "." not in body]
 
 
 def check_supports(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
