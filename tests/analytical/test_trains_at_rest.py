@@ -134,9 +134,7 @@ def test_teeth_without_bearings_have_no_rest():
     bodies, elements = helical_pair(PAIR)
     loose = [SpringSupport(name=one.name, body=one.body) for one in elements[3:]]
     train = Train(bodies, [*elements[:3], *loose], PAIR.oil)
-    with pytest.raises(
-        ConvergenceError, match=r"nothing holds pinion along x, .* wheel about y. Give a support"
-    ):
+    with pytest.raises(ConvergenceError, match=r"nothing holds pinion along x, .* wheel along z"):
         train.initialise({"wheel": 80.0}, LOAD, KELVIN)
 
 
