@@ -165,6 +165,18 @@ def test_a_state_goes_on_in_another_train_to_the_bit():
     np.testing.assert_array_equal(train.get_state(), other.get_state())
 
 
+def test_rounded_times_of_a_host_change_nothing():
+    """Else 25 steps a ms were 26, of another length each time."""
+    train, torques, state = axle("exponential")
+    found = []
+    for longer in (0.0, 4e-13):
+        train.set_state(state)
+        for _ in range(5):
+            train.step(1e-3 * (1.0 + longer), torques, KELVIN)
+        found.append([train.outputs()[one] for one in LOADS])
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-11)
+
+
 def test_a_rotor_whirls_at_its_frequencies_with_far_higher_modes():
     """A disc overhung on a rigid, short shaft that tilts on springs, with modes above 50 kHz.
 
