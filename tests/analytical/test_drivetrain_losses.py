@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gearlube.studies.drivetrain.losses import map_losses, of_map
+from gearlube.studies.drivetrain.losses import loss_figure, map_losses, of_map
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import rads_to_rpm
 from tests.analytical.test_drivetrain_runup import SEAL, case
@@ -69,3 +69,19 @@ def test_a_point_without_equilibrium_is_told_and_torques_must_rise():
     assert of_map(found)[0].headline == "1 of 2 points of the map have no equilibrium."
     with pytest.raises(ParameterError, match="torques of the map must be rising"):
         map_losses(case(), torques=TORQUES[::-1])
+
+
+@pytest.mark.parametrize(
+    ("speeds", "torques", "over"),
+    [
+        (SPEEDS, TORQUES[2:], "speed of pinion [rpm]"),
+        (SPEEDS[:1], TORQUES, "torque of pinion [N·m]"),
+    ],
+)
+def test_a_map_of_one_row_is_a_line_of_losses(speeds, torques, over):
+    axes = loss_figure(map_losses(case(), speeds=speeds, torques=torques)).axes[0]
+    assert axes.get_xlabel() == over
+    assert axes.get_ylabel() == "power lost [W]"
+    # the seal's loss, with 1e-3 for the drift of its speed and the dampers
+    drawn = axes.lines[0].get_ydata()
+    np.testing.assert_allclose(drawn[~np.isnan(drawn)][-1], SEAL * speeds[-1], rtol=2e-3)

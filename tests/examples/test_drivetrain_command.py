@@ -2,6 +2,8 @@
 
 import math
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -87,6 +89,29 @@ def test_the_example_is_a_file_to_start_from(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["drivetrain", "--example"])
     assert done.exit_code == 0
     assert 'kind = "helical_mesh"' in done.output
+    of_planets = CliRunner().invoke(app, ["drivetrain", "planetary", "--example"])
+    assert 'kind = "orbit"' in of_planets.output
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--run-up", "600:600"], "got 600 rpm twice"),
+        (["--map-speeds", "0:10:1"], "must be within 0.01 to 100000 rpm, got 0 rpm"),
+    ],
+)
+def test_wrong_options_are_told_before_what_computes_is_loaded(options: list[str], words: str):
+    """Loading takes seconds: xarray, among the last of it, is not there after the message."""
+    script = (
+        "import sys; from gearlube.command import app\n"
+        "try: app(sys.argv[1:])\n"
+        "finally: assert 'xarray' not in sys.modules"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script, "drivetrain", *options], capture_output=True, text=True
+    )
+    assert done.returncode == 2
+    assert words in " ".join((done.stdout + done.stderr).split())
 
 
 def test_a_step_that_is_too_short_is_refused(

@@ -81,21 +81,9 @@ def drivetrain(
     which `gearlube sound` makes audible; with --map loss_map.nc and loss_map.csv.
     """
     if example:
-        print_example(_TARGET, "e_axle")
+        print_example(_TARGET, file)
         return
-    from drivetrain.train.train_file import TrainFile
-    from gearlube.report.inputs import file_inputs
-    from gearlube.studies.drivetrain.layout import layout
-    from gearlube.studies.drivetrain.losses import map_losses
-    from gearlube.studies.drivetrain.operation import Operation
-    from gearlube.studies.drivetrain.ramp import plan_ramp, run_ramp
-    from gearlube.studies.drivetrain.report import losses, report, save_figures
-    from gearlube.studies.drivetrain.run import run_drivetrain
-    from gearlube.studies.drivetrain.space_view import space_view
     from gearlube_core.checks import check_within
-    from gearlube_core.progress import part_of
-    from gearlube_core.rexs.gearbox import read_gearbox
-    from gearlube_core.storage.atomic_file import write_text
 
     with study_run("drivetrain", out, overwrite=overwrite) as run:
         check_within("--duration-ms", duration_ms, 1e-3, 1e7, "ms")
@@ -103,9 +91,24 @@ def drivetrain(
             check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
         ramp = _ramp(run_up, ramp_s)
         grid = _grid(map_speeds, map_torques)
+        # loaded after the options are checked, as this takes seconds
+        from drivetrain.train.train_file import TrainFile
+        from gearlube_core.rexs.gearbox import read_gearbox
+
         gearbox = read_gearbox(file) if Path(file).suffix.lower() in REXS_ENDINGS else None
         given = TrainFile.from_data(gearbox.data, file) if gearbox else TrainFile.given(file)
         case = given.case()
+        from gearlube.report.inputs import file_inputs
+        from gearlube.studies.drivetrain.layout import layout
+        from gearlube.studies.drivetrain.losses import map_losses
+        from gearlube.studies.drivetrain.operation import Operation
+        from gearlube.studies.drivetrain.ramp import plan_ramp, run_ramp
+        from gearlube.studies.drivetrain.report import losses, report, save_figures
+        from gearlube.studies.drivetrain.run import run_drivetrain
+        from gearlube.studies.drivetrain.space_view import space_view
+        from gearlube_core.progress import part_of
+        from gearlube_core.storage.atomic_file import write_text
+
         if ramp is not None:
             plan_ramp(case, *ramp, ramp_s)  # refuses what it cannot run before all else
         if loss_map or grid:
@@ -176,4 +179,9 @@ def _ramp(run_up: str | None, ramp_s: float | None) -> tuple[float, float] | Non
         ) from None
     for speed in (first, last):
         check_within("--run-up", speed, 0.01, 1e5, "rpm")
+    if first == last:
+        raise ParameterError(
+            f"--run-up must end at another speed than it starts, got {first:g} rpm twice. "
+            "Give two speeds such as 600:6000."
+        )
     return rpm_to_rads(first), rpm_to_rads(last)

@@ -207,11 +207,13 @@ def loss_figure(dataset: xr.Dataset) -> Any:
                 lines = left.contour(share["speed"], share["torque"], share, 6, colors="white",
                                      linewidths=0.8)  # fmt: skip
                 left.clabel(lines, fmt="%.4g %%", fontsize=7)
+            left.set(title="white: efficiency", xlabel=f"speed of {shaft} [rpm]")
+            left.set(ylabel=f"torque of {shaft} [N·m]")
         else:
-            left.plot(
-                *((total["torque"], total[0]) if len(total) == 1 else (total["speed"], total))
-            )
-        left.set(title="white: efficiency", xlabel=f"speed of {shaft} [rpm]", ylabel="torque [N·m]")
+            over, unit = ("torque", "N·m") if len(total) == 1 else ("speed", "rpm")
+            left.plot(total[over], total.values.ravel(), marker="o")
+            left.set(title="all losses", xlabel=f"{over} of {shaft} [{unit}]")
+            left.set(ylabel="power lost [W]")
         middle = dataset.isel(speed=dataset.sizes["speed"] // 2)
         losses = middle["loss"].transpose("source", "torque")
         mean = losses.mean("torque").values
