@@ -7,9 +7,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+from scipy.linalg import null_space
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.assemble import Assembly
+from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RZ
 from gearlube_core.dynamics.train.march import (
     ADVANCE,
     EXCHANGE,
@@ -20,8 +22,11 @@ from gearlube_core.dynamics.train.march import (
     work_size,
 )
 from gearlube_core.dynamics.train.outputs import outputs_at
-from gearlube_core.dynamics.train.rest_search import OK
+from gearlube_core.dynamics.train.rest_search import OK, room_of
+from gearlube_core.dynamics.train.supports import free_motions
 from gearlube_core.errors import StepError
+
+_TURNS = 1e-6  # of 1, a body in a way to turn
 
 
 def _copied(
@@ -144,6 +149,26 @@ class MarchedTrain(ABC):
         """Return M^-1 K of the free coordinates about the present state."""
         m = int(self._call(STIFFNESS, self._state))
         return self._work[: m * m].reshape(m, m).copy()
+
+    def _loose(self, speeds: Mapping[str, float]) -> list[str]:
+        """Return the bodies that a start left free to turn, by the relations in its work array."""
+        room = room_of(self._made.sizes)
+        relations = self._work[room.relations : room.related].reshape(-1, room.coordinates)
+        relations = relations[:, RZ::N_COORDINATES]
+        still = [body.name in speeds or "rz" in body.held for body in self._made.bodies]
+        sizes = np.maximum(abs(relations).max(axis=1, keepdims=True), np.finfo(float).tiny)
+        free = null_space(np.vstack([relations / sizes, np.eye(len(still))[still]]))
+        turns = abs(free).max(axis=1) > _TURNS
+        return [body.name for body, one in zip(self._made.bodies, turns, strict=True) if one]
+
+    def _free_motions(self) -> list[str]:
+        """Return what can move without force, by what a start without rest left in its work."""
+        room, m = room_of(self._made.sizes), int(self._work[0])
+        places = self._work[room.places : room.places + m].astype(int)
+        mobility = np.concatenate([body.mobility for body in self._made.bodies])
+        at = places // BODY_STATES * N_COORDINATES + places % BODY_STATES
+        stiffness = self._work[room.solver : room.solver + m * m].reshape(m, m)
+        return free_motions(stiffness, mobility[at], [self._made.names[i] for i in places])
 
     def _call(
         self,

@@ -7,14 +7,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NoReturn, get_args
 
 import numpy as np
-from scipy.linalg import null_space
 
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.assemble import Bodies, assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
-from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, N_COORDINATES, RZ
+from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import ENERGY, EVENT, START, WRITE
@@ -23,8 +22,8 @@ from gearlube_core.dynamics.train.outputs import outputs_at
 from gearlube_core.dynamics.train.part import Element, Hidden
 from gearlube_core.dynamics.train.plan import MOST_EXPONENTIAL
 from gearlube_core.dynamics.train.rest import LEAST_RATE
-from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK, room_of
-from gearlube_core.dynamics.train.supports import free_motions, whole
+from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_REST, OK
+from gearlube_core.dynamics.train.supports import whole
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import Lubricant
@@ -32,7 +31,6 @@ from gearlube_core.units import rads_to_rpm
 
 Integration = Literal["automatic", "rk4", "exponential"]
 MOST_TORQUE = 1e7  # N.m, of a port
-_TURNS = 1e-6  # of 1, a body in a way to turn
 
 
 class Train(MarchedTrain):
@@ -356,26 +354,6 @@ class Train(MarchedTrain):
             raise ParameterError("speeds must name at least one body of the train, got none.")
         wanted[0] = names.index(next(iter(speeds)))
         return wanted
-
-    def _loose(self, speeds: Mapping[str, float]) -> list[str]:
-        """Return the bodies that a start left free to turn, by the relations in its work array."""
-        room = room_of(self._made.sizes)
-        relations = self._work[room.relations : room.related].reshape(-1, room.coordinates)
-        relations = relations[:, RZ::N_COORDINATES]
-        still = [body.name in speeds or "rz" in body.held for body in self.bodies]
-        sizes = np.maximum(abs(relations).max(axis=1, keepdims=True), np.finfo(float).tiny)
-        free = null_space(np.vstack([relations / sizes, np.eye(len(still))[still]]))
-        turns = abs(free).max(axis=1) > _TURNS
-        return [body.name for body, one in zip(self.bodies, turns, strict=True) if one]
-
-    def _free_motions(self) -> list[str]:
-        """Return what can move without force, by what a start without rest left in its work."""
-        room, m = room_of(self._made.sizes), int(self._work[0])
-        places = self._work[room.places : room.places + m].astype(int)
-        mobility = np.concatenate([body.mobility for body in self.bodies])
-        at = places // BODY_STATES * N_COORDINATES + places % BODY_STATES
-        stiffness = self._work[room.solver : room.solver + m * m].reshape(m, m)
-        return free_motions(stiffness, mobility[at], [self._made.names[i] for i in places])
 
     def _refuse(self, status: int, speeds: Mapping[str, float]) -> NoReturn:
         """Raise the error of a start that left its number in the work array."""
