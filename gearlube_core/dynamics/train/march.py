@@ -42,7 +42,8 @@ TOO_FAST = 3
 
 MAX_STEPS = 150_000  # in one communication interval, or their cost
 _MS = 1e3  # in a second
-_ROUNDING, _DIGITS = 1e-6, 2.0**36  # of a count of steps, and of the length of one
+_ROUNDING = 1e-6  # of a count of steps
+_SPLIT = 2.0**17 + 1.0  # with which 36 binary digits of a number are left
 _OF_PERIODS = 1.0 / 3.0  # of the steps per mesh or ripple period that RK4 takes
 DIVERGED = 0.1  # m, displacement of a body: supports long broken
 REFUSALS = {
@@ -297,8 +298,7 @@ def train_kernel(of_all: AllElements, laws: OilLaws) -> Callable[..., float]:
         steps = max(1, math.ceil(wanted - _ROUNDING if exact else wanted))
         h = duration / steps
         if exact:  # hosts round their times: the numbers of a step serve all that they mean
-            mantissa, power = math.frexp(h)
-            h = math.ldexp(math.floor(mantissa * _DIGITS + 0.5) / _DIGITS, power)
+            h = _SPLIT * h - (_SPLIT * h - h)
         n, n_kept, energies = sizes.integrated, sizes.kept, sizes.energies
         first_energy = n - energies
         for i in range(energies):
