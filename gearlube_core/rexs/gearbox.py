@@ -226,7 +226,10 @@ def _add_blank(
     if diameter <= inner * MILLIMETRE:
         return
     density = shaft.material.get("density_kg_m3", _STEEL)
-    ring = ShaftDisc.ring(z * MILLIMETRE, diameter, inner * MILLIMETRE, width, density)
+    try:
+        ring = ShaftDisc.ring(z * MILLIMETRE, diameter, inner * MILLIMETRE, width, density)
+    except ParameterError as reason:
+        raise ParameterError(f"{gear}, as a ring from the shaft: {reason}") from None
     shaft.discs.append(disc(z, ring.mass, ring.inertia, ring.polar_inertia))
     words = (
         f"{ring.mass:.4g} kg, a ring from {inner:g} mm to {1e3 * diameter:.4g} mm, its pitch circle"

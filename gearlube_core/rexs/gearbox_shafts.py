@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.rexs.model import Component, RexsModel
 from gearlube_core.rexs.stage import ExchangeNote, Kind
@@ -95,7 +96,7 @@ def read_shafts(reading: Reading) -> dict[int, GearboxShaft]:
             f"{model.path} must have shafts, got none. `gearlube convert` without --train reads a "
             "pair of gears alone."
         )
-    axes = [one.vector("u_axis_vector") or (1.0, 0.0, 0.0) for one in components]
+    axes = [_direction(one, "u_axis_vector", (1.0, 0.0, 0.0)) for one in components]
     for one, axis in zip(components, axes, strict=True):
         if math.dist(axis, axes[0]) > _PARALLEL:
             raise ParameterError(
@@ -108,8 +109,13 @@ def read_shafts(reading: Reading) -> dict[int, GearboxShaft]:
             "lacking", "places of shafts", "support_vector of a shaft is absent: directions are "
             "those of the stages, all shafts begin at z = 0",
         )  # fmt: skip
-    u, w = np.array(axes[0]), np.array(components[0].vector("w_axis_vector") or (0.0, 0.0, 1.0))
-    frame = np.array([u, np.cross(w, u), w])
+    w = _direction(components[0], "w_axis_vector", (0.0, 0.0, 1.0))
+    frame = np.array([axes[0], np.cross(w, axes[0]), w])
+    if abs(np.linalg.det(frame) - 1.0) > _PARALLEL:
+        raise ParameterError(
+            f"w_axis_vector of {components[0]} must be at right angles to its u_axis_vector "
+            f"{axes[0]}, got {w}. Correct the file."
+        )
     found = {}
     for one, given in zip(components, placed, strict=True):
         place = (0.0, 0.0, 0.0) if None in placed or given is None else given
@@ -117,6 +123,19 @@ def read_shafts(reading: Reading) -> dict[int, GearboxShaft]:
         _read_parts(reading, one, shaft)
         found[one.number] = shaft
     return found
+
+
+def _direction(
+    one: Component, attribute: str, absent: tuple[float, float, float]
+) -> tuple[float, ...]:
+    """Return a vector of length 1."""
+    given = one.vector(attribute) or absent
+    length = math.hypot(*given)
+    if length == 0.0:
+        raise ParameterError(
+            f"{attribute} of {one} must have a length, got three zeros. Correct the file."
+        )
+    return tuple(part / length for part in given)
 
 
 def _read_parts(reading: Reading, component: Component, shaft: GearboxShaft) -> None:
@@ -145,6 +164,7 @@ def _read_parts(reading: Reading, component: Component, shaft: GearboxShaft) -> 
                 material.value("density", "kg / dm^3"),
             )
             if modulus is not None and poisson is not None and density is not None:
+                check_within(f"poisson_ratio of {material}", poisson, 0.0, 0.5)
                 shaft.material = {
                     "E_gpa": 1e-3 * modulus,
                     "G_gpa": 1e-3 * modulus / (2.0 + 2.0 * poisson),

@@ -80,9 +80,11 @@ class Component:
         try:
             u, v, w = (float(one) for one in text.split())
         except ValueError:
+            u = v = w = math.nan
+        if not math.isfinite(u + v + w):
             raise ParameterError(
                 f"{attribute} of {self} must be three numbers, got {text!r}. Correct the file"
-            ) from None
+            )
         own = self.attributes[attribute][1]
         factor = converted(1.0, own, "mm", f"{attribute} of {self}") if own else 1.0
         return factor * u, factor * v, factor * w

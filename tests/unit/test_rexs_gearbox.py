@@ -201,6 +201,11 @@ def with_kind(part, kind):
         (with_kind("stage 2", "planetary_stage"), "cylindrical stages alone, got planetary_stage"),
         (changed(("input", "u_axis_vector", "0 1 0")), "Shafts must lie along one u axis"),
         (changed(("input", "support_vector", "0 1")), "support_vector of shaft .* three numbers"),
+        (changed(("input", "support_vector", "0 nan 1")), "support_vector .* three numbers"),
+        (changed(("input", "u_axis_vector", "0 0 0")), "u_axis_vector .* must have a length"),
+        (changed(("input", "w_axis_vector", "1 0 1")), "w_axis_vector .* at right angles"),
+        (changed(("steel", "poisson_ratio", -1)), "poisson_ratio of .* within 0 to 0.5, got -1"),
+        (changed(("wheel 1", "face_width", 1e9)), "wheel 1.*, as a ring .*: mass must be within"),
         (changed(("counter", "support_vector", "0 0 9")), "must stand 81.545 mm apart"),
         (changed(("wheel 1", "u_coordinate_on_shaft", None)), "lacks 1 .*: u_coordinate_on_shaft"),
         (changed(("wheel 1", "u_coordinate_on_shaft", 500)), "shaft_section of counter below"),
@@ -217,6 +222,13 @@ def test_a_gearbox_that_is_no_train_is_refused(root, words, tmp_path):
     path.write_bytes(etree.tostring(root))
     with pytest.raises(ParameterError, match=words):
         read_gearbox(path)
+
+
+def test_the_length_of_axis_vectors_does_not_matter(written):
+    """They are directions, such as 1000 mm in a file with unit m."""
+    names = [(one, "u_axis_vector", "1000 0 0") for one in ("input", "counter", "output")]
+    longer = read_gearbox(written(changed(*names, ("input", "w_axis_vector", "0 0 2"))))
+    assert longer.data["bodies"] == read_gearbox(written(e_axle_model())).data["bodies"]
 
 
 def test_a_damaged_gearbox_is_read_or_refused_in_words(tmp_path):
