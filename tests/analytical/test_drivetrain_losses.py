@@ -85,3 +85,12 @@ def test_a_map_of_one_row_is_a_line_of_losses(speeds, torques, over):
     # the seal's loss, with 1e-3 for the drift of its speed and the dampers
     drawn = axes.lines[0].get_ydata()
     np.testing.assert_allclose(drawn[~np.isnan(drawn)][-1], SEAL * speeds[-1], rtol=2e-3)
+
+
+def test_a_single_braking_torque_is_in_the_picture_of_a_map():
+    """No area joins it to those that drive: its point shows it, at the loss of the seal."""
+    left, right, *_ = loss_figure(map_losses(case(), speeds=SPEEDS, torques=TORQUES)).axes
+    assert set(left.lines[0].get_ydata()) == set(TORQUES)
+    torque, lost = right.lines[0].get_data()
+    # 1e-3 for the drift of the speed and the dampers
+    assert lost[list(torque).index(TORQUES[0])] == pytest.approx(SEAL * SPEEDS[1], rel=2e-3)

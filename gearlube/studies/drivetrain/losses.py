@@ -202,12 +202,15 @@ def loss_figure(dataset: xr.Dataset) -> Any:
         if min(total.shape) > 1:
             drawn = left.contourf(total["speed"], total["torque"], total.T, 12, cmap="cividis")
             figure.colorbar(drawn, ax=left, label="power lost [W]")
-            share = 100.0 * dataset["efficiency"].T
+            points = (one.ravel() for one in np.meshgrid(total["speed"], given))
+            left.plot(*points, "k.", ms=4, clip_on=False)
+            title, share = "losses", 100.0 * dataset["efficiency"].T
             if np.isfinite(share).any() and float(share.max() - share.min()) > _SAME:
                 lines = left.contour(share["speed"], share["torque"], share, 6, colors="white",
                                      linewidths=0.8)  # fmt: skip
                 left.clabel(lines, fmt="%.4g %%", fontsize=7)
-            left.set(title="white: efficiency", xlabel=f"speed of {shaft} [rpm]")
+                title = "losses, white: efficiency"
+            left.set(title=title, xlabel=f"speed of {shaft} [rpm]", facecolor="0.8")
             left.set(ylabel=f"torque of {shaft} [N·m]")
         else:
             over, unit = ("torque", "N·m") if len(total) == 1 else ("speed", "rpm")
@@ -225,6 +228,7 @@ def loss_figure(dataset: xr.Dataset) -> Any:
         parts = [*values[: len(named)], values[len(named) :].sum(axis=0)]
         right.stackplot(losses["torque"], parts, labels=[*words, "all others"], colors=PARTS,
                         alpha=0.85)  # fmt: skip
+        right.plot(losses["torque"], losses.sum("source", skipna=False), "k.", ms=4, clip_on=False)
         right.set(
             title=f"by element, at {float(middle['speed']):.4g} rpm",
             xlabel=f"torque of {shaft} [N·m]",
