@@ -279,7 +279,8 @@ def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         on = [name for _, _, name in asked]
         if len(set(on)) < len(on):
             raise ParameterError(
-                f"{one.name} must act on {len(on)} different bodies, got {', '.join(on)}."
+                f"{one.name} must act on {len(on)} different bodies, got {', '.join(on)}. "
+                "Name another one."
             )
         if one.on in _BETWEEN_PARTS and len({nodes.get(name, name) for name in on}) == 1:
             raise ParameterError(

@@ -97,10 +97,12 @@ class MarchedTrain(ABC):
     def _check_state(self, values: Array) -> None:
         """Raise StepError unless these numbers can be a state."""
         size = self._state.size + self._beside.size
-        if values.shape != (size,) or not np.all(np.isfinite(values)):
+        wrong = np.flatnonzero(~np.isfinite(values))
+        if values.shape != (size,) or wrong.size:
+            got = f", {values.ravel()[wrong[0]]} at place {wrong[0]}" if wrong.size else ""
             raise StepError(
-                f"a state of {self._name} has {size} finite numbers, got shape {values.shape}. Use "
-                f"an array from get_state of the same {self._origin}."
+                f"a state of {self._name} has {size} finite numbers, got shape {values.shape}{got}."
+                f" Use an array from get_state of the same {self._origin}."
             )
 
     def _take_state(self, values: Array) -> None:
