@@ -1,6 +1,7 @@
 """Case of the shipped e-axle: an aluminium box of solid elements, reduced to its bearing seats.
 
-`python examples/e_axle_case.py case.npz` writes the reduced model; it needs half a minute.
+`python examples/e_axle_case.py case.npz` writes the reduced model; it needs half a minute. A second
+file, such as `case.png`, gets a picture of the finite elements.
 """
 
 from __future__ import annotations
@@ -170,7 +171,39 @@ def reduced_case(whole: WholeCase, modes: int) -> gl.ReducedModel:
     )
 
 
+def draw(path: str) -> None:
+    """Draw the finite elements, whole and without the top and one side; squares: mounts."""
+    import matplotlib.pyplot as plt
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    mesh = box().mesh
+    faces = 1e3 * mesh.p[:, mesh.facets[:, mesh.boundary_facets()]].T  # mm: face, corner, direction
+    faces = faces[:, :, [2, 0, 1]]  # y of the train points up
+    _, x, y = faces.mean(axis=1).T
+    seen = (y < 1e3 * INNER_HIGH[1] - 1.0) & (x > 1e3 * INNER_LOW[0] + 1.0)
+    figure = plt.figure(figsize=(8.0, 4.2), layout="constrained")
+    titles = {"case": np.full(x.size, True), "without top and one side": seen}
+    mounts = 1e3 * np.array([LOW + corner * (HIGH - LOW) for corner in MOUNTS.values()])
+    for i, (title, shown) in enumerate(titles.items()):
+        ax = figure.add_subplot(1, 2, i + 1, projection="3d")
+        ax.add_collection3d(
+            Poly3DCollection(
+                faces[shown], facecolors="#a3b3c8", edgecolors="#333333", lw=0.3, shade=True
+            )
+        )
+        ax.scatter(*mounts[:, [2, 0, 1]].T, marker="s", s=40, depthshade=False)
+        ax.set(title=title, xlabel="z [mm]", ylabel="x [mm]", zlabel="y [mm]")
+        for low, high, limit in zip(LOW[[2, 0, 1]], HIGH[[2, 0, 1]], "xyz", strict=True):
+            ax.set(**{f"{limit}lim": (1e3 * low, 1e3 * high)})
+        ax.set_aspect("equal")
+        ax.locator_params(nbins=5)
+        ax.view_init(25.0, -125.0)
+    figure.savefig(path, dpi=120)
+
+
 if __name__ == "__main__":
+    if len(sys.argv) > 2:
+        draw(sys.argv[2])
     model = reduced_case(whole_case(), 90)
     np.savez_compressed(
         sys.argv[1],
