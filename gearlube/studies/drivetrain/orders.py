@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import GREY, PARTS, house_style, name_levels, new_figure
-from gearlube.report.parts import Cell, Column, Table
+from gearlube.report.parts import Column, Table
 from gearlube.studies.drivetrain.operation import Operation
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.elements.motor import Motor
@@ -171,33 +171,37 @@ def crossings(
 
 
 def resonant_speeds(dataset: xr.Dataset) -> list[Table]:
-    """Return the table of speeds at which orders that excite meet natural frequencies."""
+    """Return the table of speeds at which orders that excite meet natural frequencies.
+
+    Those with the largest forces stand first, and no more than `_MANY`.
+    """
     if "order_force" not in dataset:
         return []
-    largest = _largest(dataset)
-    orders = [
-        Order(str(name), float(order), 0, ())
-        for name, order, force in zip(
-            dataset["line"].values, dataset["order"].values, largest, strict=True
-        )
-        if not force <= LEAST
-    ]
+    excited = dataset["line"].values[~(_largest(dataset) <= LEAST)]
+    forces = dataset["order_force"].max("part")
+    orders = [Order(str(one), float(dataset["order"].sel(line=one)), 0, ()) for one in excited]
     low, high = (float(rpm_to_rads(dataset["order_speed"].values[i])) for i in (0, -1))
     frequency, share = dataset["frequency"].values, dataset["share"].values
     bodies = dict(zip(frequency, dataset["body"].values[share.argmax(axis=1)], strict=True))
-    rows: list[Sequence[Cell]] = [
-        [float(rads_to_rpm(speed)), name, f, str(bodies[f])]
-        for speed, f, name in crossings(orders, frequency, low, high)
-    ]
+    rows: list[list[Any]] = []
+    for speed, f, name in crossings(orders, frequency, low, high):
+        rpm = float(rads_to_rpm(speed))
+        force = float(np.interp(rpm, dataset["order_speed"], forces.sel(line=name)))
+        rows.append([rpm, name, f, str(bodies[f]), None if math.isnan(force) else force])
     if not rows:
         return []
+    rows.sort(key=lambda row: row[-1] or 0.0, reverse=True)
     columns = [
         Column(f"speed of {dataset.attrs['shaft']}", "rpm", 4),
         Column("order"),
         Column("natural frequency", "Hz", 4),
         Column("body that moves most"),
+        Column("largest force by the order", "N", 3),
     ]
-    return [Table(title="Resonant speeds", columns=columns, rows=rows, folded=len(rows) > _MANY)]
+    title = "Resonant speeds"
+    if len(rows) > _MANY:
+        title += f", {_MANY} of {len(rows)}" + (", by force" if rows[0][-1] else "")
+    return [Table(title=title, columns=columns, rows=rows[:_MANY])]
 
 
 def order_forces(operation: Operation, train: Train, speeds: Array) -> dict[str, Any]:
@@ -222,20 +226,27 @@ def order_forces(operation: Operation, train: Train, speeds: Array) -> dict[str,
     }
 
 
+def _largest_of_parts(dataset: xr.Dataset) -> Array:
+    """Return the largest force of each order on each part [N], shape (lines, parts)."""
+    found = dataset["order_force"].max("order_speed").values
+    if "order_track" in dataset:
+        found = np.fmax(found, dataset["order_track"].max("block").values)
+    return np.asarray(found)
+
+
 def _largest(dataset: xr.Dataset) -> Array:
     """Return the largest force of each order [N], in time or by frequency; NaN: not known."""
-    found = dataset["order_force"].max(("order_speed", "part")).values
-    if "order_track" in dataset:
-        found = np.fmax(found, dataset["order_track"].max(("block", "part")).values)
-    return np.asarray(found)
+    return np.asarray(np.fmax.reduce(_largest_of_parts(dataset), axis=1))
 
 
 def order_figure(dataset: xr.Dataset) -> Any:
     """Draw the forces of meshes and bearings over speed, one panel each, a line for each order."""
     forces = dataset["order_force"]
     tracks = dataset.get("order_track")
-    most = dict(zip(forces["line"].values.tolist(), _largest(dataset), strict=True))
-    lines = [line for line, force in most.items() if force > LEAST]
+    largest = _largest_of_parts(dataset)
+    tops = np.nan_to_num(largest).max(axis=0)
+    drawn = (largest > np.maximum(LEAST, _SHOWN * tops)).any(axis=1)
+    lines = forces["line"].values[drawn].tolist()
     parts = [str(one) for one in dataset["part"].values]
     rows = -(-len(parts) // 2)
     with house_style():
@@ -246,13 +257,13 @@ def order_figure(dataset: xr.Dataset) -> Any:
         for ax, part in zip(axes, parts, strict=False):
             for i, line in enumerate(lines):
                 look = {"color": PARTS[i % len(PARTS)], "lw": 1.1}
-                drawn = forces.sel(line=line, part=part)
+                found = forces.sel(line=line, part=part)
                 if tracks is not None:
                     ran = tracks.sel(line=line, part=part)
                     ax.semilogy(rads_to_rpm(1.0) * dataset["block_speed"], ran, label=line, **look)
                     look |= {"ls": ":"}
                 ax.semilogy(
-                    drawn["order_speed"], drawn, label=line if tracks is None else None, **look
+                    found["order_speed"], found, label=line if tracks is None else None, **look
                 )
             ax.set(title=part.replace("_", " "), ylabel="force [N]")
             top = ax.get_ylim()[1]

@@ -46,6 +46,8 @@ _DIGITS = 9  # behind the point, of a loss in W
 _STEADY = 0.02  # change of a speed in a run, over the speed
 _AT_REST = 0.05  # speed that counts as none [rad/s]
 _NO_LOSS = 1e-9  # W, rounding
+_LEAST_SWING = 1e-12  # m, of a transmission error; below is rounding
+_ROUNDING = 1e-14  # of energies, below which nothing is missing
 _SHOWN = 0.1  # last part of the run, of which the transmission errors are drawn
 _DTE, _LOSS = ".dte", ".power_loss"
 _LIMITS = (
@@ -249,11 +251,11 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             )
         )
     for mesh, swing in transmission_errors(dataset).items():
-        found.append(
-            Finding(NOTE, f"The transmission error of {mesh} swings by {1e6 * swing:.3g} µm.")
-        )
+        words = f"swings by {1e6 * swing:.3g} µm" if swing > _LEAST_SWING else "does not swing"
+        found.append(Finding(NOTE, f"The transmission error of {mesh} {words}."))
     missing = float(dataset.attrs["imbalance"])
-    words = f"{100.0 * missing:.2g} % of the energy that passed through is unaccounted for."
+    share = f"{100.0 * missing:.2g} %" if missing > _ROUNDING else "nothing"
+    words = f"{share} of the energy that passed through is unaccounted for."
     if missing > _BALANCED:
         found.append(Finding(WARNING, words, "Take more steps_per_highest_period."))
     else:
