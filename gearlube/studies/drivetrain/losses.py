@@ -71,6 +71,14 @@ def map_losses(
     ------
     ParameterError
         A number is out of range, or nothing drives the train.
+
+    Examples
+    --------
+    >>> from drivetrain.train.train_file import TrainFile
+    >>> axle = TrainFile.named("hypoid_axle").case()
+    >>> found = map_losses(axle, speeds=np.array([200.0]), torques=np.array([50.0]))
+    >>> round(100.0 * found["efficiency"].item(), 1)  # %
+    96.2
     """
     operation = Operation.of(case)
     speeds = operation.speed * np.array(_SPEEDS) if speeds is None else speeds

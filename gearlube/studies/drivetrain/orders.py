@@ -159,8 +159,10 @@ def crossings(
 
     Examples
     --------
-    >>> crossings([Order("motor, 24", 24.0, 0, ("motor",))], np.array([400.0, 4000.0]), 50.0, 600.0)
-    [(104.71975511965977, 400.0, 'motor, 24')]
+    >>> motor = Order("motor, 24", 24.0, 0, ("motor",))
+    >>> ((speed, frequency, name),) = crossings([motor], np.array([400.0, 4000.0]), 50.0, 600.0)
+    >>> round(speed, 2), frequency, name
+    (104.72, 400.0, 'motor, 24')
     """
     found = [
         (2.0 * math.pi * float(f) / one.order, float(f), one.name)
@@ -245,7 +247,7 @@ def order_figure(dataset: xr.Dataset) -> Any:
     tracks = dataset.get("order_track")
     largest = _largest_of_parts(dataset)
     tops = np.nan_to_num(largest).max(axis=0)
-    drawn = (largest > np.maximum(LEAST, _SHOWN * tops)).any(axis=1)
+    drawn = (largest > np.maximum(LEAST, 10.0 * _SHOWN * tops)).any(axis=1)
     lines = forces["line"].values[drawn].tolist()
     parts = [str(one) for one in dataset["part"].values]
     rows = -(-len(parts) // 2)

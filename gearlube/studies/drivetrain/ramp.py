@@ -81,6 +81,14 @@ def run_ramp(
         A number is out of range, nothing drives the train, or it has no bearing.
     ConvergenceError, StepError
         There is no equilibrium at a speed, or a step cannot be made.
+
+    Examples
+    --------
+    >>> from drivetrain.train.train_file import TrainFile
+    >>> axle = TrainFile.named("hypoid_axle").case()
+    >>> run = run_ramp(axle, 200.0, 240.0, duration=0.5)
+    >>> run["part"].values.tolist()
+    ['mesh', 'pinion_bearings', 'gear_bearings']
     """
     plan = plan_ramp(case, start, end, duration)
     operation, parts, orders, rate = plan.operation, plan.parts, plan.orders, plan.rate

@@ -207,7 +207,7 @@ def assemble(
     touched = [
         of_body[body.name] + i
         for body in bodies
-        if body.name in curved
+        if exponential > 0 and body.name in curved
         for i, c in enumerate(COORDINATES)
         if isinstance(body, Node) or c not in body.held
     ]

@@ -201,7 +201,7 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
 
     @kernel
     def touches_fit(numbers: Array, plan: Offsets, sizes: Sizes) -> bool:
-        """Whether the coordinates at the end are those that curved elements act on."""
+        """Whether those at the end, for exponential steps, are what curved elements act on."""
         at, free = plan.size - sizes.touched, 0
         for body in range(sizes.bodies):
             touched, row = False, FIRST_ROW
@@ -214,7 +214,7 @@ def check_kernel(elements: AllElements) -> Callable[..., bool]:
             for i in range(N_COORDINATES):
                 moves = numbers[sizes.first_mobility + N_COORDINATES * body + i] > 0.0
                 free += 1 if moves else 0
-                if touched and (moves or node):
+                if sizes.exponential > 0 and touched and (moves or node):
                     if at >= plan.size or plan[at] != BODY_STATES * body + i:
                         return False
                     at += 1

@@ -3,7 +3,8 @@
     sizes | a row for each element, in the order of the list | places of coordinates
 
 A row holds the kind of an element and what its constants, memory and outputs begin at, then its
-places `at`. The coordinates at the end are those that elements without linear forces act on.
+places `at`. The coordinates at the end, for exponential steps, are those that elements
+without linear forces act on.
 """
 
 from __future__ import annotations
