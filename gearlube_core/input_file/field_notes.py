@@ -24,7 +24,7 @@ from gearlube_core.input_file.field_units import (
 )
 from gearlube_core.number import Number, numbers_of
 
-_ENTRY = re.compile(r"(\.\d+)+$")  # of a list, in the place of an error
+_ENTRY = re.compile(r"(\.\d+)+$")  # of a list, in the path of an error
 _LIMITS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _KINDS = {
     "number": "number",

@@ -91,7 +91,7 @@ def order_blocks(
     highest_order : float
         End of the spectra [-].
     orders : ndarray of shape (n,), optional
-        These alone, whole or not, in the place of all bins up to `highest_order`.
+        These alone, whole or not, instead of all bins up to `highest_order`.
 
     Raises
     ------

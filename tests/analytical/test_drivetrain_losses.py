@@ -9,7 +9,6 @@ import pytest
 
 from gearlube.studies.drivetrain.losses import loss_figure, map_losses, of_map
 from gearlube_core.errors import ParameterError
-from gearlube_core.units import rads_to_rpm
 from tests.analytical.test_drivetrain_runup import SEAL, case
 from tests.helpers.elastic_e_axle import case as elastic
 
@@ -28,7 +27,6 @@ def test_a_seal_loses_its_torque_times_the_speed_at_all_points():
     best = of_map(found)[0].headline
     assert f"{100.0 * driving[-1]:.1f}" in best
     assert "50 N·m" in best
-    assert f"{float(rads_to_rpm(SPEEDS[0])):.4g} rpm" in best or "2865 rpm" in best
 
 
 def test_losses_of_the_elements_add_up_to_those_of_the_train():

@@ -29,6 +29,7 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.symmetric_modes import symmetric_modes
 from gearlube_core.oil.lubricant import LubricantState
 
+Given = tuple[LubricantState, Array, Array, Offsets]  # oil, numbers, memory, plan of a train
 _MOVE = 1e-6  # m and rad, of coordinates on which forces depend linearly
 _DIFFERENCE = 1e-8  # of the others
 _PHASES = 61  # of the meshes, over which their stiffness is a mean: a prime number
@@ -50,14 +51,8 @@ def modes_kernel(
             trial[i] = 0.0
 
     @kernel
-    def forces_on_all(
-        trial: Array,
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        slope: Array,
-    ) -> None:
+    def forces_on_all(trial: Array, given: Given, slope: Array) -> None:
+        oil, numbers, memory, plan = given
         spread(trial, oil, numbers, memory, plan)
         sums(trial, oil, numbers, memory, plan, 0, LINEAR, slope)
         collect(trial, oil, numbers, memory, plan, slope)
@@ -73,15 +68,9 @@ def modes_kernel(
                     count += 1
 
     @kernel
-    def write_linear(
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        p: Places,
-        room: Array,
-    ) -> None:
+    def write_linear(given: Given, p: Places, room: Array) -> None:
         """Write touched shapes, stiffness, dampers, gyroscopic moments, losses of coordinates."""
+        oil, numbers, memory, plan = given
         n, trial, slope = p.modes, part(room, p.trial, p.solver - p.trial), room_slope(room, p)
         stop(trial)
         for j in range(p.free):
@@ -93,7 +82,7 @@ def modes_kernel(
                 room[p.touching + k * n + j] = trial[touched_at(plan, p, k)]
             trial[place] = 0.0
             trial[place + RATE] = 1.0
-            forces_on_all(trial, oil, numbers, memory, plan, slope)
+            forces_on_all(trial, given, slope)
             for k in range(p.own):
                 room[p.straight + k * n + j] = slope[p.first + k]
             for k in range(p.losses):
@@ -105,21 +94,15 @@ def modes_kernel(
                 trial[place] = step
                 for k in range(p.own):
                     trial[p.first + k] = step * room[p.straight + k * n + j]
-                forces_on_all(trial, oil, numbers, memory, plan, slope)
+                forces_on_all(trial, given, slope)
                 add_column(numbers, p, room, slope, p.solver, j, -0.5 * root / step)
             stop(trial)
-        write_turning(oil, numbers, memory, plan, p, room)
-        write_powers(oil, numbers, memory, plan, p, room)
+        write_turning(given, p, room)
+        write_powers(given, p, room)
 
     @kernel
-    def write_turning(
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        p: Places,
-        room: Array,
-    ) -> None:
+    def write_turning(given: Given, p: Places, room: Array) -> None:
+        _, numbers, _, plan = given
         n, trial, slope = p.modes, part(room, p.trial, p.solver - p.trial), room_slope(room, p)
         at = FIRST_ROW
         for carrier in range(p.carriers):
@@ -131,28 +114,22 @@ def modes_kernel(
                 if place % BODY_STATES == RZ:
                     continue  # forces of its own speed are no gyroscopic ones
                 trial[place + RATE] = trial[turning] = 1.0
-                forces_on_all(trial, oil, numbers, memory, plan, slope)
+                forces_on_all(trial, given, slope)
                 add_column(numbers, p, room, slope, matrix, j, -root)
                 trial[turning] = 0.0
-                forces_on_all(trial, oil, numbers, memory, plan, slope)
+                forces_on_all(trial, given, slope)
                 add_column(numbers, p, room, slope, matrix, j, root)
                 trial[place + RATE], trial[turning] = 0.0, 1.0
-                forces_on_all(trial, oil, numbers, memory, plan, slope)
+                forces_on_all(trial, given, slope)
                 add_column(numbers, p, room, slope, matrix, j, root)
                 trial[turning] = 0.0
             stop(trial)
             at += AT + int(plan[at + N_PLACES])
 
     @kernel
-    def write_powers(
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        p: Places,
-        room: Array,
-    ) -> None:
+    def write_powers(given: Given, p: Places, room: Array) -> None:
         """Write what each two rates lose together, of losses that grow with their square."""
+        _, numbers, _, _ = given
         n, trial, slope = p.modes, part(room, p.trial, p.solver - p.trial), room_slope(room, p)
         for k in range(p.losses):
             most = 0.0
@@ -165,7 +142,7 @@ def modes_kernel(
             trial[int(room[p.coordinates + i]) + RATE] = 1.0
             for j in range(i):
                 trial[int(room[p.coordinates + j]) + RATE] = 1.0
-                forces_on_all(trial, oil, numbers, memory, plan, slope)
+                forces_on_all(trial, given, slope)
                 trial[int(room[p.coordinates + j]) + RATE] = 0.0
                 for k in range(p.losses):
                     m = p.powers + k * n * n
@@ -182,15 +159,9 @@ def modes_kernel(
                     room[m + j * n + i] *= root
 
     @kernel
-    def write_contacts(
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        p: Places,
-        room: Array,
-    ) -> None:
+    def write_contacts(given: Given, p: Places, room: Array) -> None:
         """Write the mean stiffness of elements that are not linear, with all contacts."""
+        oil, numbers, memory, plan = given
         f = p.touched
         trial, slope = part(room, p.trial, p.solver - p.trial), room_slope(room, p)
         stop(trial)
@@ -286,8 +257,9 @@ def modes_kernel(
         for i in range(room.size):
             room[i] = 0.0
         write_places(numbers, sizes, p, room)
-        write_linear(oil, numbers, memory, plan, p, room)
-        write_contacts(oil, numbers, memory, plan, p, room)
+        given = oil, numbers, memory, plan
+        write_linear(given, p, room)
+        write_contacts(given, p, room)
         find_modes(numbers, p, room)
         room[FILLED], room[STEP] = 1.0, 0.0
 

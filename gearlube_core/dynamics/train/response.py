@@ -265,7 +265,7 @@ class _Linear(NamedTuple):
     def response(self, omega: Array, pushed: Any, direct: Any, loss: float | None) -> Any:
         """Return outputs over frequencies [rad/s] by accelerations that push the coordinates.
 
-        `loss` is the loss factor of all stiffness in the place of all dampers.
+        `loss` is the loss factor of all stiffness, instead of all dampers.
         """
         w = omega[:, None, None]
         dampers = 1j * loss * self.stiffness if loss is not None else 1j * w * self.damping
