@@ -45,7 +45,7 @@ _AS_WRITTEN: dict[str, Any] = {  # no number is taken for a missing one
     "mask_and_scale": False,
 }
 _DIMENSIONS = "_ARRAY_DIMENSIONS"
-_CURE = "Give another --out, or --overwrite to begin anew there."
+_CURE = "Give another --out, or --overwrite to begin again there."
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +95,7 @@ class BlockStore:
     def made(
         cls, folder: Path, study: PointStudy, design: Design, *, key: str, block: int
     ) -> BlockStore:
-        """Return a new, empty store in `folder`, in the place of any that is there."""
+        """Return a new, empty store in `folder`, instead of any that is there."""
         store = cls(folder / FILE, design.size, block)
         store._make(study, design, key)
         return store

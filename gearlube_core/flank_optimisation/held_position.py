@@ -83,7 +83,7 @@ class HeldPosition:
 
         Notes
         -----
-        Contact is solved anew on the held cells; the rates are those of the carrying cells. The
+        Contact is solved again on the held cells; the rates are those of the carrying cells. The
         mesh's sliding speeds and the teeth's compliance are held.
 
         Raises

@@ -291,7 +291,7 @@ def _front(
 
     Of all that the searches met on cells held at the best pair: losses often differ by per cents,
     and a pair of less loss needs no cells of its own to be one of the front. Where the way to it
-    ends at the region of a round, cells are cut anew there and the search goes on.
+    ends at the region of a round, cells are cut again there and the search goes on.
     """
     if settings.front < 2:
         return ()

@@ -1,4 +1,4 @@
-"""The search for the best values: SLSQP on held cells, in rounds that cut the cells anew."""
+"""The search for the best values: SLSQP on held cells, in rounds that cut the cells again."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ class SearchSettings:
     Parameters
     ----------
     rounds : int
-        Times that cells are cut anew, at most.
+        Times that cells are cut again, at most.
     steps : int
         Of SLSQP in a round, at most.
     region : float
@@ -188,11 +188,11 @@ def search(
 
     Notes
     -----
-    A round holds the cells, moves within a region, and is kept when the pair with cells cut anew
-    is better: aim plus a price for broken limits. What cutting anew adds to each limit is added in
+    A round holds the cells, moves within a region, and is kept when the pair with cells cut again
+    is better: aim plus a price for broken limits. What cutting again adds to each limit is added in
     the next rounds too, until one is kept. A round that is not kept and adds nothing to a limit
     halves or quarters the region; a kept one that gains much doubles it. Within a round the contact
-    is solved anew at every step; what is linear there are machine settings alone.
+    is solved again at every step; what is linear there are machine settings alone.
 
     References
     ----------

@@ -161,7 +161,7 @@ def flank_rates(
 
     Notes
     -----
-    An analysis anew cuts its strips for the changed flanks; its differences are 1 to 3 % apart from
+    A new analysis cuts its strips for the changed flanks; its differences are 1 to 3 % apart from
     these rates with 31 x 48 cells a line, those of rotation 0.3 % with 61 x 96: that is the scatter
     of the cells. The highest pressure stands in one cell, and with 31 x 48 cells its differences by
     a relief or a slope are apart by a quarter to the whole of themselves.

@@ -2,7 +2,7 @@
 
 The table of `my_gears.toml` is `my_gears.mesh.nc`. It says which content of the gear file, which
 torques and which sources of the analysis it is from; when one of them has changed it is computed
-anew. Where nothing can be written beside the gear file, the user's cache folder keeps it.
+again. Where nothing can be written beside the gear file, the user's cache folder keeps it.
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ def source_files(path: str) -> frozenset[str]:
 def source_stamp(path: str) -> str:
     """Return a hash of the contents of `source_files(path)`.
 
-    It is found anew if the file itself has changed since it was last asked for, as after
+    It is found again if the file itself has changed since it was last asked for, as after
     `importlib.reload`.
     """
     if _version(path) != _file(path).version:

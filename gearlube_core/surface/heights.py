@@ -36,7 +36,7 @@ class Profile:
     spacing
         Distance from point to point [m], 1 nm to 1 mm.
     periodic
-        True: after the last point the profile begins anew.
+        True: after the last point the profile begins again.
     name
         Name in error messages.
 
@@ -87,7 +87,7 @@ class HeightMap:
     spacing
         Distances along x and y [m], 1 nm to 1 mm.
     periodic
-        Along x and along y. True: after the last point the map begins anew.
+        Along x and along y. True: after the last point the map begins again.
     name
         Name in error messages.
 

@@ -1,4 +1,4 @@
-"""The axle with asperities of a table in the place of the usual constants."""
+"""The axle with asperities of a table instead of the usual constants."""
 
 from __future__ import annotations
 

@@ -94,7 +94,7 @@ def demand_of(settings: DriveCycleSettings) -> Demand:
 def resistance(vehicle: Vehicle, speed: Array, grade: Array | None = None) -> Array:
     """Return the resistance [N] of air, road and slope at speeds above 0 [m/s].
 
-    As `RoadLoad.resistance`, over slopes [-] of the trace in the place of the vehicle's.
+    As `RoadLoad.resistance`, over slopes [-] of the trace instead of the vehicle's.
     """
     slope = np.arctan(vehicle.grade if grade is None else grade)
     weight = vehicle.mass * vehicle.gravity

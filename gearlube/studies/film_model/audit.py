@@ -200,7 +200,7 @@ def audit(
     *,
     progress: Progress = no_progress,
 ) -> Audit:
-    """Return how a model agrees with contacts solved anew.
+    """Return how a model agrees with contacts solved again.
 
     Parameters
     ----------
@@ -264,7 +264,7 @@ def audit_lines(found: Audit) -> list[str]:
     failed = len(found.rows) - len(found.judged)
     lines = [
         f"Contacts drawn: {drawn}; outside the domain: {found.outside}, with "
-        f"{100.0 * found.outside_load:.2g} % of the load; solved anew: {len(found.judged)}, "
+        f"{100.0 * found.outside_load:.2g} % of the load; solved again: {len(found.judged)}, "
         f"failed: {failed}"
     ]
     if not found.judged:

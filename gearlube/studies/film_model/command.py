@@ -207,7 +207,7 @@ def audit(
     seed: Annotated[int, typer.Option(help="Random seed of the draws.")] = 1,
     out: Annotated[Path | None, typer.Option(help="Write the contacts to this CSV file.")] = None,
 ) -> None:
-    """Solve contacts anew that a run has visited, on the full grid, and judge the bounds.
+    """Solve contacts again that a run has visited, on the full grid, and judge the bounds.
 
     About 4 s a contact. Exit code 1 where the bounds do not hold.
     """

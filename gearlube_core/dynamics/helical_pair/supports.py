@@ -99,7 +99,7 @@ def coupling_limit(stiffness: float, tilting_stiffness: float) -> float:
 def replaced_bearing(
     bearing: SupportStiffness, side: float, radial: float, axial: float, distance: float
 ) -> SupportStiffness:
-    """Return a bearing with what is not zero in the place of its own.
+    """Return a bearing with what is not zero instead of its own.
 
     Parameters
     ----------

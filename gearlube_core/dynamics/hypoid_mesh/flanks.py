@@ -122,11 +122,11 @@ def flank_sum(
     p : AxleParameters
     refresh : float
         0: keep the coefficients in `friction`, with the loads, arms and directions of this state;
-        else evaluate film and traction anew, a film model as EXACT or BETWEEN_NODES says.
+        else evaluate film and traction again, a film model as EXACT or BETWEEN_NODES says.
     friction : ndarray of shape (N_FRICTION,)
         Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
-        of the friction over load [-], that of the power lost in friction, always anew [W], and
-        the films at the nodes, see `state.keep_flank`.
+        of the friction over load [-], that of the power lost in friction [W], which
+        is always computed, and the films at the nodes, see `state.keep_flank`.
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
     film_model : ndarray

@@ -26,15 +26,15 @@ from gearlube_core.kernels.jit import kernel
 _Span = tuple[int, int]
 
 _REACH = 2  # nodes that a stencil reaches beyond those with pressure
-_SPARE_SHARE = 0.04  # of the nodes along a side, beside the box, before it is cut anew
-_LOOSE = 1.3  # nodes of the box over those that it needs, before it is cut anew
+_SPARE_SHARE = 0.04  # of the nodes along a side, beside the box, before it is cut again
+_LOOSE = 1.3  # nodes of the box over those that it needs, before it is cut again
 Inverse = Callable[[Array, float], tuple[Array, float]]
 
 _DAMPING = 0.9
 # a row, of the wave across the motion whose deflection a row takes: longer ones would be amplified
 _WAVE = 0.12 * np.pi
 _SPARE = 4  # columns beside the free ones for those that come
-_CHANGE = 0.05  # mean relative change of a row from which on it is inverted anew
+_CHANGE = 0.05  # mean relative change of a row from which on it is inverted again
 _AT_ONCE = 64  # rows
 _DIRECT_NODES = 1700  # of the grid that is solved directly
 _FEWEST_ROWS = 7
@@ -64,7 +64,7 @@ class WindowedDeflection:
         self._result: Any = np.zeros(grid.shape, dtype=np.float32)
 
     def follow(self, free: Flags) -> None:
-        """Cut the box anew if it misses nodes, shape (ny, nx), or is much too large."""
+        """Cut the box again if it misses nodes, shape (ny, nx), or is much too large."""
         if self._whole is not None:
             return
         filled = [np.asarray(free.any(axis=axis)) for axis in (1, 0)]
@@ -93,7 +93,7 @@ class WindowedDeflection:
         self._result[:] = 0.0
 
     def clear(self) -> None:
-        """Cut the box anew before it is used again."""
+        """Cut the box again before it is used again."""
         self._spans = None
 
     def __call__(self, pressure: Array) -> Array:
@@ -230,7 +230,7 @@ def multiply_matrices(
 class RowInverses:
     """Inverse of every row of one linearisation; float32 is enough for a preconditioner.
 
-    Rows whose derivatives have hardly changed keep their inverse when others are inverted anew.
+    Rows whose derivatives have hardly changed keep their inverse when others are inverted again.
     """
 
     def __init__(self, grid: PointGrid) -> None:

@@ -105,8 +105,8 @@ def loaded_rates(
     -----
     The strips, their cells and which cells carry are held. Inside the flanks that is exact for
     the rotation up to the cells' size: cells at the border of the contact carry no pressure. At
-    the edge of a tooth they do, and that the edge moves over the cells is left out. An analysis
-    anew cuts other strips, and its differences scatter by what that changes. `value` is the
+    the edge of a tooth they do, and that the edge moves over the cells is left out. A new
+    analysis cuts other strips, and its differences scatter by what that changes. `value` is the
     equilibrium on the loaded cells without the tolerance of the contact's iteration.
 
     References

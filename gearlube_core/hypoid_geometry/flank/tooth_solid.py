@@ -241,7 +241,7 @@ def write_solid(solid: Solid, path: str | Path) -> Path:
 
 @contextmanager
 def _in_one_move(path: str | Path) -> Iterator[Path]:
-    """Give a file to write; put it in the place of `path` when all went well."""
+    """Give a file to write; rename it to `path` when all went well."""
     target = Path(path)
     if not target.parent.is_dir():
         raise ParameterError(f"The folder {target.parent} of {target.name} does not exist.")

@@ -174,7 +174,7 @@ class MarchScalars(FlankScalars):
     Parameters
     ----------
     friction_updates_per_mesh_period : int
-        How often friction "film" is computed anew at each contact point, 4 to 4096; frozen in
+        How often friction "film" is computed again at each contact point, 4 to 4096; frozen in
         between.
     film_limiting_slope : float
         Limiting shear stress of a solved film over pressure [-], 0 for none: the film model knows

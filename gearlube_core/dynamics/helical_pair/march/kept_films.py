@@ -4,7 +4,7 @@ Evaluating the model takes ten times as long as the formulas, and in each mesh p
 the same places under much the same load and speed. So the model is evaluated at nodes, one for each
 refresh of the friction, and there in the middle of bins of load, speed and oil temperature, with
 its slopes. Node and bin alone decide what is found. So it does not matter what is kept and what is
-found anew: it is no part of the state.
+found again: it is no part of the state.
 """
 
 from __future__ import annotations

@@ -135,7 +135,7 @@ def point_load(
 def film_node(phase: float, coast: bool, p: MarchConstants) -> tuple[int, float]:
     """Return the node before a flank's phase, -1 for none, and the flank's part of a period there.
 
-    Nodes are the phases of the drive flanks at which friction is computed anew.
+    Nodes are the phases of the drive flanks at which friction is computed again.
     """
     refreshes, start = p.refreshes, p.flanks.coast_phase
     if refreshes > NODES_KEPT:

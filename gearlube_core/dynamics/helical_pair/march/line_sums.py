@@ -152,7 +152,7 @@ def line_sums(
         base = a + tilt * plane.sin_b * (X - half * tan_b)
         here = at_density + (row * lines + i) * n_s
         after = here + lines * n_s
-        if row == n_phase - 1:  # the line is the next older one when the phase starts anew
+        if row == n_phase - 1:  # the line is the next older one when the phase starts again
             after = at_density + (i + 1) * n_s if i + 1 < lines and n_phase > 1 else here
         N_line = Nz_line = F_line = Fz_line = energy_line = 0.0
         per_span = 1.0 / span

@@ -19,7 +19,7 @@ class AmbientBorder:
     Parameters
     ----------
     sides
-        Copied rows in the place of the first and the last row of the border.
+        Copied rows instead of the first and the last row of the border.
     """
 
     _sides = AMBIENT
