@@ -365,14 +365,22 @@ def _lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
 app = command_line(COMMANDS)
 
 
+_COMPILER = "gearlube_core.kernels.dispatcher"
+
+
 class _WarningsOnce(logging.Filter):
-    """Lets each warning pass once; a command may read the same file several times."""
+    """Lets each warning pass once; a command may read the same file several times.
+
+    That a kernel is compiled, for which a Python session has no other sign, is no warning here.
+    """
 
     def __init__(self) -> None:
         super().__init__()
         self._shown: set[str] = set()
 
     def filter(self, record: logging.LogRecord) -> bool:
+        if record.name == _COMPILER:
+            record.levelno, record.levelname = logging.INFO, logging.getLevelName(logging.INFO)
         text = record.getMessage()
         known = record.levelno == logging.WARNING and text in self._shown
         self._shown.add(text)

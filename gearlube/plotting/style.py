@@ -30,6 +30,7 @@ GREY = "#B0B0B0"
 YELLOW = "#F0E442"
 PARTS = (*SERIES, YELLOW, GREY)  # of parts that add up, in their order: the same in all figures
 
+_LABEL_ROOM = 0.06  # of a panel, beside the middle of a label
 _ROWS = 170  # cells of the frequency axis; a cell shows the largest line inside it
 
 _STYLE = {
@@ -80,6 +81,18 @@ def series(row: int) -> dict[str, Any]:
         "lw": WIDTHS[row % len(WIDTHS)],
         "ms": SIZES[row % len(SIZES)],
     }
+
+
+def label_contours(ax: Any, lines: Any, text: str) -> None:
+    """Write the level on each contour line, where it is farthest from the edges of the panel."""
+    low, high = np.transpose([ax.get_xlim(), ax.get_ylim()])
+    places = []
+    for points in (one for parts in lines.allsegs for one in parts if len(one)):
+        share = (points - low) / (high - low)
+        room = np.minimum(share, 1.0 - share).min(axis=1)
+        if room.max() > _LABEL_ROOM:
+            places.append(points[room.argmax()])
+    ax.clabel(lines, fmt=text, fontsize=7, manual=places)
 
 
 def speed_limits(dataset: xr.Dataset) -> tuple[float, float]:

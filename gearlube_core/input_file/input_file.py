@@ -196,18 +196,13 @@ class InputFile(Section):
     @classmethod
     def shipped(cls) -> tuple[str, ...]:
         """Return the names of the files of this kind that ship with the package."""
-        entries = (files(cls.package) / "data").iterdir()
-        stems = (e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml"))
-        return tuple(sorted(s.removeprefix(cls.prefix) for s in stems if s.startswith(cls.prefix)))
+        return shipped_names(cls.package, cls.prefix)
 
     @classmethod
     def shipped_text(cls, name: str) -> str:
         """Return a file that ships with the package as it is."""
         if name not in cls.shipped():
-            raise ParameterError(
-                f"No {cls.title} is called {name!r}. Shipped: {', '.join(cls.shipped())}. "
-                "A file's name ends in .toml."
-            )
+            raise unknown_name(name, cls.title, cls.shipped())
         resource = files(cls.package) / "data" / f"{cls.prefix}{name}.toml"
         return resource.read_text(encoding="utf-8")
 
@@ -219,10 +214,7 @@ class InputFile(Section):
     @classmethod
     def given(cls, name: str) -> Self:
         """Return the file at a path, where the name is one or ends in .toml, or a shipped one."""
-        path = Path(name)
-        is_file = name.endswith(".toml") or isfile(path)
-        is_file = is_file or (isdir(path) and name not in cls.shipped())
-        return cls.from_toml(name) if is_file else cls.named(name)
+        return cls.from_toml(name) if is_path(name, cls.shipped()) else cls.named(name)
 
     @classmethod
     def from_data(cls, data: dict[str, Any], where: str) -> Self:
@@ -276,6 +268,34 @@ class InputFile(Section):
             if value is None:
                 del section[key]
         return self.from_data(data, f"{data.get('name', 'The file')} varied")
+
+
+def shipped_names(package: str, prefix: str = "") -> tuple[str, ...]:
+    """Return the names of the files in the folder data of a package, those with a prefix.
+
+    >>> shipped_names("drivetrain.train")[0]
+    'e_axle'
+    """
+    entries = (files(package) / "data").iterdir()
+    stems = (e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml"))
+    return tuple(sorted(s.removeprefix(prefix) for s in stems if s.startswith(prefix)))
+
+
+def is_path(name: str, shipped: Collection[str]) -> bool:
+    """Return whether a name is that of a file or folder, and not of a shipped file.
+
+    >>> is_path("my.toml", ["e_axle"]), is_path("e_axle", ["e_axle"])
+    (True, False)
+    """
+    return name.endswith(".toml") or isfile(name) or (isdir(name) and name not in shipped)
+
+
+def unknown_name(name: str, title: str, shipped: Collection[str]) -> ParameterError:
+    """Return the error on a name that no shipped file has; `title` is the kind of file."""
+    return ParameterError(
+        f"No {title} is called {name!r}. Shipped: {', '.join(shipped)}. A file's name ends in "
+        ".toml."
+    )
 
 
 def read_toml(path: str | Path, what: str = "file") -> dict[str, Any]:

@@ -264,6 +264,12 @@ def _bearing(
         (("K_ax_n_m_per_rad", "K_ay_n_m_per_rad"), "bending_stiffness", _TILT, of_tilt),
     ):
         given = bearing.value(attribute, unit)
+        if given is not None and given <= 0.0 < usual and attribute == "radial_stiffness":
+            raise ParameterError(
+                f"radial_stiffness of {bearing} must be above 0, got {given:g} N/m: nothing would "
+                f"hold its shaft. Correct it, leave it out for {usual:g} N/um, or say that the "
+                'bearing takes no such force: radial_force_absorption = "false".'
+            )
         value = usual if given is None else min(factor * given, most)
         joint |= dict.fromkeys(keys, value)
         if given is None:
@@ -271,6 +277,11 @@ def _bearing(
         elif factor * given > most:
             why = f"{value:g} {shown}, as {factor * given:g} is rigid"
             reading.note("inferred", f"elements.{name}.{keys[0]}", why)
+    if not any(value for key, value in joint.items() if key.startswith("K_")):
+        raise ParameterError(
+            f"{bearing} must have a stiffness, got 0 for all directions. Leave the bearing out, or "
+            "give what it takes."
+        )
     return joint | dict.fromkeys(("c_x_n_s_per_m", "c_y_n_s_per_m", "c_z_n_s_per_m"), _DAMPER)
 
 

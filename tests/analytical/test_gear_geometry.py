@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh
+from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.gear_geometry import (
     excited_modes,
     fitting_angle,
@@ -17,6 +20,7 @@ from gearlube_core.dynamics.train.gear_geometry import (
     split_delay,
 )
 from gearlube_core.dynamics.train.gear_pair import GearPair
+from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
 from tests.helpers.each import each
@@ -205,6 +209,31 @@ def test_harmonics_select_the_modes_that_sums_of_phasors_leave(sun: int, planets
         force = max(abs((phasor * np.exp(s * 1j * azimuth)).sum()) for s in (1, -1))
         assert letter == ("T" if torque > 0.5 else "F" if force > 0.5 else "P")
         assert excited_modes(sun, planets, harmonic) == words[letter]
+
+
+def test_one_gear_has_its_teeth_at_one_angle_in_all_meshes_whose_phase_counts():
+    """A tooth of the sun at 0 deg faces a gap of the planet at 180 deg: 17 teeth then stand at 0.
+
+    With 18 teeth of the planet 180 deg is 9 pitches, and its teeth stand half a pitch, 10 deg, off.
+    """
+    for planet, right in ((17, 0.0), (18, 10.0)):
+        given = {"normal_module": 0.045, "face_width": 0.5, "backlash": 5e-4, "carrier": "arm",
+                 "stiffness_waves": (0.1, 0.0)}  # fmt: skip
+        sun = GearMesh(name="sun", first="s", second="p", teeth_1=19, teeth_2=planet, **given)
+        turned = [
+            GearMesh(name="ring", first="p", second="r", teeth_1=planet, teeth_2=19 + 2 * planet,
+                     ring=True, keyed_angle=math.radians(angle), **given)
+            for angle in (right, right + 360.0 / planet, right + 4.0)
+        ]  # fmt: skip
+        orbit = Orbit(name="o", body="p", carrier="arm", mass=1.0,
+                      radius=0.0225 * (19 + planet))  # fmt: skip
+        for ring in turned[:2]:
+            sun.fits((), (sun, ring, orbit))
+        words = rf"gear of p with {planet} teeth .* 4 deg apart .* a keyed_angle of {right:g} deg"
+        with pytest.raises(ParameterError, match=words):
+            sun.fits((), (sun, turned[2], orbit))
+        smooth = [replace(one, stiffness_waves=()) for one in (sun, turned[2])]  # no phase
+        smooth[0].fits((), (*smooth, orbit))
 
 
 def test_planets_fit_where_the_teeth_of_sun_and_ring_are_a_multiple_of_them():

@@ -4,6 +4,7 @@ import math
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,9 @@ from typer.testing import CliRunner
 import gearlube as gl
 from drivetrain.train.train_file import TrainFile
 from gearlube.command import app
+from gearlube.studies.drivetrain.clashes import clashes
 from gearlube.studies.drivetrain.layout import layout
-from gearlube.studies.drivetrain.report import findings, losses, transmission_errors
+from gearlube.studies.drivetrain.report import _mode_figure, findings, losses, transmission_errors
 from gearlube.studies.drivetrain.run import FILE
 from gearlube.studies.drivetrain.space_view import space_view
 from tests.helpers.small_trains import BRAKE, FIRST, SECOND, STIFFNESS, WITH_BRAKE
@@ -98,6 +100,8 @@ def test_the_example_is_a_file_to_start_from(tmp_path: Path) -> None:
     [
         (["--run-up", "600:600"], "got 600 rpm twice"),
         (["--map-speeds", "0:10:1"], "must be within 0.01 to 100000 rpm, got 0 rpm"),
+        (["e_axl"], "No train file is called 'e_axl'. Shipped: e_axle, e_axle_case,"),
+        (["no.toml"], "The train file no.toml was not found"),
     ],
 )
 def test_wrong_options_are_told_before_what_computes_is_loaded(options: list[str], words: str):
@@ -165,6 +169,18 @@ def test_the_shipped_axle_balances_its_energy(tmp_path: Path) -> None:
         assert found.sizes["mode"] == 19  # 20 free coordinates less the turning of the whole
 
 
+def test_the_figure_of_many_modes_has_the_lowest() -> None:
+    mode = np.arange(40)
+    share = np.full((40, 2), 0.5)
+    found = xr.Dataset(
+        {"frequency": ("mode", 100.0 * (1 + mode)), "share": (("mode", "body"), share)},
+        coords={"body": ["first", "second"]},
+    )
+    (ax,) = _mode_figure(found).axes
+    assert [one.get_text() for one in ax.get_yticklabels()][::29] == ["100 Hz", "3000 Hz"]
+    assert ax.get_title() == "the lowest 30 of 40"
+
+
 def test_the_picture_places_shafts_by_their_meshes() -> None:
     """Distances are those of the teeth: m z / 2 cos b, added along the chain; a ring is coaxial."""
     axle = layout(TrainFile.named("e_axle_elastic").case().train)
@@ -210,6 +226,45 @@ def test_the_view_in_space_has_pitch_circles_shafts_and_bearings_in_their_places
     ring = {one.name: one for one in space_view(stage).chart.data}["ring_mesh_1, ring"]
     inner = next(one.radius for one in stage.gears if one.ring)
     assert about_axis(ring, stage.centres["ring"])[0].min() == pytest.approx(inner, rel=1e-6)
+
+
+def test_gears_of_two_stages_that_run_through_each_other_are_named() -> None:
+    """The output wheel is folded back over the input shaft, which ends at z = 290 mm.
+
+    Pitch radius 137.705 mm, addendum 3.4 mm, shaft 20 mm: 161.11 mm. Centre distances of 81.545 and
+    169.340 mm on one line leave 87.795 mm. The wheel's face is z = 270 to 310 mm.
+    """
+    assert clashes(layout(TrainFile.named("e_axle_elastic").case().train)) == []
+    folded = tomllib.loads(TrainFile.shipped_text("e_axle_elastic"))
+    folded["elements"]["stage_2"]["azimuth_deg"] = 140.0
+    (one,) = clashes(layout(TrainFile.from_data(folded, "folded").case().train))
+    assert "output in stage_2 and the shaft input run through each other." in one
+    assert "at least 161.11 mm apart" in one
+    assert "got 87.795 mm" in one
+    assert "z = 270 to 290 mm" in one
+    flat = tomllib.loads(TrainFile.shipped_text("e_axle"))  # two gears in one plane: not yet drawn
+    flat["elements"]["stage_2"]["pinion_arm_mm"] = -30.0
+    assert clashes(layout(TrainFile.from_data(flat, "flat").case().train)) == []
+
+
+def test_planets_that_touch_each_other_are_named() -> None:
+    """Five planets of 17 teeth, module 45 mm: 2 x 863 mm sin(36 deg) < 2 x (407.5 + 45) mm."""
+    stage = tomllib.loads(TrainFile.shipped_text("planetary"))
+    bodies, elements = stage["bodies"], stage["elements"]
+    for i in range(2, 6):
+        bodies[f"planet_{i}"] = {"like": "planet_1"}
+        for kind in ("orbit", "pin", "sun_mesh", "ring_mesh"):
+            own = "second" if kind == "sun_mesh" else "body" if kind == "orbit" else "first"
+            elements[f"{kind}_{i}"] = {"like": f"{kind}_1", own: f"planet_{i}",
+                                       "azimuth_deg": 72.0 * (i - 1)}  # fmt: skip
+        # the sun's 19 teeth leave this of a pitch of the planet, 3.8 cycles and 72 deg further on
+        elements[f"ring_mesh_{i}"]["keyed_angle_deg"] = (
+            (i - 1) * (72.0 + 3.8 * 360 / 17) % (360 / 17)
+        )
+    said = clashes(layout(TrainFile.from_data(stage, "five").case().train))
+    assert len(said) == 5  # each with the next one
+    assert "planet_1 in sun_mesh_1 and planet_2 in sun_mesh_2 run through each other" in said[0]
+    assert f"got {2.0 * 863.0 * math.sin(math.radians(36.0)):.5g} mm" in said[0]
 
 
 def test_nodes_of_a_housing_are_where_its_bearings_are() -> None:

@@ -6,6 +6,8 @@ import logging
 
 import pytest
 
+from gearlube.command import _WarningsOnce
+from gearlube_core.kernels.dispatcher import logger
 from gearlube_core.kernels.jit import announced, kernel
 
 
@@ -16,3 +18,12 @@ def test_words_are_logged_before_a_compilation_alone(caplog: pytest.LogCaptureFi
     with caplog.at_level(logging.WARNING):
         assert (twice(1.0), twice(2.0)) == (2.0, 4.0)  # type: ignore[operator]
     assert caplog.messages == ["Compiling: about 1 s."]
+
+
+def test_in_a_command_these_words_are_no_warning():
+    shown = {}
+    for name in (logger.name, "gearlube"):
+        record = logging.LogRecord(name, logging.WARNING, "", 0, "words", (), None)
+        _WarningsOnce().filter(record)
+        shown[name] = record.levelname
+    assert shown == {logger.name: "INFO", "gearlube": "WARNING"}

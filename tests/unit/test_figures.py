@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from gearlube.plotting.figure_files import save_figure_folder
+from gearlube.plotting.style import label_contours
 from gearlube.studies.bearing.figures import torque_of_laws
 from gearlube.studies.helical.figures.catalogue import pair_losses
 from gearlube.studies.sound.figures import heard_orders
@@ -77,3 +78,15 @@ def test_what_no_study_drew_stays(tmp_path):
     (tmp_path / "mine.txt").write_text("a note")
     save_figure_folder({}, tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
+
+
+def test_labels_of_contours_stand_inside_the_panel_and_on_their_lines():
+    """Lines x y = c leave the square at its edges; the middle of each is at x = y = sqrt(c)."""
+    ax, x = Figure().subplots(), np.linspace(0.0, 1.0, 201)
+    lines = ax.contour(x, x, np.outer(x, x), [0.01, 0.25, 0.64, 0.995], colors="k")
+    label_contours(ax, lines, "%g")
+    places = {one.get_text(): one.get_position() for one in ax.texts}
+    assert places.keys() == {"0.01", "0.25", "0.64"}  # the last one has no room in its corner
+    for level, place in places.items():
+        # one cell: contours are straight between grid points
+        assert place == pytest.approx([float(level) ** 0.5] * 2, abs=1.5 / 200), level

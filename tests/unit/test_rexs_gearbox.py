@@ -215,6 +215,7 @@ def with_kind(part, kind):
             changed(("input end", "radial_stiffness", "x")),
             "radial_stiffness .* must be a number",
         ),
+        (changed(("input end", "radial_stiffness", 0)), "input end.* must be above 0, got 0 N/m"),
     ],
 )
 def test_a_gearbox_that_is_no_train_is_refused(root, words, tmp_path):

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from gearlube.cli.convert import REXS_ENDINGS, train_text
-from gearlube.cli.example import print_example
+from gearlube.cli.example import check_given, print_example
 from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.study_run import empty_table, study_run
 
 if TYPE_CHECKING:
     from gearlube_core.arrays import Array
 
+_LOGGER = logging.getLogger("gearlube")
 _TARGET = "drivetrain.train.train_file:TrainFile"
 
 
@@ -91,14 +93,18 @@ def drivetrain(
             check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
         ramp = _ramp(run_up, ramp_s)
         grid = _grid(map_speeds, map_torques)
+        from_rexs = Path(file).suffix.lower() in REXS_ENDINGS
+        if not from_rexs:
+            check_given(_TARGET, "train file", file)
         # loaded after the options are checked, as this takes seconds
         from drivetrain.train.train_file import TrainFile
         from gearlube_core.rexs.gearbox import read_gearbox
 
-        gearbox = read_gearbox(file) if Path(file).suffix.lower() in REXS_ENDINGS else None
+        gearbox = read_gearbox(file) if from_rexs else None
         given = TrainFile.from_data(gearbox.data, file) if gearbox else TrainFile.given(file)
         case = given.case()
         from gearlube.report.inputs import file_inputs
+        from gearlube.studies.drivetrain.clashes import clashes
         from gearlube.studies.drivetrain.layout import layout
         from gearlube.studies.drivetrain.losses import map_losses
         from gearlube.studies.drivetrain.operation import Operation
@@ -109,6 +115,9 @@ def drivetrain(
         from gearlube_core.progress import part_of
         from gearlube_core.storage.atomic_file import write_text
 
+        placed = layout(case.train)
+        for one in (crossed := clashes(placed)):
+            _LOGGER.warning("%s", one)
         if ramp is not None:
             plan_ramp(case, *ramp, ramp_s)  # refuses what it cannot run before all else
         if loss_map or grid:
@@ -137,9 +146,10 @@ def drivetrain(
             table.add_row(name.replace("_", " "), f"{power:.4g}")
         run.show(table)
         run.written("drivetrain.nc", "figures", *(["train.toml"] if gearbox else []))
-        notes, placed = gearbox.notes if gearbox else (), layout(case.train)
+        notes = gearbox.notes if gearbox else ()
         views = [space_view(placed)] if placed.gears else []
-        run.finish(report(dataset, figures, file_inputs(given), notes, views=views, **studies))
+        inputs = file_inputs(given)
+        run.finish(report(dataset, figures, inputs, notes, views=views, clashes=crossed, **studies))
 
 
 def _grid(speeds: list[str] | None, torques: list[str] | None) -> dict[str, Array]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from gearlube.plotting.style import SERIES, house_style, new_figure
@@ -18,20 +19,31 @@ from gearlube_core.dynamics.train.part import GROUND
 
 _BEVEL = 1e-6  # rad, cone angle of a gear that has none
 _GAP = 0.02  # m, between shafts that are drawn one above the other
+_COAXIAL = 1e-4  # m, of axes
+_RIM, _BESIDE = 1.08, 0.75  # of a ring over its pitch circle; of a carrier beside half a planet
 
 
-class _Gear(NamedTuple):
+class Gear(NamedTuple):
+    """A gear on a parallel axis, in one mesh."""
+
     mesh: str
     body: str  # as listed
     radius: float  # [m]
     width: float
     z: float  # of its middle, in the axis of its body
     ring: bool
+    teeth: int
+    module: float  # normal, and height of the tip over the pitch circle [m]
+
+    @property
+    def key(self) -> tuple[str, int, float]:
+        """What it has in all meshes."""
+        return self.body, self.teeth, self.z
 
 
 class _Pair(NamedTuple):
-    first: _Gear
-    second: _Gear
+    first: Gear
+    second: Gear
     way: complex  # from the centre of the first to that of the second one
 
 
@@ -44,11 +56,47 @@ class Layout(NamedTuple):
     """Axes of a drivetrain in the plane x + i y [m], by body, and what stands on them."""
 
     centres: dict[str, complex]
-    gears: tuple[_Gear, ...]
+    gears: tuple[Gear, ...]
     sections: dict[str, tuple[tuple[float, float, float, float], ...]]  # start, end, radii
     seats: dict[str, tuple[_Seat, ...]]  # of what else acts on nodes
     shifts: dict[str, float]  # of z between bodies, so that gears in mesh face each other
     housing: dict[str, tuple[complex, float]]  # nodes of housings, and where they are: x + i y, z
+    carriers: dict[str, str]  # of planets
+
+    def pairs(self) -> list[tuple[Gear, Gear]]:
+        """Return the gears of each mesh."""
+        return list(zip(self.gears[::2], self.gears[1::2], strict=True))
+
+    def groups(self) -> list[list[str]]:
+        """Return the bodies that meshes connect: where these stand along z is known."""
+        found = dict.fromkeys(gear.body for gear in self.gears)
+        members = {body: [body] for body in found}
+        for one, two in self.pairs():
+            if members[one.body] is not members[two.body]:
+                joined = members[one.body] + members[two.body]
+                members |= dict.fromkeys(joined, joined)
+        return list({id(one): one for one in members.values()}.values())
+
+    def drawn(self) -> Layout:
+        """Return the layout with groups side by side along z that would stand in each other."""
+        shifts, reached = dict(self.shifts), -math.inf
+        for group in self.groups():
+            own = [gear for gear in self.gears if gear.body in group]
+            start = min(gear.z + self.shifts[gear.body] - gear.width for gear in own)
+            moved = max(0.0, reached - start)
+            shifts |= {body: self.shifts[body] + moved for body in group}
+            reached = max(gear.z + shifts[gear.body] + gear.width for gear in own)
+        return self._replace(shifts=shifts)
+
+    def alike(self) -> dict[str, list[str]]:
+        """Return the bodies with gears, equal planets of one carrier under the first of them."""
+        kinds: dict[Any, list[str]] = {}
+        for body in dict.fromkeys(gear.body for gear in self.gears):
+            teeth = {(gear.teeth, gear.z) for gear in self.gears if gear.body == body}
+            carrier = self.carriers.get(body)
+            kind = body if carrier is None else (carrier, frozenset(teeth))
+            kinds.setdefault(kind, []).append(body)
+        return {bodies[0]: bodies for bodies in kinds.values()}
 
 
 def layout(train: Train) -> Layout:
@@ -139,6 +187,7 @@ def layout(train: Train) -> Layout:
         {name: tuple(one) for name, one in seats.items()},
         shifts,
         housing,
+        {one.body: one.carrier for one in train.elements if isinstance(one, Orbit)},
     )
 
 
@@ -149,9 +198,12 @@ def _pair(element: Any, along: dict[str, float]) -> _Pair | None:
             return None
         radii, ring, width = element.radii, element.ring, element.face_width
         on, angle = (element.first, element.second), element.azimuth
-        arms = element.arm_1, element.arm_2
+        arms, teeth = (element.arm_1, element.arm_2), (element.teeth_1, element.teeth_2)
+        module = element.normal_module
     elif isinstance(element, HelicalMesh):
-        plane, ring = element.parameters.pair.plane, False
+        pair = element.parameters.pair
+        plane, module, ring = pair.plane, pair.normal_module, False
+        teeth = pair.pinion_teeth, pair.gear_teeth
         # pitch radii over base radii: both gears have the working pressure angle
         slope = math.hypot(plane.x_g, plane.r_bp + plane.r_bg) / (plane.r_bp + plane.r_bg)
         radii = plane.r_bp * slope, plane.r_bg * slope
@@ -160,24 +212,32 @@ def _pair(element: Any, along: dict[str, float]) -> _Pair | None:
     else:
         return None
     first, second = (
-        _Gear(
+        Gear(
             element.name,
             node.partition(".")[0],
             radius,
             width,
             along.get(node, 0.0) + arm,
             ring and i == 1,
+            count,
+            module,
         )
-        for i, (node, radius, arm) in enumerate(zip(on, radii, arms, strict=True))
+        for i, (node, radius, arm, count) in enumerate(zip(on, radii, arms, teeth, strict=True))
     )
     distance = first.radius - second.radius if ring else first.radius + second.radius
     return _Pair(first, second, cmath.rect(distance, angle))
 
 
 def layout_figure(found: Layout) -> Any:
-    """Draw a drivetrain from its end, and unfolded along its shafts."""
-    turning = list(dict.fromkeys(gear.body for gear in found.gears))
-    colours = {name: SERIES[i % len(SERIES)] for i, name in enumerate(turning)}
+    """Draw a drivetrain from its end, and unfolded along its shafts.
+
+    Planets of one kind have one colour. Groups of bodies whose places along z are not known to each
+    other stand side by side.
+    """
+    found, alike = found.drawn(), found.alike()
+    colours = {
+        body: SERIES[i % len(SERIES)] for i, each in enumerate(alike.values()) for body in each
+    }
     with house_style():
         figure = new_figure(7.2, 4.4)
         end, side = figure.subplots(1, 2)
@@ -191,48 +251,105 @@ def layout_figure(found: Layout) -> Any:
             end.plot(*place, "+", color=colour)
         end.autoscale_view()
         end.set(title="seen against z", xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
-        heights: dict[str, float] = {}
-        height = 0.0
-        for name in turning:
-            largest = max(gear.radius for gear in found.gears if gear.body == name)
-            height -= largest if heights else 0.0
-            heights[name] = height
-            height -= largest + _GAP
-        for name, y in heights.items():
-            shift, colour = found.shifts[name], colours[name]
-            for start, stop, inner, outer in found.sections.get(name, ()):
-                for sign in (1.0, -1.0):
-                    low = y + (inner if sign > 0.0 else -outer)
-                    side.add_patch(
-                        _box(start + shift, low, stop - start, outer - inner, facecolor=colour,
-                             alpha=0.35, edgecolor="none")
-                    )  # fmt: skip
-            named = set[float]()
-            for gear in found.gears:
-                if gear.body == name:
-                    side.add_patch(
-                        _box(gear.z + shift - 0.5 * gear.width, y - gear.radius, gear.width,
-                             2.0 * gear.radius, fill=False, edgecolor=colour, lw=1.6)
-                    )  # fmt: skip
-                    if gear.z in named:
-                        continue
-                    named.add(gear.z)
-                    side.annotate(
-                        gear.mesh.replace("_", " "),
-                        (1e3 * (gear.z + shift), 1e3 * (y + gear.radius)),
-                        fontsize=7,
-                        ha="center",
-                        va="bottom",
-                    )
-            for seat in found.seats.get(name, ()):
-                side.plot(1e3 * (seat.z + shift), 1e3 * y, "x", color="black", ms=7, mew=1.6)
-            side.plot([], [], color=colour, label=name.replace("_", " "))
+        groups = found.groups()
+        for group in groups:
+            _draw_group(side, found, [one for one in group if one in alike], colours)
+        for name, each in alike.items():
+            more = f" and {len(each) - 1} more" if len(each) > 1 else ""
+            side.plot([], [], color=colours[name], label=f"{name.replace('_', ' ')}{more}")
+        if found.carriers:
+            side.plot([], [], color="0.4", lw=4.0, label="carrier")
+            side.set_aspect("equal")
         if found.seats:
             side.plot([], [], "x", color="black", ls="none", label="bearing or support")
         side.autoscale_view()
-        side.set(title="shafts one above the other", xlabel="z [mm]", ylabel="mm")
+        title = "stages side by side" if len(groups) > 1 else "shafts one above the other"
+        side.set(title=title, xlabel="z [mm]", ylabel="mm")
         figure.legend(ncols=4, loc="outside lower center")
     return figure
+
+
+def _draw_group(ax: Any, found: Layout, bodies: Sequence[str], colours: dict[str, str]) -> None:
+    """Draw bodies in a plane through their axes.
+
+    The axis of a planetary set is level, with its planets above and below; other axes follow one
+    below the other.
+    """
+    from matplotlib.colors import to_rgba
+
+    heights: dict[str, tuple[float, ...]] = {}
+    height = 0.0
+    of_set = [one for one in bodies if one in found.carriers]
+    axis = next((gear.body for pair in found.pairs() for gear in pair
+                 if gear.body in bodies and gear.body not in of_set), bodies[0])  # fmt: skip
+    for name in bodies:
+        away = abs(found.centres[name] - found.centres[axis])
+        if name in of_set:
+            heights[name] = (away, -away)
+        elif of_set and away < _COAXIAL:
+            heights[name] = (0.0,)
+        else:
+            largest = max(gear.radius for gear in found.gears if gear.body == name)
+            height -= largest if heights else 0.0
+            heights[name] = (height,)
+            height -= largest + _GAP
+    for name, levels in heights.items():
+        shift, colour = found.shifts[name], colours[name]
+        for y in levels:
+            for start, stop, inner, outer in found.sections.get(name, ()):
+                for sign in (1.0, -1.0):
+                    low = y + (inner if sign > 0.0 else -outer)
+                    ax.add_patch(
+                        _box(start + shift, low, stop - start, outer - inner, facecolor=colour,
+                             alpha=0.35, edgecolor="none")
+                    )  # fmt: skip
+        named, drawn = set[float](), set[tuple[float, float]]()
+        for gear in found.gears:
+            if gear.body != name or (gear.radius, gear.z) in drawn:
+                continue
+            drawn.add((gear.radius, gear.z))
+            z = gear.z + shift - 0.5 * gear.width
+            for y in levels:
+                spans = [(y - gear.radius, y + gear.radius)]
+                if gear.ring:
+                    spans = [(sign * gear.radius, sign * _RIM * gear.radius) for sign in (1, -1)]
+                for one, other in spans:
+                    ax.add_patch(
+                        _box(z, min(one, other), gear.width, abs(other - one), lw=1.6,
+                             edgecolor=colour, facecolor=to_rgba(colour, 0.2),
+                             hatch="////" if gear.ring else None)
+                    )  # fmt: skip
+            if gear.z in named or of_set:
+                continue
+            named.add(gear.z)
+            ax.annotate(
+                gear.mesh.replace("_", " "),
+                (1e3 * (gear.z + shift), 1e3 * (levels[0] + gear.radius)),
+                fontsize=7,
+                ha="center",
+                va="bottom",
+            )
+        for seat in found.seats.get(name, ()):
+            ax.plot(1e3 * (seat.z + shift), 1e3 * levels[0], "x", color="black", ms=7, mew=1.6)
+        if name in of_set:
+            _draw_carrier(ax, found, name, levels)
+    if of_set:
+        sun = next(one for one in found.gears if one.body == axis)
+        z = sun.z + found.shifts[axis]
+        ends = 1e3 * (z + 0.5 * sun.width), 1e3 * (z + sun.width)
+        ax.plot(ends, (0.0, 0.0), color=colours[axis], lw=4.0, solid_capstyle="butt")
+
+
+def _draw_carrier(ax: Any, found: Layout, planet: str, levels: tuple[float, ...]) -> None:
+    """Draw the pins of a planet, the plate that holds them and the end of its shaft."""
+    gear = next(one for one in found.gears if one.body == planet)
+    z = gear.z + found.shifts[planet]
+    plate, beyond = z - _BESIDE * gear.width, z + 0.6 * gear.width
+    lines = [((plate, beyond), (y, y)) for y in levels]
+    lines += [((plate, plate), (levels[0], levels[-1])), ((z - gear.width, plate), (0.0, 0.0))]
+    for places, heights in lines:
+        ax.plot([1e3 * one for one in places], [1e3 * one for one in heights], color="0.4", lw=4.0,
+                solid_capstyle="butt", zorder=0.5)  # fmt: skip
 
 
 def _circle(place: tuple[float, float], radius: float, **look: Any) -> Any:

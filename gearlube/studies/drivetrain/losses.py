@@ -14,7 +14,7 @@ import xarray as xr
 
 from drivetrain.train.train_file import TrainCase
 from gearlube.output.csv_text import csv_text, number_text
-from gearlube.plotting.style import PARTS, house_style, new_figure
+from gearlube.plotting.style import PARTS, house_style, label_contours, new_figure
 from gearlube.report.parts import NOTE, WARNING, Finding
 from gearlube.studies.drivetrain.operation import Operation
 from gearlube_core import __version__
@@ -216,7 +216,7 @@ def loss_figure(dataset: xr.Dataset) -> Any:
             if np.isfinite(share).any() and float(share.max() - share.min()) > _SAME:
                 lines = left.contour(share["speed"], share["torque"], share, 6, colors="white",
                                      linewidths=0.8)  # fmt: skip
-                left.clabel(lines, fmt="%.4g %%", fontsize=7)
+                label_contours(left, lines, "%.4g %%")
                 title = "losses, white: efficiency"
             left.set(title=title, xlabel=f"speed of {shaft} [rpm]", facecolor="0.8")
             left.set(ylabel=f"torque of {shaft} [N·m]")

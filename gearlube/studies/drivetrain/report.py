@@ -48,6 +48,7 @@ _AT_REST = 0.05  # speed that counts as none [rad/s]
 _NO_LOSS = 1e-9  # W, rounding
 _LEAST_SWING = 1e-12  # m, of a transmission error; below is rounding
 _ROUNDING = 1e-14  # of energies, below which nothing is missing
+_MOST_MODES = 30  # in the figure
 _SHOWN = 0.1  # last part of the run, of which the transmission errors are drawn
 _DTE, _LOSS = ".dte", ".power_loss"
 _LIMITS = (
@@ -115,6 +116,8 @@ def _loss_figure(dataset: xr.Dataset) -> Any:
 
 
 def _mode_figure(dataset: xr.Dataset) -> Any:
+    found = len(dataset["frequency"])
+    dataset = dataset.isel(mode=slice(_MOST_MODES))
     frequency = dataset["frequency"].values
     with house_style():
         figure = new_figure(7.2, 1.4 + 0.24 * len(frequency))
@@ -128,6 +131,8 @@ def _mode_figure(dataset: xr.Dataset) -> Any:
         ax.set_yticks(range(len(frequency)), [f"{one:.4g} Hz" for one in frequency])
         ax.set_ylim(len(frequency) - 0.5, -0.5)
         ax.set(xlabel="share in the kinetic energy [-]", xlim=(0.0, 1.0))
+        if found > len(frequency):
+            ax.set_title(f"the lowest {len(frequency)} of {found}")
         figure.legend(ncols=min(5, dataset.sizes["body"]), loc="outside lower center")
     return figure
 
@@ -136,8 +141,9 @@ _FIGURES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
     "layout": (
         layout_figure,
         "Where shafts, gears and bearings are",
-        "Pitch circles of gears on parallel axes, dashed: rings. On the right the shafts are "
-        "unfolded, with what acts on their nodes.",
+        "Pitch circles of gears on parallel axes, dashed: rings. On the right a section through "
+        "the unfolded axes, with what acts on their nodes; rings are hatched. Stages stand side by "
+        "side where the file does not say how far apart they are.",
     ),
     "transmission_error": (
         _motion_figure,
@@ -153,7 +159,7 @@ _FIGURES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
         _mode_figure,
         "Natural frequencies, and which bodies move",
         "Undamped, about the state at the start, with the meshes in contact. A bar of one colour "
-        "is a mode of one body on its bearings.",
+        "is a mode of one body on its bearings. The table below has all modes.",
     ),
     "response": (
         response_figure,
@@ -233,11 +239,7 @@ def save_figures(
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
     """Return the findings of a run, the most important first."""
-    found = [
-        Finding(WARNING, f"{one.partition('. ')[0].rstrip('.')}.", one.partition(". ")[2])
-        for one in str(dataset.attrs["exceeded"]).splitlines()
-    ]
-    found += _drift(dataset)
+    found = [*_warnings(str(dataset.attrs["exceeded"]).splitlines()), *_drift(dataset)]
     lost = losses(dataset)
     share_kept = efficiency(dataset)
     if sum(lost.values()) > _NO_LOSS:
@@ -261,6 +263,13 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     else:
         found.append(Finding(GOOD, f"The energy balance closes: {words}"))
     return found
+
+
+def _warnings(sentences: Sequence[str]) -> list[Finding]:
+    return [
+        Finding(WARNING, f"{one.partition('. ')[0].rstrip('.')}.", one.partition(". ")[2])
+        for one in sentences
+    ]
 
 
 def _turning(dataset: xr.Dataset) -> list[str]:
@@ -307,10 +316,11 @@ def report(
     runup: xr.Dataset | None = None,
     loss_map: xr.Dataset | None = None,
     views: Sequence[Figure] = (),
+    clashes: Sequence[str] = (),
 ) -> Report:
     """Return the report of a run, and of a run-up beside it.
 
-    `notes` are those of a REXS file, `views` come before all figures.
+    `notes` are those of a REXS file, `views` come before all figures; `clashes` are sentences.
     """
     half, lost = settled(dataset), losses(dataset)
     speeds = [
@@ -328,7 +338,7 @@ def report(
         study="drivetrain",
         title=str(dataset.attrs["name"]),
         subtitle=f"Modes, and a run of {end:.4g} ms from the static equilibrium.",
-        findings=[*findings(dataset), *loudest(runup), *of_map(loss_map)],
+        findings=[*_warnings(clashes), *findings(dataset), *loudest(runup), *of_map(loss_map)],
         numbers=[
             Number("power lost", sum(lost.values()), "W"),
             Number("efficiency", 100.0 * efficiency(dataset), "%", 4),

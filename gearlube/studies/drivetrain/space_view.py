@@ -17,7 +17,8 @@ _RIM, _BORE = 1.08, 0.97  # of a ring over its pitch circle, and of a disc's hol
 _BEARING = (1.7, 0.5)  # outer radius and width over the radius of the shaft
 _LEAST = 0.04  # of the largest gear: radius of what has no size of its own
 _LIGHT = {"ambient": 0.65, "diffuse": 0.6, "specular": 0.1, "facenormalsepsilon": 0.0}
-_EYE = {"x": 1.6, "y": 1.0, "z": -1.6}
+_EYE = {"x": -1.5, "y": 0.7, "z": -0.8}  # z goes to the right across the page
+_CENTRE, _LARGEST = {"x": 0.0, "y": -0.1, "z": 0.0}, 1.15  # of the view; longest side of its box
 _Hollow = tuple[float, float, float, float]  # from z to z, inner and outer radius [m]
 
 
@@ -34,11 +35,14 @@ def space_view(found: Layout) -> Figure:
     """
     import plotly.graph_objects as go
 
-    chart = go.Figure(layout={"template": None, "height": 560})
+    chart = go.Figure(layout={"template": None, "height": 620, "margin": dict.fromkeys("lrtb", 0)})
+    found, alike = found.drawn(), found.alike()
+    kinds = {body: i for i, each in enumerate(alike.values()) for body in each}
     largest = max(gear.radius for gear in found.gears)
     bodies = dict.fromkeys([*found.sections, *(gear.body for gear in found.gears)])
-    for i, body in enumerate(bodies):
-        colour, centre, shift = SERIES[i % len(SERIES)], found.centres[body], found.shifts[body]
+    for body in bodies:
+        kind = kinds.setdefault(body, len(kinds))
+        colour, centre, shift = SERIES[kind % len(SERIES)], found.centres[body], found.shifts[body]
         sections = found.sections.get(body, ())
         gears = [gear for gear in found.gears if gear.body == body]
         if sections:
@@ -76,8 +80,11 @@ def space_view(found: Layout) -> Figure:
                          text=list(found.housing), marker={"color": "black", "size": 4})
         )  # fmt: skip
     axes = {f"{c}axis": {"title": {"text": f"{c} [mm]"}} for c in "xyz"}
-    camera = {"up": {"x": 0.0, "y": 1.0, "z": 0.0}, "eye": _EYE}
-    chart.update_layout(scene={"aspectmode": "data", "camera": camera, **axes}, showlegend=False)
+    camera = {"up": {"x": 0.0, "y": 1.0, "z": 0.0}, "eye": _EYE, "center": _CENTRE}
+    extents = {c: np.ptp(np.concatenate([one[c] for one in chart.data])) for c in "xyz"}
+    size = {c: float(_LARGEST * one / max(extents.values())) for c, one in extents.items()}
+    scene = {"aspectmode": "manual", "aspectratio": size, "camera": camera, **axes}
+    chart.update_layout(scene=scene, showlegend=False)
     return Figure(
         name="space_view",
         title="The drivetrain in space",

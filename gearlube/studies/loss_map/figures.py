@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.figure_files import save_figure_folder
-from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.plotting.style import SERIES, house_style, label_contours, new_figure
 from gearlube.plotting.words import source_colour, source_words
 from gearlube.studies.loss_map.sampling import input_words, moving_inputs
 
@@ -61,7 +61,7 @@ def loss_contours(dataset: xr.Dataset) -> Any:
                 colors=["white" if one < _LIGHT * levels[-1] else "black" for one in levels[1::2]],
                 linewidths=0.6,
             )
-            ax.clabel(lines, fmt="%g", fontsize=7)
+            label_contours(ax, lines, "%g")
             ax.axhline(0.0, color="white", lw=0.8, ls=":")
             ax.set_title(f"oil {temperature:g} °C")
         for ax in panels[len(temperatures) :]:

@@ -21,6 +21,7 @@ from gearlube_core.dynamics.train.elements.orbit import check_distance
 from gearlube_core.dynamics.train.gear_geometry import (
     PitchPoint,
     Vector,
+    fitting_angle,
     planets_fit,
 )
 from gearlube_core.dynamics.train.gear_pair import AZIMUTH, GearPair, worded
@@ -30,6 +31,8 @@ from gearlube_core.helical_geometry.gear_body import BACKLASH
 from gearlube_core.number import Number, Output
 
 _SAME = 1e-6  # relative, of numbers of one gear in two meshes
+_PHASE = 0.01  # of a mesh cycle, as in `planets_fit`
+_ROUNDING = 1e-7  # rad
 _ROUNDED = 1e-3  # of a mean of numbers written with four digits
 
 
@@ -287,6 +290,39 @@ class GearMesh(GearPair, Element):
                 f"{gear} must have one hand, got both, in {self.name} and {other.name}. Correct "
                 "right_hand."
             )
+        if self.parallel and other.parallel and self._waves() and other._waves():
+            self._check_teeth(other, gear, mine)
+
+    def _check_teeth(self, other: GearMesh, gear: str, wheel: _Wheel) -> None:
+        """Raise ParameterError unless one gear has its teeth at the same angle in two meshes."""
+        pitch = 2.0 * math.pi / wheel.teeth
+        mine, its = (one._tooth_angle(wheel.body) for one in (self, other))
+        turned = (mine - its + 0.5 * pitch) % pitch - 0.5 * pitch
+        if abs(turned) <= _PHASE * pitch:
+            return
+        keyed = other.keyed_angle + turned
+        if other.first != wheel.body:
+            sense = 1.0 if other.ring else -1.0
+            keyed = other.keyed_angle + sense * turned * wheel.teeth / other.teeth_1
+        mine, its, keyed = (
+            _degrees(one, 2.0 * math.pi / teeth)
+            for one, teeth in ((mine, wheel.teeth), (its, wheel.teeth), (keyed, other.teeth_1))
+        )
+        raise ParameterError(
+            f"{gear} must have its teeth at one angle, got {mine:.6g} deg in {self.name} and "
+            f"{its:.6g} deg in {other.name}, {math.degrees(abs(turned)):.4g} deg apart of a pitch "
+            f"of {math.degrees(pitch):.4g} deg: the phases of these meshes contradict each other. "
+            f"Give {other.name} a keyed_angle of {keyed:.8g} deg."
+        )
+
+    def _tooth_angle(self, body: str) -> float:
+        """Return the angle of a tooth of the gear on a body at the start [rad]."""
+        if self.first == body:
+            return self.keyed_angle
+        return fitting_angle(
+            self.teeth_1, self.teeth_2, self.keyed_angle, self.azimuth, internal=self.ring,
+            second_azimuth=self.azimuth_2,
+        )  # fmt: skip
 
     def _beside(self, other: GearMesh) -> bool:
         """Return whether another mesh has the same ring, or sun, on the same carrier."""
@@ -327,6 +363,11 @@ def _member(point: PitchPoint) -> Member:
         Line(*_floats(n, np.cross(r, n), np.cross(e, n))) for n in (point.drive, point.coast)
     )
     return Member(drive, coast, Line(*_floats(t, np.cross(r, t), e)))
+
+
+def _degrees(angle: float, pitch: float) -> float:
+    """Return an angle below one pitch [deg]; a whole pitch, but for rounding, is 0."""
+    return round(math.degrees((angle + _ROUNDING) % pitch - _ROUNDING), 6) + 0.0
 
 
 def _floats(*vectors: Vector) -> list[float]:
