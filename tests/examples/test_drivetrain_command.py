@@ -248,23 +248,17 @@ def test_gears_of_two_stages_that_run_through_each_other_are_named() -> None:
 
 
 def test_planets_that_touch_each_other_are_named() -> None:
-    """Five planets of 17 teeth, module 45 mm: 2 x 863 mm sin(36 deg) < 2 x (407.5 + 45) mm."""
+    """13 of 75 steps apart: 2 x 863 mm sin(31.2 deg) = 894 mm, below 2 x (407.5 + 45) mm."""
     stage = tomllib.loads(TrainFile.shipped_text("planetary"))
-    bodies, elements = stage["bodies"], stage["elements"]
-    for i in range(2, 6):
-        bodies[f"planet_{i}"] = {"like": "planet_1"}
-        for kind in ("orbit", "pin", "sun_mesh", "ring_mesh"):
-            own = "second" if kind == "sun_mesh" else "body" if kind == "orbit" else "first"
-            elements[f"{kind}_{i}"] = {"like": f"{kind}_1", own: f"planet_{i}",
-                                       "azimuth_deg": 72.0 * (i - 1)}  # fmt: skip
-        # the sun's 19 teeth leave this of a pitch of the planet, 3.8 cycles and 72 deg further on
-        elements[f"ring_mesh_{i}"]["keyed_angle_deg"] = (
-            (i - 1) * (72.0 + 3.8 * 360 / 17) % (360 / 17)
-        )
-    said = clashes(layout(TrainFile.from_data(stage, "five").case().train))
-    assert len(said) == 5  # each with the next one
-    assert "planet_1 in sun_mesh_1 and planet_2 in sun_mesh_2 run through each other" in said[0]
-    assert f"got {2.0 * 863.0 * math.sin(math.radians(36.0)):.5g} mm" in said[0]
+    apart = 360.0 * 13 / (19 + 56)
+    for kind in ("orbit", "pin", "sun_mesh", "ring_mesh"):
+        stage["elements"][f"{kind}_2"]["azimuth_deg"] = apart
+    # the planet turns with its place, and by the sun's teeth between
+    keyed = (apart + 19 * apart / 17) % (360.0 / 17)
+    stage["elements"]["ring_mesh_2"]["keyed_angle_deg"] = keyed
+    (said,) = clashes(layout(TrainFile.from_data(stage, "near").case().train))
+    assert "planet_1 in sun_mesh_1 and planet_2 in sun_mesh_2 run through each other" in said
+    assert f"got {2.0 * 863.0 * math.sin(math.radians(31.2)):.5g} mm" in said
 
 
 def test_nodes_of_a_housing_are_where_its_bearings_are() -> None:

@@ -23,8 +23,10 @@ def clashes(found: Layout) -> list[str]:
     for group in found.groups():
         if flat & set(group):
             continue
-        solids = {gear.key: (f"{gear.body} in {gear.mesh}", gear) for gear in found.gears[::-1]
-                  if gear.body in group}  # fmt: skip
+        solids: dict[tuple[str, int, float], tuple[str, Gear]] = {}
+        for gear in found.gears:
+            if gear.body in group:
+                solids.setdefault(gear.key, (f"{gear.body} in {gear.mesh}", gear))
         met = {frozenset((one.key, two.key)) for one, two in found.pairs()}
         for body in group:
             for k, (start, end, _, radius) in enumerate(found.sections.get(body, ())):
