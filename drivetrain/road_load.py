@@ -9,7 +9,7 @@ from typing import Annotated
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Checked, Number, check_fields
 
 STANDARD_GRAVITY = 9.80665  # m/s2, [cgpm_1901]
 _INCH = 0.0254  # m
@@ -26,7 +26,7 @@ _SPEED_CURE = "Speeds are in m/s and forward; use gearlube_core.units.kmh_to_ms 
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Vehicle:
+class Vehicle(Checked):
     """A vehicle on a road of constant gradient.
 
     Parameters
@@ -54,9 +54,6 @@ class Vehicle:
     air_density: Annotated[float, Number("kg/m3", 0.0, 2.0, "Try 1.2 kg/m3.")]
     grade: Annotated[float, Number("1", -0.5, 0.5, "5 % is 0.05.")] = 0.0
     gravity: Annotated[float, Number("m/s2", 1.0, 30.0, "Try 9.80665 m/s2.")] = STANDARD_GRAVITY
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     @property
     def rolling_resistance(self) -> float:

@@ -100,6 +100,15 @@ def check_fields(parameters: object) -> None:
             check_option(name, value, declared)
 
 
+class Checked:
+    """A dataclass that cannot be made with fields which `check_fields` refuses."""
+
+    __slots__ = ()
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
 def constants_of(constants: type[_Constants], parameters: object, **given: Any) -> _Constants:
     """Return a NamedTuple of constants for kernels.
 

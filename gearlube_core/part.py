@@ -23,7 +23,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.input_file import InputNote
-from gearlube_core.number import check_fields, numbers_of
+from gearlube_core.number import Checked, numbers_of
 
 logger = logging.getLogger(__name__)
 
@@ -108,7 +108,7 @@ class Kind(Generic[_Base]):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part(ABC):
+class Part(Checked, ABC):
     """A part or a law with its numbers; a subclass with a name registers itself."""
 
     name: ClassVar[str] = ""
@@ -119,9 +119,6 @@ class Part(ABC):
         cls.name, cls.text = name, text
         if name:
             cls.kind.add(cls, name)
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     @property
     def numbers(self) -> dict[str, float]:

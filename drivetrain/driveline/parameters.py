@@ -9,7 +9,7 @@ from typing import Annotated
 from drivetrain.engine import Engine, Gearbox
 from drivetrain.road_load import RoadLoad
 from gearlube_core.checks import check_positive, check_within
-from gearlube_core.number import Number, Positive, check_fields
+from gearlube_core.number import Checked, Number, Positive
 
 _STEEL_SHEAR_MODULUS = 79.3e9  # Pa
 _DAMPING = Number("N m s/rad", 0.0, 1e4)
@@ -33,7 +33,7 @@ def shaft_stiffness(outer_diameter: float, length: float, inner_diameter: float 
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DrivelineParameters:
+class DrivelineParameters(Checked):
     """A car from the crankshaft to the road, without the axle's gears.
 
     Parameters
@@ -84,9 +84,6 @@ class DrivelineParameters:
         float,
         Number("Hz", 0.0, 0.5, "A faster controller would excite the driveline's modes."),
     ] = 0.1
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     @property
     def rolling_radius(self) -> float:

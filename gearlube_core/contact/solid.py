@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Checked, Number
 
 YOUNGS_MODULUS = Number("Pa", 1e6, 2e12, "210 GPa is 2.1e11 Pa.")
 
@@ -21,7 +21,7 @@ class SolidParameters(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Solid:
+class Solid(Checked):
     """An isotropic solid.
 
     Parameters
@@ -43,9 +43,6 @@ class Solid:
     density: Annotated[float, Number("kg/m3", 100.0, 3e4, "7.85 g/cm3 is 7850 kg/m3.")]
     conductivity: Annotated[float, Number("W/(m K)", 0.01, 3000.0)]
     heat_capacity: Annotated[float, Number("J/(kg K)", 50.0, 5000.0)]
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
 
 # [mohammadpour_2015 Table A4]

@@ -23,7 +23,7 @@ from gearlube_core.helical_geometry.involute import (
     involute_flank,
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Checked, Number, check_fields
 
 _METRES = "Give metres, not micrometres or millimetres."
 WIDEST_RELIEF = 0.1  # m
@@ -133,7 +133,7 @@ class PowerTipRelief:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Crown:
+class Crown(Checked):
     """Axial crown of one flank, parabolic from |z| = F_o outwards.
 
     z_c' = c_r ((|z| - F_o)/(F/2 - F_o))^2
@@ -158,9 +158,6 @@ class Crown:
 
     amount: Annotated[float, _REMOVAL]
     start: Annotated[float, Number("m", 0.0, 1.0, _METRES)]
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     def removal(self, z: ArrayLike, face_width: float) -> Array:
         """Return the removal [m] at z [m] from mid-face, any shape; goes on past the faces."""

@@ -45,14 +45,14 @@ from gearlube_core.contact.solid import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.point_film import film_geometry
-from gearlube_core.number import Number, Positive, check_fields
+from gearlube_core.number import Checked, Number, Positive, check_fields
 
 APEX_TOLERANCE = 0.05  # of the roller radius: angles and diameters are printed to about 1 %
 _DEG = math.pi / 180.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Rib:
+class Rib(Checked):
     """The rib of the inner ring that guides the large ends of the rollers.
 
     Parameters
@@ -75,9 +75,6 @@ class Rib:
     share_b: Annotated[float, Number("1", 0.1, 10.0)] = RIB_SHARE_B
     share_c: Annotated[float, Number("1", 0.1, 3.0)] = RIB_SHARE_C
     boundary_friction: Annotated[float, RIB_FRICTION] = RIB_BOUNDARY_FRICTION
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,7 +20,7 @@ from gearlube_core.helical_geometry.gear_body import (
     SupportStiffness,
 )
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Positive, check_fields
+from gearlube_core.number import Checked, Positive, check_fields
 
 Series = Literal["beam", "term_by_term"]
 COUPLING_CURE = "A larger coupling would give energy away; raise the stiffness against tilting."
@@ -161,7 +161,7 @@ class Bearing:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ShaftEnds:
+class ShaftEnds(Checked):
     """Two stretches of a solid round shaft, from the gear body to each bearing.
 
     Parameters
@@ -181,9 +181,6 @@ class ShaftEnds:
     radius: Annotated[float, Positive("m", "Give metres, not millimetres.")]
     youngs_modulus: Annotated[float, YOUNGS_MODULUS]
     series: Series = "beam"
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     @property
     def bending(self) -> float:

@@ -15,7 +15,7 @@ from gearlube_core.checks import check_option
 from gearlube_core.dynamics.ranges import Range
 from gearlube_core.dynamics.train.element import COORDINATES, Listed
 from gearlube_core.helical_geometry.gear_body import INERTIA, MASS
-from gearlube_core.number import Output, check_fields
+from gearlube_core.number import Checked, Output, check_fields
 from gearlube_core.part import Kind
 
 NO_NUMBERS: Array = np.empty(0)
@@ -140,7 +140,7 @@ class AxisPlace(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Element(ABC):
+class Element(Checked, ABC):
     """What acts on bodies: derive a frozen dataclass, and give it a NamedTuple of kernels.
 
     One with a `kind`, its name in files, registers itself. Its fields are then the fields of the
@@ -196,7 +196,7 @@ class Element(ABC):
         """Return `memory` where it depends on the bodies of the train."""
         return self.memory()
 
-    def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:  # noqa: B027
+    def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         """Raise ParameterError where the element does not fit the others of its train."""
 
     def between_axes(self) -> Sequence[AxisPlace]:

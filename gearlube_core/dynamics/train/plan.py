@@ -68,28 +68,7 @@ def pack_plan(sizes: Sizes, rows: Sequence[Sequence[int]], touched: Sequence[int
 @inside
 def sizes_of(plan: Offsets) -> Sizes:
     """Return the sizes of the train of a plan."""
-    n = places(plan, 0, FIRST_ROW)
-    return Sizes(
-        n[0],
-        n[1],
-        n[2],
-        n[3],
-        n[4],
-        n[5],
-        n[6],
-        n[7],
-        n[8],
-        n[9],
-        n[10],
-        n[11],
-        n[12],
-        n[13],
-        n[14],
-        n[15],
-        n[16],
-        n[17],
-        n[18],
-    )
+    return Sizes(*places(plan, 0, FIRST_ROW))
 
 
 def places(plan: Offsets, first: int, count: int) -> Any:

@@ -18,7 +18,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import FACE_WIDTH, TEETH
 from gearlube_core.hypoid_geometry.blank.pitch_cones import CutterHead, PitchCones, ToothTrace
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Checked, Number
 
 _METRES = "Give metres, not millimetres."
 _SEARCH_STEP = math.radians(0.5)
@@ -27,7 +27,7 @@ _CLOSED = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HypoidDesign:
+class HypoidDesign(Checked):
     """Design data that the methods share.
 
     Parameters
@@ -49,9 +49,6 @@ class HypoidDesign:
     shaft_angle: Annotated[float, Number("rad", 0.2, 2.9, "Give radians.")]
     gear_face_width: Annotated[float, FACE_WIDTH]
     cutter: CutterHead
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     def cones(
         self,

@@ -22,7 +22,7 @@ from gearlube_core.film_model.model import FilmModel
 from gearlube_core.helical_geometry.gear_body import POSITION, STIFFNESS, SupportStiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Checked, Number
 from gearlube_core.oil.lubricant import Lubricant
 
 DENSITY_WITH_MESH_WORDS = "stiffness_density must be 0 with a line mesh"
@@ -33,7 +33,7 @@ STIFFNESS_DENSITY = Number("N/m2", 0.0, 1e12, _ZERO)  # along contact lines
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ReplacedBearings:
+class ReplacedBearings(Checked):
     """Bearing stiffnesses and distances used instead of those of the gear file, for both members.
 
     Parameters
@@ -59,9 +59,6 @@ class ReplacedBearings:
     radial_stiffness: Annotated[float, _STIFFNESS] = 0.0
     axial_stiffness: Annotated[float, _STIFFNESS] = 0.0
     bearing_distance: Annotated[float, POSITION._replace(low=0.0, cure=_ZERO)] = 0.0
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
 
 def helical_march_parameters(

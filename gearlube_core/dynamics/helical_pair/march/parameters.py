@@ -36,7 +36,7 @@ from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO, INERTIA, MAS
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.number import Number, check_fields, constants_of
+from gearlube_core.number import Checked, Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import Lubricant
 
 Form = Literal["twelve_dof", "six_dof"]
@@ -51,7 +51,7 @@ LINE_WORK = {"consistent": 1.0, "he_2007": 0.0}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Body:
+class Body(Checked):
     """One gear and what carries it.
 
     Parameters
@@ -67,9 +67,6 @@ class Body:
     inertia: Annotated[float, INERTIA]
     polar_inertia: Annotated[float, INERTIA]
     support: ShaftSupport
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     def given(self) -> GivenBody:
         """Return the floats for the kernels."""

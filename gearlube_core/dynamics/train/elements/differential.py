@@ -14,7 +14,7 @@ from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Number, Output, check_fields, constants_of
+from gearlube_core.number import Number, Output, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
 _STILL = 1e-9  # rad
@@ -169,9 +169,6 @@ class Differential(Element):
         Output("slip", "rad/s", "speed of the left side over the right one"),
         Output("friction", "W", "power lost in friction now", 10.0),
     )
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     @property
     def bias_ratio(self) -> float:

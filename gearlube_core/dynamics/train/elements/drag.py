@@ -23,66 +23,51 @@ from gearlube_core.drag import (
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Output, check_fields
+from gearlube_core.number import Output
 from gearlube_core.oil.lubricant import LubricantState
 
 
+# kernels of both, whose memory is the torque of the present step
 @kernel
-def _brake(at: Any, memory: Array, s: Array, ds: Array) -> None:
+def _brake(
+    self: Any, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
+) -> None:
     body, lost = at
     ds[body + RATE + RZ] -= memory[0]
     ds[lost] += memory[0] * s[body + W]
 
 
+@kernel
+def _write(
+    self: Any, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
+) -> None:
+    out[first] = memory[0]
+
+
+@kernel
+def _check(self: Any, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
+    return 1.0 if memory.size == 1 else 0.0
+
+
 class _Seal(NamedTuple):
     torque: float  # [N.m]
+    add_forces, write, check = _brake, _write, _check  # type: ignore[misc]
 
     @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         memory[0] = seal_drag(s[at[0] + W], self.torque)
         return 0.0
 
-    @kernel
-    def add_forces(
-        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
-    ) -> None:
-        _brake(at, memory, s, ds)
-
-    @kernel
-    def write(
-        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
-    ) -> None:
-        out[first] = memory[0]
-
-    @kernel
-    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
-        return 1.0 if memory.size == 1 else 0.0
-
 
 class _Churning(NamedTuple):
     gear: ChurningConstants
+    add_forces, write, check = _brake, _write, _check  # type: ignore[misc]
 
     @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         density = oil.eta0 / oil.nu
         memory[0] = churning_torque(s[at[0] + W], oil.nu, density, self.gear)
         return 0.0
-
-    @kernel
-    def add_forces(
-        self, at: Any, memory: Array, s: Array, oil: LubricantState, stage: int, ds: Array
-    ) -> None:
-        _brake(at, memory, s, ds)
-
-    @kernel
-    def write(
-        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
-    ) -> None:
-        out[first] = memory[0]
-
-    @kernel
-    def check(self, at: Any, memory: Array, s: Array, oil: LubricantState, kept: int) -> float:
-        return 1.0 if memory.size == 1 else 0.0
 
 
 class _Brake(Element):
@@ -117,9 +102,6 @@ class Seal(_Brake):
     kind: ClassVar = "seal"
     interpreted: ClassVar = (Listed(_Seal, (), 2),)
     losses: ClassVar = ("seals",)
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     def numbers(self) -> _Seal:
         """Return the constants of the kernels."""
@@ -160,9 +142,6 @@ class Churning(_Brake):
     kind: ClassVar = "churning"
     interpreted: ClassVar = (Listed(_Churning, (), 2),)
     losses: ClassVar = ("churning",)
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     def numbers(self) -> _Churning:
         """Return the constants of the kernels."""

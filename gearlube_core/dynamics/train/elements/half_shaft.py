@@ -11,7 +11,7 @@ from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import AxisPlace, Body, Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Number, Output, check_fields, constants_of
+from gearlube_core.number import Number, Output, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
 _STILL = 1e-9  # rad
@@ -128,9 +128,6 @@ class HalfShaft(Element):
     )
     losses: ClassVar = ("shaft_damping",)
     outputs: ClassVar = (Output("torque", "N.m", "torque on the second body", 100.0),)
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     def between_axes(self) -> list[AxisPlace]:
         """Return both bodies, which have one axis."""

@@ -32,7 +32,7 @@ from gearlube_core.dynamics.train.elements.mesh_outputs import (
     MESH_OUTPUTS,
 )
 from gearlube_core.dynamics.train.part import AxisPlace, Element
-from gearlube_core.number import Number, Output, check_fields
+from gearlube_core.number import Number, Output
 
 _ANGLE = Number(
     "rad",
@@ -110,9 +110,6 @@ class HelicalMesh(Element):
         Output("event.coast_flank", "1", "bound of the deflection of the coast flanks over 1 um"),
         Output("event.friction_update", "1", "sine of pi times the updates of friction"),
     )
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     def sizes(self) -> tuple[int, ...]:
         """Return the sizes of the line mesh."""

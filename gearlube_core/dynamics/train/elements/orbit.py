@@ -16,7 +16,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import MASS
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.number import Number, Output, check_fields, constants_of
+from gearlube_core.number import Number, Output, constants_of
 from gearlube_core.oil.lubricant import LubricantState
 
 _NEAR = 1e-4  # of a radius, of places that are to be the same
@@ -114,9 +114,6 @@ class Orbit(Element):
     interpreted: ClassVar = (Listed(OrbitKernels, (), 2),)
     on: ClassVar = ("body", "carrier")
     outputs: ClassVar = (Output("centrifugal", "N", "centrifugal force on the body", 1e3),)
-
-    def __post_init__(self) -> None:
-        check_fields(self)
 
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         """Raise ParameterError where the body cannot move, or has another mass."""
