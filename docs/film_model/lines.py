@@ -20,11 +20,11 @@ from gearlube.studies.film_model.plan import FilmPlan
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_line
+from gearlube_core.friction.flank_film import model_inlet
 from gearlube_core.friction.line_points import line_friction, line_points, uniform_line_load
 from gearlube_core.friction.solved_line import (
     LINE_FORMULA_FILM_BOUND,
     LINE_FORMULA_FRICTION_TOP,
-    line_inlet,
     solved_line_friction,
 )
 from gearlube_core.helical_geometry.contact_line import line_kinematics
@@ -81,7 +81,7 @@ def losses(model: FilmModel) -> list[list[str]]:
     for rpm in _SPEEDS:
         for temperature in _TEMPERATURES:
             state = lubricant_state(oil.parameters(), celsius_to_kelvin(temperature))
-            inlet = line_inlet(state, STEEL, 0.0)
+            inlet = model_inlet(state, STEEL, 0.0)
             sums = np.zeros(5)
             least = np.full(2, np.inf)
             for x, length, w in places:

@@ -78,6 +78,15 @@ def _checked_jobs(jobs: int | None) -> int | None:
 CaseArgument = Annotated[
     str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
 ]
+AxleArgument = Annotated[
+    str, typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE")
+]
+OilOfAxleOption = Annotated[
+    str | None,
+    typer.Option(
+        help="Shipped oil or an oil file (TOML). Default: that of the axle.", metavar="OIL"
+    ),
+]
 ExampleOption = Annotated[
     bool,
     typer.Option("--example", help="Print the shipped case as a file to start from, and stop."),

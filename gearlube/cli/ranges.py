@@ -75,3 +75,22 @@ def numbers_from(
         hint = kelvin_hint(value) if unit == "degC" else ""
         check_within(option, value, low, high, unit, cure + hint)
     return tuple(rising)
+
+
+def two_numbers(option: str, text: str, example: str, what: str = "numbers") -> tuple[float, float]:
+    """Return the numbers of "first:last"; `what` are they, for the error message.
+
+    Examples
+    --------
+    >>> two_numbers("--range", "0.2:1.6", "0.5:1.5")
+    (0.2, 1.6)
+    """
+    try:
+        first, last = (float(piece) for piece in text.split(":"))
+    except ValueError:
+        first = last = math.nan
+    if not math.isfinite(first + last):
+        raise ParameterError(
+            f"{option} must be two {what}, got {text!r}. Write FIRST:LAST, for instance {example}."
+        )
+    return first, last

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple, Protocol, Self, TypeVar
 
 import numpy as np
@@ -297,7 +297,7 @@ def refined_film(
     solution: Solution,
     goal: float,
     most: int,
-    on_grid: Callable[[tuple[int, ...], tuple[Solution, ...]], Solution],
+    on_grid: Callable[[tuple[int, ...]], Solution],
     closed: bool = False,
 ) -> tuple[Solution, str]:
     """Return the film on the first grid that meets an error of its films, and what happened.
@@ -311,7 +311,7 @@ def refined_film(
     most
         Nodes along a side that no grid may exceed.
     on_grid
-        Returns the film on a finer grid, given the films on coarser grids, the finest first.
+        Returns the film on a finer grid.
     closed
         As in `halved`.
 
@@ -329,7 +329,8 @@ def refined_film(
                 f"grid, {_words(finer)} nodes, has more than {most} along a side. Allow more "
                 "nodes, or a larger error."
             )
-        trial = on_grid(finer, (solution, *solution.coarser)[:COARSER_GRIDS])
+        coarser = (solution, *solution.coarser)[:COARSER_GRIDS]
+        trial = replace(on_grid(finer), coarser=coarser)  # type: ignore[type-var]
         if not trial.converged:
             return solution, (
                 f" The films' error of {100.0 * goal:g} % that was asked for is not met: the film "
@@ -339,6 +340,34 @@ def refined_film(
     if solution.nodes == first:
         return solution, ""
     return solution, f" Refined from {_words(first)} to {_words(solution.nodes)} nodes."
+
+
+def if_converged(film: Solution) -> Solution | None:
+    """Return a film, or None where it is no solution."""
+    return film if film.converged else None
+
+
+def with_grids(
+    solution: Solution,
+    goal: float | None,
+    most: int,
+    on_grid: Callable[[tuple[int, ...]], Solution],
+    near: Callable[[tuple[int, ...], Solution], Solution | None],
+    closed: bool = False,
+) -> tuple[Solution, str]:
+    """Return a film with its coarser ones, refined where an error is asked for, and what happened.
+
+    Parameters
+    ----------
+    solution, goal, most, closed
+        As in `refined_film`; no goal: the film's own grid.
+    on_grid
+        Returns the film on a grid.
+    near
+        As `on_grid` of `coarser_films`.
+    """
+    solution = replace(solution, coarser=coarser_films(solution, near, closed))  # type: ignore[type-var]
+    return (solution, "") if goal is None else refined_film(solution, goal, most, on_grid, closed)
 
 
 def _off(own: float, wide: float) -> float:

@@ -66,11 +66,15 @@ def flank_film_model(model: FilmModel) -> Array:
     return np.concatenate([model.copied_numbers(), np.full(N_FLANK_MODEL - _OIL, np.nan)])
 
 
-@apart
-def _keep_inlet(
-    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float, film_model: Array
-) -> None:
-    inlet = film_inlet(
+@kernel
+def model_inlet(
+    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float
+) -> FilmInlet:
+    """Return oil and solids as the film model takes them.
+
+    The limiting slope is that of the film's shear stress over pressure [-]; 0: none.
+    """
+    return film_inlet(
         solid.contact_modulus,
         lubricant.eta0,
         lubricant.alpha,
@@ -84,6 +88,13 @@ def _keep_inlet(
         solid.conductivity,
         solid.density * solid.heat_capacity,
     )
+
+
+@apart
+def _keep_inlet(
+    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float, film_model: Array
+) -> None:
+    inlet = model_inlet(lubricant, solid, limiting_slope)
     tuple_to_array(inlet, film_model[_INLET:])
     oil = film_model[_OIL:_INLET]
     tuple_to_array(lubricant[:_OIL_FLOATS], oil)

@@ -28,13 +28,13 @@ from gearlube_core.friction.flank_film import (
 from gearlube_core.friction.flank_friction import FlankFriction
 from gearlube_core.friction.mixed_friction import (
     SPEED_FLOOR,
+    FormulaBounds,
     asperity_contact,
     boundary_friction,
+    formula_doubt,
     friction_with_asperities,
 )
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
-from gearlube_core.oil.formula_laws import mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
@@ -44,50 +44,6 @@ FORMULA_FILM_BOUND = 0.38
 FORMULA_FRICTION_TOP = 1.1
 FORMULA, SOLVED = range(2)  # places in FILM_MODELS
 FILM_MODELS = ("formula", "solved")  # where film and friction of the oil are from
-
-
-@kernel
-def formula_doubt(
-    load: float,
-    slip: float,
-    formula: FlankState,
-    lubricant: LubricantState,
-    surface: SurfaceParameters,
-    solid: SolidParameters,
-    form: int,
-) -> float:
-    """Return how far off the formulas' friction may be outside of the model's domain [N].
-
-    0 <= f <= 1.1 F (tau0/p) asinh[eta0 exp(alpha p) dU/(h tau0)], and what asperities add
-
-    Parameters
-    ----------
-    load
-        F [N].
-    slip
-        Magnitude of the sliding speed dU [m/s].
-    formula
-        State of the flank by the formulas, with p and h.
-    lubricant, surface, solid, form
-        As in `flank.flank_friction`.
-
-    Notes
-    -----
-    Not relative to the formula's friction: Evans and Johnson's regression goes to zero in light
-    contacts, whose films are nearly isothermal. A film thinner by its bound raises the load of
-    asperities.
-    """
-    p, h = formula.mean_pressure, formula.film_thickness
-    newtonian_ratio = lubricant.eta0 * slip / (h * lubricant.tau0)
-    exponent = mean_slope(lubricant.viscosity, lubricant, p) * p
-    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, exponent)
-    most = FORMULA_FRICTION_TOP * stress / p * load
-    W_a, A_a = asperity_contact(
-        load, load / p, h * (1.0 - FORMULA_FILM_BOUND) / surface.sigma, surface, solid, form
-    )
-    more = boundary_friction(W_a, A_a, slip, lubricant) - formula.boundary_friction
-    off = max(formula.viscous_friction, most - formula.viscous_friction)
-    return off + max(more, 0.0)
 
 
 @kernel
@@ -142,7 +98,8 @@ def solved_flank_friction(
         formula = flank_friction(
             load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
         )
-        doubt = w * formula_doubt(F, slip, formula, lubricant, surface, solid, form)
+        bounds = FormulaBounds(FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP)
+        doubt = w * formula_doubt(F, slip, formula, lubricant, surface, solid, form, bounds)
         if w >= 1.0:
             return _with_doubt(formula, 1.0, FORMULA_FILM_BOUND, doubt)
     F_film = max(F, LOAD_FLOOR)

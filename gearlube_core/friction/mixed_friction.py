@@ -7,7 +7,7 @@ contact, or of a line contact per unit length of the line.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gearlube_core.contact.greenwood_tripp_1971 import (
     RACE_B,
@@ -28,6 +28,7 @@ from gearlube_core.friction.evans_johnson_1986 import (
 )
 from gearlube_core.friction.flank_data import AS_PRINTED, PRINTED_TRACTION, ZHOU_HOEPRICH_SHARE
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 from gearlube_core.oil.formula_laws import bounded_stress, mean_slope
 from gearlube_core.oil.lubricant import LubricantState
 
@@ -305,3 +306,60 @@ def mixed_friction(
         solid,
         form,
     )
+
+
+class FormulaBounds(NamedTuple):
+    """How far off formulas are where a film model does not hold; both floats."""
+
+    film: float  # of the film, relative
+    friction: float  # most friction of the film over that of an isothermal Eyring film [-]
+
+
+@kernel
+def formula_doubt(
+    load: float,
+    slip: float,
+    formula: Any,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+    bounds: FormulaBounds,
+) -> float:
+    """Return how far off the formulas' friction may be outside of a film model's domain.
+
+    0 <= f <= b F (tau0/p) asinh[eta0 exp(alpha p) dU/(h tau0)], and what asperities add
+
+    Parameters
+    ----------
+    load
+        F, not negative [N], or of a line per length [N/m].
+    slip
+        Magnitude of the sliding speed dU [m/s].
+    formula
+        `FlankState` or `LineState` by the formulas, with p and h.
+    lubricant, surface, solid, form
+        As in `flank.flank_friction`.
+    bounds
+        Of the formulas; b is that of friction.
+
+    Returns
+    -------
+    float
+        Force [N], or per length [N/m].
+
+    Notes
+    -----
+    Not relative to the formula's friction: Evans and Johnson's regression goes to zero in light
+    contacts, whose films are nearly isothermal. A film thinner by its bound raises the load of
+    asperities.
+    """
+    p, h = formula.mean_pressure, formula.film_thickness
+    newtonian_ratio = lubricant.eta0 * slip / (h * lubricant.tau0)
+    exponent = mean_slope(lubricant.viscosity, lubricant, p) * p
+    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, exponent)
+    most = bounds.friction * stress / p * load
+    thinner = h * (1.0 - bounds.film) / surface.sigma
+    W_a, A_a = asperity_contact(load, load / p, thinner, surface, solid, form)
+    more = boundary_friction(W_a, A_a, slip, lubricant) - formula.boundary_friction
+    return max(formula.viscous_friction, most - formula.viscous_friction) + max(more, 0.0)

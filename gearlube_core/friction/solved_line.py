@@ -8,11 +8,12 @@ from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.film_model.groups import FilmInlet, film_inlet
+from gearlube_core.film_model.groups import FilmInlet
 from gearlube_core.film_model.line_contact import line_place
 from gearlube_core.film_model.solved_film import SolvedFilm, solved_line_at
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
 from gearlube_core.friction.flank_data import CONSISTENT
+from gearlube_core.friction.flank_film import model_inlet
 from gearlube_core.friction.line_points import (
     LINE_LOAD_FLOOR,
     STILL_AREA_OVER_WIDTH_SQUARED,
@@ -21,13 +22,14 @@ from gearlube_core.friction.line_points import (
 )
 from gearlube_core.friction.mixed_friction import (
     SPEED_FLOOR,
+    FormulaBounds,
     asperity_contact,
     boundary_friction,
+    formula_doubt,
     friction_with_asperities,
 )
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
-from gearlube_core.oil.formula_laws import has_own_law, mean_slope
+from gearlube_core.oil.formula_laws import has_own_law
 from gearlube_core.oil.lubricant import LubricantState
 
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
@@ -44,30 +46,6 @@ class BoundedLine(NamedTuple):
     outside: float  # 0: film and friction are the film model's; 1: the formulas'; between: both [-]
     film_bound: float  # of the film thickness, relative [-]
     coefficient_bound: float  # of the friction coefficient, not relative [-]
-
-
-@kernel
-def line_inlet(
-    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float
-) -> FilmInlet:
-    """Return oil and solids as the film model takes them.
-
-    The limiting slope is that of the film's shear stress over pressure [-]; 0: none.
-    """
-    return film_inlet(
-        solid.contact_modulus,
-        lubricant.eta0,
-        lubricant.alpha,
-        lubricant.beta,
-        lubricant.tau0,
-        0.0,
-        limiting_slope,
-        lubricant.temperature,
-        lubricant.conductivity,
-        lubricant.volume_heat,
-        solid.conductivity,
-        solid.density * solid.heat_capacity,
-    )
 
 
 @kernel
@@ -92,47 +70,6 @@ def line_film(
         place,
         inlet,
     )
-
-
-@kernel
-def line_formula_doubt(
-    line_load: float,
-    slip: float,
-    formula: LineState,
-    lubricant: LubricantState,
-    surface: SurfaceParameters,
-    solid: SolidParameters,
-) -> float:
-    """Return how far off the formulas' friction may be outside of the model's domain [N/m].
-
-    0 <= f <= 1.7 w (tau0/p) asinh[eta0 exp(alpha p) dU/(h tau0)], and what asperities add
-
-    Parameters
-    ----------
-    line_load
-        w, not negative [N/m].
-    slip
-        Magnitude of the sliding speed dU [m/s].
-    formula
-        State by `line_friction`, with p and h.
-    lubricant, surface, solid
-        As in `line_friction`.
-
-    Notes
-    -----
-    Not relative to the formula's friction: Evans and Johnson's regression goes to zero in light
-    contacts, whose films are nearly isothermal. A film thinner by its bound raises the load of
-    asperities.
-    """
-    p, h = formula.mean_pressure, formula.film_thickness
-    exponent = mean_slope(lubricant.viscosity, lubricant, p) * p
-    newtonian_ratio = lubricant.eta0 * slip / (h * lubricant.tau0)
-    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, exponent)
-    most = LINE_FORMULA_FRICTION_TOP * stress / p * line_load
-    thinner = h * (1.0 - LINE_FORMULA_FILM_BOUND) / surface.sigma
-    W_a, A_a = asperity_contact(line_load, line_load / p, thinner, surface, solid, CONSISTENT)
-    more = boundary_friction(W_a, A_a, slip, lubricant) - formula.boundary_friction
-    return max(formula.viscous_friction, most - formula.viscous_friction) + max(more, 0.0)
 
 
 @kernel
@@ -178,7 +115,8 @@ def line_with_film(
         formula = line_friction(
             line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
         )
-        doubt = out * line_formula_doubt(w, slip, formula, lubricant, surface, solid)
+        bounds = FormulaBounds(LINE_FORMULA_FILM_BOUND, LINE_FORMULA_FRICTION_TOP)
+        doubt = out * formula_doubt(w, slip, formula, lubricant, surface, solid, CONSISTENT, bounds)
         if out >= 1.0:
             return BoundedLine(formula, 1.0, LINE_FORMULA_FILM_BOUND, doubt / w_film)
     own = 1.0 - out
@@ -247,7 +185,7 @@ def solved_line_friction(
     line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
         As in `line_friction`.
     inlet
-        Of `line_inlet` for this oil.
+        Of `model_inlet` for this oil.
     film_model : ndarray, shape (N_ARRAY,)
         Numbers of a model of lines; their scratch is written into.
 
@@ -288,7 +226,7 @@ def bounded_line_friction(
         As of `line_with_film`; without bounds where the formulas are asked for.
     """
     if film_model.size > 0:
-        inlet = line_inlet(lubricant, solid, 0.0)
+        inlet = model_inlet(lubricant, solid, 0.0)
         return solved_line_friction(
             line_load,
             R,

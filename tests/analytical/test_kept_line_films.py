@@ -23,7 +23,8 @@ from gearlube_core.dynamics.helical_pair.march.line_points import refresh_fricti
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
 from gearlube_core.film.line_film import line_film_thickness
-from gearlube_core.friction.solved_line import line_film, line_inlet, solved_line_friction
+from gearlube_core.friction.flank_film import model_inlet
+from gearlube_core.friction.solved_line import line_film, solved_line_friction
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.oil.lubricant import lubricant_state
@@ -57,7 +58,7 @@ def evaluated(model: HelicalPairModel, view: FlankView, line: int, place: int, o
     g = view.a + view.tilt * (point.z * plane.cos_b + point.x * plane.sin_b)
     load = line_points.point_load(g, point.at_line, view.phase, line, pair_data_of(model), flanks)
     m = line_kinematics(point.x, abs(motion_of(model).w_p), plane)
-    inlet = line_inlet(oil, constants.solid, constants.limiting_slope)
+    inlet = model_inlet(oil, constants.solid, constants.limiting_slope)
     solved = solved_line_friction(
         load, m.R, m.entrainment, m.sliding, oil, constants.surface, constants.solid, inlet, NUMBERS
     )
@@ -75,7 +76,7 @@ def carried_film(model: HelicalPairModel, view: FlankView, coast: bool, line: in
     if node < 0 or then.length == 0.0:
         then = now
     m, m_now = (line_kinematics(one.x, speed, plane) for one in (then, now))
-    inlet = line_inlet(oil, p.solid, p.limiting_slope)
+    inlet = model_inlet(oil, p.solid, p.limiting_slope)
     there = line_film(NUMBERS, load, m.R, m.entrainment, m.sliding, p.solid, inlet)
     formula, formula_now = (
         line_film_thickness(one.R, oil.eta0, oil.alpha, one.entrainment, load, modulus)

@@ -21,9 +21,9 @@ from gearlube_core.friction.flank_laws import (
     FORMULA_FRICTION_TOP,
     SOLVED,
     Consistent,
-    formula_doubt,
     solved_flank_friction,
 )
+from gearlube_core.friction.mixed_friction import FormulaBounds, formula_doubt
 from gearlube_core.oil.lubricant import Lubricant, lubricant_state
 from tests.helpers.axle_cases import OIL as AXLE_OIL
 from tests.helpers.axle_cases import operating_point
@@ -220,5 +220,6 @@ def test_flank_and_bound_are_the_same_compiled_and_in_python(load):
         (*compiled.state, *compiled[1:]), (*plain.state, *plain[1:]), strict=True
     ):
         assert one == pytest.approx(other, rel=1e-13)  # sums in another order
-    doubt = (load, SLIP, compiled.state, OIL, ROUGH, SOLID, 0)
+    bounds = FormulaBounds(FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP)
+    doubt = (load, SLIP, compiled.state, OIL, ROUGH, SOLID, 0, bounds)
     assert formula_doubt(*doubt) == pytest.approx(formula_doubt.py_func(*doubt), rel=1e-13)

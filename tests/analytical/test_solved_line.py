@@ -16,11 +16,11 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_line
+from gearlube_core.friction.flank_film import model_inlet
 from gearlube_core.friction.line_points import line_friction
 from gearlube_core.friction.solved_line import (
     LINE_FORMULA_FILM_BOUND,
     LINE_FORMULA_FRICTION_TOP,
-    line_inlet,
     solved_line_friction,
 )
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -40,7 +40,7 @@ OPERATION = {
 
 
 def solved(load, *, slip=SLIP, slope=0.0, surface=ROUGH):
-    inlet = line_inlet(OIL, SOLID, slope)
+    inlet = model_inlet(OIL, SOLID, slope)
     return solved_line_friction(load, R, SPEED, slip, OIL, surface, SOLID, inlet, NUMBERS)
 
 
@@ -97,7 +97,7 @@ def test_far_outside_all_is_the_formulas():
 
 
 def test_compiled_friction_equals_its_python_function():
-    inlet = line_inlet(OIL, SOLID, 0.0)
+    inlet = model_inlet(OIL, SOLID, 0.0)
     for load in (50.0, 1500.0, 1e5):
         given = (load, R, SPEED, -SLIP, OIL, ROUGH, SOLID, inlet, NUMBERS)
         compiled, python = solved_line_friction(*given), solved_line_friction.py_func(*given)

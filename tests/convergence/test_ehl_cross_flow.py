@@ -171,11 +171,12 @@ def test_both_flows_across_the_slope_answer_to_a_change_of_pressure_by_one_facto
     y, x = np.indices(shape, dtype=float)
 
     by_pressure, by_film = np.zeros((2, len(OFFSETS), *shape))
-    factors.add_cross_derivatives(
+    add_cross_derivatives(
         parameters,
         metric,
         zero,
         flow,
+        factors.cross,
         zero + 1.0,
         factors.slopes(zero, zero),
         zero == 0.0,
@@ -186,7 +187,7 @@ def test_both_flows_across_the_slope_answer_to_a_change_of_pressure_by_one_facto
     apply_derivatives(
         OFFSETS, by_pressure, by_film, AMBIENT.reach(len(zero)), 1.0 + x * y, zero, change
     )
-    factors.add_cross_flow(parameters, metric, 1.0 + x * y, flow, residual)
+    add_cross_flow(parameters, metric, 1.0 + x * y, flow, factors.cross, residual)
     inner, mobility = np.s_[1:-1, 1:-1], 2.0 * 0.7 * 0.4 * math.sqrt(9.0 * 4.0)
     for found in (residual, change):
         assert found[inner] == pytest.approx(np.full((4, 5), mobility * 0.2), rel=1e-12)

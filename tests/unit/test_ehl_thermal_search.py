@@ -1,10 +1,11 @@
 """What a thermal point film says of its error and its search for one, with made-up films."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import pytest
 
+from gearlube_core.ehl import grid_error
 from gearlube_core.ehl.point.thermal import solver as module
 from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
 from gearlube_core.errors import ConvergenceError
@@ -44,17 +45,18 @@ def grids(monkeypatch):
         solved.append(nodes)
         return Film(nodes, nodes[0] != 17)
 
-    def coarser_films(film, on_coarser_grid):
+    def coarser_films(film, on_coarser_grid, closed):
         assert on_coarser_grid((17, 9), film) is None
         return (on_coarser_grid((25, 13), film),)
 
-    def refined_film(film, film_error, most_nodes, on_finer):
+    def refined_film(film, film_error, most_nodes, on_grid, closed):
         assert (film_error, most_nodes) == (0.01, 129)
-        return on_finer((65, 33), (film, *film.coarser)), " Refined once."
+        finer = replace(on_grid((65, 33)), coarser=(film, *film.coarser))
+        return finer, " Refined once."
 
     monkeypatch.setattr(module, "_on_grid", on_grid)
-    monkeypatch.setattr(module, "coarser_films", coarser_films)
-    monkeypatch.setattr(module, "refined_film", refined_film)
+    monkeypatch.setattr(grid_error, "coarser_films", coarser_films)
+    monkeypatch.setattr(grid_error, "refined_film", refined_film)
     monkeypatch.setattr(module, "check_thermal", lambda problem, settings: None)
     monkeypatch.setattr(SETTINGS, "estimate_error", False)
     return solved

@@ -171,6 +171,7 @@ def _grid(speeds: list[str] | None, torques: list[str] | None) -> dict[str, Arra
 
 def _ramp(run_up: str | None, ramp_s: float | None) -> tuple[float, float] | None:
     """Return the speeds of a run-up [rad/s], or None."""
+    from gearlube.cli.ranges import two_numbers
     from gearlube_core.checks import check_within
     from gearlube_core.errors import ParameterError
     from gearlube_core.units import rpm_to_rads
@@ -181,12 +182,7 @@ def _ramp(run_up: str | None, ramp_s: float | None) -> tuple[float, float] | Non
         return None
     if ramp_s is not None:
         check_within("--ramp-s", ramp_s, 0.2, 3600.0, "s")
-    try:
-        first, last = (float(one) for one in run_up.split(":"))
-    except ValueError:
-        raise ParameterError(
-            f"--run-up must be two speeds [rpm] as 600:6000, got {run_up!r}."
-        ) from None
+    first, last = two_numbers("--run-up", run_up, "600:6000", "speeds [rpm]")
     for speed in (first, last):
         check_within("--run-up", speed, 0.01, 1e5, "rpm")
     if first == last:

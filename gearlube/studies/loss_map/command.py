@@ -13,9 +13,11 @@ from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_if_failed
 from gearlube.cli.options import (
     AirTemperatureOption,
+    AxleArgument,
     ConductanceAt100Option,
     ConductanceAtRestOption,
     ExampleOption,
+    OilOfAxleOption,
     OverwriteOption,
     given_cooling,
 )
@@ -33,10 +35,7 @@ _RPM = 0.104719755119660  # rad/s
 
 
 def loss_map(
-    axle: Annotated[
-        str,
-        typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE"),
-    ] = "mohammadpour_2015",
+    axle: AxleArgument = "mohammadpour_2015",
     torques: Annotated[
         list[str] | None,
         typer.Option(
@@ -63,12 +62,7 @@ def loss_map(
             metavar="RANGE...",
         ),
     ] = None,
-    oil: Annotated[
-        str | None,
-        typer.Option(
-            help="Shipped oil or an oil file (TOML). Default: that of the axle.", metavar="OIL"
-        ),
-    ] = None,
+    oil: OilOfAxleOption = None,
     draws: Annotated[
         int,
         typer.Option(help="Samples of the uncertain data for error bars; 0: none.", metavar="N"),

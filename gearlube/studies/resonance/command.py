@@ -12,8 +12,9 @@ from rich.table import Table
 from gearlube.cli.exit_codes import INTERRUPTED
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import OilTemperatureOption, OverwriteOption, RoughnessOption
+from gearlube.cli.ranges import two_numbers
 from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
-from gearlube_core.checks import check_finite, check_option, check_within
+from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -98,7 +99,7 @@ def resonance(
 
     stopped = f"Stopped while results were written; {out} may be incomplete."
     with study_run("resonance", out, overwrite=overwrite, stopped=stopped) as frame:
-        first, last = _range(frequency_range)
+        first, last = two_numbers("--range", frequency_range, "0.2:1.6")
         check_option("--radii", radii, _RADII)
         check_option("--friction", friction, _FRICTION)
         settings = ResonanceSettings(
@@ -145,16 +146,6 @@ def _mesh(name: str, mismatch: float, radii: str, torque: float) -> MeshTable:
     if name == "synthetic":
         return synthetic_mesh(radius_mismatch=0.01 * mismatch, torque=torque)
     return read_mesh_table(name)
-
-
-def _range(text: str) -> tuple[float, float]:
-    """Return the two numbers of "0.2:1.6"."""
-    pieces = text.split(":")
-    cure = "Write first:last, for instance 0.2:1.6."
-    if len(pieces) != 2:
-        raise ParameterError(f"--range must be two numbers, got {text!r}. {cure}")
-    first, last = (check_finite("--range", piece, "", cure) for piece in pieces)  # type: ignore[arg-type]
-    return first, last
 
 
 def _table(found: list[ModelSummary]) -> Table:

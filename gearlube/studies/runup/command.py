@@ -10,7 +10,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gearlube.cli.example import print_example
-from gearlube.cli.options import ExampleOption, OverwriteOption
+from gearlube.cli.options import (
+    AxleArgument,
+    ExampleOption,
+    OilOfAxleOption,
+    OverwriteOption,
+)
 from gearlube.cli.study_run import command_line, study_run
 
 if TYPE_CHECKING:
@@ -24,10 +29,7 @@ _QUICK_DURATION, _QUICK_RESOLUTION = 10.0, 0.5
 
 
 def runup(
-    axle: Annotated[
-        str,
-        typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE"),
-    ] = "mohammadpour_2015",
+    axle: AxleArgument = "mohammadpour_2015",
     start: Annotated[
         float | None,
         typer.Option("--from", help="Speed at the start [km/h]. Default: 20.", metavar="SPEED"),
@@ -86,12 +88,7 @@ def runup(
     oil_temperature: Annotated[
         float, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
     ] = 80.0,
-    oil: Annotated[
-        str | None,
-        typer.Option(
-            help="Shipped oil or an oil file (TOML). Default: that of the axle.", metavar="OIL"
-        ),
-    ] = None,
+    oil: OilOfAxleOption = None,
     preload: Annotated[
         float | None,
         typer.Option(help="Bearing preload [N]. Default: that of the axle.", metavar="FORCE"),

@@ -10,6 +10,7 @@ import typer
 
 from gearlube.cli.example import prints_example
 from gearlube.cli.options import OverwriteOption
+from gearlube.cli.ranges import two_numbers
 from gearlube.cli.study_run import command_line, study_run
 
 logger = logging.getLogger("gearlube")
@@ -95,7 +96,7 @@ def sound(
             metrics, tuple(one.strip() for one in metrics.split(","))
         )
         settings = SoundSettings(
-            band=_band(band),
+            band=None if band is None else two_numbers("--band", band, "50:4000", "frequencies"),
             orders=tuple(order or ()),
             full_scale=full_scale,
             wav_rate=wav_rate,
@@ -120,17 +121,3 @@ def sound(
             logger.warning("Missing: %s.", reason)
         frame.written(*(one.wav for one in found.runs))
         logger.info("Report: %s", out / "report.html")
-
-
-def _band(text: str | None) -> tuple[float, float] | None:
-    from gearlube_core.errors import ParameterError
-
-    if text is None:
-        return None
-    try:
-        low, high = (float(one) for one in text.split(":"))
-    except ValueError:
-        raise ParameterError(
-            f"--band must be two frequencies [Hz] as 50:4000, got {text!r}."
-        ) from None
-    return low, high

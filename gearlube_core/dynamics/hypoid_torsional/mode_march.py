@@ -94,6 +94,24 @@ def angle_slope(
 
 
 @kernel
+def _ahead(
+    y: Array,
+    s: AngleSlope,
+    h: float,
+    phi: float,
+    load_torque: float,
+    speed: float,
+    rows: Array,
+    i: int,
+    mode: int,
+    p: TorsionalParameters,
+) -> AngleSlope:
+    """Return dy/dphi an angle `h` after `phi`, where the state has gone on with a slope."""
+    x, a, b = y[0] + h * s.y_0, y[1] + h * s.y_1, y[2] + h * s.y_2
+    return angle_slope(x, a, b, phi + h, load_torque, speed, rows, i, mode, p)
+
+
+@kernel
 def angle_step(
     y: Array,
     phi: float,
@@ -110,47 +128,13 @@ def angle_step(
     Returns the mesh force before the step [N]. `rows[i]` belongs to `phi`, the next two (in a
     circle) to the middle and the end of the step.
     """
-    x, a, b = y[0], y[1], y[2]
     half = 0.5 * h
     j = i + 1
     k = i + 2 if i + 2 < rows.shape[0] else 0
-    s_1 = angle_slope(x, a, b, phi, load_torque, speed, rows, i, mode, p)
-    s_2 = angle_slope(
-        x + half * s_1.y_0,
-        a + half * s_1.y_1,
-        b + half * s_1.y_2,
-        phi + half,
-        load_torque,
-        speed,
-        rows,
-        j,
-        mode,
-        p,
-    )
-    s_3 = angle_slope(
-        x + half * s_2.y_0,
-        a + half * s_2.y_1,
-        b + half * s_2.y_2,
-        phi + half,
-        load_torque,
-        speed,
-        rows,
-        j,
-        mode,
-        p,
-    )
-    s_4 = angle_slope(
-        x + h * s_3.y_0,
-        a + h * s_3.y_1,
-        b + h * s_3.y_2,
-        phi + h,
-        load_torque,
-        speed,
-        rows,
-        k,
-        mode,
-        p,
-    )
+    s_1 = angle_slope(y[0], y[1], y[2], phi, load_torque, speed, rows, i, mode, p)
+    s_2 = _ahead(y, s_1, half, phi, load_torque, speed, rows, j, mode, p)
+    s_3 = _ahead(y, s_2, half, phi, load_torque, speed, rows, j, mode, p)
+    s_4 = _ahead(y, s_3, h, phi, load_torque, speed, rows, k, mode, p)
     sixth = h / 6.0
     y[0] += sixth * (s_1.y_0 + 2.0 * (s_2.y_0 + s_3.y_0) + s_4.y_0)
     y[1] += sixth * (s_1.y_1 + 2.0 * (s_2.y_1 + s_3.y_1) + s_4.y_1)

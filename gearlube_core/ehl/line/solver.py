@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from gearlube_core.ehl.grid_error import check_search, coarser_films, refined_film
+from gearlube_core.ehl.grid_error import check_search, if_converged, with_grids
 from gearlube_core.ehl.line.newton import NewtonRecord, newton
 from gearlube_core.ehl.line.problem import MOST_NODES, LineProblem, LineSettings
 from gearlube_core.ehl.line.solution import LineSolution, build_solution
@@ -92,17 +92,13 @@ def solve_line(
         raise ConvergenceError(solution.outcome)
     if not solution.converged:
         return solution
-    solution = replace(solution, coarser=coarser_films(solution, _on_coarser_grid))
-    searched = ""
-    if film_error is not None:
-        solution, searched = refined_film(
-            solution,
-            film_error,
-            most_nodes,
-            lambda nodes, coarser: replace(
-                _on_grid(problem, replace(settings, nodes=nodes[0]), None), coarser=coarser
-            ),
-        )
+    solution, searched = with_grids(
+        solution,
+        film_error,
+        most_nodes,
+        lambda nodes: _on_grid(problem, replace(settings, nodes=nodes[0]), None),
+        lambda nodes, fine: _from_near(fine.problem, nodes, fine),
+    )
     solution = replace(solution, wider=_on_wider_domain(solution))
     return replace(solution, outcome=solution.outcome + solution.error.sentence + searched)
 
@@ -134,11 +130,6 @@ def _on_grid(
     return build_solution(system, state, settings, tuple(records), problem)
 
 
-def _on_coarser_grid(nodes: tuple[int, ...], fine: LineSolution) -> LineSolution | None:
-    """Return the film on fewer nodes, from that on more; None: it was not found."""
-    return _from_near(fine.problem, nodes, fine)
-
-
 def _on_wider_domain(film: LineSolution) -> LineSolution | None:
     """Return the film of the coarsest grid on twice the domain; None: there is none."""
     if not film.coarser:
@@ -159,8 +150,7 @@ def _from_near(
     if record.converged and settings.cavitation == "mass_conserving":
         system, state, record = _with_voids(problem, settings, state)
     if not record.converged:
-        found = _on_grid(problem, settings, None)
-        return found if found.converged else None
+        return if_converged(_on_grid(problem, settings, None))
     return build_solution(system, state, settings, ((nodes[0], record),), problem)
 
 

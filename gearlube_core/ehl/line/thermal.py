@@ -13,8 +13,8 @@ from gearlube_core.ehl.grid_error import (
     FilmError,
     FilmNumbers,
     check_search,
-    coarser_films,
-    refined_film,
+    if_converged,
+    with_grids,
 )
 from gearlube_core.ehl.line.energy import (
     FilmFields,
@@ -171,30 +171,17 @@ def solve_thermal_line(
     def on_grid(nodes: tuple[int, ...], of: LineProblem = problem) -> ThermalLineSolution:
         return thermal_line_on_grid(of, solids, replace(settings, nodes=nodes[0]), thermal)
 
-    def on_coarser_grid(
-        nodes: tuple[int, ...], _: ThermalLineSolution
-    ) -> ThermalLineSolution | None:
-        found = on_grid(nodes)
-        return found if found.converged else None
-
     solution = on_grid((settings.nodes,))
     if throw and not solution.converged:
         raise ConvergenceError(solution.outcome)
     if not solution.converged:
         return solution
-    solution = replace(solution, coarser=coarser_films(solution, on_coarser_grid))
-    searched = ""
-    if film_error is not None:
-        solution, searched = refined_film(
-            solution,
-            film_error,
-            most_nodes,
-            lambda nodes, coarser: replace(on_grid(nodes), coarser=coarser),
-        )
+    solution, searched = with_grids(
+        solution, film_error, most_nodes, on_grid, lambda nodes, _: if_converged(on_grid(nodes))
+    )
     coarsest = solution.coarser[-1].nodes[0] if solution.coarser else 0
     if coarsest and (twice := problem.widened(coarsest)) is not None:
-        wide = on_grid((twice[1],), twice[0])
-        solution = replace(solution, wider=wide if wide.converged else None)
+        solution = replace(solution, wider=if_converged(on_grid((twice[1],), twice[0])))
     return replace(solution, outcome=solution.outcome + solution.error.sentence + searched)
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.interpolate import interpn
 
-from gearlube_core.ehl.grid_error import check_search, coarser_films, refined_film
+from gearlube_core.ehl.grid_error import check_search, with_grids
 from gearlube_core.ehl.point.equations.film_shear import ALIGNED
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.newton import NewtonRecord
@@ -271,21 +271,14 @@ def solve_point_contact(
     if not solution.converged or not (settings.estimate_error or film_error):
         return solution
     begin, closed = time.perf_counter(), Sides(problem.sides).closed
-    coarser = coarser_films(
+    solution, searched = with_grids(
         solution,
+        film_error,
+        most_nodes,
+        on_grid,
         lambda nodes, near: film_from_near(problem.with_nodes(*nodes), near, settings),
         closed,
     )
-    solution = replace(solution, coarser=coarser)
-    searched = ""
-    if film_error is not None:
-        solution, searched = refined_film(
-            solution,
-            film_error,
-            most_nodes,
-            lambda nodes, coarse: replace(on_grid(nodes), coarser=coarse),
-            closed,
-        )
     if solution.coarser and (twice := solution.coarser[-1].problem.widened()) is not None:
         wide = film_from_near(twice, solution.coarser[-1], settings)
         solution = replace(solution, wider=wide)

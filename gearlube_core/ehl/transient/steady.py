@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gearlube_core.ehl.grid_error import FIRST_ORDER, check_search, coarser_films, refined_film
+from gearlube_core.ehl.grid_error import FIRST_ORDER, check_search, if_converged, with_grids
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
@@ -126,26 +126,17 @@ def solve_steady_film(
         raise ConvergenceError(solution.outcome)
     if not solution.converged or not (settings.estimate_error or film_error):
         return solution
-
-    def found(nodes: tuple[int, ...], _: FilmSolution) -> FilmSolution | None:
-        coarse = on_grid(nodes, wedge)[0]
-        return coarse if coarse.converged else None
-
-    closed = Sides(film.sides).closed
-    solution = replace(solution, coarser=coarser_films(solution, found, closed))
-    searched = ""
-    if film_error is not None:
-        solution, searched = refined_film(
-            solution,
-            film_error,
-            most_nodes,
-            lambda nodes, coarser: replace(on_grid(nodes, settings.wedge)[0], coarser=coarser),
-            closed,
-        )
+    solution, searched = with_grids(
+        solution,
+        film_error,
+        most_nodes,
+        lambda nodes: on_grid(nodes, settings.wedge)[0],
+        lambda nodes, _: if_converged(on_grid(nodes, wedge)[0]),
+        Sides(film.sides).closed,
+    )
     coarse = film.with_nodes(*solution.coarser[-1].nodes) if solution.coarser else None
     if coarse is not None and (twice := coarse.widened()) is not None:
-        wide = on_grid(twice.nodes, wedge, twice)[0]
-        solution = replace(solution, wider=wide if wide.converged else None)
+        solution = replace(solution, wider=if_converged(on_grid(twice.nodes, wedge, twice)[0]))
     return replace(
         solution,
         outcome=solution.outcome + solution.error.sentence + searched,

@@ -9,8 +9,8 @@ import typer
 
 from gearlube.cli.example import print_example
 from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
+from gearlube.cli.ranges import two_numbers
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
-from gearlube_core.errors import ParameterError
 
 _QUICK = {
     "solver.nodes_minor": 97,
@@ -105,7 +105,7 @@ def hypoid(
 
     with exit_on_errors(out):
         file = HypoidCase.given(case)
-        first, last = (None, None) if phases is None else _phases(phases)
+        span = (None, None) if phases is None else two_numbers("--phases", phases, "-0.3:0.8")
         given = {
             "mesh_table": mesh_table,
             "pinion_speed_rpm": speed_rpm,
@@ -116,8 +116,8 @@ def hypoid(
             "oil_temperature_degc": oil_temperature,
             "temperature": temperature,
             "flow": flow,
-            "first_phase": first,
-            "last_phase": last,
+            "first_phase": span[0],
+            "last_phase": span[1],
             "solver.nodes_minor": nodes_minor,
             "solver.nodes_major": nodes_major,
             "solver.steps": steps,
@@ -135,14 +135,3 @@ def hypoid(
             "ehl hypoid",
             overwrite=overwrite,
         )
-
-
-def _phases(text: str) -> tuple[float, float]:
-    """Return the two numbers of "-0.3:0.8"."""
-    try:
-        first, last = (float(piece) for piece in text.split(":"))
-    except ValueError:
-        raise ParameterError(
-            f"--phases must be two numbers, got {text!r}. Write FIRST:LAST, for instance -0.3:0.8."
-        ) from None
-    return first, last

@@ -47,10 +47,11 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.film_model import net
 from gearlube_core.film_model.solved_film import SolvedFilm
+from gearlube_core.friction.flank_film import model_inlet
 from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LineState, line_friction
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
-from gearlube_core.friction.solved_line import BoundedLine, line_film, line_inlet, line_with_film
+from gearlube_core.friction.solved_line import BoundedLine, line_film, line_with_film
 from gearlube_core.helical_geometry.contact_line import (
     ContactPlane,
     LineKinematics,
@@ -164,7 +165,7 @@ def bin_film(x: float, box: Bin, n: int, data: Array, p: MarchConstants) -> Node
         slipping = math.exp(NUDGES[3])
     oil = lubricant_state(p.oil, temperature)
     motion = line_kinematics(x, speed, p.flanks.plane)
-    inlet = line_inlet(oil, p.solid, p.limiting_slope)
+    inlet = model_inlet(oil, p.solid, p.limiting_slope)
     R, u, slip = motion.R, motion.entrainment, motion.sliding * slipping
     film = line_film(data[FILM_AT:KEPT_AT], load, R, u, slip, p.solid, inlet)
     first = line_film_thickness(R, oil.eta0, oil.alpha, u, load, 2.0 * p.solid.contact_modulus)
@@ -226,7 +227,7 @@ def point_film(
                 numbers[net.BOUNDS],
                 numbers[net.BOUNDS + 1],
             )
-    inlet = line_inlet(lubricant, p.solid, p.limiting_slope)
+    inlet = model_inlet(lubricant, p.solid, p.limiting_slope)
     return line_film(numbers, w, R, u, motion.sliding, p.solid, inlet)
 
 

@@ -8,17 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array, Flags
-from gearlube_core.ehl.point.equations.cross_flow import (
-    CrossFlow,
-    add_cross_derivatives,
-    add_cross_flow,
-)
+from gearlube_core.ehl.point.equations.cross_flow import CrossFlow
 from gearlube_core.ehl.point.equations.stencil import (
     FilmFlow,
     FlowSlopes,
-    MeshMetric,
     NodeSlopes,
-    StencilParameters,
     TensorSlopes,
 )
 
@@ -26,33 +20,14 @@ from gearlube_core.ehl.point.equations.stencil import (
 class NoCrossFlow:
     """Pressure drives no oil across its slope."""
 
+    @property
+    def cross(self) -> CrossFlow | None:
+        """Factors of the flow across the slope of pressure, or None."""
+        return None
+
     def cubic_xy(self, cubic: Array) -> Array:
         """Return rho h^3 times the flow factor along x by dp/dy, (ny, nx)."""
         return np.zeros_like(cubic)
-
-    def add_cross_flow(
-        self,
-        stencil: StencilParameters,
-        metric: MeshMetric,
-        pressure: Array,
-        flow: FilmFlow,
-        residual: Array,
-    ) -> None:
-        """Leave the residual as it is."""
-
-    def add_cross_derivatives(
-        self,
-        stencil: StencilParameters,
-        metric: MeshMetric,
-        pressure: Array,
-        flow: FilmFlow,
-        film: Array,
-        slopes: FlowSlopes,
-        free: Flags,
-        by_pressure: Array,
-        by_film: Array,
-    ) -> None:
-        """Leave the derivatives as they are."""
 
     def with_cross_velocity(
         self,
@@ -200,45 +175,10 @@ class ObliqueFactors(AlignedFactors):
         )
         return x, y
 
-    def _cross(self) -> CrossFlow:
+    @property
+    def cross(self) -> CrossFlow:
+        """Factors of the flow across the slope of pressure."""
         return CrossFlow(self.xy / self.xx, self.xy / self.yy)
-
-    def add_cross_flow(
-        self,
-        stencil: StencilParameters,
-        metric: MeshMetric,
-        pressure: Array,
-        flow: FilmFlow,
-        residual: Array,
-    ) -> None:
-        """Add the flow across the slope of pressure to the residual, (ny, nx)."""
-        add_cross_flow(stencil, metric, pressure, flow, self._cross(), residual)
-
-    def add_cross_derivatives(
-        self,
-        stencil: StencilParameters,
-        metric: MeshMetric,
-        pressure: Array,
-        flow: FilmFlow,
-        film: Array,
-        slopes: FlowSlopes,
-        free: Flags,
-        by_pressure: Array,
-        by_film: Array,
-    ) -> None:
-        """Add the derivatives of that flow, by pressure and film of 13 neighbours."""
-        add_cross_derivatives(
-            stencil,
-            metric,
-            pressure,
-            flow,
-            self._cross(),
-            film,
-            slopes,
-            free,
-            by_pressure,
-            by_film,
-        )
 
     def with_cross_velocity(
         self,

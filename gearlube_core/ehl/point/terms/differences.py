@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array, Flags
+from gearlube_core.ehl.point.equations.cross_flow import add_cross_derivatives, add_cross_flow
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.reynolds import reynolds_derivatives, reynolds_residual
 from gearlube_core.ehl.point.equations.stencil import (
@@ -136,9 +137,10 @@ class Differences:
         source : ndarray, shape (ny, nx)
             What is gathered beside the flow: what nodes held before, less what they store [-].
         """
-        flow = state.film_flow
+        flow, cross = state.film_flow, state.shear.cross
         reynolds_residual(stencil, self._metric, state.oil, carried, flow, source, state.residual)
-        state.shear.add_cross_flow(stencil, self._metric, state.oil, flow, state.residual)
+        if cross is not None:
+            add_cross_flow(stencil, self._metric, state.oil, flow, cross, state.residual)
 
     def derivatives(
         self,
@@ -164,7 +166,7 @@ class Differences:
         storage
             Of oil.
         """
-        shear, flow = state.shear, state.film_flow
+        shear, flow, cross = state.shear, state.film_flow, state.shear.cross
         count = SHEARED_NEIGHBOURS if shear.sheared else NEIGHBOURS
         slopes = shear.slopes(state.dense, state.viscosity_slope, rows)
         by_pressure, by_film = np.empty((2, count, *state.film.shape))
@@ -173,8 +175,8 @@ class Differences:
             lambda part: reynolds_derivatives(*given, part, by_pressure, by_film),
             *state.film.shape,
         )
-        shear.add_cross_derivatives(
-            stencil, self._metric, state.oil, flow, state.film, slopes, rows, by_pressure, by_film
-        )
+        if cross is not None:
+            given_cross = *given[:4], cross, state.film, slopes, rows
+            add_cross_derivatives(*given_cross, by_pressure, by_film)
         storage.add_derivatives(state, rows, by_pressure[CENTRE], by_film[CENTRE])
         return OFFSETS, by_pressure, by_film

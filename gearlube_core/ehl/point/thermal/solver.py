@@ -15,8 +15,8 @@ from gearlube_core.ehl.grid_error import (
     FilmError,
     FilmNumbers,
     check_search,
-    coarser_films,
-    refined_film,
+    if_converged,
+    with_grids,
 )
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual, newton
 from gearlube_core.ehl.point.newton.transfer import Hierarchy
@@ -203,30 +203,17 @@ def solve_thermal_point(
     def on_grid(nodes: tuple[int, ...], of: PointContactProblem = problem) -> ThermalPointSolution:
         return _on_grid(of.with_nodes(*nodes), (solid_1, solid_2), settings, thermal)
 
-    def on_coarser_grid(
-        nodes: tuple[int, ...], _: ThermalPointSolution
-    ) -> ThermalPointSolution | None:
-        found = on_grid(nodes)
-        return found if found.converged else None
-
     solution = on_grid(problem.nodes)
     if throw and not solution.converged:
         raise ConvergenceError(solution.outcome)
     if not solution.converged or not (settings.estimate_error or film_error):
         return solution
-    solution = replace(solution, coarser=coarser_films(solution, on_coarser_grid))
-    searched = ""
-    if film_error is not None:
-        solution, searched = refined_film(
-            solution,
-            film_error,
-            most_nodes,
-            lambda nodes, coarser: replace(on_grid(nodes), coarser=coarser),
-        )
+    solution, searched = with_grids(
+        solution, film_error, most_nodes, on_grid, lambda nodes, _: if_converged(on_grid(nodes))
+    )
     coarse = solution.coarser[-1] if solution.coarser else None
     if coarse is not None and (twice := coarse.film.problem.widened()) is not None:
-        wide = on_grid(twice.nodes, twice)
-        solution = replace(solution, wider=wide if wide.converged else None)
+        solution = replace(solution, wider=if_converged(on_grid(twice.nodes, twice)))
     return replace(
         solution,
         outcome=solution.outcome + solution.error.sentence + searched,
