@@ -83,10 +83,7 @@ def time_rates() -> None:
         MeshPosition.at(pair, 0.3).load(TORQUE, teeth, LoadedSettings())
 
     cases: dict[str, tuple[Callable[[], object], Callable[[], object]]] = {
-        "unloaded error": (
-            unloaded,
-            lambda: error_rates(Variations.of(FILE, pair, names), error),
-        ),
+        "unloaded error": (unloaded, lambda: error_rates(Variations.of(FILE, pair, names), error)),
         "loaded position": (position, lambda: loaded_rates(variations, state, teeth)),
     }
     with single_threaded():

@@ -60,7 +60,7 @@ COMMANDS = {
     "point_elliptical": ["ehl", "point", "elliptical"],
     "point_thermal": ["ehl", "point", "elliptical_thermal"],
     "point_mass_conserving": [
-        "ehl", "point", "--nodes", "97", "--cavitation", "mass_conserving",
+        "ehl", "point", "--nodes", "97", "--cavitation", "mass_conserving"
     ],
     "helical_line": ["ehl", "helical", "--step", "300"],
     "helical_march": [

@@ -36,10 +36,7 @@ def can_build_native() -> bool:
 
 
 def cached_hypoid_axle(
-    mesh_table: Path | None = None,
-    *,
-    axle: str | Path | None = None,
-    native: bool | None = None,
+    mesh_table: Path | None = None, *, axle: str | Path | None = None, native: bool | None = None
 ) -> Path:
     """Return HypoidAxle.fmu from the user's cache; build it if sources or files are new.
 
@@ -134,9 +131,7 @@ def _build(definition: Definition, out_dir: Path) -> Path:
 
 
 def build_hypoid_axle(
-    out_dir: str | Path,
-    mesh_table: str | Path | None = None,
-    axle: str | Path | None = None,
+    out_dir: str | Path, mesh_table: str | Path | None = None, axle: str | Path | None = None
 ) -> Path:
     """Build HypoidAxle.fmu, which computes in Python, in `out_dir`; return its path.
 
@@ -170,9 +165,7 @@ def build_hypoid_axle(
 
 
 def build_helical_pair(
-    out_dir: str | Path,
-    gear: str | Path | None = None,
-    line_mesh: str | Path | None = None,
+    out_dir: str | Path, gear: str | Path | None = None, line_mesh: str | Path | None = None
 ) -> Path:
     """Build HelicalPair.fmu, which computes in Python, in `out_dir`; return its path.
 

@@ -142,11 +142,7 @@ _LOSSES = (
     output("damping.power_loss", "W", "Power lost in the mesh damping", 10.0),
     output("bearing.power_loss", "W", "Power lost in the damping of the bearings", 10.0),
     output("efficiency", "1", f"Efficiency of the gear mesh alone, {_MEAN}"),
-    output(
-        "pair.efficiency",
-        "1",
-        f"Efficiency of the pair with all losses, {_MEAN}",
-    ),
+    output("pair.efficiency", "1", f"Efficiency of the pair with all losses, {_MEAN}"),
 )
 
 

@@ -105,9 +105,7 @@ def definition_with_table(path: str | Path) -> Definition:
 
 
 def definition_with_axle(
-    path: str | Path,
-    mesh_table: str | Path | None = None,
-    named: Path | None = None,
+    path: str | Path, mesh_table: str | Path | None = None, named: Path | None = None
 ) -> Definition:
     """Return the definition of the FMU with an axle file.
 

@@ -12,14 +12,7 @@ import numpy as np
 
 from drivetrain.train.train_file import TrainCase, TrainFile
 from fmu_src.definition import Definition, Value
-from fmu_src.variable import (
-    Variable,
-    declared_locals,
-    declared_outputs,
-    input_,
-    parameter,
-    rates,
-)
+from fmu_src.variable import Variable, declared_locals, declared_outputs, input_, parameter, rates
 from gearlube_core.arrays import Array
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics.ranges import MAX_SPEED, RANGE_EXCEEDED, Range

@@ -143,11 +143,7 @@ _LOSSES = (
     output("bearing.power_loss", "W", "Power lost in the drag of all four bearings", 100.0),
     output("damping.power_loss", "W", "Power lost in the damping of mesh and rollers", 10.0),
     output("efficiency", "1", f"Efficiency of the gear mesh alone, {_MEAN}"),
-    output(
-        "axle.efficiency",
-        "1",
-        f"Efficiency of the axle with all losses, {_MEAN}",
-    ),
+    output("axle.efficiency", "1", f"Efficiency of the axle with all losses, {_MEAN}"),
 )
 
 

@@ -181,10 +181,7 @@ def _places(store: Store) -> Verdict:
         words.append(f"{design.upper()} {ends[0]:.0f} to {ends[1]:.0f}")
         off = [max(abs(ends[0] - low), abs(ends[1] - high)) for low, high in ranges]
         good.append(min(off) <= 20.0)
-    return Verdict(
-        ", ".join(words),
-        judge_parts(*good),
-    )
+    return Verdict(", ".join(words), judge_parts(*good))
 
 
 @CYCLES("J9")

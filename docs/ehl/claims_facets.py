@@ -108,10 +108,7 @@ def _monotone(store: Store) -> Verdict:
 @FACETED_FLANKS("F6")
 def _spikes(store: Store) -> Verdict:
     found = peaks(faceted(store, 20).along, _SPIKE)
-    return Verdict(
-        f"{found}",
-        judge_parts(abs(found - 13) <= 1),
-    )
+    return Verdict(f"{found}", judge_parts(abs(found - 13) <= 1))
 
 
 @FACETED_FLANKS("F7")

@@ -7,15 +7,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from docs.ehl.cases import (
-    CYCLE,
-    FACETED,
-    LINE,
-    WIDE_FINE,
-    FilmCase,
-    facet_case,
-    parabola_case,
-)
+from docs.ehl.cases import CYCLE, FACETED, LINE, WIDE_FINE, FilmCase, facet_case, parabola_case
 from docs.ehl.store import Store
 
 logger = logging.getLogger("docs.ehl")

@@ -19,10 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from docs.film_error.contacts import (
-    RandomContact,
-    random_contacts,
-)
+from docs.film_error.contacts import RandomContact, random_contacts
 from docs.kept_films import KeptFilms, MissingFilmError
 from docs.page import Page, begin
 from gearlube_core.ehl.gears.helical_film import march_helical_cycle

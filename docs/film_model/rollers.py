@@ -141,10 +141,7 @@ def compared(rows: list[SolveRow]) -> Outside:
 def put_outside(page: Page, rows: list[SolveRow]) -> None:
     """Put in what the formulas err outside the domain."""
     found, cells = compared(rows), []
-    for ratio, bound in (
-        (found.film, FORMULA_RACE_FILM_BOUND),
-        (found.force, FORMULA_FORCE_BOUND),
-    ):
+    for ratio, bound in ((found.film, FORMULA_RACE_FILM_BOUND), (found.force, FORMULA_FORCE_BOUND)):
         above = np.abs(ratio - 1.0) > bound
         shares = (f"{some.sum()} of {some.size}" for some in (above[:SET], above[SET:]))
         quantiles = np.quantile(ratio, (0.0, 0.05, 0.5, 0.95, 1.0))

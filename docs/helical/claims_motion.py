@@ -190,7 +190,4 @@ def _linear_in_mu(_: Evidence) -> Verdict:
     size = np.array([harmonics(steady(float(m)).signal("u_xp"))[0] for m in _LINEAR_FROM])
     line = np.polyval(np.polyfit(_LINEAR_FROM, size, 1), _LINEAR_FROM)
     off = float(np.abs(line / size - 1.0).max())
-    return Verdict(
-        f"off a straight line by {100.0 * off:.2f} %",
-        judge(off < 0.02),
-    )
+    return Verdict(f"off a straight line by {100.0 * off:.2f} %", judge(off < 0.02))

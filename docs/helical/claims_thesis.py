@@ -66,10 +66,7 @@ def _path_limits(_: Evidence) -> Verdict:
 def _path_ratio(_: Evidence) -> Verdict:
     path = [high - low for low, high in (limits(d) for d in DESIGNS)]
     more = path[1] / path[0] - 1.0
-    return Verdict(
-        f"{100.0 * more:.2f} %",
-        judge(abs(more - 0.044) < 1e-3),
-    )
+    return Verdict(f"{100.0 * more:.2f} %", judge(abs(more - 0.044) < 1e-3))
 
 
 @THESIS("G3")
@@ -89,10 +86,7 @@ def _lines_in_contact(_: Evidence) -> Verdict:
 def _length_lost(_: Evidence) -> Verdict:
     lost = [100.0 * (1.0 - _lengths(d, True).mean() / _lengths(d, False).mean()) for d in DESIGNS]
     off = np.abs(np.array(lost) - [41.18, 41.6])
-    return Verdict(
-        f"A / B: {both(lost)} %",
-        judge(bool(off.max() < 1.0)),
-    )
+    return Verdict(f"A / B: {both(lost)} %", judge(bool(off.max() < 1.0)))
 
 
 @THESIS("G5")
@@ -103,10 +97,7 @@ def _length_variation(_: Evidence) -> Verdict:
         found.append(100.0 * float(np.ptp(total) / total.mean()))
     inside = all(4.0 < v < 5.0 for v in found)
     near = abs(found[0] - 4.3) < 0.05 and abs(found[1] - 4.8) < 0.05
-    return Verdict(
-        f"A / B: {both(found)} %",
-        judge(near, inside),
-    )
+    return Verdict(f"A / B: {both(found)} %", judge(near, inside))
 
 
 @THESIS("G6")
@@ -239,10 +230,7 @@ def _relief_line(_: Evidence) -> Verdict:
         y = contact_line_gap(m, X, [0.0]).pinion_relief_start + np.array([-1e-5, 1e-5])
         x = equal_radius_line(radius, y, X, m.pair, "pinion")
         angles.append(math.degrees(math.atan(float(np.diff(x)[0]) / 2e-5)))
-    return Verdict(
-        f"A / B: {both(angles)} deg",
-        judge(all(abs(v - 8.5) < 0.1 for v in angles)),
-    )
+    return Verdict(f"A / B: {both(angles)} deg", judge(all(abs(v - 8.5) < 0.1 for v in angles)))
 
 
 @THESIS("G15")
@@ -270,10 +258,7 @@ _EXTRUSIONS = ((149.0, 8.5), (100.0, 5.7), (114.0, 6.5), (131.0, 7.5))  # um ove
 def _extrusion(_: Evidence) -> Verdict:
     angles = [math.degrees(math.atan(1e-3 * length)) for length, _printed in _EXTRUSIONS]
     off = max(abs(a - printed) for a, (_l, printed) in zip(angles, _EXTRUSIONS, strict=True))
-    return Verdict(
-        both(angles) + " deg",
-        judge(off < 0.05),
-    )
+    return Verdict(both(angles) + " deg", judge(off < 0.05))
 
 
 PRINTED = 7.08  # deg, of claim G13

@@ -137,11 +137,7 @@ def stiffness_rows(found: Sequence[Stiffness]) -> list[list[str]]:
         )
 
     return [
-        [
-            cell(0, secant, "{:.1f}"),
-            cell(1, tangent, "{:.1f}"),
-            cell(2, share, "{:.4f}"),
-        ]
+        [cell(0, secant, "{:.1f}"), cell(1, tangent, "{:.1f}"), cell(2, share, "{:.4f}")]
         for secant, tangent, share in found
     ]
 

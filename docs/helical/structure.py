@@ -19,10 +19,7 @@ from docs.helical.cases import (
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import harmonics
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import SLIDING, X
 from gearlube_core.helical_geometry.contact_line import line_kinematics
-from gearlube_core.helical_geometry.iso_6336_stiffness import (
-    iso_stiffness,
-    virtual_teeth,
-)
+from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness, virtual_teeth
 from gearlube_core.helical_geometry.pair import HelicalPair
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_mesh_points import mesh_stiffness_matrix

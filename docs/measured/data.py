@@ -34,10 +34,7 @@ WAVES = (
     "gear,coast,83,0.4,45",
 )
 CHANGES = {
-    "pinion": {
-        "pinion.machine.tilt_angle_deg": 0.05,
-        "pinion.machine.radial_setting_mm": 0.03,
-    },
+    "pinion": {"pinion.machine.tilt_angle_deg": 0.05, "pinion.machine.radial_setting_mm": 0.03},
     "gear": {"gear.machine.horizontal_setting_mm": 0.02},
 }
 

@@ -215,10 +215,7 @@ def _oil_on_motion(evidence: Evidence) -> Both:
         evidence.contacts[r, COLD].cycle.motion.peak_to_peak / _dry_at(evidence, r) - 1.0
         for r in (0.3, 1.0)
     ]
-    return Both(
-        _percents(offs),
-        judge(all(abs(o) < 0.02 for o in offs)),
-    )
+    return Both(_percents(offs), judge(all(abs(o) < 0.02 for o in offs)))
 
 
 @DYNAMICS("12")

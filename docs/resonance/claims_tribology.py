@@ -65,10 +65,7 @@ def _load_course(evidence: Evidence) -> Verdict:
 @TRIBOLOGY("17")
 def _viscosity_rise(evidence: Evidence) -> Verdict:
     ratio = _viscosity_ratio(evidence.contacts[0.3, COLD])
-    return Verdict(
-        f"up to {ratio:.0f}",
-        judge(50.0 < ratio < 300.0),
-    )
+    return Verdict(f"up to {ratio:.0f}", judge(50.0 < ratio < 300.0))
 
 
 @TRIBOLOGY("18")
@@ -158,10 +155,7 @@ def _fast_film(evidence: Evidence) -> Verdict:
 def _entrainment(evidence: Evidence) -> Verdict:
     fast, slow = (evidence.contacts[r, COLD] for r in (1.0, 0.3))
     ratio = _top(fast, "entrainment_speed") / _top(slow, "entrainment_speed")
-    return Verdict(
-        f"{ratio:.2f}",
-        judge(2.7 < ratio < 3.4),
-    )
+    return Verdict(f"{ratio:.2f}", judge(2.7 < ratio < 3.4))
 
 
 @TRIBOLOGY("25")
@@ -253,10 +247,7 @@ def _hot_friction(evidence: Evidence) -> Verdict:
         f"{change(evidence.consistent[HOT], evidence.consistent[COLD]):+.0f} % with the consistent "
         "film",
     ]
-    return Verdict(
-        ", ".join(texts),
-        OPEN,
-    )
+    return Verdict(", ".join(texts), OPEN)
 
 
 def _range(values: Array) -> str:

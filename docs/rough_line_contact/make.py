@@ -56,11 +56,7 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "straight": ("jamali_2015_a_straight", {"solver.rows": 16}),
     "five_times": ("jamali_2015_d", {}),
 }
-TITLES = {
-    "crossed": "crossed",
-    "straight": "straight",
-    "five_times": "crossed, speeds times 5",
-}
+TITLES = {"crossed": "crossed", "straight": "straight", "five_times": "crossed, speeds times 5"}
 SHOWN = (740, 820, 880)  # steps of the differences: 0.3, 0.6 and 0.9 of the rough part
 logger = logging.getLogger("docs.rough_line_contact")
 

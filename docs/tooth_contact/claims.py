@@ -97,10 +97,7 @@ def stiffness_rises(dataset: xr.Dataset) -> Verdict:
             rising &= bool(np.all(np.diff(values) > 0.0))
             flattening &= spans[1] < spans[0]
             texts.append(f"{side} {what} T^{exponent(dataset, name, side, 20.0, 100.0):.2f}")
-    return Verdict(
-        ", ".join(texts) + " from 20 to 100 N.m",
-        judge(rising and flattening),
-    )
+    return Verdict(", ".join(texts) + " from 20 to 100 N.m", judge(rising and flattening))
 
 
 @CLAIMS("5")
@@ -173,10 +170,7 @@ def share_course(dataset: xr.Dataset) -> Verdict:
         top = np.argmax(share) / (share.size - 1)
         tops.append(f"{side} {share.max():.2f} at {top:.2f} of the cycle")
         good = good and rises_then_falls(share) and bool(abs(top - 0.5) < 0.1)
-    return Verdict(
-        "; ".join(tops),
-        judge(good),
-    )
+    return Verdict("; ".join(tops), judge(good))
 
 
 @CLAIMS("10")

@@ -262,11 +262,7 @@ class AxleFile(InputFile):
         return completed(of_pinion), None if of_gear is None else completed(of_gear)
 
     def _axle(
-        self,
-        mesh: MeshTable,
-        fit: GreenwoodTrippFit | None,
-        oil: Lubricant,
-        films: OwnFilmModels,
+        self, mesh: MeshTable, fit: GreenwoodTrippFit | None, oil: Lubricant, films: OwnFilmModels
     ) -> HypoidAxleParameters:
         base = mohammadpour_2015_axle(mesh=mesh)
         if fit is not None:

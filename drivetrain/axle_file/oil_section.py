@@ -55,12 +55,7 @@ Slope = Annotated[float, _oil("conductivity_slope_w_m_k2"), Usual(-0.001, 0.001)
 OIL = "mohammadpour_2015"
 _SHEET = ("viscosity_40_degc_mm2_s", "viscosity_100_degc_mm2_s")
 _WALTHER = ("walther_a", "walther_b")
-_RHEOLOGY = (
-    "alpha_per_gpa",
-    "eyring_stress_mpa",
-    "conductivity_w_m_k",
-    "heat_capacity_j_kg_k",
-)
+_RHEOLOGY = ("alpha_per_gpa", "eyring_stress_mpa", "conductivity_w_m_k", "heat_capacity_j_kg_k")
 
 
 class Housing(ModelSection):

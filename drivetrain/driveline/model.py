@@ -263,9 +263,7 @@ class DrivelineMode:
 
 
 def driveline_modes(
-    driveline: Driveline,
-    pinion_inertia: float = PINION_INERTIA,
-    gear_inertia: float = GEAR_INERTIA,
+    driveline: Driveline, pinion_inertia: float = PINION_INERTIA, gear_inertia: float = GEAR_INERTIA
 ) -> tuple[DrivelineMode, ...]:
     """Return the oscillating modes, highest frequency first.
 

@@ -19,11 +19,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_mesh.flanks import N_FRICTION
-from gearlube_core.dynamics.hypoid_mesh.parameters import (
-    HypoidAxleParameters,
-    MeshStiffness,
-    Radii,
-)
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters, MeshStiffness, Radii
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import TABLE
 from gearlube_core.film_model.net import UNITS, WIDTH

@@ -15,10 +15,7 @@ from fmu_src.native.helical_cases import (
 )
 from fmu_src.native.model import OK
 from gearlube_core.arrays import Array, Offsets
-from gearlube_core.dynamics.helical_model.model import (
-    FREE,
-    StepControl,
-)
+from gearlube_core.dynamics.helical_model.model import FREE, StepControl
 from gearlube_core.dynamics.helical_model.outputs import N_STATE
 from gearlube_core.dynamics.helical_model.pair import (
     BEARING_FIELDS,
@@ -37,11 +34,7 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import (
     write_constants,
 )
 from gearlube_core.dynamics.helical_pair.march.kept_films import forget
-from gearlube_core.dynamics.helical_pair.march.mesh_data import (
-    FILM_AT,
-    KEPT_AT,
-    place_mesh,
-)
+from gearlube_core.dynamics.helical_pair.march.mesh_data import FILM_AT, KEPT_AT, place_mesh
 from gearlube_core.dynamics.helical_pair.march.parameters import FRICTION_FORMS, HELD, LINE_WORK
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.dynamics.train.assemble import Assembly, assemble

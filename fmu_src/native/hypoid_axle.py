@@ -63,10 +63,7 @@ from gearlube_core.dynamics.hypoid_axle.train_outputs import (
     gather_rates,
 )
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
-from gearlube_core.dynamics.hypoid_mesh.parameters import (
-    NO_MODAL_LOSS,
-    PRINTED_WITH_SOLVED_FILM,
-)
+from gearlube_core.dynamics.hypoid_mesh.parameters import NO_MODAL_LOSS, PRINTED_WITH_SOLVED_FILM
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import AT_MEANS
 from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, SHOW, START, WRITE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST, OK

@@ -20,11 +20,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings, write_derived
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_mesh.parameters import (
-    HypoidAxleParameters,
-    MeshStiffness,
-    Radii,
-)
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters, MeshStiffness, Radii
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.friction.thermal_eyring_data import PRESSURES

@@ -18,11 +18,7 @@ from fmu_src.native.train_data import N_HEAD, N_LENGTHS, TrainPlaces, places_in,
 from fmu_src.object_code import array_at, pointer_at, whole_at
 from fmu_src.train import definition_with_train, train_ranges
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.train.choice import (
-    generated_kernel,
-    interpreted_kernel,
-    kernel_of,
-)
+from gearlube_core.dynamics.train.choice import generated_kernel, interpreted_kernel, kernel_of
 from gearlube_core.dynamics.train.element import BODY_STATES, RZ, W
 from gearlube_core.dynamics.train.march import (
     ADVANCE,

@@ -11,12 +11,7 @@ from contextlib import contextmanager
 import typer
 from rich.console import Console
 
-from gearlube_core.errors import (
-    GearLubeError,
-    InterruptedRunError,
-    ParameterError,
-    TableError,
-)
+from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError, TableError
 
 # no markup: it would take "[mm]" in a heading for a style
 console = Console(stderr=True, markup=False)

@@ -45,9 +45,7 @@ def save_pictures(catalogue: Mapping[str, Picture], folder: Path, *given: Any) -
 
 
 def pictured(
-    catalogue: Mapping[str, Picture],
-    folder: Path,
-    charts: Mapping[str, Any] | None = None,
+    catalogue: Mapping[str, Picture], folder: Path, charts: Mapping[str, Any] | None = None
 ) -> list[Figure]:
     """Return the figures of a catalogue that lie in a folder as PNG, in its order.
 

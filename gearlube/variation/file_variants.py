@@ -93,11 +93,7 @@ class AxleVariants:
         meshes, asperities, oils = dict(self.meshes), dict(self.asperities), dict(self.oils)
         films = dict(self.films)
         for one in [self.file, *(self.file.varied({key: text}) for key, text in changes)]:
-            table, roughness, oil = (
-                one.gear_set.named,
-                one.gear_set.asperity_table,
-                one.oil.file,
-            )
+            table, roughness, oil = (one.gear_set.named, one.gear_set.asperity_table, one.oil.file)
             if table not in meshes:
                 meshes[table] = mesh_of(one, folder)
             if roughness is not None and (fit := one.asperities(folder)) is not None:

@@ -23,11 +23,7 @@ from gearlube_core.bearings.bearing_fields import (
     add_catalogue_rollers,
 )
 from gearlube_core.bearings.losses.catalogue import F0_TAPERED_OIL_BATH, F1_TAPERED
-from gearlube_core.bearings.losses.geometry import (
-    BearingGeometry,
-    Rib,
-    closing_inner_angle,
-)
+from gearlube_core.bearings.losses.geometry import BearingGeometry, Rib, closing_inner_angle
 from gearlube_core.bearings.losses.rib import (
     RIB_BOUNDARY_FRICTION,
     RIB_END_RADIUS,

@@ -18,11 +18,7 @@ from gearlube_core.bearings.ninth_root import (
     ninth_root_residual,
     ninth_root_start,
 )
-from gearlube_core.bearings.parameters import (
-    FILM_FLOOR_APPROACH,
-    FILM_RANGE,
-    BearingParameters,
-)
+from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, FILM_RANGE, BearingParameters
 from gearlube_core.film.mostofi_gohar_1983 import (
     LOAD_EXPONENT,
     MATERIAL_EXPONENT,

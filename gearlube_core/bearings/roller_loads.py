@@ -32,12 +32,7 @@ _HALVINGS = 60
 
 @kernel
 def bearing_forces(
-    motion: ShaftMotion,
-    f_ref: float,
-    eta0: float,
-    alpha: float,
-    p: BearingParameters,
-    side: float,
+    motion: ShaftMotion, f_ref: float, eta0: float, alpha: float, p: BearingParameters, side: float
 ) -> tuple[float, float, float, float]:
     """Return the force of one bearing on the shaft, and the power of its hysteresis.
 

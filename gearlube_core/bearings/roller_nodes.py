@@ -137,12 +137,7 @@ def _know_node(i: int, races: Races, nodes: Array, film_model: Array) -> int:
 
 @kernel
 def kept_roller_film(
-    line_load: float,
-    speed: float,
-    faster: float,
-    races: Races,
-    nodes: Array,
-    film_model: Array,
+    line_load: float, speed: float, faster: float, races: Races, nodes: Array, film_model: Array
 ) -> RollerFilm:
     """Return `roller_film` between nodes; beyond them itself. `faster` is of `centre_nodes`."""
     x = (math.log(line_load) - _LOWEST) / _STEP

@@ -250,12 +250,7 @@ def _sums_general(
 
 @kernel
 def expand_shaft_bearings(
-    motion: ShaftMotion,
-    f_ref: float,
-    eta0: float,
-    alpha: float,
-    p: BearingParameters,
-    e: Array,
+    motion: ShaftMotion, f_ref: float, eta0: float, alpha: float, p: BearingParameters, e: Array
 ) -> None:
     """Write the expansion of both bearings' forces about this state into `e`.
 
@@ -294,9 +289,7 @@ def expand_shaft_bearings(
 
 @kernel
 def expanded_shaft_forces(
-    motion: ShaftMotion,
-    p: BearingParameters,
-    e: Array,
+    motion: ShaftMotion, p: BearingParameters, e: Array
 ) -> tuple[float, float, float, float]:
     """Return the forces of both bearings on the shaft near the state of the expansion `e`.
 

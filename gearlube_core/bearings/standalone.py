@@ -183,12 +183,7 @@ class RotorOnBearing:
 
 
 @kernel
-def rotor_rate(
-    s: np.ndarray,
-    cage_angle: float,
-    rotor: Rotor,
-    out: np.ndarray,
-) -> None:
+def rotor_rate(s: np.ndarray, cage_angle: float, rotor: Rotor, out: np.ndarray) -> None:
     """Write ds/dt: m r1'' = load + F_r1, m r2'' = F_r2, and the two powers."""
     p, shaft_speed = rotor.bearing, rotor.shaft_speed
     motion = ShaftMotion(s[0], s[1], 0.0, s[2], s[3], 0.0, cage_angle, shaft_speed)

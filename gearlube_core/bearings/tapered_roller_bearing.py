@@ -15,10 +15,7 @@ from gearlube_core.bearings.losses.catalogue import (
     SERIES_NAMES,
 )
 from gearlube_core.bearings.losses.rib import RIB_BOUNDARY_FRICTION, RIB_HEIGHT, RIB_ROUGHNESS
-from gearlube_core.bearings.parameters import (
-    FILM_FLOOR_APPROACH,
-    ROLLERS_MAX,
-)
+from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, ROLLERS_MAX
 from gearlube_core.bearings.roller_contact import N_LINE, contact_angle_terms, preload_approach
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option, check_within

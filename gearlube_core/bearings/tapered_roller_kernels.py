@@ -46,11 +46,7 @@ _NEWTON_STEPS = 4  # to 1e-15 of the half cone for rollers that fit
 
 @kernel
 def shaft_bearing_forces(
-    motion: ShaftMotion,
-    f_ref: float,
-    eta0: float,
-    alpha: float,
-    p: BearingParameters,
+    motion: ShaftMotion, f_ref: float, eta0: float, alpha: float, p: BearingParameters
 ) -> tuple[float, float, float, float, float, float, float]:
     """Return the forces of both opposed bearings on the shaft, and the power of the hysteresis.
 
@@ -281,38 +277,21 @@ class TaperedRollerParameters(BearingParameters):
         self, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: Array
     ) -> None:
         """Write the expansion of the forces about this motion."""
-        expand_shaft_bearings(
-            motion,
-            f_ref,
-            oil.eta0,
-            oil.alpha,
-            self,
-            expansion,
-        )
+        expand_shaft_bearings(motion, f_ref, oil.eta0, oil.alpha, self, expansion)
 
     @kernel
     def expanded_forces(
         self, motion: ShaftMotion, expansion: Array
     ) -> tuple[float, float, float, float]:
         """Return the forces on the shaft [N] and the lost power [W] near the expansion."""
-        return expanded_shaft_forces(
-            motion,
-            self,
-            expansion,
-        )
+        return expanded_shaft_forces(motion, self, expansion)
 
     @kernel
     def shaft_forces(
         self, motion: ShaftMotion, f_ref: float, oil: LubricantState
     ) -> tuple[float, float, float, float, float, float, float]:
         """Return the forces of either bearing [N] and the lost power of both [W]."""
-        return shaft_bearing_forces(
-            motion,
-            f_ref,
-            oil.eta0,
-            oil.alpha,
-            self,
-        )
+        return shaft_bearing_forces(motion, f_ref, oil.eta0, oil.alpha, self)
 
     @kernel
     def shaft_energy(self, motion: ShaftMotion, oil: LubricantState) -> float:
@@ -330,12 +309,7 @@ class TaperedRollerParameters(BearingParameters):
 
     @kernel
     def bearing_loads(
-        self,
-        motion: ShaftMotion,
-        f_ref: float,
-        oil: LubricantState,
-        side: float,
-        rollers: Array,
+        self, motion: ShaftMotion, f_ref: float, oil: LubricantState, side: float, rollers: Array
     ) -> tuple[float, float, float, float, float, float]:
         """Return the forces of one bearing; load of roller 0, largest and smallest load [N]."""
         roller_loads(motion, f_ref, oil.eta0, oil.alpha, self, side, rollers)

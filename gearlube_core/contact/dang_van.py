@@ -17,21 +17,12 @@ DIMENSIONS = 5  # of deviatoric stress
 _MOST_STEPS = 20_000
 _ROOT = math.sqrt(2.0)
 # a deviator as a vector whose length is that of the tensor, sqrt(s:s)
-_FROM_NORMAL = np.array(
-    [
-        [math.sqrt(1.5), 0.0, 0.0],
-        [math.sqrt(0.5), _ROOT, 0.0],
-    ]
-)
+_FROM_NORMAL = np.array([[math.sqrt(1.5), 0.0, 0.0], [math.sqrt(0.5), _ROOT, 0.0]])
 
 
 @kernel
 def smallest_ball(
-    points: np.ndarray,
-    tolerance: float,
-    most: int,
-    weights: np.ndarray,
-    centre: np.ndarray,
+    points: np.ndarray, tolerance: float, most: int, weights: np.ndarray, centre: np.ndarray
 ) -> tuple[float, int]:
     """Return the radius of the smallest ball around points and write its centre.
 
@@ -160,11 +151,7 @@ QUENCHED_42CRMO4 = FatigueLimits(bending=398e6, torsion=260e6, name="42CrMo4, qu
 
 
 def dang_van_number(
-    history: Array,
-    limits: FatigueLimits,
-    residual: Array | None = None,
-    *,
-    tolerance: float = 1e-3,
+    history: Array, limits: FatigueLimits, residual: Array | None = None, *, tolerance: float = 1e-3
 ) -> Array:
     """Return the fatigue number of Dang Van; above 1 the steel is expected to fail by fatigue.
 

@@ -73,12 +73,7 @@ def _gauss_mean(x: Array, y: Array, dx: float, dy: float) -> Array:
 
 
 def love_coefficients(
-    dx: float,
-    dy: float,
-    nx: int,
-    ny: int,
-    contact_modulus: float,
-    observed: str = "centre",
+    dx: float, dy: float, nx: int, ny: int, contact_modulus: float, observed: str = "centre"
 ) -> Array:
     """Return the normal displacement per unit cell force for all offsets of a uniform grid.
 

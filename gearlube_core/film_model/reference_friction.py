@@ -105,11 +105,7 @@ def reference_friction(
     softening = film_softening(film, speed, slip, semi_axis, inlet)
     log_rate = math.log(max(slip, 1e-300) * ROELANDS_KAPPA / (film * inlet.tau0))
     mean = 0.0
-    for q, weight in (
-        (_LOW, _OUTER_WEIGHT),
-        (_MIDDLE, _MIDDLE_WEIGHT),
-        (_HIGH, _OUTER_WEIGHT),
-    ):
+    for q, weight in ((_LOW, _OUTER_WEIGHT), (_MIDDLE, _MIDDLE_WEIGHT), (_HIGH, _OUTER_WEIGHT)):
         mean += weight * q * stress_ratio(q * top, log_rate, softening, inlet)
     return inlet.tau0 / p * mean
 

@@ -137,12 +137,7 @@ def solved_film(numbers: Array, contact: FilmContact) -> SolvedFilm:
 
 @kernel
 def solved_line_at(
-    numbers: Array,
-    line_load: float,
-    speed: float,
-    slip: float,
-    place: LinePlace,
-    inlet: FilmInlet,
+    numbers: Array, line_load: float, speed: float, slip: float, place: LinePlace, inlet: FilmInlet
 ) -> SolvedFilm:
     """Return film and friction of a line contact by the model.
 

@@ -17,11 +17,7 @@ from gearlube_core.flank_optimisation.held_position import (
     StripGaps,
 )
 from gearlube_core.flank_optimisation.problem import unchecked
-from gearlube_core.helical_contact.loaded_contact import (
-    LoadedSettings,
-    MeshPosition,
-    coupled_strip,
-)
+from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition, coupled_strip
 from gearlube_core.helical_contact.strips import LineStrip, normal_gap
 from gearlube_core.helical_contact.tooth_body import flank_position, tooth_form
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -79,10 +75,7 @@ class _Cells:
     @classmethod
     def of(cls, modified: ModifiedPair, strip: LineStrip, row: Indices, column: Indices) -> _Cells:
         y, z = strip.y[row, column], strip.z[column]
-        rolls = {
-            "pinion": strip.pinion_roll[row, column],
-            "gear": strip.gear_roll[row, column],
-        }
+        rolls = {"pinion": strip.pinion_roll[row, column], "gear": strip.gear_roll[row, column]}
         bare = normal_gap(ModifiedPair(pair=modified.pair), strip.X, y, z)
         return cls(bare, modified.pair.plane.cos_b, z, rolls, strip.arm[column])
 

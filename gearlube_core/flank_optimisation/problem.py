@@ -12,12 +12,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_optimisation.problem_file import (
-    Errors,
-    OptimisationFile,
-    Range,
-    Settings,
-)
+from gearlube_core.flank_optimisation.problem_file import Errors, OptimisationFile, Range, Settings
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.flank.flank import CURVES, Side

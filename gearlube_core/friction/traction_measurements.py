@@ -41,10 +41,7 @@ _COLUMNS = {
     "traction_coefficient": (-0.5, 0.5, "", "Traction over load; 5 % is 0.05."),
 }
 _ALWAYS = ("entrainment_speed_m_s", "temperature_degc", "traction_coefficient")
-_EITHER = (
-    ("slide_roll_ratio", "sliding_speed_m_s"),
-    ("mean_pressure_gpa", "hertz_pressure_gpa"),
-)
+_EITHER = (("slide_roll_ratio", "sliding_speed_m_s"), ("mean_pressure_gpa", "hertz_pressure_gpa"))
 
 
 class FilmPoint(NamedTuple):

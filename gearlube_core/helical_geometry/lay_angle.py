@@ -62,10 +62,7 @@ def lay_angles(
     start = plane.P + np.asarray(s, dtype=float)
     x = start + distance * plane.sin_b
     angles = []
-    for roll, mark, r_b in (
-        (x, start, plane.r_bp),
-        (plane.x_g - x, plane.x_g - start, plane.r_bg),
-    ):
+    for roll, mark, r_b in ((x, start, plane.r_bp), (plane.x_g - x, plane.x_g - start, plane.r_bg)):
         if form == "parabola":
             t = parabola_distance(roll, mark, r_b)
         else:

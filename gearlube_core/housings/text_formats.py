@@ -12,11 +12,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 
 Label = tuple[int, int]  # number of a node, 1 to 6; 0 for a scalar point
-_OF_DMIG = {
-    "K": ("KAAX", "KAA"),
-    "M": ("MAAX", "MAA"),
-    "C": ("BAAX", "BAA"),
-}
+_OF_DMIG = {"K": ("KAAX", "KAA"), "M": ("MAAX", "MAA"), "C": ("BAAX", "BAA")}
 _OF_ABAQUS = {"STIFFNESS": "K", "MASS": "M", "VISCOUS DAMPING": "C"}
 _BARE_EXPONENT = re.compile(r"(?<=[0-9.])([+-]\d+)$")
 _WHOLE = re.compile(r"[*\s,\d-]+")

@@ -5,12 +5,7 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.hypoid_contact.placement import (
-    Placement,
-    place_direction,
-    place_point,
-    turned,
-)
+from gearlube_core.hypoid_contact.placement import Placement, place_direction, place_point, turned
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CutState, CuttingMotion, cut_state
 from gearlube_core.hypoid_geometry.flank.vectors import Vector, combine, cross, dot, norm, subtract
 from gearlube_core.kernels.jit import kernel
@@ -89,11 +84,7 @@ def _put_meshing(rows: Array, i: int, first: int, state: CutState) -> None:
 
 @kernel
 def _put_equations(
-    gear: CutState,
-    pinion: CutState,
-    gear_placed: Placement,
-    pinion_placed: Placement,
-    rows: Array,
+    gear: CutState, pinion: CutState, gear_placed: Placement, pinion_placed: Placement, rows: Array
 ) -> float:
     """Write the seven equations linearised about a state; return the cosine of the normals."""
     n_g = place_direction(gear_placed, gear.normal)

@@ -5,12 +5,7 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.hypoid_contact.placement import (
-    Placement,
-    place_direction,
-    place_point,
-    turned,
-)
+from gearlube_core.hypoid_contact.placement import Placement, place_direction, place_point, turned
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion, cut_state
 from gearlube_core.hypoid_geometry.flank.vectors import Vector, cross, dot, subtract
 from gearlube_core.kernels.jit import kernel
@@ -118,10 +113,7 @@ def copy_parameters(parameters: Array, copy: Array) -> None:
 
 @kernel
 def intersect_rotation(
-    motion: CuttingMotion,
-    placement: Placement,
-    target: Vector,
-    parameters: Array,
+    motion: CuttingMotion, placement: Placement, target: Vector, parameters: Array
 ) -> int:
     """Find the rotation about its work axis with which a flank passes through `target` [m].
 

@@ -10,11 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from gearlube_core.hypoid_contact.loaded_contact import (
-    LoadedSettings,
-    LoadedState,
-    MeshPosition,
-)
+from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, LoadedState, MeshPosition
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment, tooth_position
 from gearlube_core.hypoid_geometry.flank.flank import Side

@@ -57,10 +57,7 @@ ERROR_LIMIT = 1e-3  # rad, peak to peak at the pinion; sound pairs stay below 0.
 _ERROR_POSITIONS = 17
 
 SIDES: tuple[Side, ...] = ("drive", "coast")
-_EDGE = (
-    "flank_blade_angle_deg",
-    "flank_angle_correction_deg",
-)
+_EDGE = ("flank_blade_angle_deg", "flank_angle_correction_deg")
 EDGE_FIELDS = tuple(
     f"{role}.cutter.{curve}_{name}"
     for role in ("pinion", "gear")

@@ -182,12 +182,7 @@ def strip_frame(gaps: GapMap, reach: float) -> StripFrame | None:
 
 @kernel
 def _facing_parameters(
-    motion: CuttingMotion,
-    placement: Placement,
-    frame: Array,
-    x: Array,
-    y: Array,
-    start: Array,
+    motion: CuttingMotion, placement: Placement, frame: Array, x: Array, y: Array, start: Array
 ) -> Array:
     """Return u, th, ph, height over the tangent plane at the cells, (nx, ny, 4), or NaN.
 

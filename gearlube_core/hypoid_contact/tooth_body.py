@@ -62,10 +62,7 @@ def tooth_body(
 
 
 def _by_side(
-    file: HypoidGearFile,
-    role: Role,
-    flanks: tuple[FlankCompliance, FlankCompliance],
-    left: Side,
+    file: HypoidGearFile, role: Role, flanks: tuple[FlankCompliance, FlankCompliance], left: Side
 ) -> dict[Side, FlankCompliance]:
     low = lowest_profile_position(file, role)
     on_whole = [replace(flank, s=low + (1.0 - low) * flank.s) for flank in flanks]

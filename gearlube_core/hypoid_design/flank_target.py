@@ -12,11 +12,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.ease_off import MARKING_COMPOUND
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.unloaded_error import (
-    coarse_path,
-    contact_ratio,
-    unloaded_error,
-)
+from gearlube_core.hypoid_contact.unloaded_error import coarse_path, contact_ratio, unloaded_error
 from gearlube_core.hypoid_design.conjugate_flank import ConjugateFlank, conjugate_flank
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

@@ -198,12 +198,7 @@ def read_table(
                 )
             )
     _check_decimal_mark(path, rows, mark)
-    return Table(
-        str(path),
-        names,
-        [line for line, _ in rows],
-        [cells[:width] for _, cells in rows],
-    )
+    return Table(str(path), names, [line for line, _ in rows], [cells[:width] for _, cells in rows])
 
 
 def _text(path: str | Path, cure: str) -> str:

@@ -223,13 +223,7 @@ def pair_node(n_nodes: int, z_p: float, phi: float, pair: int) -> tuple[int, flo
 
 @kernel
 def pair_channels(
-    window: Array,
-    n_nodes: int,
-    z_p: float,
-    phi: float,
-    pair: int,
-    n_channels: int,
-    out: Array,
+    window: Array, n_nodes: int, z_p: float, phi: float, pair: int, n_channels: int, out: Array
 ) -> None:
     """Interpolate the window channels of one tooth pair into out, shape (n_channels,).
 

@@ -42,11 +42,7 @@ def write_line_mesh(mesh: LineMesh, path: str | Path) -> Path:
             name: (
                 dims.get(name, _DIMS),
                 getattr(mesh, name),
-                {
-                    "units": unit,
-                    "long_name": text,
-                    "provenance": mesh.provenance.get(name, ""),
-                },
+                {"units": unit, "long_name": text, "provenance": mesh.provenance.get(name, "")},
             )
             for name, (unit, text) in _UNITS.items()
         },

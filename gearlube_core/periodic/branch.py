@@ -148,10 +148,7 @@ class BranchStart(NamedTuple):
 
 
 def switch_branch(
-    problem: PeriodicProblem,
-    point: SpecialPoint,
-    *,
-    step: float = 0.05,
+    problem: PeriodicProblem, point: SpecialPoint, *, step: float = 0.05
 ) -> BranchStart:
     """Return a motion on the branch that leaves at a special point.
 

@@ -129,11 +129,7 @@ def _kept(
 
 
 def kept_shapes(
-    squares: Array,
-    shapes: Array,
-    loaded: Array,
-    highest_frequency: float,
-    share: float,
+    squares: Array, shapes: Array, loaded: Array, highest_frequency: float, share: float
 ) -> Shapes:
     """Return elastic modes below a limit with the shapes of the remaining flexibility.
 

@@ -1,11 +1,6 @@
 """Order spectra of signals recorded at known shaft angles."""
 
-from gearlube_core.spectra.angle_grid import (
-    AngleWindow,
-    angle_window,
-    resample,
-    whole_revolutions,
-)
+from gearlube_core.spectra.angle_grid import AngleWindow, angle_window, resample, whole_revolutions
 from gearlube_core.spectra.order_spectrum import (
     Extremes,
     OrderBlocks,

@@ -92,11 +92,7 @@ def whole_revolutions(orders: Sequence[float], minimum: int, *, search: int = 10
 
 
 def angle_window(
-    time: Array,
-    angle: Array,
-    *,
-    revolutions: int,
-    samples_per_revolution: int,
+    time: Array, angle: Array, *, revolutions: int, samples_per_revolution: int
 ) -> AngleWindow:
     """Place a window of `revolutions` at the end of a record.
 

@@ -306,9 +306,7 @@ def _in_pool(
 
 
 def _result(
-    task: Task,
-    get: Callable[[], Result],
-    failed: Callable[[Task, Exception], Result] | None,
+    task: Task, get: Callable[[], Result], failed: Callable[[Task, Exception], Result] | None
 ) -> tuple[Result, bool]:
     try:
         return get(), True

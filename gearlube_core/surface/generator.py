@@ -326,10 +326,7 @@ def _generated(
 
 
 def _with_moments(
-    amplitude: Array,
-    shape: tuple[int, int],
-    request: RoughnessRequest,
-    random: np.random.Generator,
+    amplitude: Array, shape: tuple[int, int], request: RoughnessRequest, random: np.random.Generator
 ) -> Array:
     """Return heights with these amplitudes whose skewness and kurtosis are those asked."""
     asked = np.array([request.skewness, request.kurtosis])

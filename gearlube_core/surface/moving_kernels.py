@@ -74,11 +74,7 @@ class Moved(NamedTuple):
 
 @kernel
 def add_moved_heights(
-    coefficients: np.ndarray,
-    x: np.ndarray,
-    turns: np.ndarray,
-    moved: Moved,
-    height: np.ndarray,
+    coefficients: np.ndarray, x: np.ndarray, turns: np.ndarray, moved: Moved, height: np.ndarray
 ) -> None:
     """Add the heights of a moved surface on the nodes of a grid.
 

@@ -22,11 +22,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
 from gearlube_core.errors import ParameterError
-from gearlube_core.tooth_compliance.hat_grid import (
-    hat_values,
-    lengthwise_nodes,
-    profile_nodes,
-)
+from gearlube_core.tooth_compliance.hat_grid import hat_values, lengthwise_nodes, profile_nodes
 from gearlube_core.tooth_compliance.tooth_geometry import Flank, ToothGeometry
 from gearlube_core.tooth_compliance.tooth_mesh import (
     MeshDensity,

@@ -189,13 +189,7 @@ def _fillet_curve(start: Array, corner: Array, end: Array, x: Array) -> Array:
 
 
 def half_section(
-    geometry: ToothGeometry,
-    side: str,
-    s: Array,
-    t: Array,
-    fillet: Array,
-    slot: Array,
-    rim: Array,
+    geometry: ToothGeometry, side: str, s: Array, t: Array, fillet: Array, slot: Array, rim: Array
 ) -> HalfSection:
     """Return the outline on one side of the tooth.
 

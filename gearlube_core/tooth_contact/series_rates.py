@@ -165,9 +165,6 @@ def _table(
         contact_ratio=1.0,
         series=series,
         windows=windows,
-        provenance={
-            **dict.fromkeys(SERIES_UNITS, origin),
-            **dict.fromkeys(WINDOW_UNITS, empty),
-        },
+        provenance={**dict.fromkeys(SERIES_UNITS, origin), **dict.fromkeys(WINDOW_UNITS, empty)},
         source=pair.source,
     )

@@ -148,9 +148,7 @@ def _single(dataset: xr.Dataset, names: list[str]) -> Iterator[tuple[str, str, s
 
 
 def _described(
-    dataset: xr.Dataset,
-    groups: dict[tuple[str, ...], list[str]],
-    files: dict[tuple[str, ...], str],
+    dataset: xr.Dataset, groups: dict[tuple[str, ...], list[str]], files: dict[tuple[str, ...], str]
 ) -> Iterator[tuple[str, ...]]:
     for dims, names in groups.items():
         for name in (*dims, *names):

@@ -11,13 +11,7 @@ from rich.table import Table
 
 from gearlube.cli.example import print_example
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
-from gearlube.cli.study_run import (
-    command_line,
-    empty_table,
-    run_next,
-    study_run,
-    tell_findings,
-)
+from gearlube.cli.study_run import command_line, empty_table, run_next, study_run, tell_findings
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs

@@ -11,11 +11,7 @@ import xarray as xr
 
 from gearlube.studies.design.findings import design_inputs, design_settings, design_warnings
 from gearlube_core.arrays import Array
-from gearlube_core.hypoid_contact.contact_dataset import (
-    EASE_GRID,
-    PATH_PHASES,
-    unloaded_contact,
-)
+from gearlube_core.hypoid_contact.contact_dataset import EASE_GRID, PATH_PHASES, unloaded_contact
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_design.chosen_relief import LEAST
 from gearlube_core.hypoid_design.design import Design, misses

@@ -151,10 +151,7 @@ def _relief_notes(design: Design, named: set[str]) -> list[InputNote]:
     chosen = design.relief
     found = [InputNote("relief.torque_n_m", chosen.torque, "N.m", "assumed", _TORQUE)]
     why = f"no edge carries at {chosen.torque:g} N.m"
-    for key, edges in (
-        ("tip_relief_um", ("pinion tip", "gear tip")),
-        ("end_relief_um", ("ends",)),
-    ):
+    for key, edges in (("tip_relief_um", ("pinion tip", "gear tip")), ("end_relief_um", ("ends",))):
         amounts = [chosen.amounts[side][edge] for side in SIDES for edge in edges]
         low, high = min(amounts), max(amounts)
         text = f"{low:g}" if low == high else f"{low:g} to {high:g}"

@@ -103,10 +103,7 @@ def run_design(
     """
     design = design_pair(file, lambda share, said: progress(_SHARE * share, said), jobs)
     progress(_SHARE, "form of the teeth")
-    forms = {
-        "pinion": tooth_form(design.file, "pinion"),
-        "gear": tooth_form(design.file, "gear"),
-    }
+    forms = {"pinion": tooth_form(design.file, "pinion"), "gear": tooth_form(design.file, "gear")}
     progress(_SHARE + 0.02, "ease-off and contact pattern")
     results = DesignResults(design=design, forms=forms, dataset=design_dataset(design, forms))
     if folder is not None:

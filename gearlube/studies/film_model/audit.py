@@ -195,10 +195,7 @@ class Audit(NamedTuple):
 
 
 def audit(
-    model: FilmModel,
-    contacts: Sequence[Contact],
-    *,
-    progress: Progress = no_progress,
+    model: FilmModel, contacts: Sequence[Contact], *, progress: Progress = no_progress
 ) -> Audit:
     """Return how a model agrees with contacts solved again.
 

@@ -35,10 +35,7 @@ from gearlube_core.film_model.line_contact import (
     line_reference_film,
 )
 from gearlube_core.film_model.model import FLANK, LINE, ROLLER
-from gearlube_core.film_model.reference_friction import (
-    line_reference_friction,
-    reference_friction,
-)
+from gearlube_core.film_model.reference_friction import line_reference_friction, reference_friction
 from gearlube_core.film_model.rolling import (
     RollerContact,
     reference_rolling_friction,
@@ -219,9 +216,7 @@ def line_problem(contact: LineContact) -> LineProblem:
 
 
 def _solved(
-    contact: LineContact,
-    nodes: tuple[int, int],
-    friction: Callable[[ThermalLineSolution], float],
+    contact: LineContact, nodes: tuple[int, int], friction: Callable[[ThermalLineSolution], float]
 ) -> Solved:
     begin = time.process_time()
     solid = contact_solid(contact)

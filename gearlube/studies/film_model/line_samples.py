@@ -131,11 +131,7 @@ def _drawn(box: Box) -> Drawn:
 
 
 def pair_contacts(
-    count: int,
-    seed: int,
-    pairs: Sequence[str],
-    oils: Sequence[Lubricant],
-    limits: Limits,
+    count: int, seed: int, pairs: Sequence[str], oils: Sequence[Lubricant], limits: Limits
 ) -> list[LineContact]:
     """Return contacts that helical pairs visit, at random.
 
@@ -272,11 +268,7 @@ def _drawn_rollers(box: Box) -> Drawn:
 
 
 def roller_contacts(
-    count: int,
-    seed: int,
-    bearings: Sequence[str],
-    oils: Sequence[Lubricant],
-    limits: Limits,
+    count: int, seed: int, bearings: Sequence[str], oils: Sequence[Lubricant], limits: Limits
 ) -> list[RollerContact]:
     """Return contacts that the rollers of bearings visit, at random.
 

@@ -119,11 +119,7 @@ def box_contact(box: Box, draw: Array) -> FilmContact:
 
 
 def axle_contacts(
-    count: int,
-    seed: int,
-    mesh: MeshTable,
-    oils: Sequence[Lubricant],
-    limits: Limits,
+    count: int, seed: int, mesh: MeshTable, oils: Sequence[Lubricant], limits: Limits
 ) -> list[FilmContact]:
     """Return contacts that an axle visits, at random.
 

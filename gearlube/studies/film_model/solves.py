@@ -137,11 +137,7 @@ class SolveTable:
 
 
 def train(
-    plan: FilmPlan,
-    folder: Path,
-    *,
-    pool: Pool | None = None,
-    progress: Progress = no_progress,
+    plan: FilmPlan, folder: Path, *, pool: Pool | None = None, progress: Progress = no_progress
 ) -> SolveTable:
     """Return the solved films of a plan; those that are in the folder are not solved again.
 

@@ -35,9 +35,7 @@ _POINTS = {
 
 
 def film_dataset(
-    settings: HelicalSettings,
-    mesh: LineMesh,
-    observe: Callable[[float], None] = lambda share: None,
+    settings: HelicalSettings, mesh: LineMesh, observe: Callable[[float], None] = lambda share: None
 ) -> xr.Dataset:
     """Return film and friction at the points of all lines, their sums, and means over speed.
 

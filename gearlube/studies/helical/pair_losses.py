@@ -96,9 +96,7 @@ def _rolling_powers(
 
 
 def losses_dataset(
-    settings: HelicalSettings,
-    mesh: LineMesh,
-    observe: Callable[[float], None] = lambda share: None,
+    settings: HelicalSettings, mesh: LineMesh, observe: Callable[[float], None] = lambda share: None
 ) -> xr.Dataset:
     """Return the mean losses of a mesh period, static loads on the lines.
 

@@ -74,10 +74,7 @@ class InstabilityMap:
 
 
 def instability_map(
-    parameters: HelicalPairParameters,
-    mesh_frequency: Array,
-    axis: Axis,
-    values: Array,
+    parameters: HelicalPairParameters, mesh_frequency: Array, axis: Axis, values: Array
 ) -> InstabilityMap:
     """Return the map over mesh frequencies [Hz] and values of an axis.
 

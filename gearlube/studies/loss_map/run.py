@@ -20,10 +20,7 @@ _OF_MAP = 0.1  # share of the work
 
 
 def run_loss_map(
-    settings: LossMapSettings,
-    *,
-    folder: Path | None = None,
-    progress: Progress = no_progress,
+    settings: LossMapSettings, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
     """Return the loss torque of an axle over torque, speed and oil temperature, with error bars.
 

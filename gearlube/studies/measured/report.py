@@ -215,10 +215,7 @@ def _order_table(teeth: xr.Dataset, member: str) -> Table:
     largest = np.argsort(-amplitude.max("torque").values)[:12]
     return Table(
         title=f"Largest orders of the {member}",
-        columns=[
-            Column("order"),
-            *(Column(f"{one:g} N·m", "µm") for one in torques[:10]),
-        ],
+        columns=[Column("order"), *(Column(f"{one:g} N·m", "µm") for one in torques[:10])],
         rows=[
             [
                 int(amplitude[f"{member}_order"].values[k]),

@@ -12,10 +12,7 @@ from gearlube.studies.measured.run import tooth_errors
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
-from gearlube_core.hypoid_contact.tooth_errors.error_cycle import (
-    ToothErrorCycle,
-    tooth_error_cycle,
-)
+from gearlube_core.hypoid_contact.tooth_errors.error_cycle import ToothErrorCycle, tooth_error_cycle
 from gearlube_core.hypoid_geometry.measured.measured_flanks import (
     MeasuredFlanks,
     read_measured_flanks,
@@ -163,9 +160,5 @@ def tooth_error_dataset(cycle: ToothErrorCycle, name: str = "") -> xr.Dataset:
             for member, orders in cycle.orders().items()
         },
     }
-    attributes = {
-        "name": name,
-        "pinion_teeth": cycle.pinion_teeth,
-        "gear_teeth": cycle.gear_teeth,
-    }
+    attributes = {"name": name, "pinion_teeth": cycle.pinion_teeth, "gear_teeth": cycle.gear_teeth}
     return xr.Dataset(data, coords=coords, attrs=attributes)

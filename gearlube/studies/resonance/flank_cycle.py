@@ -49,12 +49,7 @@ STATE = (
 # of its place on the traction map, `TractionRegime`
 PLACE = ("pressure_number", "film_number", "slip_number", "largest_stress_ratio", "state")
 SHEAR_RATES = np.geomspace(1e2, 1e8, 121)  # 1/s
-CURVES = (
-    "thermal_eyring",
-    "isothermal_eyring",
-    "thermal_newtonian",
-    "isothermal_newtonian",
-)
+CURVES = ("thermal_eyring", "isothermal_eyring", "thermal_newtonian", "isothermal_newtonian")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -48,10 +48,7 @@ _COLUMNS = (
 
 
 def write_resonance_report(
-    response: xr.Dataset,
-    folder: Path | str,
-    load: xr.Dataset | None = None,
-    command_line: str = "",
+    response: xr.Dataset, folder: Path | str, load: xr.Dataset | None = None, command_line: str = ""
 ) -> Path:
     """Write report.html beside the figures that lie in FOLDER/figures; return its path.
 
@@ -66,10 +63,7 @@ def write_resonance_report(
 
 
 def resonance_report(
-    response: xr.Dataset,
-    figures: Path,
-    load: xr.Dataset | None = None,
-    command_line: str = "",
+    response: xr.Dataset, figures: Path, load: xr.Dataset | None = None, command_line: str = ""
 ) -> Report:
     """Return the report of a resonance study; `figures` is the folder of its pictures."""
     attributes = response.attrs

@@ -102,10 +102,7 @@ class ResonanceResults:
 
 
 def run_resonance(
-    settings: ResonanceSettings,
-    *,
-    folder: Path | None = None,
-    progress: Progress = no_progress,
+    settings: ResonanceSettings, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> ResonanceResults:
     """Return response curves, motions and flank contacts of the torsional pair.
 

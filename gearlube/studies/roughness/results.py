@@ -15,11 +15,7 @@ from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import asperity_load, gear_flanks
 from gearlube_core.errors import ParameterError
-from gearlube_core.rough_patch.flow import (
-    PEKLENIK,
-    pressure_flow_factor,
-    shear_flow_factor,
-)
+from gearlube_core.rough_patch.flow import PEKLENIK, pressure_flow_factor, shear_flow_factor
 from gearlube_core.storage.atomic_file import write_dataset, write_figure, write_text
 from gearlube_core.surface.files import write_surface
 from gearlube_core.surface.generator import Generated

@@ -10,12 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gearlube.cli.example import print_example
-from gearlube.cli.options import (
-    AxleArgument,
-    ExampleOption,
-    OilOfAxleOption,
-    OverwriteOption,
-)
+from gearlube.cli.options import AxleArgument, ExampleOption, OilOfAxleOption, OverwriteOption
 from gearlube.cli.study_run import command_line, study_run
 
 if TYPE_CHECKING:

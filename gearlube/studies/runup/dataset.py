@@ -220,10 +220,7 @@ def _orders(settings: RunupSettings, found: OrderBlocks) -> dict[str, tuple[obje
             ("block", *both, "order"),
             np.moveaxis(forces, 1, -1).astype(single),
         ),
-        "bearing_force_track": (
-            ("block", *both, "mesh_order"),
-            np.moveaxis(forces[:, at], 1, -1),
-        ),
+        "bearing_force_track": (("block", *both, "mesh_order"), np.moveaxis(forces[:, at], 1, -1)),
         "bearing_force_overall": (("block", *both), found.rms[:, :-2].reshape(-1, *shape)),
         "dte_orders": (("block", "order"), amplitude[..., -2].astype(single)),
         "dte_track": (("block", "mesh_order"), amplitude[:, at, -2]),

@@ -19,10 +19,7 @@ from gearlube_core.oil.lubricant import lubricant_state
 RINGS = (1, 2, 3, 4)  # bearings as in docs/conventions.md
 _FRAMES_PER_MESH = 4
 # axes of r1, r2 and the shaft, and the shaft's speed
-_SHAFTS = (
-    ("pinion", ("z", "y", "x"), "pinion.speed"),
-    ("wheel", ("x", "y", "z"), "wheel.speed"),
-)
+_SHAFTS = (("pinion", ("z", "y", "x"), "pinion.speed"), ("wheel", ("x", "y", "z"), "wheel.speed"))
 
 Variables = dict[str, tuple[object, Array]]
 

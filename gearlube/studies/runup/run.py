@@ -18,10 +18,7 @@ _OF_MARCH = 0.9  # share of the work
 
 
 def run_runup(
-    settings: RunupSettings,
-    *,
-    folder: Path | str | None = None,
-    progress: Progress = no_progress,
+    settings: RunupSettings, *, folder: Path | str | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
     """Run an axle through a continuous speed ramp; return its record, orders and spectra.
 

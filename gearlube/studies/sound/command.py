@@ -33,10 +33,7 @@ def sound(
     other: Annotated[
         Path | None, typer.Argument(help="A second run to compare with.", metavar="[OTHER]")
     ] = None,
-    against: Annotated[
-        Path | None,
-        typer.Option(help="The same as OTHER.", metavar="RUN"),
-    ] = None,
+    against: Annotated[Path | None, typer.Option(help="The same as OTHER.", metavar="RUN")] = None,
     transfer: Annotated[
         Path | None,
         typer.Option(

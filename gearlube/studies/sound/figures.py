@@ -8,14 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import (
-    GREY,
-    MARKERS,
-    SERIES,
-    house_style,
-    new_figure,
-    outlined,
-)
+from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure, outlined
 from gearlube.studies.sound.dataset import (
     is_ramp,
     level_names,

@@ -12,14 +12,7 @@ import xarray as xr
 
 from gearlube.studies.sound.dataset import sound_dataset
 from gearlube.studies.sound.force_record import ForceRecord, read_forces
-from gearlube.studies.sound.metrics import (
-    NEITHER,
-    Curve,
-    engine,
-    installed,
-    metric_curve,
-    missing,
-)
+from gearlube.studies.sound.metrics import NEITHER, Curve, engine, installed, metric_curve, missing
 from gearlube.studies.sound.order_tracks import HeardRun, Sound, contributions, track_orders
 from gearlube.studies.sound.pressure import sound_pressure
 from gearlube.studies.sound.report import write_sound

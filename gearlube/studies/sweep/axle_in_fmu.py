@@ -12,13 +12,7 @@ from typing import Any
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
 from drivetrain.axle_file.read_axle import read_axle, table_file
 from fmu_src.axle_arguments import axle_parameters, start_arguments
-from fmu_src.hypoid_axle import (
-    AXLE_FILE,
-    NAMED_FILES,
-    PAPER,
-    car_axle_in,
-    check_one_table,
-)
+from fmu_src.hypoid_axle import AXLE_FILE, NAMED_FILES, PAPER, car_axle_in, check_one_table
 from fmu_src.variables import FRICTION_VARIANTS
 from gearlube.output.toml_text import toml_text
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings

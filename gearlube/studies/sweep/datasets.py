@@ -12,11 +12,7 @@ import xarray as xr
 from gearlube.output.csv_text import csv_text, number_text
 from gearlube.output.units import heading
 from gearlube.report.churning import REGIME
-from gearlube_core.storage.atomic_file import (
-    read_dataset,
-    write_compressed_dataset,
-    write_text,
-)
+from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset, write_text
 from gearlube_core.units import kmh_to_ms
 
 GRID = ("preload", "speed")  # dimensions of a sweep
@@ -181,10 +177,7 @@ def merge(preloads: Sequence[float], speeds_kmh: Sequence[float], points: Points
 
 
 def _room(
-    variables: dict[str, xr.DataArray],
-    name: str,
-    variable: xr.DataArray,
-    grid: tuple[int, int],
+    variables: dict[str, xr.DataArray], name: str, variable: xr.DataArray, grid: tuple[int, int]
 ) -> xr.DataArray:
     """Return the array of `name` over the grid, created or grown to hold `variable`."""
     is_text = variable.dtype.kind in "UOS"

@@ -166,10 +166,7 @@ def _points(dataset: xr.Dataset) -> list[xr.Dataset]:
 
 
 def _of_points(
-    points: Sequence[xr.Dataset],
-    title: str,
-    columns: Sequence[tuple[Column, _Value]],
-    caption: str,
+    points: Sequence[xr.Dataset], title: str, columns: Sequence[tuple[Column, _Value]], caption: str
 ) -> Table:
     return Table(
         title=f"Points: {title.lower()}",

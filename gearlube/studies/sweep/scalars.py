@@ -221,11 +221,7 @@ def spectra(recording: Recording, window: AngleWindow) -> Variables:
     samples = resample(recording["pinion.angle"], stacked, window)
     spectrum = order_spectrum(samples, window).below(HIGHEST_FREQUENCY)
     columns = {name: ("bin", spectrum.amplitude[:, i]) for i, name in enumerate(signals)}
-    return {
-        "frequency": ("bin", spectrum.frequency),
-        "order": ("bin", spectrum.order),
-        **columns,
-    }
+    return {"frequency": ("bin", spectrum.frequency), "order": ("bin", spectrum.order), **columns}
 
 
 def waves(recording: Recording, window: AngleWindow) -> Variables:

@@ -22,10 +22,7 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import (
 )
 from gearlube_core.dynamics.hypoid_torsional.whine_rates import WhineRates, whine_rates
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.helical_contact.series_rates import (
-    HelicalSeriesSettings,
-    helical_series_rates,
-)
+from gearlube_core.helical_contact.series_rates import HelicalSeriesSettings, helical_series_rates
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings, series_rates
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile

@@ -22,11 +22,7 @@ from gearlube.variation.points.of_file import (
 )
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
-from gearlube_core.hypoid_contact.contact_dataset import (
-    mesh_error,
-    side_contact,
-    unloaded_contact,
-)
+from gearlube_core.hypoid_contact.contact_dataset import mesh_error, side_contact, unloaded_contact
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES, position_record
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness

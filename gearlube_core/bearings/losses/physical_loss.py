@@ -8,11 +8,7 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.race_rolling import race_rolling, roller_inlet
 from gearlube_core.bearings.losses.rib import RibParameters, rib_friction
-from gearlube_core.bearings.losses.rolling import (
-    hysteresis_power,
-    liebrecht_drag,
-    rolling_power,
-)
+from gearlube_core.bearings.losses.rolling import hysteresis_power, liebrecht_drag, rolling_power
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_starvation
 from gearlube_core.kernels.jit import kernel

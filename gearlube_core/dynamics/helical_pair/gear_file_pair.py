@@ -12,10 +12,7 @@ from gearlube_core.film_model.chosen_model import chosen_model
 from gearlube_core.film_model.model import LINE, FilmModel
 from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
-from gearlube_core.helical_geometry.iso_6336_stiffness import (
-    iso_line_density,
-    tangential_line_load,
-)
+from gearlube_core.helical_geometry.iso_6336_stiffness import iso_line_density, tangential_line_load
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
 from gearlube_core.oil.lubricant import Lubricant

@@ -7,11 +7,7 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
-from gearlube_core.dynamics.hypoid_mesh.tooth_pair import (
-    flank_film,
-    pair_friction,
-    sliding_speed,
-)
+from gearlube_core.dynamics.hypoid_mesh.tooth_pair import flank_film, pair_friction, sliding_speed
 from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, SHARE
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_moes_groups

@@ -8,10 +8,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForce, MeshMotion
 from gearlube_core.dynamics.hypoid_mesh.node_films import N_FILMS
-from gearlube_core.dynamics.hypoid_mesh.tooth_pair import (
-    flank_coefficients,
-    sliding_speed,
-)
+from gearlube_core.dynamics.hypoid_mesh.tooth_pair import flank_coefficients, sliding_speed
 from gearlube_core.dynamics.packed_mesh import (
     ARM_G,
     ARM_P,

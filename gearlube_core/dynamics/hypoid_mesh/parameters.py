@@ -17,11 +17,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     ROUGHNESS,
     SurfaceParameters,
 )
-from gearlube_core.contact.solid import (
-    Solid,
-    contact_modulus,
-    solid_parameters,
-)
+from gearlube_core.contact.solid import Solid, contact_modulus, solid_parameters
 from gearlube_core.drag import (
     CHURNING_LAWS,
     ChurningConstants,

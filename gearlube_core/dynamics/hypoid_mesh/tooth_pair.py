@@ -33,18 +33,8 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Z,
 )
 from gearlube_core.friction.flank_data import ContactGeometry
-from gearlube_core.friction.flank_film import (
-    NO_MODEL_FILM,
-    BoundedFlank,
-    FlankEllipse,
-    ModelFilm,
-)
-from gearlube_core.friction.flank_law import (
-    FlankLaw,
-    bounded_flank,
-    model_film,
-    takes_film_model,
-)
+from gearlube_core.friction.flank_film import NO_MODEL_FILM, BoundedFlank, FlankEllipse, ModelFilm
+from gearlube_core.friction.flank_law import FlankLaw, bounded_flank, model_film, takes_film_model
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_node

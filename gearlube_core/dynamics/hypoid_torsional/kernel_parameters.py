@@ -31,13 +31,7 @@ ONE_DOF, TWO_DOF = 1.0, 2.0
 
 @kernel
 def mesh_row(
-    series: Array,
-    n_orders: int,
-    window: Array,
-    n_nodes: int,
-    z_p: float,
-    phi: float,
-    row: Array,
+    series: Array, n_orders: int, window: Array, n_nodes: int, z_p: float, phi: float, row: Array
 ) -> None:
     """Write the mesh data at pinion angle `phi` [rad] into `row`, shape (N_ROW,)."""
     m: MeshSeries = mesh_series(series, n_orders, z_p, phi)
@@ -54,12 +48,7 @@ def mesh_row(
 
 @kernel
 def mesh_rows(
-    series: Array,
-    n_orders: int,
-    window: Array,
-    n_nodes: int,
-    z_p: float,
-    rows: Array,
+    series: Array, n_orders: int, window: Array, n_nodes: int, z_p: float, rows: Array
 ) -> None:
     """Write the rows at equal angles over one mesh period, shape (2 steps, N_ROW).
 

@@ -166,12 +166,7 @@ class PeriodProblem:
         by_speed = d[:, 4] + by_state @ self._per_speed
         y0, _ = self.state(z, speed)
         if not self._two:
-            return (
-                y_end[:m] - y0[:m],
-                by_state[:m] - np.eye(m),
-                by_speed[:m],
-                by_state[:m],
-            )
+            return (y_end[:m] - y0[:m], by_state[:m] - np.eye(m), by_speed[:m], by_state[:m])
         angle = 2.0 * math.pi * self.periods / self._p.z_p
         mean = angle / y_end[3]
         per_time = -mean / y_end[3]

@@ -119,13 +119,7 @@ class FlankTorques(NamedTuple):
 
 @kernel
 def thermal_pair(
-    rows: Array,
-    i: int,
-    at: int,
-    load: float,
-    w_p: float,
-    w_g: float,
-    p: TorsionalParameters,
+    rows: Array, i: int, at: int, load: float, w_p: float, w_g: float, p: TorsionalParameters
 ) -> ThermalFlankState:
     """Return film and friction of the pair whose channels begin at rows[i, at], load in N."""
     speed, sliding = flank_speeds(w_p, w_g, rows[i, at + ARM_P], rows[i, at + ARM_G])

@@ -129,13 +129,7 @@ class Kernels(Protocol):
         """
 
     def write(
-        self,
-        at: Any,
-        memory: Array,
-        s: Array,
-        oil: LubricantState,
-        out: Array,
-        first: int,
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
     ) -> None:
         """Write the element's outputs into `out` from place `first` on.
 

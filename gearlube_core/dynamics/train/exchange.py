@@ -119,12 +119,7 @@ def now_kernel(elements: AllElements, rates: Callable[..., None]) -> Callable[..
 
     @kernel
     def now(
-        s: Array,
-        oil: LubricantState,
-        numbers: Array,
-        memory: Array,
-        plan: Offsets,
-        work: Array,
+        s: Array, oil: LubricantState, numbers: Array, memory: Array, plan: Offsets, work: Array
     ) -> None:
         sizes = sizes_of(plan)
         n, n_state, exchanged = sizes.integrated, sizes.states, sizes.exchanged

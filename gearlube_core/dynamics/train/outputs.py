@@ -7,13 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.train.drivers import AllElements
-from gearlube_core.dynamics.train.element import (
-    BODY_STATES,
-    N_COORDINATES,
-    RATE,
-    RZ,
-    W,
-)
+from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, RZ, W
 from gearlube_core.dynamics.train.part import Body, Element, Hidden, Node
 from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.errors import ParameterError

@@ -10,11 +10,7 @@ from collections.abc import Callable
 
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.train.drivers import AllElements
-from gearlube_core.dynamics.train.element import (
-    BODY_STATES,
-    N_COORDINATES,
-    RATE,
-)
+from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE
 from gearlube_core.dynamics.train.rest_search import (
     NO_MODES,
     NO_REST,

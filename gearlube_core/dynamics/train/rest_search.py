@@ -9,13 +9,7 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.train.element import (
-    BODY_STATES,
-    N_COORDINATES,
-    RATE,
-    RZ,
-    W,
-)
+from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES, RATE, RZ, W
 from gearlube_core.dynamics.train.plan import Sizes
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.damped_newton import newton_work_size

@@ -181,7 +181,4 @@ def _amplitudes(row: Row, there: dict[str, int], torque: float) -> tuple[complex
     phases = [math.radians(number(f"{c}_phase_deg", 3600.0, "deg", -3600.0)) for c in "TF"]
     size = number("T_amp_Nm", _MOST_TORQUE, "N.m") + torque * number(_SHARE, 1.0, "")
     pull = number("F_amp_N", _MOST_PULL, "N")
-    return (
-        complex(size * np.exp(1j * phases[0])),
-        complex(pull * np.exp(1j * phases[1])),
-    )
+    return (complex(size * np.exp(1j * phases[0])), complex(pull * np.exp(1j * phases[1])))

@@ -306,10 +306,7 @@ class PointCase(ContactCase):
     @property
     def sliding(self) -> tuple[float, float]:
         """Velocity of body 2 against body 1 along x and y [m/s]."""
-        return (
-            self.speed_2_m_s - self.speed_1_m_s,
-            self.side_speed_2_m_s - self.side_speed_1_m_s,
-        )
+        return (self.speed_2_m_s - self.speed_1_m_s, self.side_speed_2_m_s - self.side_speed_1_m_s)
 
     def problem(self) -> PointContactProblem:
         """Return the contact, in SI units."""

@@ -19,12 +19,7 @@ from gearlube_core.ehl.transient.history import check_scheme
 from gearlube_core.ehl.transient.problem import MovingFilm, moving_section
 from gearlube_core.input_file.field_notes import Usual
 from gearlube_core.input_file.input_file import Section
-from gearlube_core.surface.moving import (
-    FedFromInlet,
-    GrownInPlace,
-    MovingRoughness,
-    MovingSurface,
-)
+from gearlube_core.surface.moving import FedFromInlet, GrownInPlace, MovingRoughness, MovingSurface
 from gearlube_core.surface.schedule import RoughSchedule
 from gearlube_core.units import MILLIMETRE
 

@@ -69,11 +69,7 @@ class LineMarch:
     """
 
     def __init__(
-        self,
-        start: LineSolution,
-        history: LineHistory,
-        time_step: float,
-        scheme: str = "bdf2",
+        self, start: LineSolution, history: LineHistory, time_step: float, scheme: str = "bdf2"
     ) -> None:
         check_option("scheme", scheme, TIME_SCHEMES)
         check_positive("time_step", time_step, "s")

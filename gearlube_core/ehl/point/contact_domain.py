@@ -134,10 +134,7 @@ def elliptical_contact(
 
 
 def _on_domain(
-    problem: PointContactProblem,
-    film: float,
-    domain: ContactDomain,
-    more: float,
+    problem: PointContactProblem, film: float, domain: ContactDomain, more: float
 ) -> PointContactProblem:
     """Return the problem with the limits for a film [m].
 
@@ -153,10 +150,7 @@ def _on_domain(
     breadth = 0.6 + 0.4 * thickness
     flooded_films = _FLOODED * (1.0 + more * thickness**4)
     limits = []
-    for component, radius, semi_axis in (
-        (entrainment[0], R_x, a_x),
-        (entrainment[1], R_y, a_y),
-    ):
+    for component, radius, semi_axis in ((entrainment[0], R_x, a_x), (entrainment[1], R_y, a_y)):
         flooded = (
             semi_axis + math.sqrt(2.0 * radius * flooded_films * film) if inlet is None else 0.0
         )
@@ -168,10 +162,7 @@ def _on_domain(
         weight = min(1.0, 2.0 * abs(share))
         low, high = along
         limits.append(
-            (
-                weight * low - (1.0 - weight) * spread,
-                weight * high + (1.0 - weight) * spread,
-            )
+            (weight * low - (1.0 - weight) * spread, weight * high + (1.0 - weight) * spread)
         )
     return replace(problem, x_limits=limits[0], y_limits=limits[1])
 

@@ -121,10 +121,7 @@ def _failures(
     checks = (
         (bool(np.isfinite(pressure).all()), "the pressure is not finite"),
         (residual <= settings.tolerance, f"the flow residual is {residual:.1e}"),
-        (
-            abs(load_error) <= settings.load_tolerance,
-            f"the load is {100.0 * load_error:.1e} % off",
-        ),
+        (abs(load_error) <= settings.load_tolerance, f"the load is {100.0 * load_error:.1e} % off"),
         (float(film.min()) > 0.0, "the film vanishes"),
     )
     return [text for good, text in checks if not good]

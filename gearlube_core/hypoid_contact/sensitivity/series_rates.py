@@ -157,10 +157,7 @@ def assembled(
 
 
 def _key(
-    file: HypoidGearFile,
-    settings: SeriesSettings,
-    variations: Variations,
-    stiffness: PairStiffness,
+    file: HypoidGearFile, settings: SeriesSettings, variations: Variations, stiffness: PairStiffness
 ) -> str:
     digest = hashlib.sha256(f"series rates {_FORMAT}".encode())
     digest.update(file.model_dump_json().encode())

@@ -10,11 +10,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.contact_path import ContactPath, path_at
-from gearlube_core.hypoid_contact.contact_point import (
-    UNKNOWN_STEPS,
-    UNKNOWNS,
-    linearise_contacts,
-)
+from gearlube_core.hypoid_contact.contact_point import UNKNOWN_STEPS, UNKNOWNS, linearise_contacts
 from gearlube_core.hypoid_contact.contact_rotations import contact_rotations, rotations_to_points
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import placed_axis, placed_sample
@@ -111,11 +107,7 @@ def path_rates(variations: Variations, path: ContactPath) -> PathRates:
 def angle_rates(path: ContactPath) -> tuple[ContactPath, ContactPath, float]:
     """Return the path to first order at gear angles below and above, and their change [rad]."""
     angles = path.gear_angle
-    lower, upper = moved_paths(
-        path,
-        [(path.pair, angles - _ANGLE)],
-        [(path.pair, angles + _ANGLE)],
-    )
+    lower, upper = moved_paths(path, [(path.pair, angles - _ANGLE)], [(path.pair, angles + _ANGLE)])
     return lower[0], upper[0], _ANGLE
 
 

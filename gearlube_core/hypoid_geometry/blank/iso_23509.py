@@ -238,10 +238,7 @@ def _closed(
         low, high = start - step * _SEARCH_STEP, start + step * _SEARCH_STEP
         next_below, next_above = residual(low - _SEARCH_STEP), residual(high + _SEARCH_STEP)
         # nan fails both comparisons, so an angle without touching cones never makes a bracket
-        for change, left in (
-            (below * next_below, low - _SEARCH_STEP),
-            (above * next_above, high),
-        ):
+        for change, left in ((below * next_below, low - _SEARCH_STEP), (above * next_above, high)):
             if change <= 0.0:
                 angle = brentq(residual, left, left + _SEARCH_STEP, xtol=1e-14)
                 # a pole changes sign too

@@ -100,11 +100,7 @@ def pinion_cut(file: HypoidGearFile, curve: Curve) -> ReferenceCut:
         machine.radial_setting_mm * MILLIMETRE * np.array([math.cos(cradle), math.sin(cradle), 0.0])
     )
     axis = np.array(
-        [
-            math.sin(tilt) * math.cos(azimuth),
-            math.sin(tilt) * math.sin(azimuth),
-            -math.cos(tilt),
-        ]
+        [math.sin(tilt) * math.cos(azimuth), math.sin(tilt) * math.sin(azimuth), -math.cos(tilt)]
     )
     zero = centre - (centre @ axis) * axis
     turn = Rotation.from_rotvec(machine.machine_root_angle_deg * DEGREE * _Y)

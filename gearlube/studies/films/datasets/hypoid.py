@@ -16,11 +16,7 @@ from gearlube_core.contact.solid import solid_parameters
 from gearlube_core.ehl.gears.hypoid_film import FlankInstant
 from gearlube_core.ehl.transient.curves import FilmCurves
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.film.grubin_1949 import (
-    grubin_convention,
-    grubin_film_thickness,
-    grubin_geometry,
-)
+from gearlube_core.film.grubin_1949 import grubin_convention, grubin_film_thickness, grubin_geometry
 from gearlube_core.film.point_film import (
     central_film_thickness,
     film_geometry,

@@ -7,14 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import (
-    BLUE,
-    GREEN,
-    SERIES,
-    VERMILLION,
-    house_style,
-    new_figure,
-)
+from gearlube.plotting.style import BLUE, GREEN, SERIES, VERMILLION, house_style, new_figure
 from gearlube.studies.films.figures.parts import film_contours, pressure_contours
 
 _PANELS = (

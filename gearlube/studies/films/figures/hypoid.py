@@ -17,11 +17,7 @@ from gearlube.plotting.style import (
     house_style,
     new_figure,
 )
-from gearlube.studies.films.figures.parts import (
-    dry_outline,
-    film_contours,
-    pressure_contours,
-)
+from gearlube.studies.films.figures.parts import dry_outline, film_contours, pressure_contours
 
 _SIDE = 1.45  # semi-axes of the largest contact that are shown
 _INSET = (0.0, 0.0, 0.3, 0.42)  # of a panel: left, bottom, width, height

@@ -135,12 +135,7 @@ def constant_stiffness(contact: xr.Dataset) -> Any:
     return figure
 
 
-_SIDES = {
-    "before": "#BFD9EA",
-    "across": "#F6D9A8",
-    "past": "#C9E7DB",
-    "none": "#F2F2F2",
-}
+_SIDES = {"before": "#BFD9EA", "across": "#F6D9A8", "past": "#C9E7DB", "none": "#F2F2F2"}
 
 
 def _zones(ax: Any, contact: xr.Dataset) -> None:

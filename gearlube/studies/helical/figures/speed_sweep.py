@@ -51,11 +51,7 @@ def instability(stability: xr.Dataset) -> Any:
     at = stability.attrs
     frequency = 1e-3 * stability["mesh_frequency"].values
     panels = (
-        (
-            "growth_variation",
-            "variation",
-            f"damping ratio {at['mesh_damping_ratio']:g}",
-        ),
+        ("growth_variation", "variation", f"damping ratio {at['mesh_damping_ratio']:g}"),
         ("growth_variation_light", "variation", f"damping ratio {LIGHT_DAMPING:g}"),
         ("growth_damping", "damping_ratio", "variation of the mesh as it is"),
     )

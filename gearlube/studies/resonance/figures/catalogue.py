@@ -19,11 +19,7 @@ from gearlube.studies.resonance.figures.motions import (
     spectra,
     time_histories,
 )
-from gearlube.studies.resonance.figures.response_curves import (
-    harmonics,
-    response_curves,
-    stability,
-)
+from gearlube.studies.resonance.figures.response_curves import harmonics, response_curves, stability
 from gearlube_core.friction.traction_regime import NEWTONIAN_LIMIT, largest_stress_ratio
 
 _NAMES = {"two_dof": "2-DOF, dry", "one_dof": "1-DOF, dry"}

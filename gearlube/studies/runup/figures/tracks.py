@@ -280,14 +280,7 @@ def operating_shape(dataset: xr.Dataset) -> Any:
         figure = new_figure(10.4, 4.4)
         left, right = figure.subplots(1, 2, width_ratios=[3, 2])
         _bars(left, at_once, dataset, height=0.42, up=0.21)
-        _bars(
-            left,
-            later,
-            dataset,
-            height=0.42,
-            up=-0.21,
-            colour="#A0A0A0",
-        )
+        _bars(left, later, dataset, height=0.42, up=-0.21, colour="#A0A0A0")
         left.set_xlabel("displacement [µm]")
         left.legend(
             handles=[

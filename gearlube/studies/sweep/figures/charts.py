@@ -21,15 +21,7 @@ from gearlube.plotting.style import (
     speed_limits,
 )
 from gearlube.plotting.words import SOURCE_COLOURS, SOURCE_WORDS, source_colour
-from gearlube.report.charts import (
-    Axis,
-    Line,
-    add_line,
-    add_stack,
-    line_chart,
-    mark_level,
-    panels,
-)
+from gearlube.report.charts import Axis, Line, add_line, add_stack, line_chart, mark_level, panels
 from gearlube.studies.sweep.natural_frequencies import ORDERS, harmonic_amplitude
 from gearlube_core.arrays import Array
 

@@ -8,13 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import (
-    house_style,
-    new_figure,
-    preload_label,
-    series,
-    speed_limits,
-)
+from gearlube.plotting.style import house_style, new_figure, preload_label, series, speed_limits
 from gearlube.studies.sweep.natural_frequencies import harmonic_amplitude
 
 HARMONICS = (1, 2, 3)

@@ -155,12 +155,7 @@ def _copy(target: Array, source: Array) -> None:
 
 @kernel
 def _accelerate(
-    q: Array,
-    v: Array,
-    moments: Array,
-    p: SystemEntries,
-    sums: Array,
-    a: Array,
+    q: Array, v: Array, moments: Array, p: SystemEntries, sums: Array, a: Array
 ) -> None:
     """Fill the accelerations of all columns; forces act on the last column only."""
     n, columns = q.shape

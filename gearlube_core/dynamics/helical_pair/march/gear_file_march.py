@@ -12,10 +12,7 @@ from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     iso_mesh,
     named_oil,
 )
-from gearlube_core.dynamics.helical_pair.march.parameters import (
-    Body,
-    HelicalMarchParameters,
-)
+from gearlube_core.dynamics.helical_pair.march.parameters import Body, HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.supports import Bearing, ShaftSupport, replaced_bearing
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel

@@ -10,15 +10,9 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.dynamics.helical_pair.march.flanks import (
-    FlankConstants,
-    MarchConstants,
-)
+from gearlube_core.dynamics.helical_pair.march.flanks import FlankConstants, MarchConstants
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
-from gearlube_core.dynamics.helical_pair.supports import (
-    coupling_limit,
-    replaced_bearing,
-)
+from gearlube_core.dynamics.helical_pair.supports import coupling_limit, replaced_bearing
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.gear_body import SupportStiffness

@@ -102,12 +102,7 @@ def line_place(part: float, line: int, place: int, plane: ContactPlane) -> LineP
 
 @kernel
 def point_load(
-    g: float,
-    at_line: float,
-    phase: float,
-    line: int,
-    data: Array,
-    p: FlankConstants,
+    g: float, at_line: float, phase: float, line: int, data: Array, p: FlankConstants
 ) -> float:
     """Return w [N/m] at a fraction of a line where the compression is `g` [m]."""
     n_s = int(p.stations)

@@ -79,14 +79,7 @@ def friction_law(mu_1: float, mu_2: float, start: float, end: float) -> tuple[fl
 
 
 @kernel
-def line_sums(
-    a: float,
-    tilt: float,
-    phase: float,
-    data: Array,
-    mu: Array,
-    mu_at: int,
-) -> LineSums:
+def line_sums(a: float, tilt: float, phase: float, data: Array, mu: Array, mu_at: int) -> LineSums:
     """Return the sums over all lines of a flank.
 
     delta = a + tilt (z cos(b) + x sin(b));  w = max(k (delta - e), 0)

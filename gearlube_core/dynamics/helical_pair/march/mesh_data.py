@@ -90,11 +90,7 @@ def data_size(stations: int, size: int) -> int:
 
 
 @kernel
-def mesh_at_torque(
-    torque: float,
-    mesh: MeshFields,
-    data: Array,
-) -> None:
+def mesh_at_torque(torque: float, mesh: MeshFields, data: Array) -> None:
     """Write the mesh at a torque [N.m] into the pair data, linear between levels.
 
     Outside the levels the nearest one holds. `mesh` has the fields of `MarchMesh`.

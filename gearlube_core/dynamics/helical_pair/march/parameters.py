@@ -20,11 +20,7 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import (
     write_constants,
 )
 from gearlube_core.dynamics.helical_pair.march.mesh_data import all_stations
-from gearlube_core.dynamics.helical_pair.parameters import (
-    FRICTION,
-    check_line_mesh,
-    effective_mass,
-)
+from gearlube_core.dynamics.helical_pair.parameters import FRICTION, check_line_mesh, effective_mass
 from gearlube_core.dynamics.helical_pair.supports import ShaftSupport, shaft_springs
 from gearlube_core.dynamics.ranges import Range, model_ranges, range_limits
 from gearlube_core.film import line_film

@@ -57,13 +57,7 @@ class _HalfShaft(NamedTuple):
 
     @kernel
     def write(
-        self,
-        at: Any,
-        memory: Array,
-        s: Array,
-        oil: LubricantState,
-        out: Array,
-        first: int,
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
     ) -> None:
         out[first] = _torque(self, s[at[2]], s[at[0] + W] - s[at[1] + W])
 

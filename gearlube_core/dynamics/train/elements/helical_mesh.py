@@ -12,25 +12,16 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.flanks import N_FRICTION
 from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_RECORDS
-from gearlube_core.dynamics.helical_pair.march.mesh_data import (
-    pack_march_mesh,
-    pair_data,
-)
+from gearlube_core.dynamics.helical_pair.march.mesh_data import pack_march_mesh, pair_data
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.ranges import Range
-from gearlube_core.dynamics.train.element import (
-    Axes,
-    Listed,
-)
+from gearlube_core.dynamics.train.element import Axes, Listed
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import (
     TABLE,
     HelicalMeshKernels,
     pair_data_at,
 )
-from gearlube_core.dynamics.train.elements.mesh_outputs import (
-    FILM_SHARE,
-    MESH_OUTPUTS,
-)
+from gearlube_core.dynamics.train.elements.mesh_outputs import FILM_SHARE, MESH_OUTPUTS
 from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.number import Number, Output
 

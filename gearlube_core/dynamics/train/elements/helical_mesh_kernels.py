@@ -26,10 +26,7 @@ from gearlube_core.dynamics.helical_pair.march.jumps import (
     STATIONS,
     time_to_jump,
 )
-from gearlube_core.dynamics.helical_pair.march.line_outputs import (
-    LINE_OUTPUTS,
-    write_lines,
-)
+from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_OUTPUTS, write_lines
 from gearlube_core.dynamics.helical_pair.march.line_points import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
@@ -60,11 +57,7 @@ from gearlube_core.dynamics.train.element import (
     unseen_turn,
 )
 from gearlube_core.dynamics.train.elements.checks import MOST, fits_model
-from gearlube_core.dynamics.train.elements.mesh_outputs import (
-    OWN,
-    MeshValues,
-    write_mesh,
-)
+from gearlube_core.dynamics.train.elements.mesh_outputs import OWN, MeshValues, write_mesh
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.kernels.array_part import part
@@ -244,13 +237,7 @@ class HelicalMeshKernels(NamedTuple):
 
     @kernel
     def write(
-        self,
-        at: Any,
-        memory: Array,
-        s: Array,
-        oil: LubricantState,
-        out: Array,
-        first: int,
+        self, at: Any, memory: Array, s: Array, oil: LubricantState, out: Array, first: int
     ) -> None:
         """See `Kernels.write`."""
         data, mu = _data(at, memory), at[_KEPT] + 2

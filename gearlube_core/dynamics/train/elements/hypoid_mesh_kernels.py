@@ -21,10 +21,7 @@ from gearlube_core.dynamics.hypoid_mesh.flanks import (
     flank_sum,
     force_on_pinion,
 )
-from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
-    follow_flank,
-    gap_rotation,
-)
+from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import follow_flank, gap_rotation
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import (
     MeshForceConstants,
     mesh_force,
@@ -78,12 +75,7 @@ from gearlube_core.dynamics.train.elements.hypoid_mesh_places import (
     table_in,
     torque_of,
 )
-from gearlube_core.dynamics.train.elements.mesh_outputs import (
-    FRICTION,
-    OWN,
-    MeshValues,
-    write_mesh,
-)
+from gearlube_core.dynamics.train.elements.mesh_outputs import FRICTION, OWN, MeshValues, write_mesh
 from gearlube_core.friction.flank_film import N_FLANK_MODEL
 from gearlube_core.friction.flank_law import FlankLaw, takes_film_model
 from gearlube_core.kernels.array_part import part

@@ -25,12 +25,7 @@ from gearlube_core.contact.solid import YOUNGS_MODULUS
 from gearlube_core.dynamics.ranges import HERTZ_LIMIT, Range
 from gearlube_core.dynamics.train.element import RATE, W
 from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES
-from gearlube_core.dynamics.train.elements.seat import (
-    Seat,
-    SeatedBearing,
-    add_to_both,
-    between,
-)
+from gearlube_core.dynamics.train.elements.seat import Seat, SeatedBearing, add_to_both, between
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.checked_numbers import all_finite, is_whole

@@ -41,12 +41,7 @@ from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import RATE, Listed, W
 from gearlube_core.dynamics.train.elements.checks import fits_model, fits_rollers
 from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES, OF_ONE
-from gearlube_core.dynamics.train.elements.seat import (
-    Seat,
-    SeatedBearing,
-    add_to_both,
-    between,
-)
+from gearlube_core.dynamics.train.elements.seat import Seat, SeatedBearing, add_to_both, between
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.kernels.array_part import part

@@ -9,12 +9,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.equations.cross_flow import CrossFlow
-from gearlube_core.ehl.point.equations.stencil import (
-    FilmFlow,
-    FlowSlopes,
-    NodeSlopes,
-    TensorSlopes,
-)
+from gearlube_core.ehl.point.equations.stencil import FilmFlow, FlowSlopes, NodeSlopes, TensorSlopes
 
 
 class NoCrossFlow:

@@ -129,12 +129,7 @@ class NoTransport:
         """Leave rows times a change as they are."""
 
     def added_to(
-        self,
-        matrix: csr_matrix,
-        offsets: Offsets,
-        by_pressure: Array,
-        by_film: Array,
-        free: Flags,
+        self, matrix: csr_matrix, offsets: Offsets, by_pressure: Array, by_film: Array, free: Flags
     ) -> csr_matrix:
         """Return the matrix as it is."""
         return matrix
@@ -153,12 +148,7 @@ class RupturedTransport:
         carry_downstream(self.to_x, self.to_y, self.ruptured, change)
 
     def added_to(
-        self,
-        matrix: csr_matrix,
-        offsets: Offsets,
-        by_pressure: Array,
-        by_film: Array,
-        free: Flags,
+        self, matrix: csr_matrix, offsets: Offsets, by_pressure: Array, by_film: Array, free: Flags
     ) -> csr_matrix:
         """Return a matrix with what free nodes get through ruptured ones.
 

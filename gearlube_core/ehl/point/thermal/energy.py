@@ -69,7 +69,7 @@ def _flow_viscosity(oil: FilmOil, p: float, T: np.ndarray) -> float:
 @kernel
 def fill_heat(
     film: PointFilm, T: np.ndarray, sliding: float, everywhere: bool, oil: FilmOil,
-    heat: PointHeat,
+    heat: PointHeat
 ) -> None:  # fmt: skip
     """Fill the heat of shear at temperatures (n, m) [K].
 

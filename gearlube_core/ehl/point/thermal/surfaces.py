@@ -107,10 +107,7 @@ def _times(steps: tuple[float, float], counts: tuple[int, int], velocity: tuple[
 
 
 def moving_heat_coefficients(
-    solid: Solid,
-    velocity: tuple[float, float],
-    steps: tuple[float, float],
-    counts: tuple[int, int],
+    solid: Solid, velocity: tuple[float, float], steps: tuple[float, float], counts: tuple[int, int]
 ) -> Array:
     """Return the rise of a surface at all offsets from a cell with unit heat per area.
 

@@ -9,12 +9,7 @@ from gearlube.report.numbers import quantity_text
 from gearlube_core.arrays import Array
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
-RINGS = {
-    1: "pinion, bearing 1",
-    2: "pinion, bearing 2",
-    3: "gear, bearing 3",
-    4: "gear, bearing 4",
-}
+RINGS = {1: "pinion, bearing 1", 2: "pinion, bearing 2", 3: "gear, bearing 3", 4: "gear, bearing 4"}
 AXES = {1: ("z", "y"), 2: ("z", "y"), 3: ("x", "y"), 4: ("x", "y")}  # at 0 and 90 degrees
 _SIDES = {1: "drive flank", -1: "coast flank", 0: "teeth apart"}
 _FULL = 359.5  # degrees, which count as all around
