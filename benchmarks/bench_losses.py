@@ -13,10 +13,10 @@ from dataclasses import replace
 import numpy as np
 
 from drivetrain.axle_file.read_axle import read_axle
+from drivetrain.cycle.traces import DriveCycle
 from drivetrain.steady_temperature import Cooling
 from gearlube.studies.drive_cycle.run import run_cycle
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
-from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube.studies.loss_map.regulation import regulation_map
 from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings

@@ -195,7 +195,7 @@ from gearlube.studies.loss_map.settings import LossMapSettings as LossMapSetting
 from gearlube.studies.loss_map.run import run_loss_map as run_loss_map
 
 # -- Study: drive cycle of an axle
-from gearlube.studies.drive_cycle.traces import DriveCycle as DriveCycle
+from drivetrain.cycle.traces import DriveCycle as DriveCycle
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings as DriveCycleSettings
 from gearlube.studies.drive_cycle.settings import LossGrid as LossGrid
 from drivetrain.sump_heat import SumpHeat as SumpHeat

@@ -12,11 +12,11 @@ import numpy as np
 from docs.page import IMAGES, ROOT
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.axle_file.read_axle import read_axle
+from drivetrain.cycle.traces import DriveCycle
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.drive_cycle.figures import cycle_figure
 from gearlube.studies.drive_cycle.run import grid_change, run_cycle
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
-from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube.studies.loss_map.figures import loss_contours
 from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings

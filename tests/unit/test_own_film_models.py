@@ -10,13 +10,13 @@ import pytest
 
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
+from drivetrain.cycle.traces import DriveCycle
 from fmu_src.hypoid_axle import DEFINITION, HypoidAxle, car_axle_in, definition_with_axle
 from fmu_src.identity import guid_of
 from fmu_src.native.hypoid_axle import native_model
 from gearlube.studies.drive_cycle.report import findings as cycle_findings
 from gearlube.studies.drive_cycle.run import run_cycle
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings, LossGrid
-from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube.studies.loss_map.findings import findings
 from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gearlube as gl
-from gearlube.studies.drive_cycle.traces import EXTRA_URBAN, URBAN
+from drivetrain.cycle.traces import EXTRA_URBAN, URBAN
 from gearlube_core.errors import ParameterError
 
 

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from gearlube.studies.drive_cycle.traces import DriveCycle
+from drivetrain.cycle.traces import DriveCycle
 from gearlube.studies.film_model.audit import visited_points
 from gearlube.studies.sound.transfer_path import read_csv_path
 from gearlube_core.errors import ParameterError

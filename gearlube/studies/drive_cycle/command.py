@@ -91,13 +91,13 @@ def drive_cycle(
         print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
         return
     from drivetrain.axle_file.read_axle import read_axle
+    from drivetrain.cycle.traces import DriveCycle
     from drivetrain.sump_heat import SumpHeat
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.report.inputs import noted_inputs
     from gearlube.studies.drive_cycle.report import cycle_report
     from gearlube.studies.drive_cycle.run import grid_change, run_cycle
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
-    from gearlube.studies.drive_cycle.traces import DriveCycle
     from gearlube_core.units import celsius_to_kelvin
 
     with study_run("cycle", out, overwrite=overwrite) as run:

@@ -271,7 +271,7 @@ def run_cycle(
     --------
     >>> import numpy as np
     >>> from drivetrain.axle_file.read_axle import read_axle
-    >>> from gearlube.studies.drive_cycle.traces import DriveCycle
+    >>> from drivetrain.cycle.traces import DriveCycle
     >>> cruise = DriveCycle(name="cruise", time=np.arange(60.0), speed=np.full(60, 20.0))  # m/s
     >>> car = read_axle("mohammadpour_2015")
     >>> found = run_cycle(DriveCycleSettings(car=car, cycle=cruise, draws=0))  # no error bars

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import Annotated
 
 from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.cycle.traces import DriveCycle
 from drivetrain.sump_heat import SumpHeat
-from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube_core.dynamics.hypoid_axle.uncertain import MOST_DRAWS, uncertain_of
 from gearlube_core.number import Number, check_fields
 from gearlube_core.units import celsius_to_kelvin

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import ClassVar, Self
 
+from drivetrain.cycle.traces import DriveCycle
 from drivetrain.sump_heat import SumpHeat
 from gearlube.studies.drive_cycle.loss_field import demand_of
 from gearlube.studies.drive_cycle.run import run_cycle
 from gearlube.studies.drive_cycle.settings import COAST_TORQUE, DriveCycleSettings
-from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube.variation.design import Point, Value
 from gearlube.variation.file_variants import content_hash
 from gearlube.variation.keys import Keys

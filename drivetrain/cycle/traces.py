@@ -334,7 +334,7 @@ class DriveCycle:
     @classmethod
     def read(cls, path: str | Path) -> DriveCycle:
         """Return the cycle of a table or of VECTO (.vdri), see `trace_file.read_trace`."""
-        from gearlube.studies.drive_cycle.trace_file import read_trace
+        from drivetrain.cycle.trace_file import read_trace
 
         return cls(name=Path(path).stem, **read_trace(Path(path)))
 

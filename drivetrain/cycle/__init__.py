@@ -1,0 +1,1 @@
+"""Drive cycles: speed over time, what they ask of a drive, and what that loses."""
