@@ -10,8 +10,9 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import gearlube as gl
+from drivetrain.cycle.demand import resistance
 from drivetrain.sump_heat import warm
-from gearlube.studies.drive_cycle.loss_field import demand_of, resistance
+from gearlube.studies.drive_cycle.loss_field import demand_of
 from gearlube.studies.drive_cycle.run import grid_change
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
 from gearlube_core.errors import ParameterError

@@ -134,7 +134,7 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
     turning = np.array([100.0, 200.0, 0.0, 50.0])
     brakes = np.array([0.0, 50.0, 0.0, 0.0])
     demand = Demand(
-        steps=steps, speed=kmh / 3.6, pinion_speed=turning, torque=turning, brakes=brakes,
+        steps=steps, speed=kmh / 3.6, shaft_speed=turning, torque=turning, brakes=brakes,
         measured=False,
     )  # fmt: skip
     cold = np.array([1.0, 2.0, 0.0, 3.0])[:, None] * SOURCES  # W at 300 K, half of it at 340 K
@@ -247,7 +247,7 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
     np.testing.assert_allclose([bare[f"{of}_low"], bare[f"{of}_high"]], ends, rtol=1e-12)
     assert set(expected) - set(bare.variables) == set(list(expected)[-4:])
     # nothing turns: no share of the running time, and no loss
-    still = replace(demand, pinion_speed=np.zeros(4))
+    still = replace(demand, shaft_speed=np.zeros(4))
     nothing = replace(losses, power=0.0 * losses.power, torque=0.0 * torque)
     rest = cycle_dataset(settings, still, nothing, warming, others)
     assert not rest["time_outside_range"].any()

@@ -63,10 +63,10 @@ def cycle_dataset(
     torque = at_temperatures(losses.torque, losses.temperatures, warming.mean)
     outside = at_temperatures(losses.outside, losses.temperatures, warming.mean)
     total = power.sum(axis=-1)
-    put_in = torque * demand.pinion_speed  # W at the pinion; below 0 it takes
+    put_in = torque * demand.shaft_speed  # W at the pinion; below 0 it takes
     given_out = put_in - total  # W at the wheels
-    turning = np.where(demand.pinion_speed > 0.0, demand.pinion_speed, 1.0)
-    wheel_torque = np.where(demand.pinion_speed > 0.0, given_out / turning * ratio, 0.0)
+    turning = np.where(demand.shaft_speed > 0.0, demand.shaft_speed, 1.0)
+    wheel_torque = np.where(demand.shaft_speed > 0.0, given_out / turning * ratio, 0.0)
     temperatures = np.array([one.temperature for one in (warming, *others)]) - ZERO_CELSIUS
     lost = _KJ * (power * demand.steps[:, None]).sum(axis=0)
     ends = _KJ * np.array(
@@ -88,7 +88,7 @@ def cycle_dataset(
         "oil_temperature_high": (time, temperatures.max(axis=0), "degC", "oil, fastest warming"),
         "duration": (step, demand.steps, "s", "duration of the step"),
         "vehicle_speed": (step, 3.6 * demand.speed, "km/h", "vehicle speed"),
-        "pinion_speed": (step, rads_to_rpm(1.0) * demand.pinion_speed, "rpm", "pinion speed"),
+        "pinion_speed": (step, rads_to_rpm(1.0) * demand.shaft_speed, "rpm", "pinion speed"),
         "pinion_torque": (step, torque, "N.m", "torque on the pinion; < 0: coast"),
         "wheel_torque": (step, wheel_torque, "N.m", "torque of both wheels together"),
         "brake_power": (step, demand.brakes, "W", "power of the friction brakes"),
@@ -101,7 +101,7 @@ def cycle_dataset(
         ),
         "time_outside_range": (
             ("range",),
-            _share(outside, np.where(demand.pinion_speed > 0.0, demand.steps, 0.0)),
+            _share(outside, np.where(demand.shaft_speed > 0.0, demand.steps, 0.0)),
             "1",
             "share of the running time outside a range",
         ),
@@ -124,7 +124,7 @@ def cycle_dataset(
             "efficiency of the axle over the cycle",
         ),
     }
-    regime = churning_regime(settings.car.axle, warming.mean, demand.pinion_speed / ratio)
+    regime = churning_regime(settings.car.axle, warming.mean, demand.shaft_speed / ratio)
     if regime is not None:
         variables["churning_regime"] = (step, regime, *REGIME)
     bound, share, drag, rollers = at_temperatures(losses.film, losses.temperatures, warming.mean).T

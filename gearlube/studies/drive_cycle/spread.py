@@ -95,7 +95,7 @@ def cycle_spread(
             start=settings.start_temperature,
             air=settings.air_temperature,
         )
-        put_in = losses.torque * demand.pinion_speed[:, None]
+        put_in = losses.torque * demand.shaft_speed[:, None]
         # what is lost more, the pinion puts in where it drives; in coast the wheels give less
         put_in = put_in + measured * np.where(driving, total - sources, 0.0)
         given_out = put_in - total

@@ -1,0 +1,131 @@
+"""What a drive cycle asks of the shaft that drives a car."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from drivetrain.cycle.traces import DriveCycle
+from drivetrain.road_load import Tyre, Vehicle
+from gearlube_core.arrays import Array
+
+_WHEELS = 4
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Car:
+    """A car on its road: a vehicle on four wheels.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    tyre : Tyre
+    wheel_inertia : float
+        Of one wheel [kg m2].
+    """
+
+    vehicle: Vehicle
+    tyre: Tyre
+    wheel_inertia: float
+
+    @property
+    def inertia(self) -> float:
+        """Mass of vehicle and wheels as the road feels it [kg]."""
+        return self.vehicle.mass + _WHEELS * self.wheel_inertia / self.tyre.rolling_radius**2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Demand:
+    """What the driven shaft of a car carries in each step; arrays of shape (n,).
+
+    Parameters
+    ----------
+    steps : ndarray
+        Durations [s].
+    speed, shaft_speed : ndarray
+        Of the vehicle [m/s] and of the shaft [rad/s], in the middle of the step.
+    torque : ndarray
+        Torque of all wheels over the ratio, or that of the shaft where it was `measured` [N.m].
+    brakes : ndarray
+        Power of the friction brakes [W].
+    measured : bool
+    """
+
+    steps: Array
+    speed: Array
+    shaft_speed: Array
+    torque: Array
+    brakes: Array
+    measured: bool
+
+
+def shaft_demand(
+    cycle: DriveCycle, car: Car, *, ratio: float, coast_torque: float, regeneration: float
+) -> Demand:
+    """Return torque and speed of the driven shaft in each step of a cycle.
+
+    Wheel torque is rolling radius times resistance of air, road and slope and the inertia of the
+    vehicle and its four wheels. Where the car brakes by more than the coast torque, the shaft
+    carries of the rest the share `regeneration`.
+
+    Parameters
+    ----------
+    cycle : DriveCycle
+    car : Car
+    ratio : float
+        Speed of the shaft over that of the wheels [-].
+    coast_torque : float
+        By which the shaft brakes before any brake does [N.m].
+    regeneration : float
+        [-]
+
+    Examples
+    --------
+    >>> from drivetrain.road_load import mohammadpour_2015_vehicle
+    >>> cruise = DriveCycle(name="cruise", time=np.arange(3.0), speed=np.full(3, 20.0))  # m/s
+    >>> car = Car(
+    ...     vehicle=mohammadpour_2015_vehicle(), tyre=Tyre.from_size("195/65R16"), wheel_inertia=0.9
+    ... )
+    >>> found = shaft_demand(cruise, car, ratio=10.0, coast_torque=0.0, regeneration=1.0)
+    >>> found.torque.round(2), found.shaft_speed.round(1)  # N.m, rad/s
+    (array([12.45, 12.45]), array([624.4, 624.4]))
+    """
+    radius, steps = car.tyre.rolling_radius, np.diff(cycle.time)
+    if cycle.pinion_speed is not None and cycle.pinion_torque is not None:
+        turning, torque = _middle(cycle.pinion_speed), _middle(cycle.pinion_torque)
+        speed, brakes = turning / ratio * radius, np.zeros_like(turning)
+    else:
+        assert cycle.speed is not None
+        speed = _middle(cycle.speed)
+        grade = None if cycle.grade is None else _middle(cycle.grade)
+        force = resistance(car.vehicle, speed, grade)
+        force += car.inertia * np.diff(cycle.speed) / steps
+        asked = np.where(speed > 0.0, force, 0.0) * radius / ratio
+        turning = speed / radius * ratio
+        beyond = np.maximum(0.0, -asked - coast_torque)
+        by_brakes = (1.0 - regeneration) * beyond
+        torque, brakes = asked + by_brakes, by_brakes * turning
+    return Demand(
+        steps=steps,
+        speed=speed,
+        shaft_speed=turning,
+        torque=torque,
+        brakes=brakes,
+        measured=cycle.measured,
+    )
+
+
+def resistance(vehicle: Vehicle, speed: Array, grade: Array | None = None) -> Array:
+    """Return the resistance [N] of air, road and slope at speeds above 0 [m/s].
+
+    As `RoadLoad.resistance`, over slopes [-] of the trace instead of the vehicle's.
+    """
+    slope = np.arctan(vehicle.grade if grade is None else grade)
+    weight = vehicle.mass * vehicle.gravity
+    along = vehicle.rolling_coefficient * np.cos(slope) + np.sin(slope)
+    return np.asarray(vehicle.drag_area * speed**2 + weight * along)
+
+
+def _middle(values: Array) -> Array:
+    return np.asarray(0.5 * (values[1:] + values[:-1]))
