@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import BLUE, house_style, new_figure
+from gearlube.plotting.cycle import cycle_panels
+from gearlube.plotting.style import BLUE, house_style
 from gearlube.plotting.words import source_colour, source_words
 from gearlube_core.storage.atomic_file import write_figure
-
-LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn
 
 
 def save_cycle_figures(dataset: xr.Dataset, folder: Path) -> None:
@@ -23,16 +22,14 @@ def save_cycle_figures(dataset: xr.Dataset, folder: Path) -> None:
 
 def cycle_figure(dataset: xr.Dataset) -> Any:
     """Return speed, torque, power lost by source and oil temperature over time."""
+    energy, power = dataset["energy_lost"].values, dataset["loss"].values
+    names = [str(one) for one in dataset["source"].values]
+    sources = [
+        (source_words(one), power[:, i], float(energy[i]), source_colour(one))
+        for i, one in enumerate(names)
+    ]
     with house_style():
-        figure = new_figure(8.6, 9.2)
-        speed, torque, middle, below = figure.subplots(
-            4, 1, sharex=True, height_ratios=(0.7, 0.7, 1.0, 1.0)
-        )
-        _demand(speed, dataset, "vehicle_speed", "vehicle speed\n[km/h]")
-        _demand(torque, dataset, "pinion_torque", "pinion torque\n[N·m]")
-        speed.set_ylim(bottom=0.0)
-        torque.axhline(0.0, color="#606060", lw=0.9, ls=":")
-        _losses(middle, dataset)
+        figure, (below,) = cycle_panels(dataset, "pinion_torque", sources, below=1)
         _temperature(below, dataset)
         below.set_xlabel("time [s]")
         below.set_xlim(float(dataset["time"][0]), float(dataset["time"][-1]))
@@ -53,30 +50,6 @@ def cycle_figure(dataset: xr.Dataset) -> Any:
             f"{drawn}Not modelled: {dataset.attrs['not_modelled']}.", fontsize=8.5, color="#555555"
         )
     return figure
-
-
-def _demand(ax: Any, dataset: xr.Dataset, name: str, label: str) -> None:
-    ax.plot(dataset["step"].values, dataset[name].values, color=BLUE, lw=1.2)
-    ax.set_ylabel(label)
-
-
-def _losses(ax: Any, dataset: xr.Dataset) -> None:
-    energy = dataset["energy_lost"].values
-    names = [str(one) for one in dataset["source"].values]
-    drawn = [i for i in range(len(names)) if energy[i] > LEAST_SHARE * energy.sum()]
-    ax.stackplot(
-        dataset["step"].values,
-        dataset["loss"].values.T[drawn],
-        labels=[f"{source_words(names[i])}, {energy[i]:.0f} kJ" for i in drawn],
-        colors=[source_colour(names[i]) for i in drawn],
-        alpha=0.85,
-        lw=0.0,
-    )
-    ax.set_ylabel("power lost [W]")
-    top = float(dataset["loss"].sum("source").max())
-    ax.set_ylim(0.0, 1.3 * top if top > 0.0 else 1.0)
-    if drawn:
-        ax.legend(loc="upper left", ncols=3)
 
 
 def _temperature(ax: Any, dataset: xr.Dataset) -> None:

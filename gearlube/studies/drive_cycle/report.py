@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.cycle import LEAST_SHARE
 from gearlube.plotting.range_words import range_words
 from gearlube.plotting.words import source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, line_chart, mark_level, panels, stack_chart
@@ -36,7 +37,6 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
-from gearlube.studies.drive_cycle.figures import LEAST_SHARE
 from gearlube.studies.drive_cycle.tables import range_sentence
 from gearlube_core.film_model.model import FLANK, ROLLER
 
