@@ -13,6 +13,7 @@ from gearlube.plotting.range_words import range_words
 from gearlube.plotting.words import source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, line_chart, mark_level, panels, stack_chart
 from gearlube.report.churning import regime_findings
+from gearlube.report.cycle import NAMED_SHARE, WH, energy_lost, energy_table
 from gearlube.report.films import (
     bearing_drag,
     covered_share,
@@ -28,7 +29,6 @@ from gearlube.report.parts import (
     GOOD,
     NOTE,
     WARNING,
-    Cell,
     Column,
     Figure,
     Finding,
@@ -40,11 +40,8 @@ from gearlube.report.parts import (
 from gearlube.studies.drive_cycle.tables import range_sentence
 from gearlube_core.film_model.model import FLANK, ROLLER
 
-_NAMED, _LEAST_SHARE = 3, 0.005  # sources of loss that are told, if they are not smaller
 _DRAWN = "efficiency_low"  # a variable of cycles with draws of all uncertain data
-_WH = 1.0 / 3.6  # Wh in a kJ
 TIME = Axis("time", "s")
-_NOTHING = 1e-6  # kJ
 _SETTINGS = {
     "start_temperature_degc": ("temperature of oil and housing at the start", "°C"),
     "air_temperature_degc": ("air temperature", "°C"),
@@ -87,9 +84,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
     oil = dataset["oil_temperature"].values
     return [
         Number("energy lost in the axle", float(dataset["energy_lost"].sum()), "kJ", 4),
-        Number(
-            "energy lost in the axle, in Wh", _WH * float(dataset["energy_lost"].sum()), "Wh", 4
-        ),
+        Number("energy lost in the axle, in Wh", WH * float(dataset["energy_lost"].sum()), "Wh", 4),
         Number("energy lost in the axle, low end", float(dataset["energy_lost_low"]), "kJ", 4),
         Number("energy lost in the axle, high end", float(dataset["energy_lost_high"]), "kJ", 4),
         Number("energy into the axle", float(dataset["energy_in"]), "kJ", 4),
@@ -99,28 +94,15 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
         *(
             Number(f"lost by {source_words(str(one['source'].values))}", float(one), "kJ")
             for one in dataset["energy_lost"]
-            if float(one) > _LEAST_SHARE * float(dataset["energy_lost"].sum())
+            if float(one) > NAMED_SHARE * float(dataset["energy_lost"].sum())
         ),
     ]
 
 
 def _lost(dataset: xr.Dataset) -> Finding:
-    energy = dataset["energy_lost"].values
-    lost, put_in = float(energy.sum()), float(dataset["energy_in"])
-    names = [source_words(str(one)) for one in dataset["source"].values]
-    parts = ", ".join(
-        f"{names[i]} {100.0 * energy[i] / lost:.0f} %"
-        for i in np.argsort(energy)[::-1][:_NAMED]
-        if energy[i] > _LEAST_SHARE * lost
-    )
-    share = f", {100.0 * lost / put_in:.1f} % of the energy put in" if put_in > 0.0 else ""
     low, high = (float(dataset[f"energy_lost_{end}"]) for end in ("low", "high"))
-    return Finding(
-        NOTE,
-        f"The axle loses {quantity_text(lost, 'kJ')} ({quantity_text(_WH * lost, 'Wh')}) in the "
-        f"cycle{share}{': ' + parts if parts else ''}.",
-        f"{_whose(dataset)} it is {number_text(low)} to {quantity_text(high, 'kJ')}.",
-    )
+    detail = f"{_whose(dataset)} it is {number_text(low)} to {quantity_text(high, 'kJ')}."
+    return energy_lost(dataset, "The axle", source_words, detail)
 
 
 def _whose(dataset: xr.Dataset) -> str:
@@ -322,26 +304,9 @@ def temperature_chart(dataset: xr.Dataset) -> Any:
 
 
 def _tables(dataset: xr.Dataset) -> list[Table]:
-    energy = dataset["energy_lost"].values
-    energy = np.where(energy > _NOTHING, energy, 0.0)
-    total = max(float(energy.sum()), _NOTHING)
-    each = [*zip(dataset["source"].values, energy, strict=True), ("all", energy.sum())]
-    rows: list[list[Cell]] = [
-        [source_words(str(name)), float(one), float(one) / 3.6, 100.0 * float(one) / total]
-        for name, one in each
-    ]
+    caption = "A source with zero is not modelled in this axle, or loses nothing."
     return [
-        Table(
-            title="Energy lost by source",
-            columns=[
-                Column("source"),
-                Column("energy", "kJ", 4),
-                Column("energy", "Wh", 4),
-                Column("share", "%"),
-            ],
-            rows=rows,
-            caption="A source with zero is not modelled in this axle, or loses nothing.",
-        ),
+        energy_table(dataset, source_words, caption),
         Table(
             title="Ranges",
             columns=[

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import xarray as xr
 
 from gearlube.plotting.range_words import range_words
 from gearlube.plotting.words import source_words
+from gearlube.report.cycle import WH, step_rows
 
 SUMMARY_HEAD = ("quantity", "value", "unit", "low", "high")
 _COLUMNS = {
@@ -18,28 +19,13 @@ _COLUMNS = {
     "wheel_torque": "wheel_torque_n_m",
     "brake_power": "brake_power_w",
 }
-_WH = 1.0 / 3.6  # Wh in a kJ
 _NOTHING = 1e-6  # kJ, Wh
 
 
-def series_rows(dataset: xr.Dataset) -> tuple[tuple[str, ...], Iterator[tuple[str, ...]]]:
+def series_rows(dataset: xr.Dataset) -> tuple[Sequence[str], Iterator[list[str]]]:
     """Return the names of the columns and a row for each step, at its middle."""
-    sources = [str(one) for one in dataset["source"].values]
-    head = (
-        "time_s",
-        *_COLUMNS.values(),
-        *(f"loss_{one}_w" for one in sources),
-        "oil_temperature_at_end_degc",
-    )
-    return head, _series(dataset)
-
-
-def _series(dataset: xr.Dataset) -> Iterator[tuple[str, ...]]:
-    values = [dataset[name].values for name in _COLUMNS]
-    losses, oil = dataset["loss"].values, dataset["oil_temperature"].values
-    for i, time in enumerate(dataset["step"].values):
-        row = (time, *(one[i] for one in values), *losses[i], oil[i + 1])
-        yield tuple(f"{one:.7g}" for one in row)
+    oil = {"oil_temperature_at_end_degc": dataset["oil_temperature"].values[1:]}
+    return step_rows(dataset, _COLUMNS, oil)
 
 
 def summary_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
@@ -110,7 +96,7 @@ def _energy(
     numbers = [None if one is None else float(one) for one in (value, low, high)]
     return [
         (words, text[0], unit, *text[1:])
-        for unit, factor in (("kJ", 1.0), ("Wh", _WH))
+        for unit, factor in (("kJ", 1.0), ("Wh", WH))
         for text in [["" if one is None else _number(factor * one) for one in numbers]]
     ]
 
