@@ -75,6 +75,7 @@ from gearlube_core.dynamics.hypoid_axle.as_train import axle_train as axle_train
 from gearlube_core.dynamics.hypoid_axle.as_train import axle_values as axle_values
 from gearlube_core.dynamics.hypoid_axle.as_train import hypoid_axle as hypoid_axle_train
 from drivetrain.train.train_file import TrainFile as TrainFile
+from gearlube.studies.drivetrain.cycle import train_cycle as train_cycle
 from gearlube.studies.drivetrain.losses import map_losses as map_losses
 from gearlube.studies.drivetrain.ramp import run_ramp as run_ramp
 from gearlube.studies.drivetrain.run import run_drivetrain as run_drivetrain

@@ -7,32 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivetrain.cycle.traces import DriveCycle
-from drivetrain.road_load import Tyre, Vehicle
+from drivetrain.driveline.parameters import DrivelineParameters
+from drivetrain.road_load import Vehicle
 from gearlube_core.arrays import Array
 
 _WHEELS = 4
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Car:
-    """A car on its road: a vehicle on four wheels.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-    tyre : Tyre
-    wheel_inertia : float
-        Of one wheel [kg m2].
-    """
-
-    vehicle: Vehicle
-    tyre: Tyre
-    wheel_inertia: float
-
-    @property
-    def inertia(self) -> float:
-        """Mass of vehicle and wheels as the road feels it [kg]."""
-        return self.vehicle.mass + _WHEELS * self.wheel_inertia / self.tyre.rolling_radius**2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,8 +26,9 @@ class Demand:
         Of the vehicle [m/s] and of the shaft [rad/s], in the middle of the step.
     torque : ndarray
         Torque of all wheels over the ratio, or that of the shaft where it was `measured` [N.m].
-    brakes : ndarray
-        Power of the friction brakes [W].
+    brakes, road : ndarray
+        Power of the friction brakes and of air, road and slope [W]; `road` is NaN where torques
+        were measured.
     measured : bool
     """
 
@@ -57,11 +37,17 @@ class Demand:
     shaft_speed: Array
     torque: Array
     brakes: Array
+    road: Array
     measured: bool
 
 
 def shaft_demand(
-    cycle: DriveCycle, car: Car, *, ratio: float, coast_torque: float, regeneration: float
+    cycle: DriveCycle,
+    car: DrivelineParameters,
+    *,
+    ratio: float,
+    coast_torque: float,
+    regeneration: float,
 ) -> Demand:
     """Return torque and speed of the driven shaft in each step of a cycle.
 
@@ -72,7 +58,7 @@ def shaft_demand(
     Parameters
     ----------
     cycle : DriveCycle
-    car : Car
+    car : DrivelineParameters
     ratio : float
         Speed of the shaft over that of the wheels [-].
     coast_torque : float
@@ -82,25 +68,25 @@ def shaft_demand(
 
     Examples
     --------
-    >>> from drivetrain.road_load import mohammadpour_2015_vehicle
+    >>> from drivetrain.road_load import mohammadpour_2015_road_load
     >>> cruise = DriveCycle(name="cruise", time=np.arange(3.0), speed=np.full(3, 20.0))  # m/s
-    >>> car = Car(
-    ...     vehicle=mohammadpour_2015_vehicle(), tyre=Tyre.from_size("195/65R16"), wheel_inertia=0.9
-    ... )
+    >>> car = DrivelineParameters(road_load=mohammadpour_2015_road_load())
     >>> found = shaft_demand(cruise, car, ratio=10.0, coast_torque=0.0, regeneration=1.0)
     >>> found.torque.round(2), found.shaft_speed.round(1)  # N.m, rad/s
     (array([12.45, 12.45]), array([624.4, 624.4]))
     """
-    radius, steps = car.tyre.rolling_radius, np.diff(cycle.time)
+    radius, steps = car.rolling_radius, np.diff(cycle.time)
     if cycle.pinion_speed is not None and cycle.pinion_torque is not None:
         turning, torque = _middle(cycle.pinion_speed), _middle(cycle.pinion_torque)
         speed, brakes = turning / ratio * radius, np.zeros_like(turning)
+        road = np.full_like(turning, np.nan)
     else:
         assert cycle.speed is not None
         speed = _middle(cycle.speed)
         grade = None if cycle.grade is None else _middle(cycle.grade)
-        force = resistance(car.vehicle, speed, grade)
-        force += car.inertia * np.diff(cycle.speed) / steps
+        force = resistance(car.road_load.vehicle, speed, grade)
+        road = force * speed
+        force = force + felt_mass(car) * np.diff(cycle.speed) / steps
         asked = np.where(speed > 0.0, force, 0.0) * radius / ratio
         turning = speed / radius * ratio
         beyond = np.maximum(0.0, -asked - coast_torque)
@@ -112,8 +98,14 @@ def shaft_demand(
         shaft_speed=turning,
         torque=torque,
         brakes=brakes,
+        road=road,
         measured=cycle.measured,
     )
+
+
+def felt_mass(car: DrivelineParameters) -> float:
+    """Return the mass of a vehicle and its four wheels as the road feels it [kg]."""
+    return car.road_load.vehicle.mass + _WHEELS * car.wheel_inertia / car.rolling_radius**2
 
 
 def resistance(vehicle: Vehicle, speed: Array, grade: Array | None = None) -> Array:

@@ -10,6 +10,9 @@ from typing import Annotated, Any, ClassVar, Self
 import numpy as np
 from pydantic import Field
 
+from drivetrain.axle_file.car_sections import Inertia, TyreSection, VehicleSection
+from drivetrain.driveline.parameters import DrivelineParameters
+from drivetrain.road_load import RoadLoad
 from drivetrain.train.part_section import BODIES, OF_THE_TRAIN, files_in, read_part
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.ranges import MAX_SPEED
@@ -55,6 +58,15 @@ class StartSection(Section):
     )
 
 
+class CarSection(VehicleSection):
+    """The vehicle that the loads drive, for drive cycles."""
+
+    wheel_inertia_kg_m2: Inertia | None = Field(
+        default=None,
+        description="Moment of inertia of one of its four wheels with tyre and brake disc",
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class TrainCase:
     """A train with what it starts from.
@@ -69,6 +81,8 @@ class TrainCase:
         Of all ports [N.m].
     oil_temperature : float
         [K]
+    car : DrivelineParameters, optional
+        Whose wheels the loads are, for drive cycles: its vehicle, tyres and wheels.
     """
 
     name: str
@@ -76,6 +90,7 @@ class TrainCase:
     speeds: Mapping[str, float]
     torques: Mapping[str, float]
     oil_temperature: float
+    car: DrivelineParameters | None = None
 
     def start(self) -> Train:
         """Return the train in static equilibrium, turning.
@@ -134,6 +149,8 @@ class TrainFile(InputFile):
     )
     oil: OilSection
     start: StartSection
+    vehicle: CarSection | None = Field(default=None, description="The vehicle, for drive cycles")
+    tyre: TyreSection | None = Field(default=None, description="Its tyres")
     bodies: dict[str, dict[str, Any]] = Field(description="The bodies by name, each a section")
     elements: dict[str, dict[str, Any]] = Field(
         description="The elements by name, each a section with its kind; their order is that of "
@@ -276,6 +293,29 @@ class TrainFile(InputFile):
             speeds={name: rpm_to_rads(one) for name, one in self.start.speed_rpm.items()},
             torques={name: self.start.torque_n_m.get(name, 0.0) for name in ports},
             oil_temperature=kelvin,
+            car=self._car(),
+        )
+
+    def _car(self) -> DrivelineParameters | None:
+        if self.vehicle is None and self.tyre is None:
+            return None
+        vehicle, tyre = self.vehicle or CarSection(), self.tyre or TyreSection()
+        drag = vehicle.drag_area_m2 or (vehicle.frontal_area_m2 and vehicle.drag_coefficient)
+        given = {
+            "vehicle.mass_kg": vehicle.mass_kg,
+            "vehicle.rolling_coefficient": vehicle.rolling_coefficient,
+            "vehicle.drag_area_m2": drag,
+            "vehicle.wheel_inertia_kg_m2": vehicle.wheel_inertia_kg_m2,
+            "tyre.size": tyre.size or tyre.rolling_radius_mm or tyre.unladen_radius_mm,
+        }
+        if missing := [name for name, value in given.items() if value is None]:
+            raise ParameterError(
+                f"The vehicle of a train needs {', '.join(given)}; got no {', '.join(missing)}. "
+                "Give them, or leave out [vehicle] and [tyre]."
+            )
+        return DrivelineParameters(
+            road_load=RoadLoad(vehicle=vehicle.vehicle(), tyre=tyre.tyre()),
+            wheel_inertia=vehicle.si("wheel_inertia_kg_m2"),
         )
 
 

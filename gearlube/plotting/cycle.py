@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, new_figure
@@ -61,7 +62,7 @@ def cycle_panels(
         lw=0.0,
     )
     middle.set_ylabel("power lost [W]")
-    top = float(sum(power for _, power, *_ in lost).max())
+    top = float(np.sum([power for _, power, *_ in lost], axis=0).max())
     middle.set_ylim(0.0, 1.3 * top if top > 0.0 else 1.0)
     if drawn:
         middle.legend(loc="upper left", ncols=3)

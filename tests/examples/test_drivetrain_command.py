@@ -139,6 +139,9 @@ def test_a_step_that_is_too_short_is_refused(
         (["--ramp-s", "3"], "--ramp-s needs --run-up, got 3 s alone"),
         (["--run-up", "600:900"], "need a port that puts power into the train"),
         (["--map"], "need a port that puts power into the train"),
+        (["--cycle", "nedc"], "A drive cycle needs a vehicle, got none in"),
+        (["--cycle", "nedc", "--map-speeds", "100:200:50"], "--cycle chooses the map"),
+        (["--cycle", "nothing"], "A cycle must be one of nedc, wltc, ftp75, got 'nothing'"),
         (["--map-torques", "5:1:1"], "The last value of --map-torques must be at least the first"),
     ],
 )
@@ -155,10 +158,18 @@ def test_studies_that_cannot_run_are_refused_at_once(
 
 @pytest.mark.slow
 def test_the_shipped_axle_balances_its_energy(tmp_path: Path) -> None:
+    trace = tmp_path / "trace.csv"
+    trace.write_text("time_s,speed_kmh\n0,0\n4,30\n8,30\n12,0\n")
     done = CliRunner().invoke(
-        app, ["drivetrain", "e_axle", "--duration-ms", "20", "--out", str(tmp_path)]
-    )
+        app,
+        ["drivetrain", "e_axle", "--duration-ms", "20", "--cycle", str(trace),
+         "--out", str(tmp_path)],
+    )  # fmt: skip
     assert done.exit_code == 0, done.output
+    assert {"cycle.nc", "cycle.csv", "loss_map.csv"} <= {one.name for one in tmp_path.iterdir()}
+    page = (tmp_path / "report.html").read_text()
+    assert "Energy lost by source" in page
+    assert "Power lost over the drive cycle" in page
     with xr.open_dataset(tmp_path / FILE) as found:
         assert float(found.attrs["imbalance"]) < 1e-5
         speeds = [found[f"{body}.speed"].values.mean() for body in ("motor", "counter")]

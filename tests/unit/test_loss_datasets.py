@@ -135,7 +135,7 @@ def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):
     brakes = np.array([0.0, 50.0, 0.0, 0.0])
     demand = Demand(
         steps=steps, speed=kmh / 3.6, shaft_speed=turning, torque=turning, brakes=brakes,
-        measured=False,
+        road=brakes, measured=False,
     )  # fmt: skip
     cold = np.array([1.0, 2.0, 0.0, 3.0])[:, None] * SOURCES  # W at 300 K, half of it at 340 K
     torque = np.array([[40.0, 44.0], [-30.0, -34.0], [0.0, 0.0], [20.0, 24.0]])

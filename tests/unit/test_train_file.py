@@ -58,6 +58,17 @@ def test_a_port_without_a_torque_has_none():
     assert case.torques["right_wheel"] == 0.0
 
 
+def test_a_vehicle_has_the_fields_of_an_axle_file_and_a_train_without_one_has_none():
+    car = read(("drag_area_m2 = 0.6", "frontal_area_m2 = 2.0\ndrag_coefficient = 0.3")).case().car
+    assert car.road_load.vehicle.mass == 600.0
+    assert car.road_load.vehicle.drag_area == pytest.approx(0.5 * 1.22 * 0.6, rel=1e-12)
+    assert car.wheel_inertia == 1.0
+    assert car.rolling_radius == pytest.approx(3.05 * 2.0 * 0.27855 / (2.0 * np.pi), rel=1e-12)
+    data = tomllib.loads(TEXT)
+    del data["vehicle"], data["tyre"]
+    assert TrainFile.from_data(data, "my.toml").case().car is None
+
+
 def test_a_section_like_another_has_its_fields_but_for_its_own():
     springs = """
 [elements.first]
@@ -209,6 +220,11 @@ WRONG = {
         ("mass_kg = 3.0", 'mass_kg = "3"'),
         "bodies.motor.mass_kg must be a number, 0.0001 to 1e+06 kg, got '3'.",
     ),
+    "no tyre": (
+        ('[tyre]\nsize = "155/65R14"\n', ""),
+        "wheel_inertia_kg_m2, tyre.size; got no tyre.size.",
+    ),
+    "a light vehicle": (("mass_kg = 600.0", "mass_kg = 60.0"), "vehicle.mass_kg must be"),
     "a section of another file": (("[bodies.motor]", "[bodis.motor]"), "is it bodies?"),
 }
 

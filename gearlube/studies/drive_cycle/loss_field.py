@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivetrain.cycle.demand import Car, Demand, shaft_demand
+from drivetrain.cycle.demand import Demand, shaft_demand
 from drivetrain.cycle.loss_field import LossField, speed_nodes, torque_nodes
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
 from gearlube_core.arrays import Array
@@ -30,12 +30,11 @@ def demand_of(settings: DriveCycleSettings) -> Demand:
     ParameterError
         A torque is beyond what the mesh table allows.
     """
-    line = settings.car.driveline
-    road = line.road_load
+    car = settings.car.driveline
     found = shaft_demand(
         settings.cycle,
-        Car(vehicle=road.vehicle, tyre=road.tyre, wheel_inertia=line.wheel_inertia),
-        ratio=road.final_drive.ratio,
+        car,
+        ratio=car.axle_ratio,
         coast_torque=settings.coast_torque,
         regeneration=settings.regeneration,
     )

@@ -72,6 +72,17 @@ def drivetrain(
             help="Torques of the map [N.m]; below 0 the shaft brakes.", metavar="RANGE..."
         ),
     ] = None,
+    cycle: Annotated[
+        str | None,
+        typer.Option(
+            help="Also drive the vehicle of the file over a cycle: nedc, wltc, ftp75, or a file as "
+            "of gearlube cycle. The map then has the cycle's speeds and torques.",
+            metavar="NAME|FILE",
+        ),
+    ] = None,
+    regeneration: Annotated[
+        float, typer.Option(help="Share of the braking in the cycle that the train does, 0 to 1.")
+    ] = 1.0,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_drivetrain"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -80,12 +91,14 @@ def drivetrain(
 
     Writes drivetrain.nc with all outputs over time, report.html and figures; of a REXS file
     also train.toml, the train file to go on with; with --run-up runup.nc with waterfall and orders,
-    which `gearlube sound` makes audible; with --map loss_map.nc and loss_map.csv.
+    which `gearlube sound` makes audible; with --map loss_map.nc and loss_map.csv;
+    with --cycle also cycle.nc and cycle.csv.
     """
     if example:
         print_example(_TARGET, file)
         return
     from gearlube_core.checks import check_within
+    from gearlube_core.errors import ParameterError
 
     with study_run("drivetrain", out, overwrite=overwrite) as run:
         check_within("--duration-ms", duration_ms, 1e-3, 1e7, "ms")
@@ -93,18 +106,24 @@ def drivetrain(
             check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
         ramp = _ramp(run_up, ramp_s)
         grid = _grid(map_speeds, map_torques)
+        if cycle and grid:
+            raise ParameterError("--cycle chooses the map, got --map-speeds or --map-torques too. "
+                                 "Leave these out.")  # fmt: skip
         from_rexs = Path(file).suffix.lower() in REXS_ENDINGS
         if not from_rexs:
             check_given(_TARGET, "train file", file)
         # loaded after the options are checked, as this takes seconds
+        from drivetrain.cycle.traces import DriveCycle
         from drivetrain.train.train_file import TrainFile
         from gearlube_core.rexs.gearbox import read_gearbox
 
+        trace = DriveCycle.given(cycle) if cycle else None
         gearbox = read_gearbox(file) if from_rexs else None
         given = TrainFile.from_data(gearbox.data, file) if gearbox else TrainFile.given(file)
         case = given.case()
         from gearlube.report.inputs import file_inputs
         from gearlube.studies.drivetrain.clashes import clashes
+        from gearlube.studies.drivetrain.cycle import cycle_losses, plan_cycle
         from gearlube.studies.drivetrain.layout import layout
         from gearlube.studies.drivetrain.losses import map_losses
         from gearlube.studies.drivetrain.operation import Operation
@@ -122,6 +141,9 @@ def drivetrain(
             plan_ramp(case, *ramp, ramp_s)  # refuses what it cannot run before all else
         if loss_map or grid:
             Operation.of(case)  # likewise
+        plan = plan_cycle(case, trace, regeneration) if trace else None
+        if plan:
+            loss_map, grid = True, {"speeds": plan.speeds, "torques": plan.torques}
         with run.results() as progress:
             dataset = run_drivetrain(
                 case,
@@ -134,10 +156,11 @@ def drivetrain(
             if ramp is not None:
                 rest = part_of(progress, 0.3, 1.0)
                 runup = run_ramp(case, *ramp, duration=ramp_s, folder=out, progress=rest)
-            losses_of_all = None
+            losses_of_all, driven = None, None
             if loss_map or grid:
                 losses_of_all = map_losses(case, **grid, folder=out, progress=progress)
-            studies = {"runup": runup, "loss_map": losses_of_all}
+                driven = cycle_losses(plan, losses_of_all, out, progress) if plan else None
+            studies = {"runup": runup, "loss_map": losses_of_all, "cycle": driven}
             figures = save_figures(dataset, case.train, out / "figures", **studies)
             if gearbox:
                 write_text(train_text(gearbox), out / "train.toml")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -24,7 +25,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 from gearlube_core.storage.process_pool import ProcessPool
-from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, resumable_results
+from gearlube_core.storage.resumable import ARRAYS, Finished, Record, ResultStore, resumable_results
 from gearlube_core.units import rads_to_rpm
 
 FILE = "loss_map.nc"
@@ -88,24 +89,11 @@ def map_losses(
             raise ParameterError(f"{name} of the map must be rising numbers, got {values}.")
     check_within("points of the map", speeds.size * torques.size, 1, _MOST_POINTS)
     check_within("lowest speed of the map", float(speeds[0]), 1e-3 * operation.speed, 1e5, "rad/s")
-    train = case.train.changed(losses_by_element=True)
-    operation = replace(operation, case=replace(case, train=train))
-    sources = list(train.assembly.losses)
     tasks = [(float(w), float(t)) for w in speeds for t in torques]
+    sources, results = point_losses(operation, tasks, folder)
     shape = speeds.size, torques.size
     lost, load = np.full((*shape, len(sources)), math.nan), np.full(shape, math.nan)
     failure = np.full(shape, "", dtype=object)
-    store = ResultStore(None if folder is None else folder / "parts", ARRAYS)
-    whole = _key(operation)
-    compute = partial(_point, operation)
-    results = resumable_results(
-        tasks,
-        lambda task: f"{whole}_{task[0]:.9g}_{task[1]:.9g}",
-        compute,
-        store,
-        ProcessPool(jobs=1),
-        failed=_failed,
-    )
     for k, (task, found, _) in enumerate(results):
         at = np.unravel_index(tasks.index(task), shape)
         failure[at] = str(found["failure"])
@@ -127,6 +115,29 @@ def map_losses(
         ]
         write_text(csv_text(head, rows), folder / "loss_map.csv")
     return dataset
+
+
+def point_losses(
+    operation: Operation, tasks: Sequence[tuple[float, float]], folder: Path | None
+) -> tuple[list[str], Iterator[Finished[tuple[float, float], Record]]]:
+    """Return what loses power, and the losses at speeds and torques as they are found.
+
+    A result has `lost` [W], `load` [N.m] and `failure`, empty where there is an equilibrium. Points
+    are kept in `folder`.
+    """
+    case = operation.case
+    train = case.train.changed(losses_by_element=True)
+    operation = replace(operation, case=replace(case, train=train))
+    whole = _key(operation)
+    results = resumable_results(
+        tasks,
+        lambda task: f"{whole}_{task[0]:.9g}_{task[1]:.9g}",
+        partial(_point, operation),
+        ResultStore(None if folder is None else folder / "parts", ARRAYS),
+        ProcessPool(jobs=1),
+        failed=_failed,
+    )
+    return list(train.assembly.losses), results
 
 
 def _key(operation: Operation) -> str:
@@ -227,15 +238,9 @@ def loss_figure(dataset: xr.Dataset) -> Any:
             left.set(ylabel="power lost [W]")
         middle = dataset.isel(speed=dataset.sizes["speed"] // 2)
         losses = middle["loss"].transpose("source", "torque")
-        mean = losses.mean("torque").values
-        order = [i for i in np.argsort(-mean) if mean[i] > _LEAST_SHARE * mean.sum()]
-        named = [int(i) for i in order[:_SHOWN]]
-        others = [i for i in range(mean.size) if i not in named]
-        words = [_words(str(one)) for one in losses["source"].values[named]]
-        values = losses.values[[*named, *others]]
-        parts = [*values[: len(named)], values[len(named) :].sum(axis=0)]
-        right.stackplot(losses["torque"], parts, labels=[*words, "all others"], colors=PARTS,
-                        alpha=0.85)  # fmt: skip
+        parts = largest(losses.values, losses.mean("torque").values, losses["source"].values)
+        words, powers = [name for name, *_ in parts], [power for _, power, _ in parts]
+        right.stackplot(losses["torque"], powers, labels=words, colors=PARTS, alpha=0.85)
         right.plot(losses["torque"], losses.sum("source", skipna=False), "k.", ms=4, clip_on=False)
         right.set(
             title=f"by element, at {float(middle['speed']):.4g} rpm",
@@ -246,7 +251,20 @@ def loss_figure(dataset: xr.Dataset) -> Any:
     return figure
 
 
-def _words(source: str) -> str:
+def largest(powers: Array, means: Array, sources: Any) -> list[tuple[str, Array, float]]:
+    """Return name, power and mean of the largest losses, and of all others together.
+
+    Powers have a row for each source.
+    """
+    order = [i for i in np.argsort(-means) if means[i] > _LEAST_SHARE * means.sum()]
+    named = [int(i) for i in order[:_SHOWN]]
+    others = [i for i in range(means.size) if i not in named]
+    found = [(source_name(str(sources[i])), powers[i], float(means[i])) for i in named]
+    return [*found, ("all others", powers[others].sum(axis=0), float(means[others].sum()))]
+
+
+def source_name(source: str) -> str:
+    """Return the words for a source of loss: its element and kind."""
     element, _, kind = source.rpartition(".")
     text = element if element == kind else f"{element}: {kind}"
     return text.replace("_", " ").replace(".nodes", "")

@@ -31,6 +31,8 @@ class Operation:
     load : float
         Torque of all loads at that shaft, at the start [N.m].
     loads : tuple of str
+    ratio : float
+        Speed of the shaft over the mean speed of what the loads act on [-].
 
     Examples
     --------
@@ -48,6 +50,7 @@ class Operation:
     torque: float
     load: float
     loads: tuple[str, ...]
+    ratio: float
 
     @classmethod
     def of(cls, case: TrainCase) -> Operation:
@@ -73,8 +76,9 @@ class Operation:
                 "Other speeds and torques need a port that puts power into the train at the start "
                 f"and one that takes it, got {told}. Correct start.torque_n_m and start.speed_rpm."
             )
+        turning = {one.name: found[f"{one.body}.speed"] for one in ports}
         shaft = next(one.body for one in ports if one.name == drive)
-        speed = found[f"{shaft}.speed"]
+        speed = turning[drive]
         return cls(
             case=case,
             drive=drive,
@@ -84,6 +88,7 @@ class Operation:
             torque=powers[drive] / abs(speed),
             load=-sum(powers[name] for name in loads) / abs(speed),
             loads=loads,
+            ratio=abs(speed) * len(loads) / sum(abs(turning[name]) for name in loads),
         )
 
     def torques(self, torque: float, load: float) -> dict[str, float]:

@@ -25,6 +25,7 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
+from gearlube.studies.drivetrain.cycle import CYCLE_FIGURE, cycle_tables, of_cycle
 from gearlube.studies.drivetrain.layout import layout, layout_figure
 from gearlube.studies.drivetrain.losses import loss_figure, of_map
 from gearlube.studies.drivetrain.orders import (
@@ -202,6 +203,7 @@ _OF_STUDIES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
         "Means of runs in time, each from its equilibrium; the loads take what losses leave. "
         "Torques below 0 brake; without torque there is no equilibrium.",
     ),
+    "cycle": CYCLE_FIGURE,
 }
 
 
@@ -211,6 +213,7 @@ def save_figures(
     folder: Path,
     runup: xr.Dataset | None = None,
     loss_map: xr.Dataset | None = None,
+    cycle: xr.Dataset | None = None,
 ) -> dict[str, Path]:
     """Draw every figure of a run of a train into `folder` as PNG; return the files by name."""
     found = layout(train)
@@ -230,7 +233,7 @@ def save_figures(
         files[name] = folder / f"{name}.png"
         write_figure(draw(found if name == "layout" else dataset), files[name])
     for name, (draw, *_) in _OF_STUDIES.items():
-        study = loss_map if name == "loss_map" else runup
+        study = {"loss_map": loss_map, "cycle": cycle}.get(name, runup)
         if study is not None:
             files[name] = folder / f"{name}.png"
             write_figure(draw(study), files[name])
@@ -315,10 +318,11 @@ def report(
     notes: Sequence[ExchangeNote] = (),
     runup: xr.Dataset | None = None,
     loss_map: xr.Dataset | None = None,
+    cycle: xr.Dataset | None = None,
     views: Sequence[Figure] = (),
     clashes: Sequence[str] = (),
 ) -> Report:
-    """Return the report of a run, and of a run-up beside it.
+    """Return the report of a run, and of a run-up, a map and a cycle beside it.
 
     `notes` are those of a REXS file, `views` come before all figures; `clashes` are sentences.
     """
@@ -338,7 +342,13 @@ def report(
         study="drivetrain",
         title=str(dataset.attrs["name"]),
         subtitle=f"Modes, and a run of {end:.4g} ms from the static equilibrium.",
-        findings=[*_warnings(clashes), *findings(dataset), *loudest(runup), *of_map(loss_map)],
+        findings=[
+            *_warnings(clashes),
+            *of_cycle(cycle),
+            *findings(dataset),
+            *loudest(runup),
+            *of_map(loss_map),
+        ],
         numbers=[
             Number("power lost", sum(lost.values()), "W"),
             Number("efficiency", 100.0 * efficiency(dataset), "%", 4),
@@ -362,6 +372,7 @@ def report(
                 rows=speeds,
                 caption="Mean of the second half of the run, about +z.",
             ),
+            *cycle_tables(cycle),
             *_exchanged(notes),
             *carried(dataset),
             *resonant_speeds(dataset),
@@ -382,6 +393,7 @@ def report(
             "drivetrain.nc",
             *(["runup.nc"] if runup is not None else []),
             *(["loss_map.nc", "loss_map.csv"] if loss_map is not None else []),
+            *(["cycle.nc", "cycle.csv"] if cycle is not None else []),
             "figures/",
             *(["train.toml"] if notes else []),
         ),
