@@ -29,9 +29,11 @@ from gearlube_core.dynamics.train.exponential_room import (
     Places,
     V,
     Z,
+    coefficient,
     places_of,
     room_in,
     touched_at,
+    vector,
 )
 from gearlube_core.dynamics.train.plan import AT, CURVED, FIRST_ROW, LINEAR, N_PLACES
 from gearlube_core.kernels.array_part import part
@@ -58,18 +60,6 @@ def write_coefficients(h: float, p: Places, room: Array) -> None:
             c[(TO_END_2 + i) * n + k] = h * (2.0 * two[j] - 4.0 * three[j])
             c[(TO_END_3 + i) * n + k] = h * (4.0 * three[j] - two[j])
     room[STEP] = h
-
-
-@kernel
-def vector(room: Array, p: Places, which: int) -> Array:
-    """Return a vector of all modes."""
-    return part(room, p.vectors + which * p.modes, p.modes)
-
-
-@kernel
-def coefficient(room: Array, p: Places, which: int) -> Array:
-    """Return a number of all modes."""
-    return part(room, p.coefficients + which * p.modes, p.modes)
 
 
 @kernel

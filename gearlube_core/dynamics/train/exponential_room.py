@@ -158,3 +158,15 @@ def touched_at(plan: Offsets, p: Places, i: int) -> int:
 def mobility_at(numbers: Array, p: Places, place: int) -> float:
     """Return acceleration over force of a coordinate at a place of the state."""
     return numbers[p.mobility + N_COORDINATES * (place // BODY_STATES) + place % BODY_STATES]
+
+
+@kernel
+def vector(room: Array, p: Places, which: int) -> Array:
+    """Return a vector of all modes."""
+    return part(room, p.vectors + which * p.modes, p.modes)
+
+
+@kernel
+def coefficient(room: Array, p: Places, which: int) -> Array:
+    """Return a number of all modes."""
+    return part(room, p.coefficients + which * p.modes, p.modes)
