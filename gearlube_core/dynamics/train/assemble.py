@@ -22,7 +22,7 @@ from gearlube_core.dynamics.train.exchange import (
     continuous_states,
     event_indicators,
 )
-from gearlube_core.dynamics.train.exponential_room import room_size
+from gearlube_core.dynamics.train.exponential_room import LINE, room_size
 from gearlube_core.dynamics.train.outputs import train_outputs
 from gearlube_core.dynamics.train.part import (
     GROUND,
@@ -241,7 +241,7 @@ def assemble(
         pack_plan(sizes, rows, touched),
         tuple(pack_plan(sizes, shapes).tolist()),
         np.concatenate([*numbers, *(body.mobility for body in bodies)]),
-        np.concatenate([*memory, np.zeros(1 + room_size(sizes))]),
+        _with_room(np.concatenate([*memory, np.zeros(1)]), int(room_size(sizes))),
         tuple(names),
         works,
         losses,
@@ -251,6 +251,15 @@ def assemble(
         continuous_states(bodies, elements, names, kept, outputs),
         event_indicators(elements, len(names)),
     )
+
+
+def _with_room(memory: Array, size: int) -> Array:
+    """Return a memory with room behind it, which begins where a line of the processor's does."""
+    whole = np.zeros(memory.size + size + LINE)
+    place = whole.ctypes.data // whole.itemsize + memory.size
+    found = whole[-place % LINE :][: memory.size + size]
+    found[: memory.size] = memory
+    return found
 
 
 def _shape(row: Sequence[int], sizes: int) -> list[int]:

@@ -32,12 +32,21 @@ from gearlube_core.dynamics.train.exponential_room import (
     coefficient,
     places_of,
     room_in,
+    short_vector,
     touched_at,
+    turning_in,
     vector,
 )
 from gearlube_core.dynamics.train.plan import AT, CURVED, FIRST_ROW, LINEAR, N_PLACES
 from gearlube_core.kernels.array_part import part
-from gearlube_core.kernels.dense_rows import add_products, add_times, dot, times, times_both
+from gearlube_core.kernels.dense_rows import (
+    add_products,
+    add_scaled,
+    add_times,
+    add_times_both,
+    dot,
+    times,
+)
 from gearlube_core.kernels.exponential_step import phi_functions
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantState
@@ -127,10 +136,10 @@ def exponential_kernel(
         sums(s, oil, numbers, memory, plan, 0, LINEAR, slope)
         collect(s, oil, numbers, memory, plan, slope)
         for i in range(p.modes):
-            loads[i] = 0.0
+            loads[i] = forces[i] = 0.0
         for i in range(p.free):
             forces[i] = slope[int(room[p.coordinates + i]) + RATE]
-        add_times(part(room, p.shapes, p.free * p.modes), p.free, forces, loads)
+        add_times(part(room, p.shapes, p.modes * p.modes), forces, loads)
         return loads
 
     @kernel
@@ -146,23 +155,24 @@ def exponential_kernel(
         spread(s, oil, numbers, memory, plan)
         n = p.modes
         z, v, constant = vector(room, p, Z), vector(room, p, V), vector(room, p, CONSTANT)
-        coupling = part(room, p.coupling + n * n, n * n)
+        coupling, still, at = part(room, p.solver, n * n), part(room, p.coupling, n * n), FIRST_ROW
         for i in range(n * n):
-            coupling[i] = room[p.coupling + i]
-        at = FIRST_ROW
+            coupling[i] = still[i]
         for carrier in range(p.carriers):
-            turning, first = s[int(plan[at + AT]) + W], p.gyroscopic + carrier * n * n
-            for i in range(n * n):
-                coupling[i] += turning * room[first + i]
+            turning = s[int(plan[at + AT]) + W]
+            add_scaled(turning, part(room, p.gyroscopic + carrier * n * n, n * n), coupling)
             at += AT + int(plan[at + N_PLACES])
+        short = turning_in(room, p)
+        for i in range(n * n):
+            short[i] = coupling[i]
         rates = vector(room, p, ALSO)
         for k in range(n):
-            z[k] = rates[k] = 0.0
+            z[k] = rates[k] = constant[k] = 0.0
         for i in range(p.free):
             place = int(room[p.coordinates + i])
             room[p.started + i], rates[i] = s[place], s[place + RATE]
         times(part(room, p.inverse, n * n), n, rates, v)
-        times(coupling, n, v, constant)
+        add_times(coupling, v, constant)
         loads = loads_of(s, oil, numbers, memory, plan, p, room)
         for k in range(n):
             constant[k] += loads[k] + room[p.damping + k] * v[k]
@@ -184,9 +194,11 @@ def exponential_kernel(
         Own states follow.
         """
         n, f, own = p.modes, p.touched, p.own
-        touching = part(room, p.touching, f * n)
+        showing = part(room, p.showing, n * f)
         moved, rates = part(room, p.before + f, f), part(room, p.before + 2 * f, f)
-        times_both(touching, f, vector(room, p, at), vector(room, p, at + 1), moved, rates)
+        for i in range(f):
+            moved[i] = rates[i] = 0.0
+        add_times_both(showing, vector(room, p, at), vector(room, p, at + 1), moved, rates)
         for i in range(f):
             place = touched_at(plan, p, i)
             s[place], s[place + RATE] = room[p.before + i] + moved[i], rates[i]
@@ -197,9 +209,11 @@ def exponential_kernel(
     @kernel
     def couple(p: Places, room: Array, at: int) -> None:
         """Write the forces of coupling dampers and gyroscopic moments at a speed of the modes."""
-        n = p.modes
-        coupling = part(room, p.coupling + n * n, n * n)
-        times(coupling, n, vector(room, p, at), vector(room, p, COUPLED))
+        out, v = vector(room, p, COUPLED), vector(room, p, at)
+        short = short_vector(room, p)
+        for k in range(p.modes):
+            out[k], short[k] = 0.0, v[k]
+        add_times(turning_in(room, p), short, out)
 
     @kernel
     def force_of_stage(
@@ -227,14 +241,14 @@ def exponential_kernel(
         share = 2.0 if stage in (1, 2) else 1.0
         for i in range(p.energies):
             room[p.energy_room + i] += share * slope[p.first_energy + i]
-        times(part(room, p.stiffness, f * f), f, moved, push)
         for i in range(f):
-            push[i] += slope[touched_at(plan, p, i) + RATE]
+            push[i] = slope[touched_at(plan, p, i) + RATE]
+        add_times(part(room, p.stiffness, f * f), moved, push)
         constant, coupled = vector(room, p, CONSTANT), vector(room, p, COUPLED)
         couple(p, room, at + 1)
         for k in range(n):
             force[k] = constant[k] - coupled[k]
-        add_times(part(room, p.touching, f * n), f, push, force)
+        add_times(part(room, p.touching, f * n), push, force)
 
     @kernel
     def add_own(s: Array, p: Places, room: Array, stage: int, h: float) -> None:
@@ -248,18 +262,22 @@ def exponential_kernel(
 
         The forces of `couple` stand there: they tell all losses together, hence one of them.
         """
-        n, v, along = p.modes, vector(room, p, at), vector(room, p, ALSO)
-        left, last = dot(v, vector(room, p, COUPLED)), 0
+        n, v, last = p.modes, vector(room, p, at), 0
+        left, count = dot(v, vector(room, p, COUPLED)), int(room[p.losing])
         for k in range(n):
             left += room[p.damping + k] * v[k] * v[k]
-        for k in range(int(room[p.losing])):
-            last = int(room[p.losing + 1 + k])
-            if k + 1 < int(room[p.losing]):
-                times(part(room, p.powers + last * n * n, n * n), n, v, along)
-                one = dot(v, along)
+        for k in range(count):
+            last = int(room[p.losing + 1 + 2 * k])
+            if k + 1 < count:
+                rank = int(room[p.losing + 2 + 2 * k])
+                along = part(room, p.vectors + ALSO * n, rank)
+                for i in range(rank):
+                    along[i] = 0.0
+                add_times(part(room, p.powers + last * n * n, n * rank), v, along)
+                one = dot(along, along)
                 room[p.lost + last] += weight * one
                 left -= one
-        if room[p.losing] > 0.0:
+        if count > 0:
             room[p.lost + last] += weight * left
 
     @kernel

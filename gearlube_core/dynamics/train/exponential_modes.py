@@ -24,7 +24,7 @@ from gearlube_core.dynamics.train.exponential_room import (
 )
 from gearlube_core.dynamics.train.plan import AT, CURVED, FIRST_ROW, LINEAR, N_PLACES, Sizes
 from gearlube_core.kernels.array_part import part
-from gearlube_core.kernels.dense_rows import add_times, congruent, times
+from gearlube_core.kernels.dense_rows import add_times, congruent, semidefinite_root, times
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.symmetric_modes import symmetric_modes
 from gearlube_core.oil.lubricant import LubricantState
@@ -136,8 +136,8 @@ def modes_kernel(
             for i in range(n):
                 most = max(most, abs(room[p.powers + (k * n + i) * n + i]))
             if most > 0.0:
+                room[p.losing + 1 + 2 * int(room[p.losing])] = k
                 room[p.losing] += 1.0
-                room[p.losing + int(room[p.losing])] = k
         for i in range(p.free):
             trial[int(room[p.coordinates + i]) + RATE] = 1.0
             for j in range(i):
@@ -220,7 +220,7 @@ def modes_kernel(
         for k in range(f):
             for b in range(n):
                 row[b] = 0.0
-            add_times(touching, f, part(room, p.stiffness + k * f, f), row)
+            add_times(touching, part(room, p.stiffness + k * f, f), row)
             for a in range(n):
                 gain = touching[k * n + a]
                 for b in range(n):
@@ -238,12 +238,21 @@ def modes_kernel(
             room[p.coupling + k * n + k] = 0.0
         for k in range(p.carriers):
             congruent(part(room, p.gyroscopic + k * n * n, n * n), vectors, n, scratch)
-        for k in range(p.losses):
-            congruent(part(room, p.powers + k * n * n, n * n), vectors, n, scratch)
+        count = int(room[p.losing])
+        for k in range(count):
+            at = p.losing + 1 + 2 * k
+            powers = part(room, p.powers + int(room[at]) * n * n, n * n)
+            congruent(powers, vectors, n, scratch)
+            room[at + 1] = semidefinite_root(powers, n, scratch)
+        for k in range(count - 1):  # that of the highest rank last: it is what the others leave
+            at, last = p.losing + 1 + 2 * k, p.losing + 2 * count - 1
+            if room[at + 1] > room[last + 1]:
+                room[at], room[last] = room[last], room[at]
+                room[at + 1], room[last + 1] = room[last + 1], room[at + 1]
         for k in range(f):
             times(vectors, n, part(touching, k * n, n), row)
             for a in range(n):
-                touching[k * n + a] = row[a]
+                touching[k * n + a] = room[p.showing + a * f + k] = row[a]
         for j in range(p.free):
             root = math.sqrt(mobility_at(numbers, p, int(room[p.coordinates + j])))
             for k in range(n):
@@ -276,8 +285,8 @@ def room_slope(room: Array, p: Places) -> Array:
 def add_column(
     numbers: Array, p: Places, room: Array, slope: Array, matrix: int, j: int, gain: float
 ) -> None:
-    """Add forces in `slope`, in coordinates of mass 1, to column j of a matrix in the room."""
+    """Add forces in `slope`, in coordinates of mass 1, to row j of a turned matrix in the room."""
     for i in range(p.free):
         place = int(room[p.coordinates + i])
         root = math.sqrt(mobility_at(numbers, p, place))
-        room[matrix + i * p.modes + j] += gain * root * slope[place + RATE]
+        room[matrix + j * p.modes + i] += gain * root * slope[place + RATE]

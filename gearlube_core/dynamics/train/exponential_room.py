@@ -8,14 +8,16 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.train.element import BODY_STATES, N_COORDINATES
-from gearlube_core.dynamics.train.plan import Sizes
+from gearlube_core.dynamics.train.plan import Sizes, places
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
 
 # head of the room: whether it is filled, the length of the step [s]
-FILLED, STEP, N_HEAD = range(3)
+FILLED, STEP, N_HEAD = 0, 1, 8
 # numbers of each mode for a step: exp(h L) and exp(h L / 2), row by row, then the last columns of
 # what forces are multiplied by
 (
@@ -26,13 +28,13 @@ FILLED, STEP, N_HEAD = range(3)
 Z, V, Z_A, V_A, Z_B, V_B, FORCE, CONSTANT, COUPLED, ALSO, N_VECTORS = (
     0, 1, 2, 3, 4, 5, 6, 10, 11, 12, 13,
 )  # fmt: skip
-_LANES = 4  # numbers that a processor works on at once, or a part of them
+LINE = 8  # numbers that a processor reads at once: matrices and vectors begin at a multiple
 
 
 class Places(NamedTuple):
     """Sizes of a train and places in the room; all whole numbers."""
 
-    modes: int  # as many as free coordinates, rounded up to whole lanes by modes that stay at 0
+    modes: int  # as many as free coordinates, rounded up to whole lines by modes that stay at 0
     free: int
     touched: int
     own: int  # states of elements, all of them
@@ -47,15 +49,17 @@ class Places(NamedTuple):
     shapes: int  # coordinate by coordinate
     inverse: int  # mode by mode
     touching: int  # shapes of the touched coordinates
+    showing: int  # these mode by mode
     stiffness: int  # of elements without linear forces, over the touched coordinates
     related: int  # rates of own states over those of the touched coordinates, row by row
     straight: int  # rates of own states of linear elements over those of the free coordinates
     squares: int  # of the frequencies
     damping: int  # of each mode
-    coupling: int  # all of damping but that, at standstill, then with gyroscopic moments
+    coupling: int  # all of damping but that, at standstill, turned
+    turning: int  # that with gyroscopic moments, in half of the digits
     gyroscopic: int  # of each carrier, over its speed
-    powers: int  # of each loss
-    losing: int  # how many losses linear elements have, then which
+    powers: int  # of each loss: P = B B^T, of so many columns as its rank
+    losing: int  # how many losses linear elements have, then which, and their ranks
     coefficients: int
     vectors: int
     before: int  # touched coordinates at the start of an interval, then moves and forces
@@ -70,32 +74,40 @@ class Places(NamedTuple):
 
 
 @kernel
+def whole_lines(count: int) -> int:
+    """Return a count of numbers, rounded up to what fills lines of the processor's memory."""
+    return -(-count // LINE) * LINE
+
+
+@kernel
 def places_of(sizes: Sizes) -> Places:
     """Return the places for a train."""
-    n, f = -(-sizes.free // _LANES) * _LANES, sizes.touched
+    n, f = whole_lines(sizes.free), sizes.touched
     first = BODY_STATES * sizes.bodies
     first_energy = sizes.integrated - sizes.energies
     own, square = first_energy - first, n * n
     shapes = N_HEAD + n
     touching = shapes + 2 * square
-    stiffness = touching + f * n
-    related = stiffness + f * f
-    straight = related + own * f
+    showing = touching + f * n
+    stiffness = showing + f * n
+    related = stiffness + whole_lines(f * f)
+    straight = related + whole_lines(own * f)
     squares = straight + own * n
     coupling = squares + 2 * n
-    gyroscopic = coupling + 2 * square
+    turning = coupling + square
+    gyroscopic = turning + square // 2
     powers = gyroscopic + sizes.carriers * square
     losing = powers + sizes.losses * square
-    coefficients = losing + 1 + sizes.losses
+    coefficients = losing + whole_lines(1 + 2 * sizes.losses)
     vectors = coefficients + N_COEFFICIENTS * n
     before = vectors + N_VECTORS * n
-    own_room = before + 3 * f
+    own_room = before + 3 * whole_lines(f)
     energy_room = own_room + 6 * own
     lost = energy_room + sizes.energies
     started = lost + sizes.losses
     slope = started + n
     trial = slope + sizes.integrated
-    solver = trial + sizes.states
+    solver = whole_lines(trial + sizes.states)
     return Places(
         n,
         sizes.free,
@@ -112,12 +124,14 @@ def places_of(sizes: Sizes) -> Places:
         shapes,
         shapes + square,
         touching,
+        showing,
         stiffness,
         related,
         straight,
         squares,
         squares + n,
         coupling,
+        turning,
         gyroscopic,
         powers,
         losing,
@@ -151,7 +165,7 @@ def room_in(memory: Array, sizes: Sizes) -> Array:
 @kernel
 def touched_at(plan: Offsets, p: Places, i: int) -> int:
     """Return the place of a touched coordinate in the state."""
-    return int(plan[plan.size - p.touched + i])
+    return places(plan, plan.size - p.touched + i, 1)[0]  # type: ignore[no-any-return]
 
 
 @kernel
@@ -170,3 +184,15 @@ def vector(room: Array, p: Places, which: int) -> Array:
 def coefficient(room: Array, p: Places, which: int) -> Array:
     """Return a number of all modes."""
     return part(room, p.coefficients + which * p.modes, p.modes)
+
+
+@kernel
+def turning_in(room: Array, p: Places) -> Array:
+    """Return the matrix of coupling dampers and gyroscopic moments, of single precision."""
+    return part(room, p.turning, p.modes * p.modes // 2).view(np.float32)
+
+
+@kernel
+def short_vector(room: Array, p: Places) -> Array:
+    """Return the last vector of all modes, for numbers of single precision."""
+    return part(room, p.vectors + ALSO * p.modes, p.modes // 2).view(np.float32)
