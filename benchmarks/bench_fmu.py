@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fmpy import extract, fmi2, read_model_description
+from fmpy import extract, read_model_description
 from pytest_benchmark.fixture import BenchmarkFixture
 
+from benchmarks.timing import instantiated
 from fmu_src.build import build_hypoid_axle
 
 SHORT = 1e-6  # s: one inner step, so that the call itself is seen beside it
@@ -21,18 +22,6 @@ SHORT = 1e-6  # s: one inner step, so that the call itself is seen beside it
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = build_hypoid_axle(tmp_path_factory.mktemp("fmu"))
     return Path(extract(str(path), str(tmp_path_factory.mktemp("extracted"))))
-
-
-def instantiated(folder: Path) -> Any:
-    description = read_model_description(str(folder))
-    slave = fmi2.FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="axle",
-    )
-    slave.instantiate()
-    return slave
 
 
 @pytest.fixture

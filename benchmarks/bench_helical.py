@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import logging
 import os
-import statistics
 import time
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -19,6 +17,7 @@ import numpy as np
 from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.integrate import solve_ivp
 
+from benchmarks.timing import median_time
 from gearlube.studies.helical.settings import RPM, HelicalSettings
 from gearlube.studies.helical.stages import analyse_loaded_contact
 from gearlube.studies.helical.sweep_grid import sweep_dataset
@@ -76,17 +75,6 @@ def test_operating_point_with_film(benchmark: BenchmarkFixture) -> None:
     benchmark(periodic_response, pair, SPEED)
 
 
-def _time(function: Callable[[], Any], rounds: int) -> float:
-    """Return the median wall time [s] after one call that is not counted."""
-    function()
-    walls = []
-    for _ in range(rounds):
-        start = time.perf_counter()
-        function()
-        walls.append(time.perf_counter() - start)
-    return statistics.median(walls)
-
-
 def time_sweep() -> None:
     """Log the wall time of the sweep on two processes, their start included."""
     pair = he_2007_pair(0.0)
@@ -104,7 +92,7 @@ def time_sweep() -> None:
 def time_loaded_contact() -> None:
     """Log the wall time of a loaded mesh period in one process, teeth from the cache."""
     asked = settings(positions=12)
-    wall = _time(partial(analyse_loaded_contact, asked, jobs=1), 1)
+    wall = median_time(partial(analyse_loaded_contact, asked, jobs=1), 1)
     states = asked.positions * len(TORQUES)
     _LOGGER.info(
         "loaded contact: %d states, %.2f s, %.0f ms a state", states, wall, 1e3 * wall / states
@@ -144,12 +132,12 @@ def compare_with_solve_ivp() -> None:
     pair = he_2007_pair(MU)
     response = periodic_response(pair, SPEED)
     swing = float(np.ptp(response.signal("psi")))
-    ours = _time(lambda: periodic_response(pair, SPEED), 9)
+    ours = median_time(lambda: periodic_response(pair, SPEED), 9)
     for rtol in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8):
         off = abs(_marched(pair, response, rtol) / swing - 1.0)
         if off < ACCURACY:
             break
-    theirs = _time(lambda: _marched(pair, response, rtol), 3)
+    theirs = median_time(lambda: _marched(pair, response, rtol), 3)
     _LOGGER.info(
         "%.1f ms a point, limit %.0f ms; DOP853, rtol %.0e: %.0f ms, error %.0e, %.0f times",
         1e3 * ours, 1e3 * LIMIT_POINT, rtol, 1e3 * theirs, off, theirs / ours,
@@ -158,7 +146,7 @@ def compare_with_solve_ivp() -> None:
         ("oil film over constant friction", replace(settings().parameters(), friction="film")),
         ("6 DOF over 12 DOF", replace(pair, form="six_dof")),
     ):
-        wall = _time(partial(periodic_response, other, SPEED), 9)
+        wall = median_time(partial(periodic_response, other, SPEED), 9)
         _LOGGER.info("%s: %.2f", what, wall / ours)
 
 

@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fmpy import extract, fmi2, read_model_description
+from fmpy import extract, read_model_description
 from pytest_benchmark.fixture import BenchmarkFixture
 
+from benchmarks.timing import instantiated
 from fmu_src.build import build_helical_pair
 
 FRICTION = {"film": 1, "constant": 2, "off": 3}
@@ -26,18 +27,6 @@ GAIN = 0.05  # N.m s/rad
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = build_helical_pair(tmp_path_factory.mktemp("fmu"))
     return Path(extract(str(path), str(tmp_path_factory.mktemp("extracted"))))
-
-
-def instantiated(folder: Path) -> Any:
-    description = read_model_description(str(folder))
-    slave = fmi2.FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="pair",
-    )
-    slave.instantiate()
-    return slave
 
 
 @pytest.fixture

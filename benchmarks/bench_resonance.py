@@ -9,9 +9,6 @@ from __future__ import annotations
 
 import logging
 import math
-import statistics
-import time
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +17,7 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.integrate import solve_ivp
 
+from benchmarks.timing import median_time
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.parameters import Form, karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
@@ -77,24 +75,13 @@ def test_resonance_curve(benchmark: BenchmarkFixture, form: Form) -> None:
     benchmark.extra_info["period maps"] = branch.evaluations
 
 
-def _time(function: Callable[[], Any], rounds: int) -> float:
-    """Return the median wall time [s] after one call that is not counted."""
-    function()
-    walls = []
-    for _ in range(rounds):
-        start = time.perf_counter()
-        function()
-        walls.append(time.perf_counter() - start)
-    return statistics.median(walls)
-
-
 def time_curves() -> None:
     """Log wall times of both curves, one process, one thread."""
     total = 0.0
     for form in FORMS:
         of = problem(form)
         branch = resonance_curve(of)
-        wall = _time(lambda of=of: resonance_curve(of), 3)
+        wall = median_time(lambda of=of: resonance_curve(of), 3)
         total += wall
         _LOGGER.info(
             "%s: %d points, %d folds, %s, %d period maps, %.2f s",
@@ -156,7 +143,7 @@ def compare_with_solve_ivp() -> None:
                 off = abs(shoot() / swing - 1.0)
                 if steps >= SAMPLES and off < ACCURACY:
                     break
-            ours = _time(shoot, 9)
+            ours = median_time(shoot, 9)
             _LOGGER.info(
                 "%s at %g: shooting, %d steps, %.2f ms, error %.0e",
                 form, relative, steps, 1e3 * ours, off,
@@ -167,7 +154,7 @@ def compare_with_solve_ivp() -> None:
                     off = abs(run() / swing - 1.0)
                     if off < ACCURACY:
                         break
-                theirs = _time(run, 3)
+                theirs = median_time(run, 3)
                 _LOGGER.info(
                     "    %s, rtol %.0e: %.0f ms, error %.0e, %.0f times",
                     method, rtol, 1e3 * theirs, off, theirs / ours,

@@ -164,11 +164,9 @@ class Element(Checked, ABC):
     losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
     bounds: ClassVar[tuple[str, ...]] = ()  # bounds of losses by solved films, likewise
     outputs: ClassVar[tuple[Output, ...]] = ()  # named without the element
-    levels: ClassVar[
-        tuple[str, ...]
-    ] = ()  # outputs that are the first numbers kept, see `exchange`
+    levels: ClassVar[tuple[str, ...]] = ()  # outputs that are kept first, see `exchange`
     events: ClassVar[tuple[Output, ...]] = ()  # what changes its sign where `event` has to do
-
+    linear: ClassVar[bool] = False  # see `linear_among`
     carries: ClassVar[bool] = False  # whether it moves nodes: one of CARRIERS
     interpreted: ClassVar[tuple[Listed, ...]] = ()  # what of it ships, see `shipped_kinds`
 
@@ -208,7 +206,7 @@ class Element(Checked, ABC):
 
         Beside it there may be torques of ports, and gyroscopic moments of carriers.
         """
-        return False
+        return self.linear
 
     def ranges(self) -> tuple[Range, ...]:
         """Return ranges of outputs, which are named without the element."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -22,7 +21,7 @@ from gearlube_core.dynamics.train.elements.held_modes import (
     energy_of_modes,
     hold_modes,
 )
-from gearlube_core.dynamics.train.part import AxisPlace, Body, Element
+from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.housings.housing_modes import HousingMotion
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
@@ -129,6 +128,7 @@ class CarriedInterface(Element):
     kind: ClassVar = "carried_interface"
     carries: ClassVar = True
     interpreted: ClassVar = (Listed(_Housing, (), 5),)
+    linear: ClassVar = True
     on: ClassVar = ("nodes", "modes")
     losses: ClassVar = ("housing_damping",)
 
@@ -143,10 +143,6 @@ class CarriedInterface(Element):
     def sizes(self) -> tuple[int, ...]:
         """Return how many nodes and bodies of modes there are."""
         return self.motion.shapes.shape[1], len(free_modes(self.motion))
-
-    def linear_among(self, bodies: Sequence[Body]) -> bool:
-        """Return True: modes are linear."""
-        return True
 
     def memory(self) -> Array:
         """Return shapes at the nodes, then stiffness and damping of the modes."""

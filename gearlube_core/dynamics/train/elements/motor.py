@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -12,7 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.elements.port import Port
-from gearlube_core.dynamics.train.part import GROUND, Body
+from gearlube_core.dynamics.train.part import GROUND
 from gearlube_core.dynamics.train.ripple_table import RippleTable, skew_factor
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.jit import kernel
@@ -197,6 +196,7 @@ class Motor(Port):
     ] = 16.0
     kind: ClassVar = "motor"
     interpreted: ClassVar = (Listed(MotorKernels, (), 8),)
+    linear: ClassVar = False  # ripple follows the rotor
     on: ClassVar = ("body", "stator")
     lags: ClassVar = (Output("mean_torque", "N.m", "torque that follows the wanted one", 100.0),)
     outputs: ClassVar = (
@@ -205,10 +205,6 @@ class Motor(Port):
         Output("pull.x", "N", "magnetic pull along x on the rotor", 100.0),
         Output("pull.y", "N", "magnetic pull along y on the rotor", 100.0),
     )
-
-    def linear_among(self, bodies: Sequence[Body]) -> bool:
-        """Return False: ripple follows the rotor."""
-        return False
 
     def numbers(self) -> MotorKernels:  # type: ignore[override]
         """Return the constants of the kernels."""

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
-from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.part import Element
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -57,6 +56,7 @@ class Port(Element):
     ] = 1.0
     kind: ClassVar = "port"
     interpreted: ClassVar = (Listed(_Port, (), 3),)
+    linear: ClassVar = True  # the torque does not depend on motion
     on: ClassVar[tuple[str, ...]] = ("body",)
     works: ClassVar = ("work",)
 
@@ -68,10 +68,6 @@ class Port(Element):
     def numbers(self) -> _Port:
         """Return the constants of the kernels."""
         return _Port(float(self.sign))
-
-    def linear_among(self, bodies: Sequence[Body]) -> bool:
-        """Return True: the torque does not depend on motion."""
-        return True
 
     def kept_size(self) -> int:
         """Return the place of the torque."""

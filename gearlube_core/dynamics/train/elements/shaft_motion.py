@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -23,7 +22,7 @@ from gearlube_core.dynamics.train.elements.held_modes import (
     energy_of_modes,
     hold_modes,
 )
-from gearlube_core.dynamics.train.part import AxisPlace, Body, Element
+from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -198,6 +197,7 @@ class CarriedNodes(Element):
     kind: ClassVar = "carried_nodes"
     carries: ClassVar = True
     interpreted: ClassVar = (Listed(_Shaft, (), 7),)
+    linear: ClassVar = True
     on: ClassVar = ("body", "nodes", "modes")
     losses: ClassVar = ("shaft_damping",)
 
@@ -212,10 +212,6 @@ class CarriedNodes(Element):
     def sizes(self) -> tuple[int, ...]:
         """Return how many nodes, bodies of modes, and those of bending modes there are."""
         return self.motion.arms.size, len(mode_bodies(self.motion)), _bent(self.motion)
-
-    def linear_among(self, bodies: Sequence[Body]) -> bool:
-        """Return True: modes are linear."""
-        return True
 
     def memory(self) -> Array:
         """Return arms and shapes at the nodes, then what holds the modes, gyroscopic coupling."""

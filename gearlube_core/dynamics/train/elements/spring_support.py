@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -10,7 +9,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE, coupling_limit
 from gearlube_core.dynamics.train.element import RATE, Listed
-from gearlube_core.dynamics.train.part import Body, Element
+from gearlube_core.dynamics.train.part import Element
 from gearlube_core.helical_geometry.gear_body import COUPLING, STIFFNESS, TILTING
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
@@ -144,6 +143,7 @@ class SpringSupport(Springs, Element):
     body: str
     kind: ClassVar = "spring_support"
     interpreted: ClassVar = (Listed(SpringKernels, (), 2),)
+    linear: ClassVar = True
     on: ClassVar = ("body",)
     losses: ClassVar = ("bearing_damping",)
     outputs: ClassVar = (
@@ -154,10 +154,6 @@ class SpringSupport(Springs, Element):
     def __post_init__(self) -> None:
         check_fields(self)
         self.check_couplings()
-
-    def linear_among(self, bodies: Sequence[Body]) -> bool:
-        """Return True: springs and dampers are linear."""
-        return True
 
     def numbers(self) -> SpringKernels:
         """Return the constants of the kernels."""
