@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 ZERO_CELSIUS = 273.15  # K
 MILLIMETRE = 1e-3  # m
@@ -44,3 +45,16 @@ def rpm_to_rads(speed_rpm: float) -> float:
 def rads_to_rpm(speed: float) -> float:
     """Return the rotational speed [1/min] of `speed` [rad/s]."""
     return speed * 30.0 / math.pi
+
+
+def labelled(
+    dimensions: Any, values: Any, unit: str, words: str
+) -> tuple[Any, Any, dict[str, str]]:
+    """Return a variable of a dataset: its dimensions, its values, and what they are.
+
+    Examples
+    --------
+    >>> labelled("time", [0.0, 0.1], "s", "time since the start")
+    ('time', [0.0, 0.1], {'units': 's', 'long_name': 'time since the start'})
+    """
+    return dimensions, values, {"units": unit, "long_name": words}

@@ -25,6 +25,7 @@ from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.resumable import Record
+from gearlube_core.units import labelled
 
 _STATE, _LINE = ("phase", "torque"), ("phase", "torque", "line")
 _UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {
@@ -103,15 +104,11 @@ def contact_dataset(modified: ModifiedPair, settings: CycleSettings, cycle: Reco
         coords={
             "phase": ("phase", settings.phases, {"units": "1", "long_name": "mesh phase"}),
             "torque": ("torque", torque, {"units": "N.m", "long_name": "pinion torque"}),
-            "line": (
-                "line",
-                line_numbers(pair),
-                {"units": "1", "long_name": "contact line by age; -1 enters next"},
+            "line": labelled(
+                "line", line_numbers(pair), "1", "contact line by age; -1 enters next"
             ),
-            "station": (
-                "station",
-                settings.station,
-                {"units": "1", "long_name": "along a line, z_low 0 to z_high 1"},
+            "station": labelled(
+                "station", settings.station, "1", "along a line, z_low 0 to z_high 1"
             ),
         },
         attrs={

@@ -33,6 +33,7 @@ from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
+from gearlube_core.units import labelled
 
 PATH_POSITIONS = 161  # of the unloaded path of contact, over four pitches
 ERROR_POSITIONS = 64  # of the unloaded transmission error, over one
@@ -112,11 +113,7 @@ def contact_dataset(
     coords: dict[str, Any] = {
         "side": list(SIDES),
         "phase": ("phase", settings.phases, {"units": "1", "long_name": "mesh phase"}),
-        "torque": (
-            "torque",
-            list(settings.torques),
-            {"units": "N.m", "long_name": "pinion torque"},
-        ),
+        "torque": labelled("torque", list(settings.torques), "N.m", "pinion torque"),
         "axis": ["x", "y", "z"],
     }
     places: dict[str, tuple[NDArray[Any], str]] = {

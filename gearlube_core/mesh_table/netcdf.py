@@ -29,6 +29,7 @@ from gearlube_core.mesh_table.table import (
     Provenance,
 )
 from gearlube_core.storage.atomic_file import DAMAGED, check_seal, write_dataset
+from gearlube_core.units import labelled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -104,10 +105,8 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
     dataset = xr.Dataset(
         data,
         coords={
-            "torque": (
-                "torque",
-                table.torque,
-                {"units": "N.m", "long_name": "pinion torque, negative on the coast flanks"},
+            "torque": labelled(
+                "torque", table.torque, "N.m", "pinion torque, negative on the coast flanks"
             ),
             "part": ("part", ["cos", "sin"]),
         },

@@ -26,7 +26,13 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_text
-from gearlube_core.units import celsius_to_kelvin, kelvin_to_celsius, rads_to_rpm, rpm_to_rads
+from gearlube_core.units import (
+    celsius_to_kelvin,
+    kelvin_to_celsius,
+    labelled,
+    rads_to_rpm,
+    rpm_to_rads,
+)
 
 DEFAULT_LAWS = (DEFAULT_LAW, "zhou_hoeprich")  # the second tells rolling and rib apart
 MOST_POINTS = 50_000  # conditions times laws
@@ -219,10 +225,8 @@ def _bearing_dataset(
     parts = [part for part in PARTS if any(part in one.parts for one in losses)]
     table = np.array([[one.parts.get(part, np.nan) for one in losses] for part in parts])
     words = "torque of one part; nan where the law does not tell it apart"
-    variables["part_torque"] = (
-        ("part", *_CONDITIONS),
-        table.reshape(len(parts), *shape),
-        {"units": "N.m", "long_name": words},
+    variables["part_torque"] = labelled(
+        ("part", *_CONDITIONS), table.reshape(len(parts), *shape), "N.m", words
     )
     coordinates = {
         "part": parts,
@@ -230,10 +234,8 @@ def _bearing_dataset(
         "speed": ("speed", list(settings.speeds), {"units": "rad/s", "long_name": "shaft speed"}),
         "axial_load": ("axial_load", list(settings.axial_loads), {"units": "N"}),
         "radial_load": ("radial_load", list(settings.radial_loads), {"units": "N"}),
-        "temperature": (
-            "temperature",
-            list(settings.temperatures),
-            {"units": "K", "long_name": "oil at the bearing"},
+        "temperature": labelled(
+            "temperature", list(settings.temperatures), "K", "oil at the bearing"
         ),
     }
     attributes = {

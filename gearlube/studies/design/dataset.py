@@ -18,6 +18,7 @@ from gearlube_core.hypoid_design.design import Design, misses
 from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
 from gearlube_core.input_file.input_file import InputNote
+from gearlube_core.units import labelled
 
 _PERIOD = round(1.0 / float(PATH_PHASES[1] - PATH_PHASES[0]))  # positions of the path a pitch
 _FINER = 10  # times as many of the mesh, so that it shows where one pair takes over from another
@@ -55,11 +56,7 @@ def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
         found["error"] = mesh_error(found["path_error"], 1.0 if side == "drive" else -1.0)
         sides.append(found)
     data = {
-        name: (
-            ("side", *dims),
-            np.stack([side[name] for side in sides]),
-            {"units": unit, "long_name": text},
-        )
+        name: labelled(("side", *dims), np.stack([side[name] for side in sides]), unit, text)
         for name, (dims, unit, text) in _VARIABLES.items()
     }
     for name, text in (
@@ -148,10 +145,8 @@ def _limits(forms: dict[str, ToothForm]) -> dict[str, Any]:
             [form.active for form in forms.values()],
             {"units": "1", "long_name": "reach of the mate's tip, root 0 to tip 1"},
         ),
-        "normal_module": (
-            ("member",),
-            [form.normal_module for form in forms.values()],
-            {"units": "m", "long_name": "mean normal module"},
+        "normal_module": labelled(
+            ("member",), [form.normal_module for form in forms.values()], "m", "mean normal module"
         ),
     }
 

@@ -14,7 +14,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.friction.line_integrals import LineFrictionCycle
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.units import kelvin_to_celsius
+from gearlube_core.units import kelvin_to_celsius, labelled
 
 PHASES, NODES = 96, 16
 _FEW = 16, 4  # phases and nodes where only a share is asked for
@@ -60,11 +60,7 @@ def film_dataset(
     valid = points.length > 0.0
     place = ("friction_phase", "friction_line", "point")
     variables: Variables = {
-        name: (
-            place,
-            np.where(valid, getattr(cycle, name), np.nan),
-            {"units": unit, "long_name": words},
-        )
+        name: labelled(place, np.where(valid, getattr(cycle, name), np.nan), unit, words)
         for name, (unit, words) in _POINTS.items()
     }
     for name, values, unit, words in (
@@ -72,10 +68,8 @@ def film_dataset(
         ("z", points.z, "m", "along the axis from mid-face"),
         ("length", points.length, "m", "length of line that a point stands for"),
     ):
-        variables[name] = (
-            place,
-            np.where(valid, values, np.nan if name != "length" else 0.0),
-            {"units": unit, "long_name": words},
+        variables[name] = labelled(
+            place, np.where(valid, values, np.nan if name != "length" else 0.0), unit, words
         )
     pressed = load * points.length
     side = np.sign(points.x - points.pair.pitch_point)
@@ -118,11 +112,7 @@ def film_dataset(
     dataset = xr.Dataset(
         variables,
         coords={
-            "friction_phase": (
-                "friction_phase",
-                points.phase,
-                {"units": "1", "long_name": "mesh phase"},
-            ),
+            "friction_phase": labelled("friction_phase", points.phase, "1", "mesh phase"),
             "film_speed": ("film_speed", speeds, {"units": "rad/s", "long_name": "pinion speed"}),
         },
     )

@@ -27,6 +27,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.units import labelled
 
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
 
@@ -170,10 +171,8 @@ def operating_point(
         variables[name] = (("case",), np.array(values), {"units": unit, "long_name": words})
     variables["case_mu"] = (("case",), np.array(values_of_mu), MU_LABEL)
     frequencies = natural_frequencies(linear_system(parameters)) / (2.0 * np.pi)
-    variables["natural_frequency"] = (
-        ("mode",),
-        frequencies,
-        {"units": "Hz", "long_name": "natural frequency with the mean mesh, without damping"},
+    variables["natural_frequency"] = labelled(
+        ("mode",), frequencies, "Hz", "natural frequency with the mean mesh, without damping"
     )
     dataset = xr.Dataset(
         variables,

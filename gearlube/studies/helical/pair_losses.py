@@ -25,7 +25,7 @@ from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinem
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant, LubricantState
-from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius
+from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 
 PARTS_OF_LOSS = ("sliding", "rolling")
 NOT_MODELLED = "bearings, seals, churning and squeezing of oil, windage"
@@ -196,17 +196,11 @@ def losses_dataset(
             for name, (dims, values, unit, words) in variables.items()
         },
         coords={
-            "temperature": (
-                "temperature",
-                temperatures - ZERO_CELSIUS,
-                {"units": "degC", "long_name": "oil temperature"},
+            "temperature": labelled(
+                "temperature", temperatures - ZERO_CELSIUS, "degC", "oil temperature"
             ),
             "torque": ("torque", torques, {"units": "N.m", "long_name": "pinion torque"}),
-            "speed": (
-                "speed",
-                speeds * 30.0 / math.pi,
-                {"units": "rpm", "long_name": "pinion speed"},
-            ),
+            "speed": labelled("speed", speeds * 30.0 / math.pi, "rpm", "pinion speed"),
             "part": ("part", np.array(PARTS_OF_LOSS), {"units": "", "long_name": "kind of loss"}),
         },
         attrs={

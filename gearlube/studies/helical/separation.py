@@ -17,6 +17,7 @@ from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.periodic import Branch, follow
+from gearlube_core.units import labelled
 
 DIVISIONS = 2  # parts of a line that can lift off by themselves
 RANGE = (0.3, 1.3)  # mesh frequency over that of the mesh's own mode
@@ -68,10 +69,8 @@ def separation_dataset(
     length = max(one["speed"].size for one in found)
     specials = max(len(one["special"]) for one in found)
     variables: Variables = {
-        name: (
-            ("damping", "row"),
-            np.stack([_padded(one[name], length) for one in found]),
-            {"units": unit, "long_name": words},
+        name: labelled(
+            ("damping", "row"), np.stack([_padded(one[name], length) for one in found]), unit, words
         )
         for name, (unit, words) in _ROW.items()
     }
@@ -85,11 +84,7 @@ def separation_dataset(
         ("special_peak_to_peak", 2, "m", "transmission error there, peak to peak"),
     ):
         values = [_padded(np.array([s[at] for s in one["special"]]), specials) for one in found]
-        variables[name] = (
-            ("damping", "special"),
-            np.stack(values),
-            {"units": unit, "long_name": words},
-        )
+        variables[name] = labelled(("damping", "special"), np.stack(values), unit, words)
     kinds = [[s[0] for s in one["special"]] for one in found]
     variables["special_kind"] = (
         ("damping", "special"),
@@ -101,15 +96,11 @@ def separation_dataset(
     dataset = xr.Dataset(
         variables,
         coords={
-            "damping": (
-                "damping",
-                np.array(ratios),
-                {"units": "1", "long_name": "damping ratio of mesh and supports"},
+            "damping": labelled(
+                "damping", np.array(ratios), "1", "damping ratio of mesh and supports"
             ),
-            "linear_speed": (
-                "linear_speed",
-                found[0]["linear_speed"],
-                {"units": "rad/s", "long_name": "pinion speed"},
+            "linear_speed": labelled(
+                "linear_speed", found[0]["linear_speed"], "rad/s", "pinion speed"
             ),
         },
     )

@@ -27,6 +27,7 @@ from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.periodic.floquet import floquet_multipliers
 from gearlube_core.storage.process_pool import ProcessPool
 from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, resumable_results
+from gearlube_core.units import labelled
 
 Axis = Literal["stiffness_variation", "damping_ratio", "mu"]
 _SAMPLES = 16  # the march adds the mesh's own kinks
@@ -186,27 +187,17 @@ def stability_dataset(
                 "variation",
             ),
             "growth_damping": growth("damping", "growth of disturbances", "damping_ratio"),
-            "natural_frequency": (
-                ("mode",),
-                modes,
-                {"units": "Hz", "long_name": "natural frequency with the mean mesh"},
+            "natural_frequency": labelled(
+                ("mode",), modes, "Hz", "natural frequency with the mean mesh"
             ),
         },
         coords={
-            "mesh_frequency": (
-                "mesh_frequency",
-                frequency,
-                {"units": "Hz", "long_name": "mesh frequency"},
+            "mesh_frequency": labelled("mesh_frequency", frequency, "Hz", "mesh frequency"),
+            "variation": labelled(
+                "variation", variation, "1", "factor on the mesh's deviation from its mean"
             ),
-            "variation": (
-                "variation",
-                variation,
-                {"units": "1", "long_name": "factor on the mesh's deviation from its mean"},
-            ),
-            "damping_ratio": (
-                "damping_ratio",
-                damping,
-                {"units": "1", "long_name": "damping ratio of mesh and supports"},
+            "damping_ratio": labelled(
+                "damping_ratio", damping, "1", "damping ratio of mesh and supports"
             ),
         },
     )

@@ -41,6 +41,7 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import (
 )
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.progress import Progress, no_progress
+from gearlube_core.units import labelled
 
 _PHASES = 240
 
@@ -317,10 +318,8 @@ def _constant_density_stiffness(settings: HelicalSettings, density: float) -> xr
         },
         coords={
             "zone_phase": ("zone_phase", phase, {"units": "1", "long_name": "mesh phase"}),
-            "constant_line": (
-                "constant_line",
-                lines,
-                {"units": "1", "long_name": "contact line by age, 0 enters at phase 0"},
+            "constant_line": labelled(
+                "constant_line", lines, "1", "contact line by age, 0 enters at phase 0"
             ),
         },
     )

@@ -39,6 +39,7 @@ from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports import BEARING_FORCES
 from gearlube_core.storage.process_pool import ProcessPool
 from gearlube_core.storage.resumable import ARRAYS, Record, ResultStore, resumable_results
+from gearlube_core.units import labelled
 
 QUANTITIES = (*RELATIVE, *COMPOSITES)
 _FORMAT = 1  # raise with every change of the model that changes results
@@ -185,10 +186,8 @@ def sweep_dataset(
             if name.startswith("film_")
         }
         variables |= _harmonics(film, ("speed", "harmonic"), "film_")
-        variables["film_friction_torque"] = (
-            ("speed",),
-            film["friction_torque"],
-            {"units": "N.m", "long_name": "friction torque at the pinion, oil film"},
+        variables["film_friction_torque"] = labelled(
+            ("speed",), film["friction_torque"], "N.m", "friction torque at the pinion, oil film"
         )
     frequency = np.array([parameters.pair.mesh_frequency(speed) for speed in tasks])
     orders = np.arange(1, HARMONICS + 1) * 2.0 * np.pi * frequency[:, None]
@@ -198,11 +197,7 @@ def sweep_dataset(
             dimensions, amplitude, _ = variables[f"{prefix}delta_z_harmonic"]
             label = {"units": "m/s", "long_name": words}
             variables[f"{prefix}delta_z_rate_harmonic"] = dimensions, amplitude * orders, label
-    variables["mesh_frequency"] = (
-        ("speed",),
-        frequency,
-        {"units": "Hz", "long_name": "mesh frequency"},
-    )
+    variables["mesh_frequency"] = labelled(("speed",), frequency, "Hz", "mesh frequency")
     variables["natural_frequency"] = (
         ("mode",),
         natural_frequencies(linear_system(parameters)) / (2.0 * np.pi),

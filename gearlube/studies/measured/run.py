@@ -20,6 +20,7 @@ from gearlube_core.hypoid_geometry.measured.measured_flanks import (
 )
 from gearlube_core.storage.atomic_file import write_figure, write_text
 from gearlube_core.storage.file_names import pair_stem
+from gearlube_core.units import labelled
 
 _LEAST = 1e-3  # um, amplitude that is shown
 
@@ -44,11 +45,7 @@ def flank_dataset(flanks: MeasuredFlanks, fits: Sequence[SettingsFit] = ()) -> x
         name: (("flank", "row", "column"), _padded(values), {"units": unit, "long_name": text})
         for name, (unit, text, values) in maps.items()
     }
-    data["teeth"] = (
-        ("flank",),
-        [len(one.teeth) for one in grids],
-        {"units": "1", "long_name": "measured teeth"},
-    )
+    data["teeth"] = labelled(("flank",), [len(one.teeth) for one in grids], "1", "measured teeth")
     data["rest_rms"] = (
         ("flank",),
         [one.residual_rms for one in surfaces],

@@ -23,6 +23,7 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_figure
 from gearlube_core.storage.file_names import pair_stem
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
+from gearlube_core.units import labelled
 
 POSITIONS = 12
 STORE = "positions"  # folder of finished positions, in that of the results
@@ -128,15 +129,11 @@ def run_tooth_errors(
 def tooth_error_dataset(cycle: ToothErrorCycle, name: str = "") -> xr.Dataset:
     """Return the added transmission error over the hunting turn, and its orders, as a dataset."""
     data = {
-        "error": (
-            ("torque", "mesh", "phase"),
-            cycle.error,
-            {"units": "m", "long_name": "added transmission error, the gear lags"},
+        "error": labelled(
+            ("torque", "mesh", "phase"), cycle.error, "m", "added transmission error, the gear lags"
         ),
-        "rest_rms": (
-            ("torque",),
-            cycle.turns()[1],
-            {"units": "m", "long_name": "part that repeats with the hunting turn alone, rms"},
+        "rest_rms": labelled(
+            ("torque",), cycle.turns()[1], "m", "part that repeats with the hunting turn alone, rms"
         ),
     }
     for member, orders in cycle.orders().items():

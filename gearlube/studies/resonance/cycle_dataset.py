@@ -12,6 +12,7 @@ from gearlube.studies.resonance.flank_cycle import CURVES, SHEAR_RATES, FlankCyc
 from gearlube.studies.resonance.response import ORBIT_STEPS, Motion
 from gearlube.studies.resonance.study import ResonanceStudy
 from gearlube_core.arrays import Array
+from gearlube_core.units import labelled
 
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
 
@@ -108,11 +109,7 @@ def _motions(motions: list[Motion]) -> Variables:
             np.arange(SHOWN_PERIODS * ORBIT_STEPS) / ORBIT_STEPS,
             {"units": "1", "long_name": "pinion rotation in mesh periods"},
         ),
-        "order": (
-            ("order",),
-            0.5 * np.arange(2 * SPECTRUM_ORDERS + 1),
-            {"units": "1", "long_name": "mesh order"},
-        ),
+        "order": labelled(("order",), 0.5 * np.arange(2 * SPECTRUM_ORDERS + 1), "1", "mesh order"),
         "x": (
             series,
             each(lambda m: shown(m.orbit.x, m)),
@@ -126,11 +123,7 @@ def _motions(motions: list[Motion]) -> Variables:
             each(lambda m: shown(m.rate, m)),
             {"units": "m s-1", "long_name": "rate of the dynamic transmission error"},
         ),
-        "force": (
-            series,
-            each(lambda m: shown(m.orbit.force, m)),
-            {"units": "N", "long_name": "mesh force"},
-        ),
+        "force": labelled(series, each(lambda m: shown(m.orbit.force, m)), "N", "mesh force"),
         "spectrum": (
             ("motion", "order"),
             each(_spectrum),
@@ -171,10 +164,8 @@ def _contacts(cycles: list[FlankCycle]) -> Variables:
         for name, (unit, words) in _PAIR.items()
     }
     samples = cycles[0].values["load"].shape[1]
-    variables["phase"] = (
-        ("phase",),
-        np.arange(samples) / samples,
-        {"units": "1", "long_name": "pinion rotation in mesh periods"},
+    variables["phase"] = labelled(
+        ("phase",), np.arange(samples) / samples, "1", "pinion rotation in mesh periods"
     )
     variables["case_relative_frequency"] = (
         ("case",),
@@ -192,10 +183,8 @@ def _contacts(cycles: list[FlankCycle]) -> Variables:
 def _curves(curves: list[TractionCurve]) -> Variables:
     variables: Variables = {
         "curve": (("curve",), np.array(CURVES, dtype="U32"), {"long_name": "film model"}),
-        "curve_shear_rate": (
-            ("curve_shear_rate",),
-            SHEAR_RATES,
-            {"units": "s-1", "long_name": "sliding speed over film thickness"},
+        "curve_shear_rate": labelled(
+            ("curve_shear_rate",), SHEAR_RATES, "s-1", "sliding speed over film thickness"
         ),
         "curve_stress": (
             ("case", "curve", "curve_shear_rate"),

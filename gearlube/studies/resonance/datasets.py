@@ -14,6 +14,7 @@ from gearlube.studies.resonance.settings import SWEPT
 from gearlube.studies.resonance.study import DIRECTIONS, ResonanceStudy
 from gearlube.studies.resonance.summary import mesh_harmonics
 from gearlube_core.arrays import Array
+from gearlube_core.units import labelled
 
 MULTIPLIERS = 3  # of the 2-DOF model; the 1-DOF model has two
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
@@ -69,11 +70,7 @@ def resonance_dataset(study: ResonanceStudy) -> xr.Dataset:
         variables,
         coords={
             "model": ("model", np.array(models, dtype="U32"), {"long_name": "model"}),
-            "harmonic": (
-                "harmonic",
-                np.arange(1, HARMONICS + 1),
-                {"units": "1", "long_name": "mesh order"},
-            ),
+            "harmonic": labelled("harmonic", np.arange(1, HARMONICS + 1), "1", "mesh order"),
         },
         attrs=study_attributes(study),
     )
@@ -236,9 +233,7 @@ def _sweeps(study: ResonanceStudy) -> Variables:
         np.array(DIRECTIONS, dtype="U8"),
         {"long_name": "direction of the time sweep"},
     )
-    variables["sweep"] = (
-        ("sweep",),
-        np.arange(size),
-        {"units": "1", "long_name": "place in the sweep, in the order it was run"},
+    variables["sweep"] = labelled(
+        ("sweep",), np.arange(size), "1", "place in the sweep, in the order it was run"
     )
     return variables

@@ -29,6 +29,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_figure, write_text
 from gearlube_core.tooth_contact.series_rates import SeriesRates
+from gearlube_core.units import labelled
 
 GearFile = HypoidGearFile | HelicalGearFile
 POSITIONS = "positions"  # folder of finished positions, in that of the results
@@ -263,25 +264,19 @@ def _dataset(
         )
     stable: Array = np.array([one is not None and one.stable for one in motions], float)
     data["stable"] = (("pinion_speed",), stable, {"units": "1", "long_name": "1: stable motion"})
-    data["loaded_error"] = (
-        ("phase",),
-        table.rotation,
-        {"units": "rad", "long_name": "static transmission error under load"},
+    data["loaded_error"] = labelled(
+        ("phase",), table.rotation, "rad", "static transmission error under load"
     )
-    data["loaded_error_rate"] = (
-        ("parameter", "phase"),
-        table.rotation_rate,
-        {"units": "rad per unit of the parameter", "long_name": "its rate"},
+    data["loaded_error_rate"] = labelled(
+        ("parameter", "phase"), table.rotation_rate, "rad per unit of the parameter", "its rate"
     )
     model = HypoidTorsional(pair)
     own = {"units": "unit of the parameter"}
     return xr.Dataset(
         data,
         coords={
-            "pinion_speed": (
-                "pinion_speed",
-                list(settings.speeds),
-                {"units": "rad/s", "long_name": "mean pinion speed"},
+            "pinion_speed": labelled(
+                "pinion_speed", list(settings.speeds), "rad/s", "mean pinion speed"
             ),
             "order": ("order", list(settings.orders), {"units": "1", "long_name": "mesh order"}),
             "phase": (

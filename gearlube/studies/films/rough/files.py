@@ -24,6 +24,7 @@ from gearlube_core.ehl.statistics.zone import FilmZone
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.storage.atomic_file import read_dataset, write_dataset, write_figure, write_text
+from gearlube_core.units import labelled
 
 # of every step beside its statistics: name, unit, words
 WORK = (
@@ -145,11 +146,7 @@ def write_frame(folder: Path, step: int, solution: FilmSolution, key: str) -> No
     }
     frame = xr.Dataset(
         {
-            name: (
-                ("time", "x", "y"),
-                values[None].astype(np.float32),
-                {"units": unit, "long_name": words},
-            )
+            name: labelled(("time", "x", "y"), values[None].astype(np.float32), unit, words)
             for name, (values, unit, words) in fields.items()
         },
         {
