@@ -158,52 +158,19 @@ def pair_contacts(
         temperature = rng.uniform(*oil_temperatures(oil))
         motion = line_kinematics(float(x[n]), speed, plane)
         load = torque / (plane.r_bp * plane.cos_b * float(total[n])) * rng.uniform(*_UNEVEN)
-        one = line_contact_of(
-            load,
-            motion.R,
-            motion.entrainment,
-            abs(motion.sliding),
-            oil,
-            temperature,
-            1e6 * log_uniform(rng, 1.0, 10.0),
+        one = LineContact(
+            line_load=load,
+            contact_modulus=_E,
+            R=motion.R,
+            entrainment_speed=motion.entrainment,
+            sliding_speed=abs(motion.sliding),
+            limiting_stress=0.0,
+            limiting_slope=0.0,
+            **oil_of_library(oil, temperature, 1e6 * log_uniform(rng, 1.0, 10.0)),
         )
         if line_fits(one, limits):
             found.append(one)
     return found
-
-
-def line_contact_of(
-    line_load: float,
-    R: float,
-    entrainment: float,
-    sliding: float,
-    oil: Lubricant,
-    temperature: float,
-    tau0: float,
-) -> LineContact:
-    """Return the contact of steel bodies with an oil of the library.
-
-    Parameters
-    ----------
-    line_load, R
-        [N/m], [m].
-    entrainment, sliding
-        Amounts [m/s].
-    oil, temperature
-        Oil and its temperature [K].
-    tau0
-        Eyring stress [Pa].
-    """
-    return LineContact(
-        line_load=line_load,
-        contact_modulus=_E,
-        R=R,
-        entrainment_speed=entrainment,
-        sliding_speed=sliding,
-        limiting_stress=0.0,
-        limiting_slope=0.0,
-        **oil_of_library(oil, temperature, tau0),
-    )
 
 
 class _Races(NamedTuple):

@@ -17,7 +17,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, AxleLosses
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.ranges import left_ranges
-from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius
+from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 
 GRID = ("temperature", "speed", "torque")
 _LEAST_INPUT = 0.5  # share of the input that is lost, above which no efficiency is stated
@@ -84,18 +84,15 @@ def loss_map_dataset(
             ),
         }
     coordinates = {
-        "temperature": ("temperature", temperatures - ZERO_CELSIUS, _about("degC", "oil")),
-        "speed": ("speed", speeds * 30.0 / np.pi, _about("rpm", "speed of the pinion")),
-        "torque": ("torque", torques, _about("N.m", "torque on the pinion; < 0: coast")),
+        "temperature": labelled("temperature", temperatures - ZERO_CELSIUS, "degC", "oil"),
+        "speed": labelled("speed", speeds * 30.0 / np.pi, "rpm", "speed of the pinion"),
+        "torque": labelled("torque", torques, "N.m", "torque on the pinion; < 0: coast"),
         "source": ("source", np.array(LOSS_SOURCES), {"long_name": "kind of loss"}),
     }
     if spread is not None:
         coordinates["input"] = ("input", np.array(names), {"long_name": "uncertain input"})
     return xr.Dataset(
-        {
-            name: (dims, values, _about(unit, words))
-            for name, (dims, values, unit, words) in variables.items()
-        },
+        {name: labelled(*variable) for name, variable in variables.items()},
         coords=coordinates,
         attrs=_attributes(settings, losses),
     )
@@ -112,15 +109,17 @@ def with_steady_temperature(
     heat = cooling.heat
     return dataset.assign(
         {
-            "steady_temperature": (
+            "steady_temperature": labelled(
                 GRID[1:],
                 temperature - ZERO_CELSIUS,
-                _about("degC", "oil temperature at constant running"),
+                "degC",
+                "oil temperature at constant running",
             ),
-            "steady_loss_torque": (
+            "steady_loss_torque": labelled(
                 GRID[1:],
                 power / turning,
-                _about("N.m", "loss torque at the pinion, at that temperature"),
+                "N.m",
+                "loss torque at the pinion, at that temperature",
             ),
         }
     ).assign_attrs(
@@ -162,10 +161,6 @@ def _of_film_model(losses: AxleLosses, pinion_power: Array, total: Array) -> dic
             "share of the flanks' load outside the domain of the film model",
         ),
     }
-
-
-def _about(unit: str, words: str) -> dict[str, str]:
-    return {"units": unit, "long_name": words}
 
 
 def _finite(values: Array) -> Array:
