@@ -11,7 +11,6 @@ from gearlube.studies.helical.geometry_lines import (
     STATIONS,
     Part,
     Variables,
-    described,
     relieved_lines_always_touch,
 )
 from gearlube_core.arrays import Array
@@ -27,6 +26,7 @@ from gearlube_core.helical_geometry.modification import (
     TipRelief,
 )
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap, contact_line_gap
+from gearlube_core.units import labelled
 
 RELIEF_FORMS = (0.0, 0.5, 1.0)  # k of [jamali_2015 fig. 5.2] to 5.4
 CROWN_STARTS = (0.0, 0.1, 0.25, 0.4, 0.45)  # F_o over F, [jamali_2015 sec. 4.6]
@@ -47,13 +47,13 @@ def gap_variables(modified: ModifiedPair, X: Array, torque: float, modulus: floa
     R = line_kinematics(at_mid_face, 1.0, plane).R
     x = np.linspace(-1.0, 1.0, _ACROSS) * math.sqrt(2.0 * R * _EDGE_GAP)
     variables: Variables = {
-        "hertz_half_width": described(
+        "hertz_half_width": labelled(
             (), _half_width(modified, middle, torque, modulus, R), "m",
             "half-width of the middle line's contact under its shared load, dry",
         ),
     }  # fmt: skip
     coordinates: Variables = {
-        "x": described(("x",), x, "m", "across the contact line, towards the pinion's root"),
+        "x": labelled(("x",), x, "m", "across the contact line, towards the pinion's root"),
     }
     for part in (
         _along_lines(modified, X, y),
@@ -82,11 +82,11 @@ def _along_lines(modified: ModifiedPair, X: Array, y: Array) -> Part:
     touching = (on_line >= plane.A) & (on_line <= plane.D)
     lines = ("shown", "y")
     variables: Variables = {
-        "line_gap": described(
+        "line_gap": labelled(
             lines, np.where(touching, [gap.gap for gap in gaps], np.nan), "m",
             "gap along a contact line, normal to the flanks",
         ),
-        "crown_gap": described(("y",), gaps[0].crown, "m", "part of the gap due to crowns"),
+        "crown_gap": labelled(("y",), gaps[0].crown, "m", "part of the gap due to crowns"),
     }  # fmt: skip
     coordinates: Variables = {}
     if plane.sin_b <= 0.0 or _relieved_members(modified) == []:
@@ -95,18 +95,18 @@ def _along_lines(modified: ModifiedPair, X: Array, y: Array) -> Part:
         starts = np.array([getattr(gap, f"{member}_relief_start") for gap in gaps])
         if member not in _relieved_members(modified):
             starts = np.full(X.size, np.nan)
-        variables[f"{member}_relief_start"] = described(
+        variables[f"{member}_relief_start"] = labelled(
             ("shown",), starts, "m", f"y on a shown line where the {member}'s tip relief starts"
         )
     forms = [
         [contact_line_gap(_with_relief_form(modified, k), float(one), y).gap for one in X]
         for k in RELIEF_FORMS
     ]
-    variables["line_gap_by_form"] = described(
+    variables["line_gap_by_form"] = labelled(
         ("k", *lines), np.where(touching, forms, np.nan), "m",
         "gap along a contact line with parabolic share k of the tip relief",
     )  # fmt: skip
-    coordinates["k"] = described(
+    coordinates["k"] = labelled(
         ("k",), np.array(RELIEF_FORMS), "1", "tip relief: 0 linear, 1 parabolic"
     )
     return Part(variables, coordinates)
@@ -130,23 +130,23 @@ def _crown_forms(modified: ModifiedPair, X: float, x: Array, y: Array) -> Part:
     touching = (on_line >= plane.A) & (on_line <= plane.D)
     return Part(
         {
-            "crown_form": described(
+            "crown_form": labelled(
                 ("crown_start", "y"), np.array(forms), "m", "crown of one tooth, normal to it"
             ),
-            "surface_gap": described(
+            "surface_gap": labelled(
                 ("surface_x", "surface_y"), np.where(touching, surface, np.nan), "m",
                 "gap about the middle line, crowns beginning at surface_crown_start",
             ),
-            "surface_crown_start": described(
+            "surface_crown_start": labelled(
                 (), SURFACE_CROWN_START, "1", "start of the crown over face width in surface_gap"
             ),
         },
         {
-            "crown_start": described(
+            "crown_start": labelled(
                 ("crown_start",), np.array(CROWN_STARTS), "1", "start of the crown over face width"
             ),
-            "surface_x": described(("surface_x",), across, "m", "across the contact line"),
-            "surface_y": described(("surface_y",), along, "m", "along the contact line"),
+            "surface_x": labelled(("surface_x",), across, "m", "across the contact line"),
+            "surface_y": labelled(("surface_y",), along, "m", "along the contact line"),
         },
     )  # fmt: skip
 
@@ -161,12 +161,12 @@ def _facets(modified: ModifiedPair, X: float, x: Array) -> Part:
     text = "distance of the pinion's flank from the tangent plane at mid-face of the middle line"
     return Part(
         {
-            "smooth_height": described(("x",), heights(0), "m", f"{text}, smooth"),
-            "faceted_height": described(
+            "smooth_height": labelled(("x",), heights(0), "m", f"{text}, smooth"),
+            "faceted_height": labelled(
                 ("facets", "x"), np.array([heights(n) for n in FACETS]), "m", f"{text}, faceted"
             ),
         },
-        {"facets": described(("facets",), np.array(FACETS), "1", "facets over the profile")},
+        {"facets": labelled(("facets",), np.array(FACETS), "1", "facets over the profile")},
     )
 
 
@@ -192,18 +192,18 @@ def _equal_relief(modified: ModifiedPair, X: Array, y: Array) -> Part:
     levels = ("relieved", "level")
     return Part(
         {
-            "relief_removal": described(levels, np.array(removals), "m", "tip relief, normal"),
-            "relief_line": described(
+            "relief_removal": labelled(levels, np.array(removals), "m", "tip relief, normal"),
+            "relief_line": labelled(
                 (*levels, "y"), np.array(lines), "m",
                 "x of a line of equal tip relief on the tangent plane of relief_line_shown",
             ),
-            "relief_line_shown": described(
+            "relief_line_shown": labelled(
                 ("relieved",), np.array(shown), "1", "shown contact line that meets the relief"
             ),
         },
         {
-            "relieved": described(("relieved",), members, "", "member with tip relief"),
-            "level": described(
+            "relieved": labelled(("relieved",), members, "", "member with tip relief"),
+            "level": labelled(
                 ("level",), np.linspace(0.0, 1.0, _RELIEF_LINES), "1",
                 "radial depth into the relief over its extent",
             ),

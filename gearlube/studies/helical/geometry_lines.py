@@ -14,6 +14,7 @@ from gearlube_core.helical_geometry.load_sharing import CONVENTIONS, positions_a
 from gearlube_core.helical_geometry.meshing_steps import line_at_position, position_of_line
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.units import labelled
 
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
 
@@ -29,13 +30,6 @@ class Part(NamedTuple):
 
     variables: Variables
     coordinates: Variables
-
-
-def described(
-    dims: tuple[str, ...], values: Any, unit: str, text: str
-) -> tuple[tuple[str, ...], Any, dict[str, str]]:
-    """Return one variable with its unit and long name."""
-    return dims, values, {"units": unit, "long_name": text}
 
 
 def relieved_lines_always_touch(modified: ModifiedPair) -> bool:
@@ -69,24 +63,24 @@ def load_variables(modified: ModifiedPair, torque: float) -> Part:
     cycle, period_dims = ("relief", "position"), ("relief", "phase")
     by_force = ("relief", "convention", "position")
     variables = {
-        "length": described(cycle, np.array([a for a, _ in one]), "m", "length of a contact line"),
-        "total_length": described(
+        "length": labelled(cycle, np.array([a for a, _ in one]), "m", "length of a contact line"),
+        "total_length": labelled(
             cycle, np.array([b for _, b in one]), "m", "total length of the lines in contact"
         ),
-        "load": described(by_force, np.array(loads), "N", "load of a contact line"),
-        "line_load": described(
+        "load": labelled(by_force, np.array(loads), "N", "load of a contact line"),
+        "line_load": labelled(
             by_force, np.array(line_loads), "N/m", "load of a contact line per unit of its length"
         ),
-        "period_length": described(
+        "period_length": labelled(
             period_dims, total, "m", "total length of the lines in contact over a mesh period"
         ),
-        "lines_in_contact": described(
+        "lines_in_contact": labelled(
             period_dims, np.array(counts), "1", "contact lines of some length"
         ),
-        "mean_length": described(
+        "mean_length": labelled(
             ("relief",), mean, "m", "mean over a mesh period of the total length"
         ),
-        "length_variation": described(
+        "length_variation": labelled(
             ("relief",), np.ptp(total, axis=1) / mean, "1",
             "range of the total length over a mesh period, over its mean",
         ),
@@ -95,10 +89,10 @@ def load_variables(modified: ModifiedPair, torque: float) -> Part:
     return Part(
         variables,
         {
-            "position": described(("position",), s_i, "m", text),
-            "phase": described(("phase",), phase, "1", "mesh phase"),
-            "relief": described(("relief",), list(states), "", "flanks whose lines are counted"),
-            "convention": described(
+            "position": labelled(("position",), s_i, "m", text),
+            "phase": labelled(("phase",), phase, "1", "mesh phase"),
+            "relief": labelled(("relief",), list(states), "", "flanks whose lines are counted"),
+            "convention": labelled(
                 ("convention",), list(CONVENTIONS), "",
                 "load: normal to the flanks, or torque over base radius as the thesis takes it",
             ),
@@ -129,10 +123,10 @@ def path_variables(pair: HelicalPair, pinion_speed: float) -> Part:
     cos_b, path = math.cos(pair.base_helix_angle), ("s",)
     R = np.array([one.R for one in points])
     variables = {
-        "R_transverse": described(
+        "R_transverse": labelled(
             path, R * cos_b, "m", "relative radius of curvature in the transverse plane"
         ),
-        "R_normal": described(path, R, "m", "relative radius of curvature in the normal plane"),
+        "R_normal": labelled(path, R, "m", "relative radius of curvature in the normal plane"),
     }
     for name, field, unit, text in (
         ("R_pinion", "R_p", "m", "transverse radius of curvature of the pinion"),
@@ -142,7 +136,7 @@ def path_variables(pair: HelicalPair, pinion_speed: float) -> Part:
         ("slide_roll", "slide_roll", "1", "sliding over entrainment velocity"),
     ):
         values = np.array([getattr(one, field) for one in points])
-        variables[name] = described(path, values, unit, text)
+        variables[name] = labelled(path, values, unit, text)
     if pair.base_helix_angle > 0.0:
         chords, limits = lay_angles(s, pair, _CHORD), lay_angle_limits(s, pair)
         reached = s + pair.pitch_point + _CHORD * math.sin(pair.base_helix_angle)
@@ -150,13 +144,13 @@ def path_variables(pair: HelicalPair, pinion_speed: float) -> Part:
         for member in ("pinion", "gear"):
             text = f"angle between contact line and grinding marks of the {member}"
             chord = np.where(inside, getattr(chords, member), np.nan)
-            variables[f"lay_{member}"] = described(path, chord, "rad", f"{text}, by a chord")
-            variables[f"lay_{member}_limit"] = described(
+            variables[f"lay_{member}"] = labelled(path, chord, "rad", f"{text}, by a chord")
+            variables[f"lay_{member}_limit"] = labelled(
                 path, getattr(limits, member), "rad", f"{text}, where they cross"
             )
-        variables["lay_chord"] = described((), _CHORD, "m", "chord along the contact line")
+        variables["lay_chord"] = labelled((), _CHORD, "m", "chord along the contact line")
     text = "along the line of action, past the pitch line"
-    return Part(variables, {"s": described(path, s, "m", text)})
+    return Part(variables, {"s": labelled(path, s, "m", text)})
 
 
 def shown_line_variables(modified: ModifiedPair, X: Array, pinion_speed: float) -> Part:
@@ -169,12 +163,12 @@ def shown_line_variables(modified: ModifiedPair, X: Array, pinion_speed: float) 
     ends = ("shown", "end")
     limits = np.array([modified.contact_start, modified.contact_end]) - pair.pitch_point
     variables = {
-        "shown_position": described(
+        "shown_position": labelled(
             ("shown",), position_of_line(X, pair), "m", "position of a shown contact line"
         ),
-        "end_z": described(ends, ends_z, "m", "axial coordinate of a shown line's end"),
-        "end_s": described(ends, ends_s, "m", "path coordinate of a shown line's end"),
-        "unrelieved_s": described(("end",), limits, "m", "where unrelieved contact ends"),
+        "end_z": labelled(ends, ends_z, "m", "axial coordinate of a shown line's end"),
+        "end_s": labelled(ends, ends_s, "m", "path coordinate of a shown line's end"),
+        "unrelieved_s": labelled(("end",), limits, "m", "where unrelieved contact ends"),
     }
     if plane.sin_b > 0.0:
         x = X[:, None] - 0.5 * plane.W * plane.sin_b / plane.cos_b + y * plane.sin_b
@@ -182,15 +176,15 @@ def shown_line_variables(modified: ModifiedPair, X: Array, pinion_speed: float) 
             [line_kinematics(one, pinion_speed, plane).sliding for one in row] for row in x.tolist()
         ]
         touching = (x >= plane.A) & (x <= plane.D)
-        variables["line_sliding"] = described(
+        variables["line_sliding"] = labelled(
             ("shown", "y"), np.where(touching, sliding, np.nan), "m/s",
             "sliding velocity along a shown contact line, pinion less gear",
         )  # fmt: skip
     return Part(
         variables,
         {
-            "shown": described(("shown",), np.arange(1, X.size + 1), "1", "shown contact line"),
-            "end": described(("end",), ["low", "high"], "", "end of a line by its z"),
-            "y": described(("y",), y, "m", "along the contact line, from mid-face"),
+            "shown": labelled(("shown",), np.arange(1, X.size + 1), "1", "shown contact line"),
+            "end": labelled(("end",), ["low", "high"], "", "end of a line by its z"),
+            "y": labelled(("y",), y, "m", "along the contact line, from mid-face"),
         },
     )

@@ -14,7 +14,6 @@ from gearlube.studies.films.datasets.variables import (
     film_heights,
     formula_variables,
     heat_fluxes,
-    noted,
 )
 from gearlube.studies.films.film_formulas import line_film_formulas, point_film_formulas
 from gearlube_core.arrays import Array
@@ -25,6 +24,7 @@ from gearlube_core.ehl.point.thermal.solver import ThermalPointSolution
 from gearlube_core.ehl.point.traction import PointTraction, point_traction
 from gearlube_core.film.groups import point_contact_groups
 from gearlube_core.oil.film_oil import pressure_viscosity
+from gearlube_core.units import labelled
 
 
 def line_dataset(
@@ -58,29 +58,29 @@ def line_dataset(
     dry_pressure, dry_gap = hertz_line(film.x, problem.half_width, problem.hertz_pressure,
                                        problem.radius)  # fmt: skip
     variables: dict[str, Any] = {
-        "pressure": noted("x", film.pressure, "Pa", "pressure"),
-        "film": noted("x", film.film, "m", "film thickness"),
-        "void": noted("x", film.void, "1", "share of the gap without oil"),
-        "viscosity": noted("x", film.viscosity, "Pa s", "viscosity"),
-        "density": noted("x", film.density, "kg/m3", "density"),
-        "mean_stress": noted("x", film.mean_stress, "Pa", "shear stress at mid-film"),
-        "stress_1": noted("x", film.stress_1, "Pa", "shear stress on body 1"),
-        "stress_2": noted("x", film.stress_2, "Pa", "shear stress on body 2"),
-        "mass_flow": noted("x_face", film.mass_flow, "kg/(m s)", "mass flow"),
-        "hertz_pressure": noted("x", dry_pressure, "Pa", "pressure of the dry contact"),
-        "hertz_gap": noted("x", dry_gap, "m", "gap beside the dry contact"),
+        "pressure": labelled("x", film.pressure, "Pa", "pressure"),
+        "film": labelled("x", film.film, "m", "film thickness"),
+        "void": labelled("x", film.void, "1", "share of the gap without oil"),
+        "viscosity": labelled("x", film.viscosity, "Pa s", "viscosity"),
+        "density": labelled("x", film.density, "kg/m3", "density"),
+        "mean_stress": labelled("x", film.mean_stress, "Pa", "shear stress at mid-film"),
+        "stress_1": labelled("x", film.stress_1, "Pa", "shear stress on body 1"),
+        "stress_2": labelled("x", film.stress_2, "Pa", "shear stress on body 2"),
+        "mass_flow": labelled("x_face", film.mass_flow, "kg/(m s)", "mass flow"),
+        "hertz_pressure": labelled("x", dry_pressure, "Pa", "pressure of the dry contact"),
+        "hertz_gap": labelled("x", dry_gap, "m", "gap beside the dry contact"),
     }
     between = 0.5 * (film.x[1:] + film.x[:-1])
     coordinates = {
-        "x": noted("x", film.x, "m", "place along the motion"),
-        "x_face": noted("x_face", between, "m", "place between two nodes"),
+        "x": labelled("x", film.x, "m", "place along the motion"),
+        "x_face": labelled("x_face", between, "m", "place between two nodes"),
     }
     if thermal is not None:
         coordinates["height"] = film_heights(thermal.temperature)
         variables |= {
-            "temperature": noted(("x", "height"), thermal.temperature, "K", "temperature"),
+            "temperature": labelled(("x", "height"), thermal.temperature, "K", "temperature"),
             **heat_fluxes("x", thermal.flux[:, 0], thermal.flux[:, 1]),
-            "temperature_change": noted(
+            "temperature_change": labelled(
                 "turn", np.array(thermal.changes), "K", "largest change of temperature"
             ),
         }
@@ -138,9 +138,9 @@ def _history(film: LineSolution) -> dict[str, Variable]:
     residual = np.concatenate([one.residual for _, one in records])
     load_error = np.concatenate([one.load_error for _, one in records])
     return {
-        "residual_history": noted("iteration", residual, "1", "unbalanced flow over flow"),
-        "load_error_history": noted("iteration", load_error, "1", "error of the load"),
-        "nodes_history": noted("iteration", nodes, "1", "nodes of the grid"),
+        "residual_history": labelled("iteration", residual, "1", "unbalanced flow over flow"),
+        "load_error_history": labelled("iteration", load_error, "1", "error of the load"),
+        "nodes_history": labelled("iteration", nodes, "1", "nodes of the grid"),
     }
 
 
@@ -202,22 +202,22 @@ def point_dataset(
     modulus = 2.0 * problem.contact_modulus
     residuals = np.array(solution.residuals, dtype=float)
     variables: dict[str, Any] = {
-        "pressure": noted(plane, solution.pressure, "Pa", "pressure"),
-        "film": noted(plane, solution.film, "m", "film thickness"),
-        "fill": noted(plane, solution.fill, "1", "share of the gap that holds oil"),
-        "viscosity": noted(plane, shear.viscosity, "Pa s", "viscosity"),
-        "density": noted(plane, shear.density, "kg/m3", "density"),
-        "mean_stress": noted(
+        "pressure": labelled(plane, solution.pressure, "Pa", "pressure"),
+        "film": labelled(plane, solution.film, "m", "film thickness"),
+        "fill": labelled(plane, solution.fill, "1", "share of the gap that holds oil"),
+        "viscosity": labelled(plane, shear.viscosity, "Pa s", "viscosity"),
+        "density": labelled(plane, shear.density, "kg/m3", "density"),
+        "mean_stress": labelled(
             plane, shear.mean_stress, "Pa", "shear stress at mid-film along the sliding velocity"
         ),
-        "hertz_pressure": noted(plane, dry, "Pa", "pressure of the dry contact"),
-        "residual_history": noted(
+        "hertz_pressure": labelled(plane, dry, "Pa", "pressure of the dry contact"),
+        "residual_history": labelled(
             "iteration", residuals, "1", "unbalanced flow over flow, all grids in turn"
         ),
     }
     coordinates = {
-        "x": noted("x", x, "m", "place along x"),
-        "y": noted("y", y, "m", "place along y"),
+        "x": labelled("x", x, "m", "place along x"),
+        "y": labelled("y", y, "m", "place along y"),
     }
     if thermal is not None:
         coordinates["height"] = film_heights(thermal.temperature)
@@ -280,13 +280,13 @@ def _temperatures(thermal: ThermalPointSolution) -> dict[str, Variable]:
     surface_1, surface_2 = thermal.surface_temperature
     middle = thermal.middle_temperature
     return {
-        "temperature": noted((*plane, "height"), thermal.temperature, "K", "temperature"),
-        "temperature_1": noted(plane, surface_1, "K", "temperature of body 1 at the film"),
-        "temperature_middle": noted(plane, middle, "K", "temperature in the middle of the film"),
-        "temperature_2": noted(plane, surface_2, "K", "temperature of body 2 at the film"),
+        "temperature": labelled((*plane, "height"), thermal.temperature, "K", "temperature"),
+        "temperature_1": labelled(plane, surface_1, "K", "temperature of body 1 at the film"),
+        "temperature_middle": labelled(plane, middle, "K", "temperature in the middle of the film"),
+        "temperature_2": labelled(plane, surface_2, "K", "temperature of body 2 at the film"),
         **heat_fluxes(plane, *thermal.flux),
-        "heating": noted(plane, thermal.heating, "W/m2", "heat of shear over the film"),
-        "heat_balance_history": noted(
+        "heating": labelled(plane, thermal.heating, "W/m2", "heat of shear over the film"),
+        "heat_balance_history": labelled(
             "turn",
             np.array(thermal.balances),
             "1",

@@ -14,7 +14,6 @@ from gearlube.studies.films.datasets.variables import (
     Variable,
     error_attributes,
     formula_variables,
-    noted,
     noted_curves,
 )
 from gearlube.studies.films.film_formulas import line_film_formulas
@@ -30,6 +29,7 @@ from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.oil.film_oil import fill_properties
 from gearlube_core.storage.atomic_file import read_arrays, write_arrays
+from gearlube_core.units import labelled
 
 _NOTES = {
     "load": ("N", "load that the pressure carries"),
@@ -102,11 +102,11 @@ class CycleLines:
             if int(step) in self._rows:
                 pressure[k], film[k] = self._rows[int(step)]
         return {
-            "y": noted("y", self._y, "m", "place along the line"),
-            "line_pressure": noted(
+            "y": labelled("y", self._y, "m", "place along the line"),
+            "line_pressure": labelled(
                 ("step", "y"), pressure, "Pa", "largest pressure across the line"
             ),
-            "line_film": noted(("step", "y"), film, "m", "smallest film across the line"),
+            "line_film": labelled(("step", "y"), film, "m", "smallest film across the line"),
         }
 
 
@@ -119,8 +119,8 @@ def with_steady_film(dataset: xr.Dataset, steady: FilmSolution) -> xr.Dataset:
     """Add the steady film at the same line position to the dataset of a step."""
     plane = ("x", "y")
     beside = dataset.assign(
-        steady_pressure=noted(plane, steady.pressure, "Pa", "pressure with the line at rest"),
-        steady_film=noted(plane, steady.film, "m", "film thickness with the line at rest"),
+        steady_pressure=labelled(plane, steady.pressure, "Pa", "pressure with the line at rest"),
+        steady_film=labelled(plane, steady.film, "m", "film thickness with the line at rest"),
     )
     return beside.assign_attrs(
         steady_converged=int(steady.converged), steady_outcome=steady.outcome
@@ -157,10 +157,10 @@ def cycle_dataset(
     steps = cycle["step"]
     position = film.steps.position(steps)
     variables = noted_curves(_NOTES, cycle, "step") | lines.variables(steps)
-    variables["position"] = noted("step", position, "m", "s_i, from the pitch line")
+    variables["position"] = labelled("step", position, "m", "s_i, from the pitch line")
     return xr.Dataset(
         variables,
-        coords={"step": noted("step", steps, "1", "step of the meshing cycle")},
+        coords={"step": labelled("step", steps, "1", "step of the meshing cycle")},
         attrs={
             "contact": "helical_cycle",
             "name": name,
@@ -195,8 +195,8 @@ def with_steady_points(dataset: xr.Dataset, steady: dict[int, FilmSolution]) -> 
         k = int(np.flatnonzero(steps == step)[0])
         pressure[k], film[k] = solution.maximum_pressure, solution.minimum_film
     points: dict[str, Variable] = {
-        "steady_pressure_max": noted("step", pressure, "Pa", "largest pressure, line at rest"),
-        "steady_minimum_film": noted("step", film, "m", "smallest film, line at rest"),
+        "steady_pressure_max": labelled("step", pressure, "Pa", "largest pressure, line at rest"),
+        "steady_minimum_film": labelled("step", film, "m", "smallest film, line at rest"),
     }
     return dataset.assign(points)
 
@@ -268,17 +268,17 @@ def helical_dataset(
     plane = ("x", "y")
     return xr.Dataset(
         {
-            "pressure": noted(plane, solution.pressure, "Pa", "pressure"),
-            "film": noted(plane, solution.film, "m", "film thickness"),
-            "gap": noted(plane, film.gap(x, y, X), "m", "gap of the bare flanks"),
-            "mean_stress": noted(plane, stress, "Pa", "shear stress at mid-film"),
-            "speed_1": noted("y", speed_1, "m/s", "surface speed of the pinion"),
-            "speed_2": noted("y", speed_2, "m/s", "surface speed of the gear"),
+            "pressure": labelled(plane, solution.pressure, "Pa", "pressure"),
+            "film": labelled(plane, solution.film, "m", "film thickness"),
+            "gap": labelled(plane, film.gap(x, y, X), "m", "gap of the bare flanks"),
+            "mean_stress": labelled(plane, stress, "Pa", "shear stress at mid-film"),
+            "speed_1": labelled("y", speed_1, "m/s", "surface speed of the pinion"),
+            "speed_2": labelled("y", speed_2, "m/s", "surface speed of the gear"),
             **formula_variables(line_film_formulas(middle)),
         },
         coords={
-            "x": noted("x", x, "m", "place across the line"),
-            "y": noted("y", y, "m", "place along the line"),
+            "x": labelled("x", x, "m", "place across the line"),
+            "y": labelled("y", y, "m", "place along the line"),
         },
         attrs={
             "contact": "helical",

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.films.datasets.variables import Variable, noted, noted_curves
+from gearlube.studies.films.datasets.variables import Variable, noted_curves
 from gearlube.studies.films.hypoid.flank import HypoidFlank
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import solid_parameters
@@ -33,6 +33,7 @@ from gearlube_core.friction.flank_data import CONSISTENT, contact_geometry
 from gearlube_core.friction.traction_regime import traction_regime
 from gearlube_core.oil.film_oil import viscosity
 from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY
+from gearlube_core.units import labelled
 
 _FILM_NOTES = {
     "load": ("N", "load that the pressure carries"),
@@ -235,14 +236,14 @@ def hypoid_dataset(
     ]
     for name, note in _FORMULA_NOTES.items():
         values = np.array([getattr(one, name) for one in formulas])
-        variables[name] = noted("position", values, *note)
+        variables[name] = labelled("position", values, *note)
     if np.isfinite(flank.drive.axle_film).all():
         for name, values, note in (
             ("axle_film", flank.drive.axle_film, ("m", "film in the running axle model")),
             ("running_friction", flank.drive.axle_friction, ("1", "friction in the running axle")),
         ):
             there = np.interp(steady["time"], flank.film.cycle.time, values)
-            variables[name] = noted("position", there, *note)
+            variables[name] = labelled("position", there, *note)
     variables |= _whole_films(flank, steady)
     if thermal is not None:
         variables |= noted_curves(_THERMAL_NOTES, thermal, "position", "warm_")
@@ -286,10 +287,12 @@ def _curves(
     contact = np.array(
         [[n.phase, n.load, n.R_x, n.R_y, n.speed, n.psi, n.slip, n.chi] for n in of]
     ).T
-    found = {prefix + "time": noted(dimension, curves["time"], "s", "from the first loaded sample")}
+    found = {
+        prefix + "time": labelled(dimension, curves["time"], "s", "from the first loaded sample")
+    }
     found |= noted_curves(_FILM_NOTES, curves, dimension, prefix)
     for (name, note), values in zip(_CONTACT_NOTES.items(), contact, strict=True):
-        found[prefix + name] = noted(dimension, values, *note)
+        found[prefix + name] = labelled(dimension, values, *note)
     return found
 
 
@@ -298,7 +301,7 @@ def _squeeze(steady: FilmCurves, march: FilmCurves) -> dict[str, Variable]:
     found = {}
     for name in ("central_film", "minimum_film", "pressure_max", "traction_heated"):
         there = np.interp(steady["time"], march["time"], march[name])
-        found[f"squeeze_{name}"] = noted(
+        found[f"squeeze_{name}"] = labelled(
             "position", there / steady[name], "1", f"{_FILM_NOTES[name][1]}, in time over steady"
         )
     return found
@@ -314,13 +317,13 @@ def _whole_films(flank: HypoidFlank, steady: FilmCurves) -> dict[str, Variable]:
         [flank.film.problem(flank.film.cycle.at(one.time)).hertz_contact for one in films]
     )
     return {
-        "instant_position": noted("instant", np.array(rows), "1", "its row of positions"),
-        "x": noted("x", films[0].x, "m", "place along the minor axis"),
-        "y": noted("y", films[0].y, "m", "place along the major axis"),
-        "pressure": noted(dims, np.array([one.pressure for one in films]), "Pa", "pressure"),
-        "film": noted(dims, np.array([one.film for one in films]), "m", "film thickness"),
-        "semi_axis_x": noted("instant", axes[:, 0], "m", "minor semi-axis of the dry contact"),
-        "semi_axis_y": noted("instant", axes[:, 1], "m", "major semi-axis of the dry contact"),
+        "instant_position": labelled("instant", np.array(rows), "1", "its row of positions"),
+        "x": labelled("x", films[0].x, "m", "place along the minor axis"),
+        "y": labelled("y", films[0].y, "m", "place along the major axis"),
+        "pressure": labelled(dims, np.array([one.pressure for one in films]), "Pa", "pressure"),
+        "film": labelled(dims, np.array([one.film for one in films]), "m", "film thickness"),
+        "semi_axis_x": labelled("instant", axes[:, 0], "m", "minor semi-axis of the dry contact"),
+        "semi_axis_y": labelled("instant", axes[:, 1], "m", "major semi-axis of the dry contact"),
     }
 
 

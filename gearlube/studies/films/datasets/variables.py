@@ -11,14 +11,10 @@ from gearlube.studies.films.film_formulas import FilmFormula
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.grid_error import FilmError
 from gearlube_core.ehl.transient.curves import FilmCurves
+from gearlube_core.units import labelled
 
 Dimensions = str | tuple[str, ...]
 Variable = tuple[Dimensions, Any, dict[str, str]]
-
-
-def noted(dimensions: Dimensions, values: Any, unit: str, name: str) -> Variable:
-    """Return a variable for `xr.Dataset`: its dimensions, its values, its unit and its name."""
-    return dimensions, values, {"units": unit, "long_name": name}
 
 
 def noted_curves(
@@ -26,21 +22,22 @@ def noted_curves(
 ) -> dict[str, Variable]:
     """Return the columns `notes` of `curves`, names after `prefix`, with their units and names."""
     return {
-        prefix + column: noted(dimension, curves[column], *note) for column, note in notes.items()
+        prefix + column: labelled(dimension, curves[column], *note)
+        for column, note in notes.items()
     }
 
 
 def film_heights(temperature: Array) -> Variable:
     """Return the coordinate along the last axis of a film's temperature, from body 1 to 2."""
     heights = np.linspace(0.0, 1.0, temperature.shape[-1])
-    return noted("height", heights, "1", "height over film, body 1 to 2")
+    return labelled("height", heights, "1", "height over film, body 1 to 2")
 
 
 def heat_fluxes(dimensions: Dimensions, flux_1: Array, flux_2: Array) -> dict[str, Variable]:
     """Return the heat that flows into both bodies [W/m2]."""
     return {
-        "heat_flux_1": noted(dimensions, flux_1, "W/m2", "heat into body 1"),
-        "heat_flux_2": noted(dimensions, flux_2, "W/m2", "heat into body 2"),
+        "heat_flux_1": labelled(dimensions, flux_1, "W/m2", "heat into body 1"),
+        "heat_flux_2": labelled(dimensions, flux_2, "W/m2", "heat into body 2"),
     }
 
 
@@ -62,13 +59,13 @@ def formula_variables(formulas: list[FilmFormula]) -> dict[str, Variable]:
     if not formulas:
         return {}
     return {
-        "formula_film": noted(
+        "formula_film": labelled(
             "formula",
             np.array([one.film for one in formulas]),
             "m",
             "film of a published formula",
         ),
-        "formula_film_over_radius": noted(
+        "formula_film_over_radius": labelled(
             "formula",
             np.array([one.film / one.radius for one in formulas]),
             "1",
