@@ -9,13 +9,7 @@ import numpy as np
 
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
-from gearlube_core.ehl.grid_error import (
-    FilmError,
-    FilmNumbers,
-    check_search,
-    if_converged,
-    with_grids,
-)
+from gearlube_core.ehl.grid_error import check_search, if_converged, with_grids
 from gearlube_core.ehl.line.energy import (
     FilmFields,
     SurfaceHeating,
@@ -29,6 +23,7 @@ from gearlube_core.ehl.line.solution import LineSolution, build_solution
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.ehl.thin_film import thin_film_sentence
+from gearlube_core.ehl.warm_film import WarmFilm
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.film_oil_data import check_warms
 
@@ -62,7 +57,7 @@ class ThermalSettings:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ThermalLineSolution:
+class ThermalLineSolution(WarmFilm):
     """A line film with its temperatures; arrays on the film's `x`."""
 
     film: LineSolution  # mean_stress of the warm film
@@ -74,46 +69,6 @@ class ThermalLineSolution:
     outcome: str
     coarser: tuple[ThermalLineSolution, ...] = ()  # the film on coarser grids, finest first
     wider: ThermalLineSolution | None = None  # the last of them on twice the domain
-
-    @property
-    def nodes(self) -> tuple[int, ...]:
-        """Number of nodes."""
-        return self.film.nodes
-
-    @property
-    def axes(self) -> tuple[np.ndarray, ...]:
-        """Places of the nodes [m]."""
-        return self.film.axes
-
-    @property
-    def pressure(self) -> np.ndarray:
-        """Pressure (n,) [Pa]."""
-        return self.film.pressure
-
-    @property
-    def formal_order(self) -> float:
-        """Return the order of the grid."""
-        return self.film.formal_order
-
-    @property
-    def numbers(self) -> FilmNumbers:
-        """Films, largest pressure and friction."""
-        return self.film.numbers
-
-    @property
-    def error(self) -> FilmError:
-        """Estimated errors of the grid."""
-        return FilmError.of(self)
-
-    @property
-    def surface_temperature(self) -> tuple[np.ndarray, np.ndarray]:
-        """Temperatures of body 1 and body 2 at the film (n,) [K]."""
-        return self.temperature[:, 0], self.temperature[:, -1]
-
-    @property
-    def max_temperature(self) -> float:
-        """Largest temperature in the film [K]."""
-        return float(self.temperature.max())
 
 
 def solve_thermal_line(

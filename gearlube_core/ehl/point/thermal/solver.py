@@ -11,13 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
-from gearlube_core.ehl.grid_error import (
-    FilmError,
-    FilmNumbers,
-    check_search,
-    if_converged,
-    with_grids,
-)
+from gearlube_core.ehl.grid_error import FilmNumbers, check_search, if_converged, with_grids
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual, newton
 from gearlube_core.ehl.point.newton.transfer import Hierarchy
 from gearlube_core.ehl.point.problem import MOST_NODES, PointContactProblem
@@ -31,6 +25,7 @@ from gearlube_core.ehl.point.solver import (
 )
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
+from gearlube_core.ehl.warm_film import WarmFilm
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.film_oil_data import check_warms
 
@@ -63,7 +58,7 @@ class PointThermalSettings:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ThermalPointSolution:
+class ThermalPointSolution(WarmFilm):
     """A point contact's film with its temperatures; arrays over the problem's x and y."""
 
     film: PointSolution  # at the temperatures found
@@ -81,49 +76,14 @@ class ThermalPointSolution:
     wider: ThermalPointSolution | None = None  # the last of them on twice the domain
 
     @property
-    def nodes(self) -> tuple[int, ...]:
-        """Number of nodes along x and y."""
-        return self.film.nodes
-
-    @property
-    def axes(self) -> tuple[Array, ...]:
-        """Places of the nodes along x and y [m]."""
-        return self.film.axes
-
-    @property
-    def pressure(self) -> Array:
-        """Pressure, (nx, ny) [Pa]."""
-        return self.film.pressure
-
-    @property
-    def formal_order(self) -> float:
-        """Return the order of the grid."""
-        return self.film.formal_order
-
-    @property
     def numbers(self) -> FilmNumbers:
         """Films, largest pressure and friction."""
         return self.film.numbers._replace(friction=self.friction_coefficient)
 
     @property
-    def error(self) -> FilmError:
-        """Estimated errors of the grid."""
-        return FilmError.of(self)
-
-    @property
-    def surface_temperature(self) -> tuple[Array, Array]:
-        """Temperatures of body 1 and body 2 at the film, (nx, ny) [K]."""
-        return self.temperature[..., 0], self.temperature[..., -1]
-
-    @property
     def middle_temperature(self) -> Array:
         """Temperature half-way between the surfaces, (nx, ny) [K]."""
         return self.temperature[..., self.temperature.shape[-1] // 2]
-
-    @property
-    def max_temperature(self) -> float:
-        """Largest temperature in the film [K]."""
-        return float(self.temperature.max())
 
     @property
     def friction_force(self) -> float:
