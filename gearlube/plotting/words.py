@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from typing import Any
 
 import numpy as np
 
 from gearlube.plotting.style import GREY, PARTS
+from gearlube_core.arrays import Array
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE, EDGE_WORDS
 
 _WORDS = {
@@ -17,6 +18,7 @@ _WORDS = {
     "misalignment.gear_axial": "misalignment G (gear)",
     "misalignment.shaft_angle": "misalignment Σ (shaft angle)",
 }
+_LOSSES_TOLD, _LEAST_SHARE = 3, 0.005
 _ROOM = 1.45  # height over the highest value, for the words
 SOURCE_WORDS = {
     "friction_viscous": "flank friction (fluid)",
@@ -88,6 +90,20 @@ def source_words(source: str) -> str:
     'bearing drag'
     """
     return SOURCE_WORDS.get(source, source.replace("_", " "))
+
+
+def largest_losses(sources: Iterable[Any], loss: Array) -> str:
+    """Return the three largest losses and their shares; parts below 0.5 % are not told.
+
+    >>> largest_losses(["seals", "churning"], np.array([1.0, 3.0]))
+    'churning 75 %, seals 25 %'
+    """
+    names = [source_words(str(one)) for one in sources]
+    return ", ".join(
+        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %"
+        for i in np.argsort(loss)[::-1][:_LOSSES_TOLD]
+        if loss[i] > _LEAST_SHARE * loss.sum()
+    )
 
 
 def source_colour(source: str) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.range_words import RANGE_WORDS
-from gearlube.plotting.words import source_words
+from gearlube.plotting.words import largest_losses
 from gearlube.report.churning import regime_findings
 from gearlube.report.films import (
     MIXED,
@@ -29,8 +29,7 @@ from gearlube.studies.loss_map.sampling import input_words, mean_swings
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FLANK, ROLLER
 
-_NAMED = 3  # sources of loss and uncertain inputs that are told one by one
-_LEAST_SHARE = 0.005  # of the loss, of a source that is told
+_NAMED = 3  # uncertain inputs that are told one by one
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -128,13 +127,7 @@ def _best(dataset: xr.Dataset) -> list[Finding]:
 def _largest(dataset: xr.Dataset) -> list[Finding]:
     worst = _at(dataset, _power(dataset))
     loss = worst["loss"].values
-    order = np.argsort(loss)[::-1]
-    names = [source_words(str(one)) for one in dataset["source"].values]
-    parts = ", ".join(
-        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %"
-        for i in order[:_NAMED]
-        if loss[i] > _LEAST_SHARE * loss.sum()
-    )
+    parts = largest_losses(dataset["source"].values, loss)
     return [
         Finding(
             NOTE,

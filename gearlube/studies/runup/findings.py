@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.range_words import range_text
-from gearlube.plotting.words import not_modelled, source_words
+from gearlube.plotting.words import largest_losses, not_modelled
 from gearlube.report.churning import regime_findings
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
@@ -20,8 +20,7 @@ from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 SWEEP_RATE = 3.6  # z^2 f^2 Hz/s, [iso_7626_2]: 216 z^2 f^2 Hz/min
 NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
 _MARKED = 3  # mesh orders whose critical speeds are told
-_NAMED = 3  # critical speeds and losses that are told one by one
-_SMALL = 0.005  # of the loss, below which a part is not told
+_NAMED = 3  # critical speeds that are told one by one
 _NARROW = 0.15  # of a speed: a margin below it is worth a warning
 
 
@@ -298,12 +297,7 @@ def _contact(dataset: xr.Dataset) -> list[Finding]:
 def _loss(dataset: xr.Dataset) -> list[Finding]:
     loss = mean_loss(dataset)
     names = [str(one) for one in dataset["source"].values]
-    largest = np.argsort(loss)[::-1][:_NAMED]
-    parts = ", ".join(
-        f"{source_words(names[i])} {100.0 * loss[i] / loss.sum():.0f} %"
-        for i in largest
-        if loss[i] > _SMALL * loss.sum()
-    )
+    parts = largest_losses(names, loss)
     losing = {name for name, one in zip(names, loss, strict=True) if one > 0.0}
     return [
         Finding(

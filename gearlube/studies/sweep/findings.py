@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.words import not_modelled, source_words
+from gearlube.plotting.words import largest_losses, not_modelled
 from gearlube.report.churning import regime_findings
 from gearlube.report.films import (
     bearing_drag,
@@ -37,8 +37,7 @@ from gearlube_core.units import ZERO_CELSIUS
 
 NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
 _CLOSED = 1e-3  # of the input, below which the energy balance is called closed
-_NAMED = 3  # crossings and losses that are told one by one
-_LEAST_SHARE = 0.005  # of the loss, of a source that is told
+_NAMED = 3  # crossings that are told one by one
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -212,13 +211,7 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
     row, column = _place(total.values)
     point = dataset.isel(preload=row, speed=column)
     loss = point["loss"].values
-    order = np.argsort(loss)[::-1]
-    names = [source_words(str(one)) for one in dataset["source"].values]
-    parts = ", ".join(
-        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %"
-        for i in order[:_NAMED]
-        if loss[i] > _LEAST_SHARE * loss.sum()
-    )
+    parts = largest_losses(dataset["source"].values, loss)
     efficiency = dataset["efficiency_axle"]
     losing = {
         str(name)
