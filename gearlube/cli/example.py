@@ -83,12 +83,7 @@ def check_given(target: str, title: str, name: str) -> None:
     Also for a file that is no readable TOML. `target` is the class as for `print_example`, `title`
     its kind of file.
     """
-    from gearlube_core.input_file.input_file import (
-        is_path,
-        read_toml,
-        shipped_names,
-        unknown_name,
-    )
+    from gearlube_core.input_file.input_file import is_path, read_toml, shipped_names, unknown_name
 
     shipped = shipped_names(target.partition(":")[0].rpartition(".")[0])
     if is_path(name, shipped):

@@ -34,11 +34,7 @@ from typing import Any, NamedTuple
 
 from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.roelands_1966 import (
-    GLASS_TEMPERATURE,
-    ROELANDS_KAPPA,
-    ROELANDS_PRESSURE,
-)
+from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 
 _GAMMA = 2.266e-9  # 1/Pa, [jamali_2015 (3.5)]
 _LAMBDA = 1.683e-9  # 1/Pa, the same

@@ -139,13 +139,7 @@ def _side_stress(
 
 @kernel
 def _bracketed(
-    law: Any,
-    sigma_s: float,
-    sigma_r: float,
-    a: float,
-    stress: float,
-    first: int,
-    last: int,
+    law: Any, sigma_s: float, sigma_r: float, a: float, stress: float, first: int, last: int
 ) -> tuple[float, float]:
     # T_s and T_r for a >= 0: with T_r at its own root the rate rises with T_s, from 0 at T_s = 0
     low, high, goal = 0.0, math.inf, math.asinh(a)

@@ -118,11 +118,7 @@ class Stage:
         self.notes.append(ExchangeNote(kind, what, why))
 
     def required(
-        self,
-        name: str,
-        *places: tuple[Component, str, str],
-        given: dict[str, Any],
-        other: str = "",
+        self, name: str, *places: tuple[Component, str, str], given: dict[str, Any], other: str = ""
     ) -> float | None:
         """Return the first number that is there; note where it is from, or that it is absent.
 

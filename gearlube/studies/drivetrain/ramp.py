@@ -300,11 +300,7 @@ def _dataset(
             "line": [one.name for one in orders],
             "part": parts.names,
         },
-        attrs={
-            "name": operation.case.name,
-            "shaft": operation.title,
-            "nodes": ", ".join(nodes),
-        },
+        attrs={"name": operation.case.name, "shaft": operation.title, "nodes": ", ".join(nodes)},
     )
 
 

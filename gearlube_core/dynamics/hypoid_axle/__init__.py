@@ -3,10 +3,7 @@
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise, modes
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.output_names import (
-    OUTPUT_INDEX,
-    OUTPUT_NAMES,
-)
+from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_INDEX, OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 
 __all__ = [

@@ -85,10 +85,7 @@ def hypoid_axle(parameters: HypoidAxleParameters) -> tuple[list[Body], list[Elem
             oil_volume=given.oil_volume,
         ),
     ]
-    ports = [
-        Port(name="input", body="pinion"),
-        Port(name="output", body="gear", sign=-1.0),
-    ]
+    ports = [Port(name="input", body="pinion"), Port(name="output", body="gear", sign=-1.0)]
     return bodies, [*ports, mesh, *bearings, *drags]
 
 

@@ -11,15 +11,7 @@ from gearlube_core.dynamics.hypoid_axle.as_train import (
     numbers_at_rest,
 )
 from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
-from gearlube_core.dynamics.hypoid_axle.state import (
-    CAGE_G,
-    CAGE_P,
-    PHI_G,
-    PHI_P,
-    W_G,
-    W_P,
-    X,
-)
+from gearlube_core.dynamics.hypoid_axle.state import CAGE_G, CAGE_P, PHI_G, PHI_P, W_G, W_P, X
 from gearlube_core.dynamics.hypoid_axle.train_outputs import gather_outputs, output_places
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_mesh.parameters import (

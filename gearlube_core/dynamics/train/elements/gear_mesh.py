@@ -12,11 +12,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.train.element import Listed
-from gearlube_core.dynamics.train.elements.gear_mesh_kernels import (
-    GearMeshKernels,
-    Line,
-    Member,
-)
+from gearlube_core.dynamics.train.elements.gear_mesh_kernels import GearMeshKernels, Line, Member
 from gearlube_core.dynamics.train.elements.orbit import check_distance
 from gearlube_core.dynamics.train.gear_geometry import (
     PitchPoint,
