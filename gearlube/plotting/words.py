@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ _WORDS = {
     "misalignment.gear_axial": "misalignment G (gear)",
     "misalignment.shaft_angle": "misalignment Σ (shaft angle)",
 }
-_LOSSES_TOLD, _LEAST_SHARE = 3, 0.005
+_NAMED, NAMED_SHARE = 3, 0.005  # sources of loss that are named, if they are not smaller
 _ROOM = 1.45  # height over the highest value, for the words
 SOURCE_WORDS = {
     "friction_viscous": "flank friction (fluid)",
@@ -92,17 +92,19 @@ def source_words(source: str) -> str:
     return SOURCE_WORDS.get(source, source.replace("_", " "))
 
 
-def largest_losses(sources: Iterable[Any], loss: Array) -> str:
+def largest_losses(
+    sources: Iterable[Any], loss: Array, words: Callable[[str], str] = source_words
+) -> str:
     """Return the three largest losses and their shares; parts below 0.5 % are not told.
 
     >>> largest_losses(["seals", "churning"], np.array([1.0, 3.0]))
     'churning 75 %, seals 25 %'
     """
-    names = [source_words(str(one)) for one in sources]
+    names = [words(str(one)) for one in sources]
     return ", ".join(
         f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %"
-        for i in np.argsort(loss)[::-1][:_LOSSES_TOLD]
-        if loss[i] > _LEAST_SHARE * loss.sum()
+        for i in np.argsort(loss)[::-1][:_NAMED]
+        if loss[i] > NAMED_SHARE * loss.sum()
     )
 
 

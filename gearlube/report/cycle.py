@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import number_text
+from gearlube.plotting.words import largest_losses
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import NOTE, Cell, Column, Finding, Table
 from gearlube_core.arrays import Array
 
-_NAMED, NAMED_SHARE = 3, 0.005  # sources of loss that are named, if they are not smaller
 WH = 1.0 / 3.6  # Wh in a kJ
 _NOTHING = 1e-6  # kJ
 
@@ -23,12 +23,7 @@ def energy_lost(
     """Return what a cycle costs; `whose` begins the sentence, `words` are those of a source."""
     energy = dataset["energy_lost"].values
     lost, put_in = float(energy.sum()), float(dataset["energy_in"])
-    names = [words(str(one)) for one in dataset["source"].values]
-    parts = ", ".join(
-        f"{names[i]} {100.0 * energy[i] / lost:.0f} %"
-        for i in np.argsort(energy)[::-1][:_NAMED]
-        if energy[i] > NAMED_SHARE * lost
-    )
+    parts = largest_losses(dataset["source"].values, energy, words)
     share = f", {100.0 * lost / put_in:.1f} % of the energy put in" if put_in > 0.0 else ""
     return Finding(
         NOTE,

@@ -10,10 +10,10 @@ import xarray as xr
 
 from gearlube.plotting.cycle import LEAST_SHARE
 from gearlube.plotting.range_words import range_words
-from gearlube.plotting.words import source_colour, source_words
+from gearlube.plotting.words import NAMED_SHARE, source_colour, source_words
 from gearlube.report.charts import Axis, Line, add_line, line_chart, mark_level, panels, stack_chart
 from gearlube.report.churning import regime_findings
-from gearlube.report.cycle import NAMED_SHARE, WH, energy_lost, energy_table
+from gearlube.report.cycle import WH, energy_lost, energy_table
 from gearlube.report.films import (
     bearing_drag,
     covered_share,

@@ -233,10 +233,7 @@ def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> di
 
 
 def run_cycle(
-    settings: DriveCycleSettings,
-    *,
-    folder: Path | None = None,
-    progress: Progress = no_progress,
+    settings: DriveCycleSettings, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
     """Return losses and oil temperature of an axle over a drive cycle.
 

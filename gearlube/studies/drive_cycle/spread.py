@@ -113,10 +113,7 @@ def cycle_spread(
 
 
 def _slopes(
-    settings: DriveCycleSettings,
-    demand: Demand,
-    inputs: tuple[Uncertain, ...],
-    progress: Progress,
+    settings: DriveCycleSettings, demand: Demand, inputs: tuple[Uncertain, ...], progress: Progress
 ) -> list[Array]:
     """Return d ln(loss) by the standard normal of each input; broadcasts to (n, k, sources)."""
     grid = settings.grid
