@@ -1,5 +1,7 @@
 """Exponential Runge-Kutta steps of a train: its linear part exactly, by modes.
 
+Steps are ETDRK4-B of [krogstad_2005]: half the error of those of [cox_matthews_2002].
+
 State between two intervals is that of any train. Within one the modes move: displacements count
 from its start, so that angles that turn on cost no digits.
 """
@@ -18,10 +20,12 @@ from gearlube_core.dynamics.train.exponential_room import (
     FILLED,
     FORCE,
     HALF,
+    OF_BOTH,
+    OF_LAST,
+    OF_SECOND,
+    OF_THIRD,
     STEP,
-    TO_END_1,
-    TO_END_2,
-    TO_END_3,
+    TO_END,
     TO_HALF,
     WHOLE,
     Z_A,
@@ -58,52 +62,41 @@ def write_coefficients(h: float, p: Places, room: Array) -> None:
     n, c = p.modes, part(room, p.coefficients, p.vectors - p.coefficients)
     for k in range(n):
         square, damping = room[p.squares + k], room[p.damping + k]
-        half, to_half, _, _ = phi_functions(square, damping, 0.5 * h)
+        half, to_half, of_half, _ = phi_functions(square, damping, 0.5 * h)
         whole, one, two, three = phi_functions(square, damping, h)
         for i in range(4):
             c[(WHOLE + i) * n + k], c[(HALF + i) * n + k] = whole[i], half[i]
         for i in range(2):
             j = 2 * i + 1
             c[(TO_HALF + i) * n + k] = 0.5 * h * to_half[j]
-            c[(TO_END_1 + i) * n + k] = h * (one[j] - 3.0 * two[j] + 4.0 * three[j])
-            c[(TO_END_2 + i) * n + k] = h * (2.0 * two[j] - 4.0 * three[j])
-            c[(TO_END_3 + i) * n + k] = h * (4.0 * three[j] - two[j])
+            c[(OF_SECOND + i) * n + k] = h * of_half[j]
+            c[(TO_END + i) * n + k] = h * one[j]
+            c[(OF_THIRD + i) * n + k] = 2.0 * h * two[j]
+            c[(OF_BOTH + i) * n + k] = h * (2.0 * two[j] - 4.0 * three[j])
+            c[(OF_LAST + i) * n + k] = h * (4.0 * three[j] - two[j])
     room[STEP] = h
 
 
 @kernel
-def to_half(p: Places, room: Array, start: int, force: Array, end: int) -> None:
-    """Write displacement and speed of the modes after half a step under a force."""
+def move_freely(p: Places, room: Array, linear: int, gain: int, end: int) -> None:
+    """Write displacement and speed of the modes under the force at the start of a step."""
     for i in range(2):
         out = vector(room, p, end + i)
         for k in range(p.modes):
             out[k] = 0.0
-        add_products(coefficient(room, p, HALF + 2 * i), vector(room, p, start), out)
-        add_products(coefficient(room, p, HALF + 2 * i + 1), vector(room, p, start + 1), out)
-        add_products(coefficient(room, p, TO_HALF + i), force, out)
+        add_products(coefficient(room, p, linear + 2 * i), vector(room, p, Z), out)
+        add_products(coefficient(room, p, linear + 2 * i + 1), vector(room, p, V), out)
+        add_products(coefficient(room, p, gain + i), vector(room, p, FORCE), out)
 
 
 @kernel
-def to_end(p: Places, room: Array) -> None:
-    """Move displacement and speed of the modes by a step under the forces of its stages."""
-    z, v, middle = vector(room, p, Z), vector(room, p, V), vector(room, p, FORCE + 1)
-    third = vector(room, p, FORCE + 2)
-    for k in range(p.modes):
-        middle[k] += third[k]
+def add_change(p: Places, room: Array, gain: int, stage: int, start: int, end: int) -> None:
+    """Write displacement and speed as at `start` and what the change of a force adds."""
     for i in range(2):
-        out = vector(room, p, Z_A + i)
+        begun, out = vector(room, p, start + i), vector(room, p, end + i)
         for k in range(p.modes):
-            out[k] = 0.0
-        add_products(coefficient(room, p, WHOLE + 2 * i), z, out)
-        add_products(coefficient(room, p, WHOLE + 2 * i + 1), v, out)
-        add_products(coefficient(room, p, TO_END_1 + i), vector(room, p, FORCE), out)
-        add_products(coefficient(room, p, TO_END_2 + i), middle, out)
-        add_products(coefficient(room, p, TO_END_3 + i), vector(room, p, FORCE + 3), out)
-    moved, rates = vector(room, p, Z_A), vector(room, p, Z_A + 1)
-    for k in range(p.modes):
-        z[k] = moved[k]
-    for k in range(p.modes):
-        v[k] = rates[k]
+            out[k] = begun[k]
+        add_products(coefficient(room, p, gain + i), vector(room, p, FORCE + stage), out)
 
 
 def exponential_kernel(
@@ -227,7 +220,10 @@ def exponential_kernel(
         at: int,
         stage: int,
     ) -> None:
-        """Write the forces on the modes at a stage, whose coordinates stand in the state."""
+        """Write the forces on the modes at a stage, whose coordinates stand in the state.
+
+        Of later stages than the first their changes from it.
+        """
         n, f, own = p.modes, p.touched, p.own
         force, slope = vector(room, p, FORCE + stage), part(room, p.slope, p.trial - p.slope)
         moved, push = part(room, p.before + f, f), part(room, p.before + 2 * f, f)
@@ -249,6 +245,10 @@ def exponential_kernel(
         for k in range(n):
             force[k] = constant[k] - coupled[k]
         add_times(part(room, p.touching, f * n), push, force)
+        if stage > 0:
+            first = vector(room, p, FORCE)
+            for k in range(n):
+                force[k] -= first[k]
 
     @kernel
     def add_own(s: Array, p: Places, room: Array, stage: int, h: float) -> None:
@@ -296,26 +296,24 @@ def exponential_kernel(
         n, own = p.modes, p.own
         force_of_stage(s, oil, numbers, memory, plan, p, room, Z, 0)
         add_losses(p, room, V, share * h)
-        to_half(p, room, Z, vector(room, p, FORCE), Z_A)
+        move_freely(p, room, HALF, TO_HALF, Z_A)
         show_touched(s, plan, p, room, Z_A)
         add_own(s, p, room, 0, 0.5 * h)
         force_of_stage(s, oil, numbers, memory, plan, p, room, Z_A, 1)
-        to_half(p, room, Z, vector(room, p, FORCE + 1), Z_B)
+        add_change(p, room, OF_SECOND, 1, Z_A, Z_B)
         show_touched(s, plan, p, room, Z_B)
         add_own(s, p, room, 1, 0.5 * h)
         force_of_stage(s, oil, numbers, memory, plan, p, room, Z_B, 2)
-        first, third, both = (
-            vector(room, p, FORCE),
-            vector(room, p, FORCE + 2),
-            vector(room, p, ALSO),
-        )
-        for k in range(n):
-            both[k] = 2.0 * third[k] - first[k]
-        to_half(p, room, Z_A, both, Z_B)
+        move_freely(p, room, WHOLE, TO_END, Z_A)
+        add_change(p, room, OF_THIRD, 2, Z_A, Z_B)
         show_touched(s, plan, p, room, Z_B)
         add_own(s, p, room, 2, h)
         force_of_stage(s, oil, numbers, memory, plan, p, room, Z_B, 3)
-        to_end(p, room)
+        second, third = vector(room, p, FORCE + 1), vector(room, p, FORCE + 2)
+        for k in range(n):
+            second[k] += third[k]
+        add_change(p, room, OF_BOTH, 1, Z_A, Z)
+        add_change(p, room, OF_LAST, 3, Z, Z)
         k_1 = p.own_room + 2 * own
         for i in range(own):
             j = k_1 + i

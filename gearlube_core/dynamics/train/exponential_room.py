@@ -19,12 +19,13 @@ from gearlube_core.kernels.jit import kernel
 # head of the room: whether it is filled, the length of the step [s]
 FILLED, STEP, N_HEAD = 0, 1, 8
 # numbers of each mode for a step: exp(h L) and exp(h L / 2), row by row, then the last columns of
-# what forces are multiplied by
+# what the force at the start and changes from it are multiplied by
 (
-    WHOLE, HALF, TO_HALF, TO_END_1, TO_END_2, TO_END_3, N_COEFFICIENTS,
-) = (0, 4, 8, 10, 12, 14, 16)  # fmt: skip
-# vectors of all modes: displacement and speed at the start of a step and within it, forces of the
-# stages, constant ones, those of coupling dampers, one to work with
+    WHOLE, HALF, TO_HALF, OF_SECOND, TO_END, OF_THIRD, OF_BOTH, OF_LAST, N_COEFFICIENTS,
+) = (0, 4, 8, 10, 12, 14, 16, 18, 20)  # fmt: skip
+# vectors of all modes: displacement and speed at the start of a step and within it, force at its
+# start and changes of the stages from it, constant ones, those of coupling dampers, one to
+# work with
 Z, V, Z_A, V_A, Z_B, V_B, FORCE, CONSTANT, COUPLED, ALSO, N_VECTORS = (
     0, 1, 2, 3, 4, 5, 6, 10, 11, 12, 13,
 )  # fmt: skip

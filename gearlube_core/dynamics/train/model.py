@@ -60,7 +60,7 @@ class Train(MarchedTrain):
     Notes
     -----
     Steps have a fixed length. The same input gives the same output to the bit. Exponential steps
-    are those of [cox_matthews_2002] on the modes with all contacts closed. Where a film
+    are those of [krogstad_2005] on the modes with all contacts closed. Where a film
     or flank asks for parts of a step, RK4 steps take its place.
 
     Examples
