@@ -21,17 +21,9 @@ def cycle_panels(
     *,
     below: int = 0,
 ) -> tuple[Any, list[Any]]:
-    """Return a figure of speed, torque and power lost over time, and its `below` empty panels.
+    """Return a figure of speed, `torque` and power lost over `step`, and its `below` empty panels.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        With `vehicle_speed` and the `torque` over `step`.
-    torque : str
-        Variable of the torque.
-    lost : sequence of tuple
-        Name, power over time [W], energy [kJ] and colour of each source.
-    below : int
+    `lost` has name, power over time [W], energy [kJ] and colour of each source.
     """
     heights = 0.7, 0.7, 1.0, *(1.0,) * below
     figure = new_figure(8.6, 2.7 * sum(heights))
@@ -39,13 +31,9 @@ def cycle_panels(
         len(heights), 1, sharex=True, height_ratios=heights
     )
     time = dataset["step"].values
-    words = f"{torque.replace('_', ' ')}\n[N·m]"
-    for ax, name, label in (
-        (speed, "vehicle_speed", "vehicle speed\n[km/h]"),
-        (asked, torque, words),
-    ):
+    for ax, name, unit in ((speed, "vehicle_speed", "km/h"), (asked, torque, "N·m")):
         ax.plot(time, dataset[name].values, color=BLUE, lw=1.2)
-        ax.set_ylabel(label)
+        ax.set_ylabel(f"{name.replace('_', ' ')}\n[{unit}]")
     speed.set_ylim(bottom=0.0)
     asked.axhline(0.0, color="#606060", lw=0.9, ls=":")
     whole = sum(energy for *_, energy, _ in lost)

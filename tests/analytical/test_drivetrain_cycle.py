@@ -82,7 +82,7 @@ def test_the_shaft_gives_what_road_and_seal_take_and_gets_the_rest_of_the_motion
     part = 0.5 * RAMP / (RAMP + HOLD)
     given = kinetic + up + held + (1.0 - part) * seal
     # dampers take less than 1e-4 of what goes through
-    assert found["energy_shaft"].item() == pytest.approx(1e-3 * given, rel=1e-3)
+    assert found["energy_in_shaft"].item() == pytest.approx(1e-3 * given, rel=1e-3)
     assert found["energy_back"].item() == pytest.approx(
         1e-3 * (kinetic - up - part * seal), rel=1e-3
     )
@@ -138,6 +138,29 @@ def test_points_of_the_map_without_equilibrium_are_filled_from_their_side_and_ma
     torn["loss"][{"speed": -2}], torn["failure"][{"speed": -2}] = np.nan, "No rest."
     with pytest.raises(ParameterError, match=r"got 0 at .* rpm: No rest"):
         cycle_losses(plan, torn)
+
+
+def test_losses_that_are_linear_in_torque_on_either_side_are_met_at_all_steps(driven):
+    """A made map: seal and 1 % of the torque, also through torque 0, where it has no point."""
+    plan = plan_cycle(two_gears(), trapezium())
+    made = map_losses(two_gears(), speeds=plan.speeds, torques=plan.torques, folder=driven[0])
+    made["loss"][:] = 0.0
+    made["loss"].loc[{"source": "seal.seals"}] = plan.speeds[:, None] * (
+        SEAL + 0.01 * np.abs(plan.torques)
+    )
+    coast = gl.DriveCycle(  # slower and slower by air and rolling, and less and less than them
+        name="coast", time=np.arange(21.0), speed=TOP - 0.01 * np.arange(21.0) ** 2
+    )
+    gentle = plan_cycle(two_gears(), coast)
+    plan = plan._replace(cycle=coast, demand=gentle.demand)
+    found = cycle_losses(plan, made, driven[0])
+    torque, asked = found["shaft_torque"].values, gentle.demand.torque
+    lost = found["loss"].sum("source").values / gentle.demand.shaft_speed
+    assert torque.min() < -plan.torques[plan.torques > 0.0].min()
+    assert np.abs(torque).min() < plan.torques[plan.torques > 0.0].min()
+    # the iteration of the torque settles to 1e-9 N.m
+    np.testing.assert_allclose(lost, SEAL + 0.01 * np.abs(torque), atol=1e-8)
+    np.testing.assert_allclose(torque, asked + lost, atol=1e-8)
 
 
 def test_friction_brakes_take_what_the_train_does_not(driven):

@@ -12,6 +12,7 @@ from drivetrain.sump_heat import SumpHeat, Warming, warm
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.words import not_modelled
 from gearlube.report.churning import REGIME, churning_regime
+from gearlube.report.cycle import KJ, Variable, energy, steps_dataset, variables_of
 from gearlube.report.films import covered_alone, film_model_attributes
 from gearlube.studies.drive_cycle.figures import save_cycle_figures
 from gearlube.studies.drive_cycle.loss_field import (
@@ -34,9 +35,8 @@ from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import write_dataset, write_text
-from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
+from gearlube_core.units import ZERO_CELSIUS
 
-_KJ = 1e-3
 _NOT_HEATED = "heat from brakes, gearbox and exhaust"
 _OF_MAP, _OF_SPREAD = 0.3, 0.95  # shares of the work at which map and error bars are done
 
@@ -62,14 +62,11 @@ def cycle_dataset(
     power = at_temperatures(losses.power, losses.temperatures, warming.mean)
     torque = at_temperatures(losses.torque, losses.temperatures, warming.mean)
     outside = at_temperatures(losses.outside, losses.temperatures, warming.mean)
-    total = power.sum(axis=-1)
-    put_in = torque * demand.shaft_speed  # W at the pinion; below 0 it takes
-    given_out = put_in - total  # W at the wheels
-    turning = np.where(demand.shaft_speed > 0.0, demand.shaft_speed, 1.0)
-    wheel_torque = np.where(demand.shaft_speed > 0.0, given_out / turning * ratio, 0.0)
+    base = steps_dataset(
+        settings.cycle, demand, torque, power, LOSS_SOURCES, shaft="pinion", ratio=ratio
+    )
     temperatures = np.array([one.temperature for one in (warming, *others)]) - ZERO_CELSIUS
-    lost = _KJ * (power * demand.steps[:, None]).sum(axis=0)
-    ends = _KJ * np.array(
+    ends = KJ * np.array(
         [
             float(
                 at_temperatures(losses.power, losses.temperatures, one.mean).sum(-1) @ demand.steps
@@ -80,19 +77,12 @@ def cycle_dataset(
     if spread is not None:
         ends = np.array(spread.lost)
     whose = "fastest and slowest warming" if spread is None else "95 % of draws"
-    energy_in = _energy(np.maximum(put_in, 0.0) + np.maximum(-given_out, 0.0), demand)
+    lost, energy_in = base["energy_lost"].values, float(base["energy_in"])
     step, time = ("step",), ("time",)
-    variables = {
+    variables: dict[str, Variable] = {
         "oil_temperature": (time, temperatures[0], "degC", "oil temperature"),
         "oil_temperature_low": (time, temperatures.min(axis=0), "degC", "oil, slowest warming"),
         "oil_temperature_high": (time, temperatures.max(axis=0), "degC", "oil, fastest warming"),
-        "duration": (step, demand.steps, "s", "duration of the step"),
-        "vehicle_speed": (step, 3.6 * demand.speed, "km/h", "vehicle speed"),
-        "pinion_speed": (step, rads_to_rpm(1.0) * demand.shaft_speed, "rpm", "pinion speed"),
-        "pinion_torque": (step, torque, "N.m", "torque on the pinion; < 0: coast"),
-        "wheel_torque": (step, wheel_torque, "N.m", "torque of both wheels together"),
-        "brake_power": (step, demand.brakes, "W", "power of the friction brakes"),
-        "loss": (("step", "source"), power, "W", "power lost"),
         "outside_range": (
             ("step", "range"),
             outside,
@@ -107,22 +97,12 @@ def cycle_dataset(
         ),
         "energy_outside_range": (
             ("range",),
-            _share(outside, total * demand.steps),
+            _share(outside, power.sum(axis=-1) * demand.steps),
             "1",
             "share of the energy lost that is lost outside a range",
         ),
-        "energy_in": ((), energy_in, "kJ", "energy into the axle, from either side"),
-        "energy_in_pinion": ((), _energy(np.maximum(put_in, 0.0), demand), "kJ", "by the pinion"),
-        "energy_lost": (("source",), lost, "kJ", "energy lost"),
         "energy_lost_low": ((), ends.min(), "kJ", f"energy lost in all, low: {whose}"),
         "energy_lost_high": ((), ends.max(), "kJ", f"energy lost in all, high: {whose}"),
-        "energy_brakes": ((), _energy(demand.brakes, demand), "kJ", "to the friction brakes"),
-        "efficiency": (
-            (),
-            1.0 - lost.sum() / energy_in if energy_in > 0.0 else np.nan,
-            "1",
-            "efficiency of the axle over the cycle",
-        ),
     }
     regime = churning_regime(settings.car.axle, warming.mean, demand.shaft_speed / ratio)
     if regime is not None:
@@ -135,13 +115,13 @@ def cycle_dataset(
             "rollers_outside": (step, rollers, "1", "share of the rollers' load outside it"),
             "energy_drag_bound": (
                 (),
-                _energy(np.nan_to_num(drag), demand),
+                energy(np.nan_to_num(drag), demand),
                 "kJ",
                 "bound of the bearings' drag in steps that the model covers",
             ),
         }
     if settings.car.axle.film == "solved":
-        energy_bound = _energy(np.nan_to_num(bound), demand)
+        energy_bound = energy(np.nan_to_num(bound), demand)
         variables |= {
             "friction_bound": (step, bound, "W", "bound of the flanks' friction loss"),
             "share_outside": (step, share, "1", "share of their load outside the film model"),
@@ -167,25 +147,16 @@ def cycle_dataset(
             for end, value in zip(("low", "high"), pair, strict=True):
                 about = f"{name.replace('_', ' ')}, {end}: 95 % of draws"
                 variables[f"{name}_{end}"] = ((), float(value), unit, about)
-    middle = 0.5 * (settings.cycle.time[1:] + settings.cycle.time[:-1])
     coordinates = {
-        "time": ("time", np.array(settings.cycle.time), _about("s", "time")),
-        "step": ("step", middle, _about("s", "time, middle of the step")),
-        "source": ("source", np.array(LOSS_SOURCES), {"long_name": "kind of loss"}),
+        "time": ("time", np.array(settings.cycle.time), {"units": "s", "long_name": "time"}),
         "range": (
             "range",
             np.array([one.output for one in settings.car.axle.ranges]),
             {"long_name": "range of a formula or table"},
         ),
     }
-    return xr.Dataset(
-        {
-            name: (dims, values, _about(unit, words))
-            for name, (dims, values, unit, words) in variables.items()
-        },
-        coords=coordinates,
-        attrs=_attributes(settings, lost, outside),
-    )
+    dataset = base.assign_coords(coordinates).assign(variables_of(variables))
+    return dataset.assign_attrs(_attributes(settings, lost, outside))
 
 
 def _share(outside: Array, weights: Array) -> Array:
@@ -194,22 +165,12 @@ def _share(outside: Array, weights: Array) -> Array:
     return np.asarray(weights @ outside / whole if whole > 0.0 else 0.0 * outside.sum(axis=0))
 
 
-def _energy(power: Array, demand: Demand) -> float:
-    return _KJ * float(power @ demand.steps)
-
-
-def _about(unit: str, words: str) -> dict[str, str]:
-    return {"units": unit, "long_name": words}
-
-
 def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> dict[str, object]:
     losing = {name for name, one in zip(LOSS_SOURCES, lost, strict=True) if one > 0.0}
-    heat, cycle = settings.heat, settings.cycle
+    heat = settings.heat
     left = np.flatnonzero(outside.sum(axis=0))
     ranges = [settings.car.axle.ranges[i] for i in left]
     return {
-        "cycle": cycle.name,
-        "trace_notes": "\n".join(cycle.notes),
         "axle": settings.car.name,
         "oil": settings.car.axle.oil.name,
         **film_model_attributes(settings.car.axle.film_models),

@@ -11,21 +11,13 @@ from gearlube.plotting.words import source_words
 from gearlube.report.cycle import WH, step_rows
 
 SUMMARY_HEAD = ("quantity", "value", "unit", "low", "high")
-_COLUMNS = {
-    "duration": "step_s",
-    "vehicle_speed": "vehicle_speed_kmh",
-    "pinion_speed": "pinion_speed_rpm",
-    "pinion_torque": "pinion_torque_n_m",
-    "wheel_torque": "wheel_torque_n_m",
-    "brake_power": "brake_power_w",
-}
 _NOTHING = 1e-6  # kJ, Wh
 
 
 def series_rows(dataset: xr.Dataset) -> tuple[Sequence[str], Iterator[list[str]]]:
     """Return the names of the columns and a row for each step, at its middle."""
     oil = {"oil_temperature_at_end_degc": dataset["oil_temperature"].values[1:]}
-    return step_rows(dataset, _COLUMNS, oil)
+    return step_rows(dataset, "pinion", oil)
 
 
 def summary_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:

@@ -15,7 +15,16 @@ from drivetrain.train.train_file import TrainCase
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.cycle import cycle_panels
 from gearlube.plotting.style import PARTS, house_style
-from gearlube.report.cycle import energy_lost, energy_table, step_rows
+from gearlube.report.cycle import (
+    KJ,
+    Variable,
+    energy,
+    energy_lost,
+    energy_table,
+    step_rows,
+    steps_dataset,
+    variables_of,
+)
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, WARNING, Finding, Table
 from gearlube.studies.drivetrain.losses import largest, map_losses, point_losses, source_name
@@ -31,19 +40,7 @@ FILE = "cycle.nc"
 _N_SPEEDS, _N_TORQUES = 12, 18  # of the map
 _RESERVE = 0.1  # of the largest torque, and of that of the start, for the train's own losses
 _FRESH = 10  # steps that run by themselves
-_KJ = 1e-3
 _GOOD, _BALANCED = 0.02, 1e-6  # shares of the energy lost, and of that put in
-
-
-_COLUMNS = {
-    "duration": "step_s",
-    "vehicle_speed": "vehicle_speed_kmh",
-    "shaft_speed": "shaft_speed_rpm",
-    "shaft_torque": "shaft_torque_n_m",
-    "load_torque": "load_torque_n_m",
-    "brake_power": "brake_power_w",
-    "filled": "filled",
-}
 
 
 class CyclePlan(NamedTuple):
@@ -111,7 +108,7 @@ def train_cycle(
     -------
     xarray.Dataset
         Over `step`: speeds, torques, `loss` [W] of each `source`, `filled`. `energy_lost` and
-        `energy_lost_braking` [kJ] by source, `energy_in`, `efficiency`; `map_error`, see Notes.
+        `energy_lost_braking` [kJ] by source, `energy_in` from either side; `map_error`, see Notes.
 
     Raises
     ------
@@ -165,63 +162,38 @@ def cycle_losses(
     filled[moves] = field.between(without, speed, torque[moves])
     total = lost.sum(axis=1)
     put_in = torque * demand.shaft_speed
-    load = torque - np.divide(total, demand.shaft_speed, where=moves, out=np.zeros_like(total))
-
-    def energy(power: Array) -> Array:
-        return np.asarray(_KJ * (demand.steps @ power))
-
-    energy_in = float(energy(np.maximum(put_in, 0.0) + np.maximum(total - put_in, 0.0)))
-    fresh = _fresh(operation, demand, torque, total, folder, progress)
-    found = {
-        "duration": ("step", demand.steps, "s", "duration of the step"),
-        "vehicle_speed": ("step", 3.6 * demand.speed, "km/h", "vehicle speed"),
-        "shaft_speed": ("step", rads_to_rpm(1.0) * demand.shaft_speed, "rpm", "of the shaft"),
-        "shaft_torque": ("step", torque, "N.m", "torque of the shaft; < 0: it brakes"),
-        "load_torque": ("step", load, "N.m", "torque of all loads at the shaft"),
-        "brake_power": ("step", demand.brakes, "W", "power of the friction brakes"),
-        "loss": (("step", "source"), lost, "W", "power lost"),
-        "filled": ("step", filled, "1", "share of points of the map without equilibrium"),
-        "energy_lost": ("source", energy(lost), "kJ", "energy lost"),
-        "energy_lost_braking": (
-            "source",
-            energy(np.where(torque[:, None] < 0.0, lost, 0.0)),
-            "kJ",
-            "of this where the shaft brakes",
-        ),
-        "energy_lost_filled": ((), energy(total * (filled > 0.0)), "kJ", "in steps with `filled`"),
-        "energy_in": ((), energy_in, "kJ", "energy into the train, from either side"),
-        "energy_shaft": ((), energy(np.maximum(put_in, 0.0)), "kJ", "of this by the shaft"),
-        "energy_back": ((), energy(np.maximum(-put_in, 0.0)), "kJ", "back to the shaft"),
-        "energy_road": ((), energy(demand.road), "kJ", "to air, road and slope"),
-        "energy_brakes": ((), energy(demand.brakes), "kJ", "to the friction brakes"),
-        "efficiency": ((), 1.0 - energy(total) / energy_in, "1", "efficiency over the cycle"),
-        **fresh,
-    }
-    cycle = plan.cycle
-    dataset = xr.Dataset(
-        {
-            name: (dims, values, {"units": unit, "long_name": words})
-            for name, (dims, values, unit, words) in found.items()
-        },
-        coords={
-            "step": ("step", 0.5 * (cycle.time[1:] + cycle.time[:-1]), {"units": "s"}),
-            "source": losses["source"],
-        },
-        attrs={
-            "cycle": cycle.name,
-            "name": operation.case.name,
-            "shaft": operation.title,
-            "oil_temperature_degc": operation.case.oil_temperature - ZERO_CELSIUS,
-            "trace_notes": "\n".join(cycle.notes),
-        },
+    dataset = steps_dataset(
+        plan.cycle,
+        demand,
+        torque,
+        lost,
+        losses["source"].values,
+        shaft="shaft",
+        ratio=operation.ratio,
     )
-    if cycle.speed is not None and operation.case.car is not None:
-        gained = 0.5 * felt_mass(operation.case.car) * (cycle.speed[-1] ** 2 - cycle.speed[0] ** 2)
-        used = float(energy(total + demand.road + demand.brakes)) + _KJ * gained
-        dataset.attrs["imbalance"] = float(abs(energy(put_in) - used)) / energy_in
+    braking = KJ * (np.where(torque < 0.0, demand.steps, 0.0) @ lost)
+    found: dict[str, Variable] = {
+        "filled": (("step",), filled, "1", "share of points of the map without equilibrium"),
+        "energy_lost_braking": (("source",), braking, "kJ", "energy lost while the shaft brakes"),
+        "energy_lost_filled": ((), energy(total * (filled > 0.0), demand), "kJ", "with `filled`"),
+        "energy_back": ((), energy(np.maximum(-put_in, 0.0), demand), "kJ", "back to the shaft"),
+        "energy_road": ((), energy(demand.road, demand), "kJ", "to air, road and slope"),
+        **_fresh(operation, demand, torque, total, folder, progress),
+    }
+    dataset = dataset.assign(variables_of(found)).assign_attrs(
+        name=operation.case.name,
+        shaft=operation.title,
+        oil_temperature_degc=operation.case.oil_temperature - ZERO_CELSIUS,
+    )
+    cycle, car = plan.cycle, operation.case.car
+    if cycle.speed is not None and car is not None:
+        gained = 0.5 * felt_mass(car) * (cycle.speed[-1] ** 2 - cycle.speed[0] ** 2)
+        used = energy(total + demand.road + demand.brakes, demand) + KJ * gained
+        imbalance = abs(energy(put_in, demand) - used) / float(dataset["energy_in"])
+        dataset.attrs["imbalance"] = imbalance
     if folder is not None:
         write_dataset(dataset, folder / FILE)
-        write_text(csv_text(*step_rows(dataset, _COLUMNS, {})), folder / "cycle.csv")
+        write_text(csv_text(*step_rows(dataset, "shaft", {"filled": filled})), folder / "cycle.csv")
     return dataset
 
 
@@ -261,7 +233,7 @@ def _fresh(
     total: Array,
     folder: Path | None,
     progress: Progress,
-) -> dict[str, Any]:
+) -> dict[str, Variable]:
     """Return losses of single steps that run by themselves, beside those of the map."""
     run = np.cumsum(total * demand.steps)
     at = np.unique(np.searchsorted(run, run[-1] * (np.arange(_FRESH) + 0.5) / _FRESH))
@@ -275,8 +247,8 @@ def _fresh(
     error = error[np.isfinite(error)]
     mean, most = (error.mean(), error[np.abs(error).argmax()]) if error.size else (np.nan,) * 2
     return {
-        "fresh_loss": ("fresh", direct, "W", "power lost in steps that run by themselves"),
-        "fresh_of_map": ("fresh", total[at], "W", "power lost there by the map"),
+        "fresh_loss": (("fresh",), direct, "W", "power lost in steps that run by themselves"),
+        "fresh_of_map": (("fresh",), total[at], "W", "power lost there by the map"),
         "map_error": ((), float(mean), "1", "map above those runs, mean"),
         "map_error_largest": ((), float(most), "1", "map above those runs, largest"),
     }
@@ -343,6 +315,6 @@ def cycle_tables(dataset: xr.Dataset | None) -> list[Table]:
     """Return the energy lost by element."""
     if dataset is None:
         return []
-    put_in, back = float(dataset["energy_shaft"]), float(dataset["energy_back"])
+    put_in, back = float(dataset["energy_in_shaft"]), float(dataset["energy_back"])
     caption = f"The shaft puts in {put_in:.4g} kJ and takes back {back:.4g} kJ."
     return [energy_table(dataset, source_name, caption)]
