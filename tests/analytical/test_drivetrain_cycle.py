@@ -23,6 +23,7 @@ from gearlube.studies.drivetrain.cycle import (
     train_cycle,
 )
 from gearlube.studies.drivetrain.losses import map_losses
+from gearlube.studies.drivetrain.operation import Operation
 from gearlube_core.errors import ParameterError
 from tests.analytical.test_drivetrain_runup import SEAL, case
 
@@ -128,9 +129,9 @@ def test_points_of_the_map_without_equilibrium_are_filled_from_their_side_and_ma
     at = {"speed": -2, "torque": int(np.searchsorted(plan.torques, 270.0))}
     torn["loss"][at], torn["failure"][at] = np.nan, "No rest."
     found = cycle_losses(plan, torn, driven[0])
-    # the seal's loss does not depend on the torque
-    seal = [one["energy_lost"].sel(source="seal.seals").item() for one in (found, driven[1])]
-    assert seal[0] == pytest.approx(seal[1], rel=1e-3)
+    lost = found["energy_lost"].sel(source="seal.seals").item()
+    # the seal's loss does not depend on the torque; 2e-3 as without gaps
+    assert lost == pytest.approx(1e-3 * SEAL * DISTANCE / RADIUS * RATIO, rel=2e-3)
     around = found["filled"].values > 0.0
     assert 0 < around.sum() < around.size / 2
     assert found["energy_lost_filled"].item() > 0.0
@@ -161,6 +162,11 @@ def test_losses_that_are_linear_in_torque_on_either_side_are_met_at_all_steps(dr
     # the iteration of the torque settles to 1e-9 N.m
     np.testing.assert_allclose(lost, SEAL + 0.01 * np.abs(torque), atol=1e-8)
     np.testing.assert_allclose(torque, asked + lost, atol=1e-8)
+
+
+def test_two_wheels_turn_by_the_ratio_of_both_stages_slower_than_the_motor():
+    # the solved equilibrium of speeds, far below 1e-6
+    assert Operation.of(TrainFile.named("e_axle").case()).ratio == pytest.approx((31 / 25) ** 2)
 
 
 def test_friction_brakes_take_what_the_train_does_not(driven):
