@@ -51,7 +51,9 @@ def cycle_panels(
     )
     middle.set_ylabel("power lost [W]")
     top = float(np.sum([power for _, power, *_ in lost], axis=0).max())
-    middle.set_ylim(0.0, 1.3 * top if top > 0.0 else 1.0)
-    if drawn:
+    middle.set_ylim(0.0, (1.3 if below else 1.05) * top if top > 0.0 else 1.0)
+    if drawn and below:
         middle.legend(loc="upper left", ncols=3)
+    elif drawn:
+        figure.legend(loc="outside lower center", ncols=3)
     return figure, others

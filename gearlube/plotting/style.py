@@ -31,6 +31,7 @@ YELLOW = "#F0E442"
 PARTS = (*SERIES, YELLOW, GREY)  # of parts that add up, in their order: the same in all figures
 
 _LABEL_ROOM = 0.06  # of a panel, beside the middle of a label
+_LABEL_SIZE = 0.15, 0.05  # of the panel, of a level on a contour line
 _ROWS = 170  # cells of the frequency axis; a cell shows the largest line inside it
 
 _STYLE = {
@@ -84,14 +85,19 @@ def series(row: int) -> dict[str, Any]:
 
 
 def label_contours(ax: Any, lines: Any, text: str) -> None:
-    """Write the level on each contour line, where it is farthest from the edges of the panel."""
+    """Write the level on each contour line, where it is farthest from the edges of the panel.
+
+    A line whose level would stand on another one has none.
+    """
     low, high = np.transpose([ax.get_xlim(), ax.get_ylim()])
-    places = []
+    places: list[Array] = []
     for points in (one for parts in lines.allsegs for one in parts if len(one)):
         share = (points - low) / (high - low)
         room = np.minimum(share, 1.0 - share).min(axis=1)
-        if room.max() > _LABEL_ROOM:
-            places.append(points[room.argmax()])
+        found = points[room.argmax()]
+        apart = (np.abs((found - one) / (high - low) / _LABEL_SIZE).max() > 1.0 for one in places)
+        if room.max() > _LABEL_ROOM and all(apart):
+            places.append(found)
     ax.clabel(lines, fmt=text, fontsize=7, manual=places)
 
 

@@ -37,6 +37,7 @@ _MOST_POINTS = 5000
 _LEAST_KEPT = 0.5  # share of the input, below which no efficiency is stated
 _SHOWN, _LEAST_SHARE = 7, 2e-3  # losses by name, and of their sum
 _SAME = 0.1  # %, of efficiencies
+_LEAST_DRAWN = 25.0  # % of the points, whose efficiency is below the lowest line
 
 
 def map_losses(
@@ -215,6 +216,8 @@ def loss_figure(dataset: xr.Dataset) -> Any:
         dataset = dataset.reindex(torque=np.sort([*given, 0.0]))
     total = dataset["loss"].sum("source", skipna=False)
     shaft = dataset.attrs["shaft"]
+    from matplotlib.ticker import MaxNLocator
+
     with house_style():
         figure = new_figure(10.0, 4.6)
         left, right = figure.subplots(1, 2)
@@ -225,7 +228,10 @@ def loss_figure(dataset: xr.Dataset) -> Any:
             left.plot(*points, "k.", ms=4, clip_on=False)
             title, share = "losses", 100.0 * dataset["efficiency"].T
             if np.isfinite(share).any() and float(share.max() - share.min()) > _SAME:
-                lines = left.contour(share["speed"], share["torque"], share, 6, colors="white",
+                # efficiency falls steeply near torque 0, where lines would hide all others
+                ends = np.nanpercentile(share, _LEAST_DRAWN), float(share.max())
+                levels = MaxNLocator(6).tick_values(*ends)
+                lines = left.contour(share["speed"], share["torque"], share, levels, colors="white",
                                      linewidths=0.8)  # fmt: skip
                 label_contours(left, lines, "%.4g %%")
                 title = "losses, white: efficiency"
