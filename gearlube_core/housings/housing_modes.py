@@ -106,9 +106,7 @@ def housing_motion(
         squares, shapes = squares[:0], shapes[:, :0]
     named = [i for i, one in enumerate(model.nodes) if one.name]
     loaded = np.flatnonzero(np.isin(model.owner, named))
-    own = np.sqrt((shapes[loaded] ** 2 / squares).sum(axis=1, keepdims=True))
-    at_loads = shapes[loaded] / np.where(own > 0.0, own, 1.0)
-    kept = kept_shapes(squares, shapes, at_loads, highest_frequency, _RESIDUAL_SHARE)
+    kept = kept_shapes(squares, shapes, loaded, highest_frequency, _RESIDUAL_SHARE)
     all_squares = np.append(np.zeros(rigid.shape[1]), kept.squares)
     whole = np.hstack([rigid, kept.shapes])
     at_nodes = np.zeros((all_squares.size, len(model.nodes), 6))

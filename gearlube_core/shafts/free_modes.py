@@ -3,7 +3,7 @@
 What the modes above the limit add to the static flexibility at the nodes stays, as shapes of its
 own. Their frequencies would be far above the limit and ask for short steps; they get 1.5 times
 the limit. So statics are exact. Below a tenth of the limit frequencies of a long shaft on bearings
-are right to 1e-5, those of a short one, which has no mode below it, to 2e-3.
+are right to 1e-5, those of a short one, which has no mode below it, to 1e-4.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from typing import NamedTuple
 import numpy as np
 import scipy.linalg
 
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Indices
 from gearlube_core.shafts.beam import Beam
 
 _PLANE = 2  # rigid motions in a plane: it shifts and tilts
 _RESIDUAL_RATIO = 1.5  # frequency of the remaining shapes over the limit
-# of the largest elastic flexibility; shapes with less are left out: of bending, of all others
+# of a coordinate's own flexibility; shapes with less are left out: of bending, of all others
 _RESIDUAL_SHARES = (1e-5, 1e-3)
 
 
@@ -91,7 +91,8 @@ def shaft_motion(beam: Beam, nodes: Array, highest_frequency: float) -> ShaftMot
     centre = float(along @ bending.mass @ turned) / mass
     turned[::2] -= centre
     ones = np.ones(n)
-    bends = _kept(bending.stiffness, bending.mass, 2 * at, _PLANE, highest_frequency)
+    loaded = np.append(2 * at, 2 * at + 1)  # by forces and by moments
+    bends = _kept(bending.stiffness, bending.mass, loaded, _PLANE, highest_frequency)
     scale = math.sqrt(mass)
     of_tilts = np.column_stack([turned, scale * bends.shapes])
     axial = _kept(beam.axial_stiffness, beam.axial_mass, at, 1, highest_frequency)
@@ -117,7 +118,7 @@ def _along(kept: Shapes, at: Array, mass: float) -> Modes:
 
 
 def _kept(
-    stiffness: Array, mass: Array, loaded: Array, rigid: int, highest_frequency: float
+    stiffness: Array, mass: Array, loaded: Indices, rigid: int, highest_frequency: float
 ) -> Shapes:
     """Return modes below the limit with the shapes of the remaining flexibility."""
     if highest_frequency == 0.0:
@@ -125,11 +126,11 @@ def _kept(
     squares, shapes = scipy.linalg.eigh(stiffness, mass)
     squares, shapes = squares[rigid:], shapes[:, rigid:]
     share = _RESIDUAL_SHARES[0 if rigid == _PLANE else 1]
-    return kept_shapes(squares, shapes, shapes[loaded], highest_frequency, share)
+    return kept_shapes(squares, shapes, loaded, highest_frequency, share)
 
 
 def kept_shapes(
-    squares: Array, shapes: Array, loaded: Array, highest_frequency: float, share: float
+    squares: Array, shapes: Array, loaded: Indices, highest_frequency: float, share: float
 ) -> Shapes:
     """Return elastic modes below a limit with the shapes of the remaining flexibility.
 
@@ -139,31 +140,28 @@ def kept_shapes(
         Of the frequencies of all elastic modes [rad2/s2].
     shapes : ndarray of shape (coordinates, m)
         Of modal mass 1.
-    loaded : ndarray of shape (loads, m)
-        How far each mode moves where loads act, in the loads' direction; any scale of a load.
+    loaded : ndarray of int
+        Coordinates on which loads act.
     highest_frequency : float
         The limit [Hz].
     share : float
-        Of the largest elastic flexibility [-]; remaining shapes with less are left out.
+        Of the own elastic flexibility of a coordinate [-]; remaining shapes with less are left out.
 
     Examples
     --------
-    >>> squares, unit = np.array([1.0, 1e6]), np.eye(2)
-    >>> kept = kept_shapes(squares, unit, np.ones((1, 2)), 1.0, 1e-9)
-    >>> bool(np.isclose((kept.shapes.sum(axis=0) ** 2 / kept.squares).sum(), 1.0 + 1e-6))
+    >>> squares = np.array([1.0, 1e6])
+    >>> kept = kept_shapes(squares, np.ones((1, 2)), np.array([0]), 1.0, 1e-9)
+    >>> bool(np.isclose((kept.shapes[0] ** 2 / kept.squares).sum(), 1.0 + 1e-6))
     True
     """
     limit = (2.0 * math.pi * highest_frequency) ** 2
     below = squares <= limit
     above, rest = squares[~below], shapes[:, ~below]
-    at_nodes = loaded[:, ~below]
-    flexibility = (at_nodes / above) @ at_nodes.T
-    elastic = ((loaded**2) / squares).sum(axis=1)
-    found, ways = np.linalg.eigh(flexibility)
-    largest = elastic.max() if elastic.size else 0.0
-    chosen = found > share * largest
+    own = np.sqrt((shapes[loaded] ** 2 / squares).sum(axis=1, keepdims=True))
+    at_nodes = rest[loaded] / np.where(own > 0.0, own, 1.0)  # so that forces and moments compare
+    found, ways = np.linalg.eigh((at_nodes / above) @ at_nodes.T)
+    chosen = found > share
     moved = ((at_nodes / above).T @ ways[:, chosen]) / np.sqrt(found[chosen])  # of stiffness 1
-    own = 1.0 / (moved**2).sum(axis=0)
-    lowered = np.minimum(own, _RESIDUAL_RATIO**2 * limit)
+    lowered = np.minimum(1.0 / (moved**2).sum(axis=0), _RESIDUAL_RATIO**2 * limit)
     residual = (rest @ moved) * np.sqrt(lowered)
     return Shapes(np.append(squares[below], lowered), np.hstack([shapes[:, below], residual]))

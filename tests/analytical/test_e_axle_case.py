@@ -83,12 +83,11 @@ def test_shafts_in_the_reduced_case_have_the_frequencies_of_the_whole_model():
     np.testing.assert_allclose(found[below], expected[below], rtol=2e-4)
     slow = below & (expected < 0.5 * HIGHEST)
     np.testing.assert_allclose(found[slow], expected[slow], rtol=5e-6)
-    # as it ships; flexibility of shafts against tilting moments of bearings is left out
+    # as it ships: modes of the case to 7.5 kHz, of the shafts to 10 kHz
     given = case("e_axle_case")
     given.start()
-    np.testing.assert_allclose(
-        given.train.modes()[0][: below.size][slow], expected[slow], rtol=3e-3
-    )
+    found = given.train.modes()[0][: below.size]
+    np.testing.assert_allclose(found[below], expected[below], rtol=1e-3)
 
 
 @pytest.mark.slow

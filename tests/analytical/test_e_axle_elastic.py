@@ -55,15 +55,19 @@ def test_misalignment_of_the_second_mesh_is_that_of_the_other_model():
     np.testing.assert_allclose(tilts, [185.474e-6, -313.539e-6], atol=1e-9)
 
 
-@pytest.mark.parametrize(("limit", "error"), [(1e4, 2e-3), (3e4, 1e-3)])
+@pytest.mark.parametrize(("limit", "error"), [(1e4, 2e-3), (3e4, 1e-4)])
 def test_few_modes_are_enough_below_five_kilohertz(limit: float, error: float):
     """The countershaft is short: all that it bends is flexibility above the first limit.
 
-    That against tilting moments of bearings is left out, which raises two frequencies by 1e-3.
+    Shapes of it count with frequencies of 1.5 times the limit, where they have inertia of their
+    own: below 1 kHz, 15 times lower, that is 1e-4.
     """
     fine, few = case(highest_frequency_hz=1e6), case(highest_frequency_hz=limit)
     fine.start()
     few.start()
     below = fine.train.modes()[0]
     n = int((below < 5e3).sum())
-    np.testing.assert_allclose(few.train.modes()[0][1:n], below[1:n], rtol=error)
+    found = few.train.modes()[0]
+    np.testing.assert_allclose(found[1:n], below[1:n], rtol=error)
+    slow = int((below < 1e3).sum())
+    np.testing.assert_allclose(found[1:slow], below[1:slow], rtol=1e-4)
