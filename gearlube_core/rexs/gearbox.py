@@ -95,7 +95,8 @@ def read_gearbox(path: str | Path) -> RexsTrain:
     for other in model.of_kind(*_OTHER_STAGES):
         raise ParameterError(
             f"{model.path} must have cylindrical stages alone, got {other}. Write a train file by "
-            "hand: docs/trains.md says how planets and bevel gears are written."
+            "hand: `gearlube drivetrain planetary --example` prints one with planets to start "
+            "from, hypoid_axle one with bevel gears."
         )
     shafts = read_shafts(reading)
     meshes = {

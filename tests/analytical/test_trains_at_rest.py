@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from dataclasses import dataclass, replace
 from typing import ClassVar, NamedTuple
 
@@ -12,10 +13,13 @@ import pytest
 from drivetrain.train.train_file import TrainFile
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_model.pair import helical_pair
+from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.as_train import axle_train
 from gearlube_core.dynamics.train.choice import interpreted_kernel
 from gearlube_core.dynamics.train.element import COORDINATES
 from gearlube_core.dynamics.train.elements.half_shaft import HalfShaft
 from gearlube_core.dynamics.train.elements.port import Port
+from gearlube_core.dynamics.train.elements.roller_bearing import RollerBearing
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
 from gearlube_core.dynamics.train.march import START, work_size
 from gearlube_core.dynamics.train.model import Train
@@ -23,7 +27,9 @@ from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, OK
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.number import Output
+from tests.helpers.each import each
 from tests.helpers.small_trains import (
+    GEARS_ON_ROLLERS,
     KELVIN,
     LOAD,
     OIL,
@@ -205,6 +211,63 @@ def test_loads_of_gears_follow_the_torques_down_to_a_millionth():
         found.append([out["stage_1.load"] / share, out["stage_2.load"] / share])
     # 1e-6 N of the search, over the share, is 2e-4 of the loads
     np.testing.assert_allclose(found[1], found[0], rtol=2e-4)
+
+
+# clearances of pinion and gear [um], torque [N.m], speed [rad/s]
+LIGHT = [
+    (13.2, 35.8, 0.8532, 152.0), (30.6, 35.3, 0.0218, 130.0), (35.0, 11.7, -0.7145, 192.0),
+    (31.7, 31.8, 0.0151, 44.0), (16.2, 14.9, 2.3572, 263.0), (15.5, 30.8, 0.4307, 239.0),
+]  # fmt: skip
+
+
+@each("of_pinion, of_gear, torque, speed", LIGHT)
+def test_a_light_axle_rests_at_the_edges_of_its_clearances(of_pinion, of_gear, torque, speed):
+    """One row of tapered rollers touches: x sin(a) + r cos(a) = c, along the axis and across.
+
+    Films of 0.2 to 1 um and the distance of rollers, 35 um (1 - cos 10 deg), are left out.
+    """
+    given = mohammadpour_2015_axle()
+    pinion, gear = (
+        replace(given.bearing, preload=None, interference=-1e-6 * one)
+        for one in (of_pinion, of_gear)
+    )
+    train = axle_train(replace(given, bearing=pinion, gear_bearing=gear))
+    train.initialise({"pinion": speed}, {"input": torque, "output": 3.78 * torque}, KELVIN)
+    angle = given.bearing.contact_angle
+    for body, clearance, axis, across in (
+        ("pinion", of_pinion, "x", "yz"), ("gear", of_gear, "z", "xy"),
+    ):  # fmt: skip
+        along = abs(train.state(f"{body}.{axis}"))
+        radial = math.hypot(*(train.state(f"{body}.{c}") for c in across))
+        edge = along * math.sin(angle) + radial * math.cos(angle)
+        assert 1e6 * edge == pytest.approx(clearance, abs=1.5), body
+
+
+def test_forces_of_single_roller_bearings_do_not_depend_on_their_clearance():
+    data = tomllib.loads(GEARS_ON_ROLLERS)
+    for one in data["elements"].values():
+        if one["kind"] == "roller_bearing":
+            one["torque_loss"] = "none"
+    data["elements"]["mesh"]["film"] = "formula"
+    torques = {"input": 0.19, "output": 0.2}
+    case = TrainFile.from_data(
+        data | {"start": data["start"] | {"torque_n_m": torques}}, "x"
+    ).case()
+    found = []
+    for clearance in (0.0, 1e-5, 3e-5):
+        elements = [
+            replace(one, bearing=replace(one.bearing, preload=None, interference=-clearance))
+            if isinstance(one, RollerBearing)
+            else one
+            for one in case.train.elements
+        ]
+        train = case.train.changed(elements=elements)
+        train.initialise(case.speeds, torques, KELVIN)
+        out = train.outputs()
+        sums = [out[f"pinion_left.force.{c}"] + out[f"pinion_right.force.{c}"] for c in "xyz"]
+        found.append(np.linalg.norm(sums))
+    # gears that move by the clearance turn the line of action by 30 um over some 80 mm
+    np.testing.assert_allclose(found[1:], found[0], rtol=2e-3)
 
 
 def test_planets_without_torque_rest_on_their_pins_alone():

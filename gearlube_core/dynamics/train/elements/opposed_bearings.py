@@ -59,11 +59,12 @@ from gearlube_core.oil.lubricant import LubricantState
 # film model
 _KEPT, _AXES, _FILM = 5, 6, 9
 # places in the memory behind the forces: drag of the present step [N.m], its bound [W], 1 where
-# films of outputs are those that are kept, work space of single rollers, of their nodes, the film
-# model
-_DRAG, _DOUBT, _ASKED, _ROLLERS = range(N_FORCES, N_FORCES + 4)
+# films of outputs are those that are kept, spring of a search of the rest [N/m], work space of
+# single rollers, of their nodes, the film model
+_DRAG, _DOUBT, _ASKED, _SPRING, _ROLLERS = range(N_FORCES, N_FORCES + 5)
 _NODES = _ROLLERS + ROLLERS_MAX
 _MEMORY = _NODES + N_ROLLER_NODES
+_FAR = 1e-4  # m, beyond any clearance, where stiffness hardly depends on the load
 _OWN = 4  # outputs of both bearings together
 _SOLVED = _OWN + 3  # likewise of the rollers
 FORCES = tuple(Output(f"force.{c}", "N", f"force along {c} on the body", 1e3) for c in "xyz")
@@ -89,6 +90,14 @@ class _OpposedBearings(NamedTuple):
     def at_rest(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
         for i in range(N_FOLLOWED + (N_ROLLER_NODES if at[_FILM] > 0 else 0)):
             s[at[_KEPT] + i] = 0.0
+
+    @kernel
+    def ease(self, at: Any, memory: Array, s: Array, oil: LubricantState, share: float) -> float:
+        if self.preload > 0.0:
+            return 0.0
+        room = part(memory, _ROLLERS, ROLLERS_MAX)
+        memory[_SPRING] = share * 2.0 * usual_stiffness(self.bearings, oil, room)
+        return 1.0
 
     @kernel
     def begin(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> None:
@@ -126,10 +135,10 @@ class _OpposedBearings(NamedTuple):
         memory[_ASKED] = 0.0 if stage == 0 else 1.0
         m = _motion(at, s)
         f_1, f_2, f_a, lost = expanded_forces(self.bearings, m, part(memory, 0, N_EXPANSION))
-        v = body + RATE
-        ds[v + at[_AXES]] += f_1
-        ds[v + at[_AXES + 1]] += f_2
-        ds[v + at[_AXES + 2]] += f_a
+        v, spring = body + RATE, memory[_SPRING]
+        ds[v + at[_AXES]] += f_1 - spring * m.r1
+        ds[v + at[_AXES + 1]] += f_2 - spring * m.r2
+        ds[v + at[_AXES + 2]] += f_a - spring * m.axial
         carried = self.on_cage * self.bearings.cage_ratio * cage_torque(m.r1, m.r2, f_1, f_2)
         ds[v + RZ] += carried - memory[_DRAG]
         ds[cage] = self.bearings.cage_ratio * m.speed
@@ -190,6 +199,19 @@ class _OpposedBearings(NamedTuple):
         fits = fits and kept == N_FOLLOWED + (N_ROLLER_NODES if film > 0 else 0)
         fits = fits and memory.size == _MEMORY + film and fits_model(part(memory, _MEMORY, film))
         return 1.0 if fits else 0.0
+
+
+@kernel
+def usual_stiffness(bearings: ShaftBearings, oil: LubricantState, rollers: Array) -> float:
+    """Return the radial stiffness of one bearing far beyond its clearance [N/m].
+
+    `rollers` is work space of shape (ROLLERS_MAX,).
+    """
+    force = 0.0
+    for k in range(2):
+        m = ShaftMotion(_FAR * (1.0 + k), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        force = bearing_loads(bearings, m, 1.0, oil, 1.0, rollers)[0] - force
+    return abs(force) / _FAR
 
 
 @kernel

@@ -40,7 +40,7 @@ from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameter
 from gearlube_core.checks import check_option
 from gearlube_core.dynamics.train.element import RATE, Listed, W
 from gearlube_core.dynamics.train.elements.checks import fits_model, fits_rollers
-from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES, OF_ONE
+from gearlube_core.dynamics.train.elements.opposed_bearings import FORCES, OF_ONE, usual_stiffness
 from gearlube_core.dynamics.train.elements.seat import Seat, SeatedBearing, add_to_both, between
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
@@ -52,9 +52,9 @@ from gearlube_core.oil.lubricant import LubricantState
 
 # places of `at` behind body, housing, cage and energies: what is kept, size of the film model
 _KEPT, _FILM = 6, 7
-# places in the memory: drag of the present step [N.m], its bound [W], work space of rollers and of
-# their nodes, the film model
-_DRAG, _DOUBT, _ROLLERS = range(3)
+# places in the memory: drag of the present step [N.m], its bound [W], spring of a search of the
+# rest [N/m], work space of rollers and of their nodes, the film model
+_DRAG, _DOUBT, _SPRING, _ROLLERS = range(4)
 _WORK_NODES = _ROLLERS + ROLLERS_MAX
 _MODEL = _WORK_NODES + N_ROLLER_NODES
 _OWN = 4  # outputs before those of `OF_ONE` that are no forces
@@ -107,6 +107,14 @@ class _RollerBearing(NamedTuple):
             s[at[_KEPT] + i] = 0.0
 
     @kernel
+    def ease(self, at: Any, memory: Array, s: Array, oil: LubricantState, share: float) -> float:
+        if self.bearings.interference >= 0.0:
+            return 0.0
+        room = part(memory, _ROLLERS, ROLLERS_MAX)
+        memory[_SPRING] = share * usual_stiffness(self.bearings, oil, room)  # type: ignore[arg-type]
+        return 1.0
+
+    @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         memory[_DRAG] = memory[_DOUBT] = 0.0
         if self.law == 0.0:
@@ -133,7 +141,8 @@ class _RollerBearing(NamedTuple):
         m = _motion(self, at, s)
         f_1, f_2, f_a, lost = _forces(self, m, oil)
         on_cage, ratio = cage_torque(m.r1, m.r2, f_1, f_2), self.bearings.cage_ratio
-        force, moment = (f_1, f_2, f_a), (0.0, 0.0, -memory[_DRAG])
+        k, moment = memory[_SPRING], (0.0, 0.0, -memory[_DRAG])
+        force = f_1 - k * m.r1, f_2 - k * m.r2, f_a - k * m.axial
         add_to_both(ds, self.seat, body, housing, force, moment, on_cage, ratio)
         ds[cage] = ratio * m.speed + s[housing + W]
         ds[damping] += lost
