@@ -77,20 +77,5 @@ def is_shipped(target: str, name: str) -> bool:
     return _shipped_file(target.partition(":")[0], name).is_file()
 
 
-def check_given(target: str, title: str, name: str) -> None:
-    """Raise ParameterError for a name that no file of a kind has, without loading the class.
-
-    Also for a file that is no readable TOML. `target` is the class as for `print_example`, `title`
-    its kind of file.
-    """
-    from gearlube_core.input_file.input_file import is_path, read_toml, shipped_names, unknown_name
-
-    shipped = shipped_names(target.partition(":")[0].rpartition(".")[0])
-    if is_path(name, shipped):
-        read_toml(name, title)
-    elif name not in shipped:
-        raise unknown_name(name, title, shipped)
-
-
 def _shipped_file(module: str, name: str) -> Traversable:
     return files(module.rpartition(".")[0]) / "data" / f"{name}.toml"

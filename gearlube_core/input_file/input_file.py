@@ -202,7 +202,7 @@ class InputFile(Section):
     def shipped_text(cls, name: str) -> str:
         """Return a file that ships with the package as it is."""
         if name not in cls.shipped():
-            raise unknown_name(name, cls.title, cls.shipped())
+            raise _unknown(name, cls.title, cls.shipped())
         resource = files(cls.package) / "data" / f"{cls.prefix}{name}.toml"
         return resource.read_text(encoding="utf-8")
 
@@ -214,7 +214,7 @@ class InputFile(Section):
     @classmethod
     def given(cls, name: str) -> Self:
         """Return the file at a path, where the name is one or ends in .toml, or a shipped one."""
-        return cls.from_toml(name) if is_path(name, cls.shipped()) else cls.named(name)
+        return cls.from_toml(name) if _is_path(name, cls.shipped()) else cls.named(name)
 
     @classmethod
     def from_data(cls, data: dict[str, Any], where: str) -> Self:
@@ -281,20 +281,26 @@ def shipped_names(package: str, prefix: str = "") -> tuple[str, ...]:
     return tuple(sorted(s.removeprefix(prefix) for s in stems if s.startswith(prefix)))
 
 
-def is_path(name: str, shipped: Collection[str]) -> bool:
-    """Return whether a name is that of a file or folder, and not of a shipped file.
+def check_given(name: str, package: str, title: str) -> None:
+    """Raise ParameterError for a name that no file and no shipped one has, without their class.
 
-    >>> is_path("my.toml", ["e_axle"]), is_path("e_axle", ["e_axle"])
-    (True, False)
+    Also for a file that is no readable TOML. `package` and `title` are those of the class.
     """
+    shipped = shipped_names(package)
+    if _is_path(name, shipped):
+        read_toml(name, title)
+    elif name not in shipped:
+        raise _unknown(name, title, shipped)
+
+
+def _is_path(name: str, shipped: Collection[str]) -> bool:
     return name.endswith(".toml") or isfile(name) or (isdir(name) and name not in shipped)
 
 
-def unknown_name(name: str, title: str, shipped: Collection[str]) -> ParameterError:
-    """Return the error on a name that no shipped file has; `title` is the kind of file."""
+def _unknown(name: str, title: str, shipped: Collection[str]) -> ParameterError:
+    known = ", ".join(shipped)
     return ParameterError(
-        f"No {title} is called {name!r}. Shipped: {', '.join(shipped)}. A file's name ends in "
-        ".toml."
+        f"No {title} is called {name!r}. Shipped: {known}. A file's name ends in .toml."
     )
 
 

@@ -35,11 +35,8 @@ def clashes(found: Layout) -> list[str]:
         for (words, one), (others, two) in combinations(solids.values(), 2):
             if one.body == two.body or frozenset((one.key, two.key)) in met:
                 continue
-            low, high = (
-                sign * min(sign * (gear.z + found.shifts[gear.body]) + 0.5 * gear.width
-                           for gear in (one, two))
-                for sign in (-1.0, 1.0)
-            )  # fmt: skip
+            places = [(found.shifts[gear.body] + gear.z, 0.5 * gear.width) for gear in (one, two)]
+            low, high = max(z - half for z, half in places), min(z + half for z, half in places)
             apart = abs(found.centres[one.body] - found.centres[two.body])
             limit = _least_distance(one, two, apart)
             if high - low > _NEAR and limit > apart + _NEAR:

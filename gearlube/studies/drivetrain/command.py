@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gearlube.cli.convert import REXS_ENDINGS, train_text
-from gearlube.cli.example import check_given, print_example
+from gearlube.cli.example import print_example
 from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.study_run import empty_table, study_run
 
@@ -99,6 +99,7 @@ def drivetrain(
         return
     from gearlube_core.checks import check_within
     from gearlube_core.errors import ParameterError
+    from gearlube_core.input_file.input_file import check_given
 
     with study_run("drivetrain", out, overwrite=overwrite) as run:
         check_within("--duration-ms", duration_ms, 1e-3, 1e7, "ms")
@@ -111,7 +112,7 @@ def drivetrain(
                                  "Leave these out.")  # fmt: skip
         from_rexs = Path(file).suffix.lower() in REXS_ENDINGS
         if not from_rexs:
-            check_given(_TARGET, "train file", file)
+            check_given(file, "drivetrain.train", "train file")
         # loaded after the options are checked, as this takes seconds
         from drivetrain.cycle.traces import DriveCycle
         from drivetrain.train.train_file import TrainFile

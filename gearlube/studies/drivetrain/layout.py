@@ -280,8 +280,7 @@ def _draw_group(ax: Any, found: Layout, bodies: Sequence[str], colours: dict[str
     heights: dict[str, tuple[float, ...]] = {}
     height = 0.0
     of_set = [one for one in bodies if one in found.carriers]
-    axis = next((gear.body for pair in found.pairs() for gear in pair
-                 if gear.body in bodies and gear.body not in of_set), bodies[0])  # fmt: skip
+    axis = next((one for one in bodies if one not in of_set), bodies[0])
     for name in bodies:
         away = abs(found.centres[name] - found.centres[axis])
         if name in of_set:
@@ -309,16 +308,14 @@ def _draw_group(ax: Any, found: Layout, bodies: Sequence[str], colours: dict[str
                 continue
             drawn.add((gear.radius, gear.z))
             z = gear.z + shift - 0.5 * gear.width
-            for y in levels:
-                spans = [(y - gear.radius, y + gear.radius)]
-                if gear.ring:
-                    spans = [(sign * gear.radius, sign * _RIM * gear.radius) for sign in (1, -1)]
-                for one, other in spans:
-                    ax.add_patch(
-                        _box(z, min(one, other), gear.width, abs(other - one), lw=1.6,
-                             edgecolor=colour, facecolor=to_rgba(colour, 0.2),
-                             hatch="////" if gear.ring else None)
-                    )  # fmt: skip
+            look = {"lw": 1.6, "edgecolor": colour, "facecolor": to_rgba(colour, 0.2)}
+            lows, height = [y - gear.radius for y in levels], 2.0 * gear.radius
+            if gear.ring:
+                lows = [levels[0] + gear.radius, levels[0] - _RIM * gear.radius]
+                height *= 0.5 * (_RIM - 1.0)
+                look["hatch"] = "////"
+            for low in lows:
+                ax.add_patch(_box(z, low, gear.width, height, **look))
             if gear.z in named or of_set:
                 continue
             named.add(gear.z)

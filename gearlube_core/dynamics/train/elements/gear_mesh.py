@@ -296,19 +296,14 @@ class GearMesh(GearPair, Element):
         turned = (mine - its + 0.5 * pitch) % pitch - 0.5 * pitch
         if abs(turned) <= _PHASE * pitch:
             return
-        keyed = other.keyed_angle + turned
-        if other.first != wheel.body:
-            sense = 1.0 if other.ring else -1.0
-            keyed = other.keyed_angle + sense * turned * wheel.teeth / other.teeth_1
-        mine, its, keyed = (
-            _degrees(one, 2.0 * math.pi / teeth)
-            for one, teeth in ((mine, wheel.teeth), (its, wheel.teeth), (keyed, other.teeth_1))
-        )
+        gain = (1.0 if other.ring else -1.0) * wheel.teeth / other.teeth_1
+        keyed = other.keyed_angle + turned * (1.0 if other.first == wheel.body else gain)
+        mine, its = _degrees(mine, wheel.teeth), _degrees(its, wheel.teeth)
         raise ParameterError(
             f"{gear} must have its teeth at one angle, got {mine:.6g} deg in {self.name} and "
             f"{its:.6g} deg in {other.name}, {math.degrees(abs(turned)):.4g} deg apart of a pitch "
             f"of {math.degrees(pitch):.4g} deg: the phases of these meshes contradict each other. "
-            f"Give {other.name} a keyed_angle of {keyed:.8g} deg."
+            f"Give {other.name} a keyed_angle of {_degrees(keyed, other.teeth_1):.8g} deg."
         )
 
     def _tooth_angle(self, body: str) -> float:
@@ -361,9 +356,9 @@ def _member(point: PitchPoint) -> Member:
     return Member(drive, coast, Line(*_floats(t, np.cross(r, t), e)))
 
 
-def _degrees(angle: float, pitch: float) -> float:
+def _degrees(angle: float, teeth: int) -> float:
     """Return an angle below one pitch [deg]; a whole pitch, but for rounding, is 0."""
-    return round(math.degrees((angle + _ROUNDING) % pitch - _ROUNDING), 6) + 0.0
+    return round(math.degrees((angle + _ROUNDING) % (2.0 * math.pi / teeth) - _ROUNDING), 6) + 0.0
 
 
 def _floats(*vectors: Vector) -> list[float]:
