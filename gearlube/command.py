@@ -235,7 +235,7 @@ COMMANDS = (
     LazyCommand(
         name="compare",
         target="gearlube.cli.compare:compare",
-        summary="Compare two runs of one study: numbers, curves, inputs.",
+        summary="Compare two runs of one study, or a run with measurements.",
         panel=_STUDIES,
     ),
     LazyCommand(
