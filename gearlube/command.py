@@ -239,6 +239,12 @@ COMMANDS = (
         panel=_STUDIES,
     ),
     LazyCommand(
+        name="calibrate",
+        target="gearlube.studies.calibrate.command:calibrate",
+        summary="Fit uncertain inputs of an axle to measured losses.",
+        panel=_AXLE,
+    ),
+    LazyCommand(
         name="export",
         target="gearlube.cli.export:export",
         summary="Write results of any study for other tools: CSV, MATLAB, UFF58, MDF4, VTK.",

@@ -1,0 +1,1 @@
+"""Study that fits uncertain inputs of an axle to measured losses."""
