@@ -224,7 +224,7 @@ def comparison_with_measured(found: Compared, run: str) -> Report:
         f"{run}: {residual.size} points.",
         findings=_findings(found),
         numbers=[
-            Number("points compared", residual.size),
+            Number("points compared", residual.size, digits=1),
             Number("bias, measured less predicted", float(residual.mean()), unit),
             Number("bias over what is predicted", 100.0 * float(np.nanmean(share)), "%"),
             Number("rms of the residuals", _rms(residual), unit),

@@ -179,7 +179,7 @@ def test_a_made_up_axle_comes_back_and_an_input_without_influence_is_not_seen():
     assert np.all(np.abs(found.posterior.mean - truth) < 2.5 * found.posterior.sd)
     assert np.all(found.posterior.contraction[:2] > 0.9)
     assert found.posterior.contraction[3] < 0.05
-    assert found.emulator.error.max() < 0.005
+    assert found.emulator_error.max() < 0.005
     assert found.bias < run.BIAS
     said = [one.headline for one in posterior_findings(found.posterior, settings.uncertain)]
     assert any("do not see the input flank_rolling" in one for one in said)
@@ -256,6 +256,13 @@ def test_an_input_that_would_leave_its_limits_is_refused_before_a_run():
     bearing = replace(axle().bearing, preload=50_000.0)
     settings = CalibrationSettings(axle=axle(bearing=bearing), measured=points, inputs=("preload",))
     with pytest.raises(ParameterError, match=r"preload of the bearings at 2\.38 times"):
+        run_calibration(settings)
+
+
+def test_a_point_beyond_the_axle_is_refused_by_its_line():
+    points = measured_at([500, 1000, 2000], [0, 900], [40])
+    settings = CalibrationSettings(axle=axle(), measured=points, inputs=("seals",))
+    with pytest.raises(ParameterError, match=r"line 2 \(speed 500 rpm.*must be within -600 to 600"):
         run_calibration(settings)
 
 

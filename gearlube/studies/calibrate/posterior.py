@@ -17,7 +17,6 @@ from gearlube_core.arrays import Array, Flags
 UNSEEN = 0.3  # contraction, below which the data do not see an input
 ALIKE = 10.0  # collinearity of two inputs, [brun_2001]
 _CORRELATED = 0.9
-SLOPPY = 1e3  # ratio of the eigenvalues of J^T J
 _STARTS, _DRAWS, _LEAST_DRAWS = 10, 20_000, 1000.0
 _WORST_TAIL = 0.7  # Pareto k of the weights, [vehtari_2024]
 _FREEDOM = 5.0  # of the Student distribution that is drawn from
@@ -137,11 +136,6 @@ class Posterior:
             if least**-0.5 > ALIKE or abs(correlation) > _CORRELATED:
                 found.append((self.names[i], self.names[j], correlation, least**-0.5))
         return found
-
-    def sloppy(self) -> tuple[float, Array]:
-        """Return the ratio of the ends of J^T J's spectrum and the direction least seen (k,)."""
-        values, directions = np.linalg.eigh(self.jacobian.T @ self.jacobian)
-        return float(values[-1] / max(values[0], 1e-12)), directions[:, 0]
 
     def seen_mean(self) -> Array:
         """Return the mean with the unseen inputs at their prior's, 0."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -38,15 +38,16 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
-from gearlube.studies.calibrate.posterior import SLOPPY, Posterior
+from gearlube.studies.calibrate.posterior import Posterior
 from gearlube.studies.calibrate.run import BIAS, Calibration, axle_at, loss_torques
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain
-from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.units import celsius_to_kelvin
 
 _BEARING = ("pinion.bearing.", "gear.bearing.")
+_VISCOSITIES = ("oil.viscosity_40_degc_mm2_s", "oil.viscosity_100_degc_mm2_s")
+_SEALS = ("seals.pinion_torque_n_m", "seals.wheel_torque_n_m")
 # fields of the axle file that are proportional to an input
 _FIELDS = {
     "roughness": ("gear_set.roughness_rms_um",),
@@ -54,13 +55,14 @@ _FIELDS = {
     "rib_friction": tuple(f"{shaft}rib_boundary_friction" for shaft in _BEARING),
     "rib_roughness": tuple(f"{shaft}rib_roughness_um" for shaft in _BEARING),
     "bearing_drag": tuple(f"{shaft}{name}" for shaft in _BEARING for name in ("f0", "f1")),
-    "seals": ("seals.pinion_torque_n_m", "seals.wheel_torque_n_m"),
+    "seals": _SEALS,
+    "viscosity": _VISCOSITIES,
+    "alpha": ("oil.alpha_per_gpa",),
+    "eyring_stress": ("oil.eyring_stress_mpa",),
 }
 _INSTEAD = {  # fields that say the same in another way
-    "seals.pinion_torque_n_m": "seals.pinion_diameter_mm",
-    "seals.wheel_torque_n_m": "seals.wheel_diameter_mm",
-    "oil.viscosity_40_degc_mm2_s": "oil.walther_a",
-    "oil.viscosity_100_degc_mm2_s": "oil.walther_b",
+    **dict(zip(_SEALS, ("seals.pinion_diameter_mm", "seals.wheel_diameter_mm"), strict=True)),
+    **dict(zip(_VISCOSITIES, ("oil.walther_a", "oil.walther_b"), strict=True)),
 }
 _DRAWN = 200
 _REPEATED = 0.02  # of the loss; scaled laws leave the torque of the teeth as it is, fields do not
@@ -118,14 +120,12 @@ def inputs_figure(found: Calibration) -> Any:
             ax.plot(ends[1], rows + shift, "o", color=colour, ms=6.0, label=f"{label}, with 95 %")
         ax.axvline(1.0, color="black", lw=0.8)
         ax.set_xscale("log")
-        ticks = [one for one in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
-                 if np.prod(np.array(ax.get_xlim()) - one) < 0.0]  # fmt: skip
+        ticks = np.array([0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0])
+        ticks = ticks[(ticks > ax.get_xlim()[0]) & (ticks < ax.get_xlim()[1])]
         ax.set_xticks(ticks, [f"{one:g}" for one in ticks])
         ax.minorticks_off()
-        names = [
-            one.words + " (not seen)" * bool(after.unseen[k]) for k, one in enumerate(uncertain)
-        ]
-        ax.set_yticks(rows, names)
+        unseen = [" (not seen)" * bool(one) for one in after.unseen]
+        ax.set_yticks(rows, [one.words + no for one, no in zip(uncertain, unseen, strict=True)])
         ax.set_ylim(rows[-1] + 0.5, -0.5)
         ax.set_xlabel("times its value in the axle file [-]")
         figure.legend(loc="outside lower center", ncols=2)
@@ -217,10 +217,6 @@ def posterior_findings(after: Posterior, uncertain: Sequence[Uncertain]) -> list
             "and temperatures, or one of them by itself."
         )
         result.append(Finding(WARNING, f"{first} and {second}: {known} known, parts not.", why))
-    ratio, direction = after.sloppy()
-    if len(uncertain) > 1 and ratio > SLOPPY:
-        least = [name for name, part in zip(words, direction, strict=True) if abs(part) > 0.3]
-        result.append(Finding(NOTE, f"The measurements say least of {' with '.join(least)}."))
     others = int(np.sum(after.optima > after.optima.min() + 1e-3))
     if others:
         said = f"{others} of {after.optima.size} starts ended at another, worse fit."
@@ -280,21 +276,19 @@ def _inputs(found: Calibration) -> Table:
 def _write_axle(found: Calibration, described: CarAxle, path: str, to: Path) -> WrittenAxle:
     settings, inputs = found.settings, found.posterior.seen_mean()
     file, here = AxleFile.given(path), Path(path).parent
-    made = axle_at(settings, inputs)[0]
-    values = {note.field: note.value for note in described.inputs}
+    values = _values(file, described)
     changes: dict[str, Any] = {}
     for field in AxleFile.files:
         named = _field(file, field)
         if named and (here / named).is_file():
             changes[field] = str((here / named).resolve())
     left, kept = {}, inputs.copy()
-    for k, factor in enumerate(_factors(settings.uncertain, inputs).tolist()):
-        if factor == 1.0:
-            continue
-        name = settings.inputs[k]
-        fields = _changed_fields(name, factor, values, file, made)
-        changes |= {field: float(f"{value:.7g}") for field, value in fields.items()}
-        if not fields:
+    factors = _factors(settings.uncertain, inputs).tolist()
+    for k, (name, factor) in enumerate(zip(settings.inputs, factors, strict=True)):
+        fields = [one for one in _FIELDS.get(name, ()) if values.get(one)]
+        if factor != 1.0 and fields:
+            changes |= {one: float(f"{factor * values[one]:.7g}") for one in fields}
+        elif factor != 1.0:
             left[name], kept[k] = factor, 0.0
     changes |= {
         other: None for field, other in _INSTEAD.items() if field in changes and _field(file, other)
@@ -302,10 +296,10 @@ def _write_axle(found: Calibration, described: CarAxle, path: str, to: Path) -> 
     data = file.varied(changes).model_dump(exclude_defaults=True)
     write_text("# Calibrated with measurements: gearlube calibrate\n" + toml_text(data), to)
     written = read_axle(to)
-    without_left, scale = axle_at(settings, kept)
-    wanted = scale @ loss_torques(without_left, settings.measured)
+    wanted, scale = axle_at(settings, kept)
+    loss = scale @ loss_torques(wanted, settings.measured)
     repeated = loss_torques(written.axle, settings.measured).sum(axis=0)
-    return WrittenAxle(written, left, float(np.abs(repeated / wanted - 1.0).max()))
+    return WrittenAxle(written, left, float(np.abs(repeated / loss - 1.0).max()))
 
 
 def _field(file: AxleFile, field: str) -> Any:
@@ -313,34 +307,18 @@ def _field(file: AxleFile, field: str) -> Any:
     return getattr(getattr(file, section), key)
 
 
-def _changed_fields(
-    name: str,
-    factor: float,
-    values: Mapping[str, Any],
-    file: AxleFile,
-    made: HypoidAxleParameters,
-) -> dict[str, float]:
-    """Return the fields of the axle file that an input changes, with their values; {} for none."""
-    if name == "bearing_drag" and not made.bearing_torque_loss.startswith("palmgren"):
-        return {}
-    if name in _FIELDS:
-        numbers = {one: values.get(one) for one in _FIELDS[name]}
-        return {one: factor * float(value) for one, value in numbers.items() if value}
-    if file.oil.file is not None:
-        return {}  # they are in the oil file
-    oil = made.oil
-    at_40, at_100 = (
-        1e6 * oil.dynamic_viscosity(celsius_to_kelvin(degc)) / oil.density for degc in (40.0, 100.0)
-    )
-    of_oil = {
-        "viscosity": {
-            "oil.viscosity_40_degc_mm2_s": float(at_40),
-            "oil.viscosity_100_degc_mm2_s": float(at_100),
-        },
-        "alpha": {"oil.alpha_per_gpa": 1e9 * oil.alpha},
-        "eyring_stress": {"oil.eyring_stress_mpa": 1e-6 * oil.eyring_stress},
-    }
-    return of_oil.get(name, {})
+def _values(file: AxleFile, described: CarAxle) -> dict[str, Any]:
+    """Return the fields with their values, given or not, that an input may change."""
+    values = {note.field: note.value for note in described.inputs}
+    if file.oil.file is None:
+        oil = described.axle.oil
+        for field, degc in zip(_VISCOSITIES, (40.0, 100.0), strict=True):
+            values[field] = 1e6 * oil.dynamic_viscosity(celsius_to_kelvin(degc)) / oil.density
+        values["oil.alpha_per_gpa"] = 1e9 * oil.alpha
+        values["oil.eyring_stress_mpa"] = 1e-6 * oil.eyring_stress
+    if not described.axle.bearing_torque_loss.startswith("palmgren"):
+        values |= dict.fromkeys(_FIELDS["bearing_drag"])
+    return values
 
 
 def _write_ssv(before: CarAxle, after: CarAxle, path: Path) -> None:

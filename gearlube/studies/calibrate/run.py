@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import pickle
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from scipy.stats import qmc
 
 from gearlube.studies.calibrate.posterior import Posterior, Problem, fitted, predicted_again
 from gearlube_core import __version__
-from gearlube_core.arrays import Array, Flags
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain, changed_axle, uncertain_of
@@ -24,9 +25,10 @@ from gearlube_core.storage.resumable import ARRAYS, ResultStore
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 FEWEST = 6  # points
-HELD = 4  # every fourth point is held out for the check
+HELD = 4  # one point of so many is held out for the check
 _ANGLES = 8  # of a mesh period, as for the error bars of a loss map
 _EDGE = 2.5  # standard deviations of the prior, to which the model is run
+_EXACT = 1e-4  # of the largest loss, to which no point is known better
 _LEAST = 1e-6  # share of the loss, below which a group of losses counts as this
 _CHECKED = 12  # draws of the posterior that the model itself repeats
 _ROUNDS = 3
@@ -78,7 +80,7 @@ class CalibrationSettings:
         if self.measured.value.size < needed:
             raise ParameterError(
                 f"{self.measured.path} must have at least {needed} points for "
-                f"{len(self.inputs)} inputs, got {self.measured.value.size}: every fourth is held "
+                f"{len(self.inputs)} inputs, got {self.measured.value.size}: a quarter is held "
                 "out, and the others must be more than the inputs. Give fewer --input, or measure "
                 "more."
             )
@@ -96,44 +98,14 @@ class CalibrationSettings:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Emulator:
-    """Loss torques at the measured points: logarithms of groups of losses, quadratic in inputs.
-
-    Parameters
-    ----------
-    moving : ndarray of int
-        Inputs that change the axle; the others scale groups.
-    scales : ndarray of shape (k, groups)
-        Logarithm of the factor of a group by one standard deviation of an input.
-    coefficients : ndarray of shape (groups, features, m)
-    present : ndarray of bool, shape (groups, m)
-    error : ndarray of shape (m,)
-        Relative error of each point, rms of runs that are left out one by one.
-    """
-
-    moving: Array
-    scales: Array
-    coefficients: Array
-    present: Flags
-    error: Array
-
-    def predict(self, inputs: Array) -> Array:
-        """Return loss torques (n, m) [N.m] of inputs (n, k) in standard deviations."""
-        features = _features(inputs[:, self.moving])
-        total = np.zeros((len(inputs), self.error.size))
-        for scale, one, there in zip(self.scales.T, self.coefficients, self.present, strict=True):
-            total += np.where(there, np.exp(features @ one + (inputs @ scale)[:, None]), 0.0)
-        return total
-
-
-@dataclass(frozen=True, kw_only=True)
 class Calibration:
     """An axle's inputs after measurements.
 
     Parameters
     ----------
     settings : CalibrationSettings
-    emulator : Emulator
+    emulator_error : ndarray of shape (m,)
+        Relative error of what stands for the axle in the fit.
     posterior : Posterior
         Of all points.
     before, after : ndarray of shape (m,)
@@ -149,7 +121,7 @@ class Calibration:
     """
 
     settings: CalibrationSettings
-    emulator: Emulator
+    emulator_error: Array
     posterior: Posterior
     before: Array
     after: Array
@@ -183,44 +155,59 @@ def run_calibration(
     _check_ends(settings)
     places = _design(settings, moving.size)
 
+    conditions = [one.tobytes() for one in settings.measured.conditions.values()]
+
+    def run(place: Array) -> Array:
+        inputs = np.zeros(len(uncertain))
+        inputs[moving] = place
+        axle = axle_at(settings, inputs)[0]
+        key = hashlib.sha256(pickle.dumps((__version__, axle, conditions))).hexdigest()
+        found = store.read(key)
+        if found is None:
+            found = {"torque": loss_torques(axle, settings.measured)}
+            store.keep(key, found)
+        return found["torque"]
+
     def runs(places: Array) -> Array:
         found = []
         for k, place in enumerate(places):
             progress(0.9 * k / len(places), f"run {k + 1} of {len(places)} of the axle")
-            found.append(_kept_run(settings, moving, place, store))
+            found.append(run(place))
         return np.array(found)
 
     losses, rng = runs(places), np.random.default_rng(settings.seed)
     for _ in range(_ROUNDS):
-        emulator = _emulator(uncertain, moving, places, losses)
-        problem = _problem(settings, emulator)
+        predict, error = _emulator(uncertain, moving, places, losses)
+        problem = _problem(settings, predict, error)
         posterior = fitted(problem, settings.seed)
-        values = emulator.predict(posterior.draws)
+        values = predict(posterior.draws)
+        bias = 0.0
         if moving.size == 0:
-            bias = 0.0
             break
-        chosen = rng.choice(len(posterior.draws), _CHECKED, replace=False)
-        new = posterior.draws[chosen][:, moving]
-        solved = runs(new)
+        chosen = rng.choice(posterior.draws, _CHECKED, replace=False).clip(-_EDGE, _EDGE)
+        solved = runs(chosen[:, moving])
         groups, scales = _of_groups(uncertain, solved)
-        exact = np.einsum("ngm,ng->nm", groups, np.exp(posterior.draws[chosen] @ scales))
-        off = np.abs(np.mean(values[chosen] - exact, axis=0))
-        bias = float(np.max(off / values.std(axis=0)))
+        exact = np.einsum("ngm,ng->nm", groups, np.exp(chosen @ scales))
+        off = np.abs(np.mean(predict(chosen) - exact, axis=0))
+        bias = float(np.max(off / np.maximum(values.std(axis=0), _LEAST * values.mean(axis=0))))
         if bias < BIAS:
             break
-        places, losses = np.vstack([places, new]), np.concatenate([losses, solved])
-    held = np.arange(settings.measured.value.size) % HELD == HELD - 1
+        places = np.vstack([places, chosen[:, moving]])
+        losses = np.concatenate([losses, solved])
+    progress(0.95, "check with the points held out")
+    held = rng.permutation(settings.measured.value.size) % HELD == 0
     check = fitted(problem.part(~held), settings.seed)
     drawn = predicted_again(problem, held, check, rng)
     low, high = np.percentile(drawn, (5.0, 95.0), axis=0)
     truth = settings.measured.value[held]
     band = np.percentile(values, (2.5, 97.5), axis=0)
+    progress(1.0, "fitted")
     return Calibration(
         settings=settings,
-        emulator=emulator,
+        emulator_error=error,
         posterior=posterior,
-        before=emulator.predict(np.zeros((1, len(uncertain))))[0],
-        after=emulator.predict(posterior.seen_mean()[None])[0],
+        before=predict(np.zeros((1, len(uncertain))))[0],
+        after=predict(posterior.seen_mean()[None])[0],
         low=band[0],
         high=band[1],
         bias=bias,
@@ -245,14 +232,18 @@ def loss_torques(axle: HypoidAxleParameters, measured: Measurements) -> Array:
     for k, (degc, rpm) in enumerate(steady.T):
         here = np.flatnonzero(np.ravel(group) == k)
         torques, place = np.unique(at[2][here], return_inverse=True)
-        losses = axle_losses(
-            axle,
-            torques=torques,
-            speeds=np.array([rpm_to_rads(rpm)]),
-            temperatures=np.array([celsius_to_kelvin(degc)]),
-            angles=_ANGLES,
-            extremes=axle.film == "solved",
-        )
+        try:
+            losses = axle_losses(
+                axle,
+                torques=torques,
+                speeds=np.array([rpm_to_rads(rpm)]),
+                temperatures=np.array([celsius_to_kelvin(degc)]),
+                angles=_ANGLES,
+                extremes=False,
+            )
+        except ParameterError as error:
+            where = f"{measured.path}, {measured.named(np.isin(np.arange(found.shape[1]), here))}"
+            raise ParameterError(f"{where}: {error}") from error
         for status in losses.status[0, 0][losses.status[0, 0] != 0]:
             raise ParameterError(
                 f"The axle must have a loss at each measured point, got none near "
@@ -291,25 +282,6 @@ def _design(settings: CalibrationSettings, moving: int) -> Array:
     return np.vstack([np.zeros((1, moving)), _EDGE * (2.0 * sobol[: count - 1] - 1.0)])
 
 
-def _kept_run(
-    settings: CalibrationSettings,
-    moving: Array,
-    place: Array,
-    store: ResultStore[dict[str, Array]],
-) -> Array:
-    """Return the loss torques by source (sources, m) of one run, from the store or computed."""
-    inputs = np.zeros(len(settings.inputs))
-    inputs[moving] = place
-    axle = axle_at(settings, inputs)[0]
-    conditions = [one.tobytes() for one in settings.measured.conditions.values()]
-    key = hashlib.sha256(pickle.dumps((__version__, axle, conditions))).hexdigest()
-    found = store.read(key)
-    if found is None:
-        found = {"torque": loss_torques(axle, settings.measured)}
-        store.keep(key, found)
-    return found["torque"]
-
-
 def _features(inputs: Array) -> Array:
     """Return 1, inputs and their products (n, features)."""
     rows, columns = np.triu_indices(inputs.shape[1])
@@ -331,7 +303,12 @@ def _of_groups(uncertain: tuple[Uncertain, ...], losses: Array) -> tuple[Array, 
 
 def _emulator(
     uncertain: tuple[Uncertain, ...], moving: Array, places: Array, losses: Array
-) -> Emulator:
+) -> tuple[Callable[[Array], Array], Array]:
+    """Return a function of loss torques (n, m) [N.m] of inputs (n, k), and its error (m,).
+
+    The logarithm of each group of losses is quadratic in the inputs that change the axle. The error
+    is relative, the rms of runs that are left out one by one.
+    """
     groups, scales = _of_groups(uncertain, losses)
     total = groups.sum(axis=1, keepdims=True)
     present = (groups > _LEAST * total).any(axis=0)
@@ -342,28 +319,33 @@ def _emulator(
     missed = logs - np.einsum("nf,gfm->ngm", features, coefficients)
     freedom = 1.0 - np.sum(features * pseudo.T, axis=1)  # 0 for a single run, which fits itself
     left_out = logs - missed / np.where(freedom > 1e-9, freedom, np.inf)[:, None, None]
-    repeated = np.where(present, np.exp(left_out), 0.0).sum(axis=1)
-    truth = np.where(present, np.exp(logs), 0.0).sum(axis=1)
-    error = np.sqrt(np.mean((repeated / truth - 1.0) ** 2, axis=0))
-    return Emulator(
-        moving=moving, scales=scales, coefficients=coefficients, present=present, error=error
-    )
+    repeated, truth = (np.where(present, np.exp(one), 0.0).sum(axis=1) for one in (left_out, logs))
+
+    def predict(inputs: Array) -> Array:
+        features, found = _features(inputs[:, moving]), np.zeros((len(inputs), truth.shape[1]))
+        for scale, one, there in zip(scales.T, coefficients, present, strict=True):
+            found += np.where(there, np.exp(features @ one + (inputs @ scale)[:, None]), 0.0)
+        return found
+
+    return predict, np.sqrt(np.mean((repeated / truth - 1.0) ** 2, axis=0))
 
 
-def _problem(settings: CalibrationSettings, emulator: Emulator) -> Problem:
+def _problem(
+    settings: CalibrationSettings, predict: Callable[[Array], Array], error: Array
+) -> Problem:
     measured = settings.measured
     torque = measured.conditions["torque_n_m"]
     near = 0.25 * float(np.ptp(torque)) or 1.0
     alike = np.exp(-0.5 * ((torque[:, None] - torque) / near) ** 2)
-    own = 0.25 * measured.uncertainty**2
+    own = 0.25 * measured.uncertainty**2 + (_EXACT * np.abs(measured.value).max()) ** 2
 
     def covariance(predicted: Array) -> Array:
-        common = settings.gain**2 + settings.model_error**2 * alike + np.diag(emulator.error**2)
+        common = settings.gain**2 + settings.model_error**2 * alike + np.diag(error**2)
         return np.diag(own) + settings.offset**2 + common * np.outer(predicted, predicted)
 
     return Problem(
         names=settings.inputs,
-        predict=emulator.predict,
+        predict=predict,
         measured=measured.value,
         covariance=covariance,
     )
