@@ -21,31 +21,17 @@ _NAMED = 5  # points that are told one by one
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """What a table measures.
+    """What a table measures, and which study predicts it."""
 
-    Parameters
-    ----------
-    words
-        What it is, with its article.
-    values
-        Columns of what was measured; a table has one of them.
-    conditions
-        Columns that say where it was measured, with their limits; without its unit each is the
-        name of a dimension in the results of the command.
-    command, file, variable
-        The study that predicts it, its file of results, the variable in it.
-    unit, uncertainty
-        Of what was measured, and the column of its uncertainty in that unit.
-    """
-
-    words: str
-    values: tuple[str, ...]
+    words: str  # with their article
+    values: tuple[str, ...]  # columns of what was measured, of which a table has one
+    # columns that say where, with their limits; without its unit each names a dimension of results
     conditions: Mapping[str, tuple[float, float]]
     command: str
-    file: str
-    variable: str
+    file: str  # of results
+    variable: str  # in it
     unit: str = "N.m"
-    uncertainty: str = "uncertainty_n_m"
+    uncertainty: str = "uncertainty_n_m"  # column of it in that unit
 
 
 _SPEED, _DEGC = {"speed_rpm": (0.1, 47_000.0)}, {"temperature_degc": (-60.0, 250.0)}
@@ -100,13 +86,7 @@ class Measurements:
     uncertainty: Array
 
     def where(self, k: int) -> str:
-        """Return line and conditions of point k, for errors and tables.
-
-        >>> Measurements(path="a.csv", kind="axle_loss", lines=np.array([2]),
-        ...     conditions={"speed_rpm": np.array([1e3])}, value=np.ones(1),
-        ...     uncertainty=np.ones(1)).where(0)
-        'line 2 (speed 1000 rpm)'
-        """
+        """Return line and conditions of point k, for errors and tables."""
         words = []
         for name, values in self.conditions.items():
             unit, ending = field_unit(name)
@@ -183,13 +163,7 @@ def read_measurements(path: str | Path, *, fewest: int = 1) -> Measurements:
             f"{' and '.join(uncertainty) or 'none'}. Give the uncertainty with k = 2: the true "
             "value is within it with 95 %."
         )
-    missing = [name for name in kind.conditions if name not in table.places]
-    if missing:
-        raise ParameterError(
-            f"{path} must say where {kind.words} was measured, in the columns "
-            f"{', '.join(kind.conditions)}; missing: {', '.join(missing)}; got "
-            f"{', '.join(table.names)}. {cure}"
-        )
+    table = read_table(path, tuple(kind.conditions), cure=cure)
     conditions = {
         name: table.column(name, low, high, field_unit(name)[0])
         for name, (low, high) in kind.conditions.items()
@@ -217,6 +191,11 @@ def _measured(
     )
     if name != _EFFICIENCY:
         value = table.column(name, -1e6, 1e6)
+        if unit == "%" and not value.all():
+            raise ParameterError(
+                f"{table.path}, line {table.lines[int(np.argmin(np.abs(value)))]}: {name} must not "
+                f"be 0 with {uncertainty}, got 0. Give the uncertainty in the unit of the value."
+            )
         return value, 0.01 * np.abs(value) * given if unit == "%" else given
     torque = np.abs(conditions["torque_n_m"])
     if not torque.all():

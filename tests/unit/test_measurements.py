@@ -64,6 +64,7 @@ def test_efficiency_of_drive_and_coast_is_the_loss_over_the_input(tmp_path):
         ("speed_rpm,torque_n_m,temperature_degc,torque_loss,uncertainty_n_m\n1,1,1,1,1\n", "_n_m"),
         ("speed_rpm,torque_n_m,temperature_degc,torque_loss_n_m\n1,1,1,1\n", "k = 2"),
         ("speed,torque_n_m,torque_loss_n_m,uncertainty_n_m\n1,1,1,1\n", "missing: speed_rpm"),
+        (f"{HEAD.replace('uncertainty_n_m', 'uncertainty_percent')}\n9,9,9,0,1\n", "must not be 0"),
         (f"{HEAD}\n1000,50,60,2,0\n", "line 2: uncertainty_n_m"),
         (f"{HEAD}\n1000,50,900,2,1\n", "within -60 to 250 degC, got '900'"),
         (f"{HEAD}\n1000,50,60,2,1\n", "at least 3 rows"),

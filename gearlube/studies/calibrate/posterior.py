@@ -26,23 +26,12 @@ _FARTHEST = 6.0  # standard deviations of the prior, that a start may reach
 
 @dataclass(frozen=True, kw_only=True)
 class Problem:
-    """Measured values and what predicts them from inputs that are standard normal before.
-
-    Parameters
-    ----------
-    names : tuple of str
-        Of the k inputs.
-    predict : callable
-        Returns predictions (n, m) for inputs (n, k).
-    measured : ndarray of shape (m,)
-    covariance : callable
-        Returns the covariance (m, m) of measured less predicted for a prediction (m,).
-    """
+    """Measured values and what predicts them from k inputs that are standard normal before."""
 
     names: tuple[str, ...]
-    predict: Callable[[Array], Array]
-    measured: Array
-    covariance: Callable[[Array], Array]
+    predict: Callable[[Array], Array]  # of inputs (n, k), returns (n, m)
+    measured: Array  # (m,)
+    covariance: Callable[[Array], Array]  # (m, m) of measured less predicted, for a prediction (m,)
 
     def part(self, points: Flags) -> Problem:
         """Return the problem with some of the points."""
@@ -62,37 +51,17 @@ class Problem:
 
 @dataclass(frozen=True, kw_only=True)
 class Posterior:
-    """Inputs after the measurements, in standard deviations of before.
-
-    Parameters
-    ----------
-    names : tuple of str
-    mode : ndarray of shape (k,)
-        Of the largest posterior density.
-    optima : ndarray of shape (starts,)
-        Half the sum of squares that each start found.
-    draws : ndarray of shape (n, k)
-        Of equal weight.
-    mean : ndarray of shape (k,)
-    covariance : ndarray of shape (k, k)
-    jacobian : ndarray of shape (m, k)
-        Of the predictions over their errors, at the mode.
-    error : ndarray of shape (m, m)
-        Covariance of measured less predicted.
-    effective, tail : float
-        Effective number of the draws, and Pareto k of their weights: 0.7 and more is unreliable.
-    """
+    """Inputs after the measurements, in standard deviations of before."""
 
     names: tuple[str, ...]
-    mode: Array
-    optima: Array
-    draws: Array
-    mean: Array
-    covariance: Array
-    jacobian: Array
-    error: Array
-    effective: float
-    tail: float
+    mode: Array  # (k,)
+    optima: Array  # half the sum of squares that each start found
+    draws: Array  # (n, k), of equal weight
+    mean: Array  # (k,)
+    covariance: Array  # (k, k)
+    jacobian: Array  # (m, k) of the predictions over their errors, at the mode
+    effective: float  # number of draws that the weighted ones count as
+    tail: float  # Pareto's k of the weights; 0.7 and more is unreliable
 
     @property
     def sd(self) -> Array:
@@ -198,7 +167,6 @@ def fitted(problem: Problem, seed: int = 1) -> Posterior:
         mean=mean,
         covariance=covariance,
         jacobian=_jacobian(problem, lower, optima[0][1]),
-        error=error,
         effective=effective,
         tail=tail,
     )

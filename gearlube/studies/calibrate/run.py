@@ -99,37 +99,18 @@ class CalibrationSettings:
 
 @dataclass(frozen=True, kw_only=True)
 class Calibration:
-    """An axle's inputs after measurements.
-
-    Parameters
-    ----------
-    settings : CalibrationSettings
-    emulator_error : ndarray of shape (m,)
-        Relative error of what stands for the axle in the fit.
-    posterior : Posterior
-        Of all points.
-    before, after : ndarray of shape (m,)
-        Loss torque of the model [N.m] with the inputs before, and at their mean after.
-    low, high : ndarray of shape (m,)
-        Between these are 95 % of the draws [N.m].
-    bias : float
-        Of the emulator at draws, over their spread; largest of the points.
-    inside : float
-        Share of the held-out points within the band of 90 % that the others predict.
-    held : int
-        Number of held-out points.
-    """
+    """An axle's inputs after measurements; arrays over the points, loss torques in N.m."""
 
     settings: CalibrationSettings
-    emulator_error: Array
-    posterior: Posterior
-    before: Array
-    after: Array
-    low: Array
+    emulator_error: Array  # relative, of what stands for the axle in the fit
+    posterior: Posterior  # of all points
+    before: Array  # loss torque of the model with the inputs before
+    after: Array  # at their mean after
+    low: Array  # 95 % of the draws are between these
     high: Array
-    bias: float
-    inside: float
-    held: int
+    bias: float  # of the emulator at draws, over their spread; largest of the points
+    inside: float  # share of the held-out points within the band of 90 % that the others predict
+    held: int  # number of held-out points
 
 
 def run_calibration(
