@@ -42,13 +42,13 @@ def planetary(
     `gears` has the fields that both meshes share, `stiffness` those of sun and ring mesh, `twists`
     stiffness against ground about z. `supports` of the planet are its pins, `errors` their place
     errors along the orbit, one for each planet. `keyed` planets have their teeth between those of
-    the sun.
+    the sun; so they do where the mesh has a `keyed_angle`, which is that of the sun.
     """
     z_s, z_p = gears["teeth"]
     shared = {name: value for name, value in gears.items() if name != "teeth"}
     shared |= {"backlash": 1e-4, "face_width": 0.03, "carrier": "carrier"} | dict(mesh or {})
     radius = 0.5 * (z_s + z_p) * gears["normal_module"] / math.cos(gears.get("helix_angle", 0.0))
-    hand = gears.get("right_hand", False)
+    hand, angle = gears.get("right_hand", False), shared.pop("keyed_angle", 0.0)
     shared.pop("right_hand", None)
     central = [bodies[name] for name in ("sun", "ring", "carrier")]
     found: list[Body] = [*central]
@@ -68,7 +68,7 @@ def planetary(
             Body(name=name, mass=body.mass, inertia=body.inertia,
                  polar_inertia=body.polar_inertia, held=body.held)
         )  # fmt: skip
-        tooth = fitting_angle(z_s, z_p, 0.0, azimuth) if keyed else 0.0
+        tooth = fitting_angle(z_s, z_p, angle, azimuth) if keyed or angle else 0.0
         error = errors[n] if errors else 0.0
         parts += [
             Orbit(name=f"{name} orbit", body=name, carrier="carrier", mass=body.mass,
@@ -76,11 +76,12 @@ def planetary(
             Joint(name=f"{name} pin", first=name, second="carrier", radius=radius,
                   azimuth=azimuth, error_y=error, **supports["planet"]),
             GearMesh(name=f"{name} sun", first="sun", second=name, teeth_1=z_s, teeth_2=z_p,
-                     azimuth=azimuth, stiffness=stiffness[0], right_hand=hand, **shared),
+                     azimuth=azimuth, stiffness=stiffness[0], right_hand=hand, keyed_angle=angle,
+                     **shared),
             GearMesh(name=f"{name} ring", first=name, second="ring", teeth_1=z_p,
                      teeth_2=z_s + 2 * z_p, azimuth=azimuth, ring=True, drives_forward=False,
                      stiffness=stiffness[1], right_hand=not hand,
-                     **({"keyed_angle": tooth} | shared)),
+                     keyed_angle=tooth, **shared),
         ]  # fmt: skip
     return Train(found, [*parts, *more], OIL, driver=driver)
 
