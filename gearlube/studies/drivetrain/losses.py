@@ -34,6 +34,7 @@ _TORQUES = (-0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25)  # likewise; 0 h
 _PERIODS, _SHORTEST, _LONGEST = 4.0, 2e-3, 0.25  # of the slowest mesh; s, of the mean
 _STEPS = 8  # of a settling, and of a mean
 _MOST_POINTS = 5000
+_MOST_DRIFT = 0.2  # of the mean speed from the wanted one
 _LEAST_KEPT = 0.5  # share of the input, below which no efficiency is stated
 _SHOWN, _LEAST_SHARE = 7, 2e-3  # losses by name, and of their sum
 _SAME = 0.1  # %, of efficiencies
@@ -152,7 +153,11 @@ def _key(operation: Operation) -> str:
 
 
 def _point(operation: Operation, task: tuple[float, float]) -> Record:
-    """Return the mean losses at a speed and torque, and the torque of the loads."""
+    """Return the mean losses at a speed and torque, and the torque of the loads.
+
+    Torques balance at the start of a mesh cycle, over a whole one not quite: a slow train gains or
+    loses speed. Its losses are taken over the mean speed, and stand for the wanted one.
+    """
     case = operation.at(*task)
     train, found = case.train, case.train.outputs()
     meshes = [abs(v) for name, v in found.items() if name.endswith(".frequency") and v]
@@ -160,10 +165,20 @@ def _point(operation: Operation, task: tuple[float, float]) -> Record:
     time = min(max(_PERIODS / slowest, _SHORTEST), _LONGEST)
     for _ in range(_STEPS):  # what swings at the start
         train.step(time / _STEPS, case.torques, case.oil_temperature)
-    before = np.array(list(train.lost.values()))
+    before, turned = np.array(list(train.lost.values())), []
     for _ in range(_STEPS):
+        turned.append(train.outputs()[f"{operation.shaft}.speed"])
         train.step(time / _STEPS, case.torques, case.oil_temperature)
-    lost = (np.array(list(train.lost.values())) - before) / time
+    turned.append(train.outputs()[f"{operation.shaft}.speed"])
+    speed = operation.turns * float(np.mean(0.5 * (np.array(turned[1:]) + turned[:-1])))
+    if not abs(speed / task[0] - 1.0) <= _MOST_DRIFT:
+        drift = (
+            f"The mean speed of {operation.title} drifts to {rads_to_rpm(speed):.4g} rpm, where "
+            f"{rads_to_rpm(task[0]):.4g} rpm are wanted: at so low a speed the loads of one mesh "
+            "cycle do not balance. Take a higher speed."
+        )
+        return _failed(task, ParameterError(drift))
+    lost = (np.array(list(train.lost.values())) - before) / time * task[0] / speed
     load = task[1] - float(lost.sum()) / task[0]
     return {"lost": lost, "load": np.array(load), "failure": np.array("")}
 
