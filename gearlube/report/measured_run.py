@@ -363,7 +363,8 @@ def _findings(found: Compared) -> list[Finding]:
         result.append(Finding(WARNING, words, f"Left out: {found.left_out}"))
     if not np.isfinite(found.low).any():
         words = "The run has no error bars: only the uncertainty of the measurements counts."
-        result.append(Finding(NOTE, words, "`gearlube map` computes them with --draws 60."))
+        of_map = measured.kind == "axle_loss"
+        result.append(Finding(NOTE, words, "`gearlube map --draws 60` has some." * of_map))
     for name, (share, part) in list(found.explained.items())[:1]:
         words = f"No uncertain input alone explains the residuals; best is {_words(name)}."
         if share >= _LEAST_EXPLAINED:

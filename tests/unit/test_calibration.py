@@ -188,6 +188,32 @@ def test_a_made_up_axle_comes_back_and_an_input_without_influence_is_not_seen():
     assert np.abs(found.before / settings.measured.value - 1.0).max() > 0.2
 
 
+@pytest.mark.slow
+def test_bars_of_made_up_axles_hold_what_was_put_in():
+    wet = axle(wheel_seal_torque=0.6)
+    points = measured_at([300, 1000, 2000, 4000], [0, 40, 100], [40, 70, 100])
+    inputs = ("churning", "seals", "bearing_drag", "roughness", "viscosity", "flank_friction")
+    settings = CalibrationSettings(axle=wet, measured=points, inputs=inputs)
+    torque = points.conditions["torque_n_m"]
+    alike = np.exp(-0.5 * ((torque[:, None] - torque) / 25.0) ** 2)  # a quarter of 100 N.m
+    inside, held = 0, []
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        truth = rng.standard_normal(6)
+        made, scale = run.axle_at(settings, truth)
+        loss = scale @ loss_torques(made, points)
+        sd = np.hypot(0.015 * loss, 0.05)
+        common = 0.2**2 + (0.03**2 + 0.05**2 * alike) * np.outer(loss, loss)
+        value = rng.multivariate_normal(loss, np.diag(sd**2) + common)
+        drawn = replace(settings, measured=replace(points, value=value, uncertainty=2.0 * sd))
+        found = run_calibration(drawn)
+        low, high = np.percentile(found.posterior.draws, (2.5, 97.5), axis=0)
+        inside += int(np.sum((low <= truth) & (truth <= high)))
+        held.append(found.inside)
+    assert inside >= 30  # of 36; 34 are expected, fewer than 30 in 1 of 100 cases
+    assert 0.8 <= np.mean(held) <= 0.97  # of the band of 90 %, 54 points
+
+
 def test_churning_seals_and_drag_are_confounded_unless_speed_and_temperature_vary():
     inputs = ("churning", "seals", "bearing_drag")
     put_in = {"churning": 1.5, "seals": 1.2}
