@@ -15,7 +15,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "trains.md"
 def test_the_code_of_the_page_runs(capsys):
     space: dict[str, Any] = {"__name__": "__main__"}  # as a script of its own
     for block in re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL):
-        exec(block, space)  # own text
+        exec(compile(block, "page", "exec", dont_inherit=True), space)  # own text
     dte, lost = map(float, capsys.readouterr().out.split()[:2])  # what is printed first
     # 4.5 kN on lines of 13 N/(um mm) over about 50 mm give 7 um, and bearings as much again
     assert 5e-6 < dte < 3e-5
